@@ -1,0 +1,48 @@
+"""gearcad: from a handful of numbers to an exact cylindrical gear.
+
+Everywhere, in every argument, field, property, file and message: lengths in mm, angles in degrees, forces in N, torques in N·m,
+stresses in MPa, speeds in rpm, masses in kg, times in s; deviations and deflections in µm. z is the gear axis; tooth 0
+is centred on +x at z = 0; the teeth span z = 0 ... face width. Right-hand helix angles are positive. Profile shift is
+in normal modules.
+"""
+
+from gearcad.errors import GearcadError, GeometryError, ParameterError, SolverError, SpecError
+from gearcad.geometry import (
+    ISO53_A,
+    ISO53_B,
+    ISO53_C,
+    ISO53_D,
+    BasicRack,
+    Body,
+    Gear,
+    GearPair,
+    HubSide,
+    ShiftSplit,
+    ToothProfile,
+)
+from gearcad.load import Load
+from gearcad.material import Material
+
+__all__ = [
+    "ISO53_A",
+    "ISO53_B",
+    "ISO53_C",
+    "ISO53_D",
+    "BasicRack",
+    "Body",
+    "Gear",
+    "GearPair",
+    "GearcadError",
+    "GeometryError",
+    "HubSide",
+    "Load",
+    "Material",
+    "ParameterError",
+    "ShiftSplit",
+    "SolverError",
+    "SpecError",
+    "ToothProfile",
+    "__version__",
+]
+
+__version__ = "0.1.0"

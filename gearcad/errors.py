@@ -1,0 +1,116 @@
+"""What gearcad raises: one line that names the parameter, its value with unit, and what is permitted.
+
+Every error has two parents: `GearcadError`, so that one clause catches all of ours, and the builtin that fits.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import Enum
+from typing import Any, Self, TypeVar
+
+__all__ = [
+    "GearcadError",
+    "GeometryError",
+    "InputError",
+    "ParameterError",
+    "SolverError",
+    "SpecError",
+    "as_choice",
+    "format_number",
+    "require_number",
+    "require_whole",
+]
+
+Choice = TypeVar("Choice", bound=Enum)
+
+
+def format_number(value: object) -> str:
+    """A number as a user would type it: up to ten significant digits, no trailing zeros."""
+    if isinstance(value, Enum):
+        return repr(value.value)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return repr(value)
+    return f"{value:.10g}"
+
+
+class GearcadError(Exception):
+    """Any error that gearcad raises on purpose."""
+
+
+class InputError(GearcadError, ValueError):
+    """An input that is not permitted: `parameter`, `value`, `unit` and the sentence `permitted`."""
+
+    def __init__(self, parameter: str, value: Any, permitted: str, unit: str = "") -> None:
+        super().__init__(parameter, value, permitted, unit)
+        self.parameter = parameter
+        self.value = value
+        self.permitted = permitted
+        self.unit = unit
+
+    def __str__(self) -> str:
+        return f"{self.parameter} = {format_number(self.value)}{' ' if self.unit else ''}{self.unit}: {self.permitted}"
+
+    def within(self, owner: str) -> Self:
+        """The same error seen from the owner of the parameter: `body` turns `bore` into `body.bore`."""
+        return type(self)(f"{owner}.{self.parameter}", self.value, self.permitted, self.unit)
+
+
+class ParameterError(InputError):
+    """One value that is not permitted, whatever the others are."""
+
+
+class GeometryError(InputError):
+    """A combination of permitted values that makes no gear; `parameter` is the one to change first."""
+
+
+class SpecError(GearcadError, ValueError):
+    """A spec file or table that cannot be used; the text names the file, the line or row, and the key."""
+
+
+class SolverError(GearcadError, RuntimeError):
+    """An iteration that did not reach its tolerance."""
+
+
+def require_number(
+    parameter: str,
+    value: Any,
+    unit: str = "",
+    *,
+    above: float | None = None,
+    below: float | None = None,
+    at_least: float | None = None,
+    at_most: float | None = None,
+) -> None:
+    """Raise ParameterError unless `value` is a finite number inside the stated bounds (in `unit`)."""
+    bounds = [
+        f"{words} {format_number(bound)}{' ' if unit else ''}{unit}"
+        for words, bound in (("above", above), ("at least", at_least), ("below", below), ("at most", at_most))
+        if bound is not None
+    ]
+    permitted = "must be a number" + (" " + " and ".join(bounds) if bounds else "")
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        raise ParameterError(parameter, value, permitted, unit if isinstance(value, float) else "")
+    inside = (
+        (above is None or value > above)
+        and (at_least is None or value >= at_least)
+        and (below is None or value < below)
+        and (at_most is None or value <= at_most)
+    )
+    if not inside:
+        raise ParameterError(parameter, value, permitted, unit)
+
+
+def require_whole(parameter: str, value: Any, *, at_least: int, at_most: int) -> None:
+    """Raise ParameterError unless `value` is a whole number (`int`) in the closed interval."""
+    if isinstance(value, bool) or not isinstance(value, int) or not at_least <= value <= at_most:
+        raise ParameterError(parameter, value, f"must be a whole number from {at_least} to {at_most}")
+
+
+def as_choice(parameter: str, value: Any, kind: type[Choice]) -> Choice:
+    """The member of an enum, given as a member or as its value; raises ParameterError naming all the values."""
+    try:
+        return kind(value)
+    except ValueError:
+        choices = ", ".join(repr(member.value) for member in kind)
+        raise ParameterError(parameter, value, f"must be one of {choices}") from None

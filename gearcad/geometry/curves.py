@@ -1,0 +1,150 @@
+"""The curves that make up half a tooth, from the middle of the space to the middle of the tooth.
+
+Each is evaluated at s in [0, 1] (array of any shape), root side first, and gives the polar form (radius in mm, half
+tooth angle in radians), and the direction of travel. Cartesian points are those of the left flank of tooth 0, which is
+centred on +x, so y > 0; the right flank is the mirror image. Angles are radians: these are the locals of ToothProfile.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearcad.geometry.trochoid import ToolTip
+
+__all__ = ["Chamfer", "Curve", "CurveKind", "Fillet", "Involute", "Land", "parameters_within"]
+
+Floats = NDArray[np.float64]
+
+
+class CurveKind(Enum):
+    """What a piece of the outline is."""
+
+    ROOT = "root"
+    FILLET = "trochoid"
+    INVOLUTE = "involute"
+    CHAMFER = "tip chamfer"
+    TIP = "tip"
+
+
+class Curve(Protocol):
+    """A piece of the outline of half a tooth."""
+
+    @property
+    def kind(self) -> CurveKind: ...
+
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        """Radius (mm) and half tooth angle (rad) at s."""
+
+    def direction(self, s: ArrayLike) -> Floats:
+        """Direction of travel from root to tip, as an angle from +x (rad)."""
+
+    def points(self, s: ArrayLike) -> Floats:
+        """Cartesian points (..., 2) in mm on the left flank of tooth 0."""
+
+
+class _Cartesian:
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        raise NotImplementedError
+
+    def points(self, s: ArrayLike) -> Floats:
+        radius, angle = self.polar(s)
+        return np.stack([radius * np.cos(angle), radius * np.sin(angle)], -1)
+
+
+@dataclass(frozen=True)
+class Land(_Cartesian):
+    """Arc about the gear axis (the root land or the tip land)."""
+
+    kind: CurveKind
+    radius: float
+    first: float
+    last: float
+
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        s = np.asarray(s, float)
+        return np.full(s.shape, self.radius), self.first + s * (self.last - self.first)
+
+    def direction(self, s: ArrayLike) -> Floats:
+        return self.polar(s)[1] - np.pi / 2
+
+
+@dataclass(frozen=True)
+class Fillet(_Cartesian):
+    """Trochoid cut by the tool tip up to theta = `last`; s is linear in arcsinh(tan theta), which spreads the bend."""
+
+    tool: ToolTip
+    last: float
+    half_pitch: float
+    kind: CurveKind = CurveKind.FILLET
+
+    def theta(self, s: ArrayLike) -> Floats:
+        return np.arctan(np.sinh(np.asarray(s, float) * math.asinh(math.tan(self.last))))
+
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        radius, angle = self.tool.cut(self.theta(s))
+        return radius, self.half_pitch - angle
+
+    def direction(self, s: ArrayLike) -> Floats:
+        theta = self.theta(s)
+        slope: Floats = np.arctan(np.tan(theta) * math.cos(self.tool.helix_angle))
+        return self.half_pitch + np.asarray(self.tool.roll(theta)) - np.pi / 2 + slope
+
+
+@dataclass(frozen=True)
+class Involute(_Cartesian):
+    """Involute between two roll angles (rad); s is linear in the roll angle."""
+
+    base_radius: float
+    base_half_angle: float
+    first: float
+    last: float
+    kind: CurveKind = CurveKind.INVOLUTE
+
+    def roll(self, s: ArrayLike) -> Floats:
+        return self.first + np.asarray(s, float) * (self.last - self.first)
+
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        roll = self.roll(s)
+        return self.base_radius * np.hypot(1.0, roll), self.base_half_angle - (roll - np.arctan(roll))
+
+    def direction(self, s: ArrayLike) -> Floats:
+        return self.base_half_angle - self.roll(s)
+
+
+@dataclass(frozen=True)
+class Chamfer(_Cartesian):
+    """Straight tip chamfer at 45 degrees to the radius through its lower end; `run` is its radial extent there (mm)."""
+
+    radius: float
+    angle: float
+    run: float
+    kind: CurveKind = CurveKind.CHAMFER
+
+    def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
+        run = np.asarray(s, float) * self.run
+        return np.hypot(self.radius + run, run), self.angle - np.arctan2(run, self.radius + run)
+
+    def direction(self, s: ArrayLike) -> Floats:
+        return np.full(np.shape(s), self.angle - np.pi / 4)
+
+
+def parameters_within(curve: Curve, chord_error: float) -> Floats:
+    """Parameters s (n,), 0 ... 1, at which a polyline stays within `chord_error` (mm) of the curve.
+
+    Points lie densest where the curve bends most: the local chord is sqrt(8 e / curvature).
+    """
+    fine = np.linspace(0.0, 1.0, 257)
+    points, heading = curve.points(fine), curve.direction(fine)
+    length = np.hypot(*np.diff(points, axis=0).T)
+    turn = np.abs(np.diff(heading))
+    effort = np.r_[0.0, np.cumsum(np.sqrt(turn * length / (8 * chord_error)))]
+    count = max(1, math.ceil(effort[-1] * (1 - 1e-12)))
+    s: Floats = np.interp(np.linspace(0.0, effort[-1], count + 1), effort, fine)
+    s[0], s[-1] = 0.0, 1.0
+    return s

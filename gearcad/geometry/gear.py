@@ -1,0 +1,366 @@
+"""Gear: the inputs of one external cylindrical gear, and everything that follows from them (ISO 21771)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from typing import Any
+
+from gearcad.errors import GeometryError, ParameterError, require_number, require_whole
+from gearcad.geometry import inspection
+from gearcad.geometry.body import Body
+from gearcad.geometry.derived import Derived
+from gearcad.geometry.profile import ToothProfile, base_half_angle
+from gearcad.geometry.rack import ISO53_A, BasicRack
+from gearcad.geometry.trochoid import ToolTip
+
+__all__ = ["Gear"]
+
+LEAST_RIM = 0.1
+"""Least wall between bore, keyway or hub and the circle they must stay inside, in normal modules."""
+
+MOST_TWIST = 720.0
+"""Largest twist of a tooth over the face width (degrees) that one screw surface spans to the accuracy promised."""
+
+THIN_TIP = 0.2
+"""Normal tip thickness below which the data sheet warns, in normal modules (0.4 for case-hardened teeth)."""
+
+_DERIVED = (
+    "transverse_module transverse_pressure_angle base_helix_angle reference_diameter base_diameter tip_form_diameter "
+    "form_diameter undercut normal_tooth_thickness transverse_tooth_thickness tip_thickness transverse_pitch "
+    "transverse_base_pitch lead virtual_teeth span_teeth span_measurement span_contact_diameter ball_diameter over_balls "
+    "over_pins"
+).split()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gear:
+    """One external spur or helical gear. Lengths in mm, angles in degrees.
+
+    `helix_angle` is signed: right hand positive. `profile_shift` x and `tip_alteration` k are coefficients of the
+    normal module; `tooth_thinning` is the reduction of the normal tooth thickness (mm). `tip_diameter` and
+    `root_diameter` may be given, else they are derived, and read as numbers either way (see `Derived`): a given tip
+    circle wins over k, a given root circle prescribes the depth of the tool, which then follows from the gear.
+    Raises ParameterError for one value out of range, GeometryError for a combination that makes no gear.
+    """
+
+    name: str = "gear"
+    teeth: int
+    normal_module: float
+    face_width: float
+    helix_angle: float = 0.0
+    profile_shift: float = 0.0
+    tip_alteration: float = 0.0
+    tooth_thinning: float = 0.0
+    rack: BasicRack = field(default=ISO53_A)
+    body: Body = field(default=Body())
+    tip_diameter: float = Derived("nan")
+    root_diameter: float = Derived("nan")
+
+    def __post_init__(self) -> None:
+        self._check_numbers()
+        for name in ("tip_diameter", "root_diameter"):
+            value = getattr(self, name)
+            if value is None or isinstance(value, Derived):
+                object.__setattr__(self, name, Derived(getattr(self, "_standard_" + name)))
+            else:
+                require_number(name, value, "mm", above=0)
+        self._check_tool()
+        self.profile  # noqa: B018 - built now, so that a gear that exists has teeth
+        self._check_body()
+
+    def _check_numbers(self) -> None:
+        if not isinstance(self.name, str) or not self.name.strip():
+            raise ParameterError("name", self.name, "must be a non-empty text")
+        require_whole("teeth", self.teeth, at_least=3, at_most=2000)
+        require_number("normal_module", self.normal_module, "mm", at_least=0.01, at_most=200)
+        require_number("face_width", self.face_width, "mm", above=0, at_most=10000)
+        require_number("helix_angle", self.helix_angle, "deg", at_least=-75, at_most=75)
+        require_number("profile_shift", self.profile_shift, at_least=-5, at_most=5)
+        require_number("tip_alteration", self.tip_alteration, at_least=-5, at_most=5)
+        require_number("tooth_thinning", self.tooth_thinning, "mm", at_least=0)
+        for name, kind in (("rack", BasicRack), ("body", Body)):
+            if not isinstance(getattr(self, name), kind):
+                raise ParameterError(name, getattr(self, name), f"must be a {kind.__name__}")
+        if self.face_width < 0.01 * self.normal_module:
+            least = 0.01 * self.normal_module
+            raise GeometryError("face_width", self.face_width, f"must be at least {least:g} mm (0.01 m_n)", "mm")
+        if self.twist > MOST_TWIST:
+            raise GeometryError(
+                "face_width",
+                self.face_width,
+                f"must be at most {MOST_TWIST / 360 * self.lead:.6g} mm ({MOST_TWIST:g} deg of twist)",
+                "mm",
+            )
+
+    def _check_tool(self) -> None:
+        """The tool must be able to exist: its tip radius fits between its flanks, and it leaves some tooth."""
+        m, angle = self.normal_module, self.rack.pressure_angle
+        thinning = f"thinning {self.tooth_thinning:g} mm" if self.tooth_thinning else "no thinning"
+        terms = f"for dedendum {self.dedendum:.6g}, pressure angle {angle:g} deg, {thinning}"
+        if self.normal_tooth_thickness <= 0:
+            raise GeometryError(
+                "tooth_thinning",
+                self.tooth_thinning,
+                f"must be below {self.normal_tooth_thickness + self.tooth_thinning:.6g} mm, the normal tooth thickness",
+                "mm",
+            )
+        if self.dedendum <= 0:
+            limit = self.reference_diameter + 2 * m * self.profile_shift
+            raise GeometryError("root_diameter", self.root_diameter, f"must be below {limit:.6g} mm (no tool depth left)", "mm")
+        full = self.rack.full_root_radius(self.dedendum, self.tooth_thinning / m)
+        if full < 0:
+            which, value, unit = ("rack.dedendum", self.rack.dedendum, "")
+            if not isinstance(self.root_diameter, Derived):
+                which, value, unit = ("root_diameter", self.root_diameter, "mm")
+            most = (math.pi / 4 + self.tooth_thinning / m / 2) / math.tan(math.radians(angle))
+            raise GeometryError(which, value, f"must keep the tool's depth below {most:.4g} m_n, where its flanks meet", unit)
+        if self.rack.root_radius != "full" and float(self.rack.root_radius) > full:
+            raise GeometryError(
+                "rack.root_radius", self.rack.root_radius, f"must be at most {_floor(full, 3)} (full radius) {terms}"
+            )
+
+    def _check_body(self) -> None:
+        body, wall = self.body, LEAST_RIM * self.normal_module
+        root = self.root_diameter - 2 * wall
+        rim = f"a rim of {LEAST_RIM} m_n inside the root circle {self.root_diameter:.6g} mm"
+        for name, opening in (
+            ("bore", body.bore),
+            ("keyway_depth", body.opening_diameter),
+            ("hub_diameter", body.hub_diameter),
+        ):
+            if opening > root:
+                spare = f"must be at most {max(root, 0):.6g} mm ({rim})"
+                if name == "keyway_depth":
+                    spare = f"must leave {rim}: bore and keyway reach out to diameter {opening:.6g} mm"
+                raise GeometryError(f"body.{name}", getattr(body, name), spare, "mm")
+        if body.hub_diameter and body.opening_diameter > body.hub_diameter - 2 * wall:
+            least = body.opening_diameter + 2 * wall
+            raise GeometryError(
+                "body.hub_diameter", body.hub_diameter, f"must be at least {least:.6g} mm, to hold bore and keyway", "mm"
+            )
+        if body.end_chamfer:
+            self._check_end_chamfer(max(body.opening_diameter, body.hub_diameter) + 2 * wall)
+
+    def _check_end_chamfer(self, least_face: float) -> None:
+        length = self.body.end_chamfer
+        slope = math.tan(math.radians(self.body.end_chamfer_angle))
+        most = min(0.49 * self.face_width, (self.tip_diameter - least_face) / 2 / slope)
+        if length > most:
+            raise GeometryError(
+                "body.end_chamfer",
+                length,
+                f"must be at most {_floor(most, 4):g} mm at {self.body.end_chamfer_angle:g} deg"
+                " (0.49 of the face width, and some end face left)",
+                "mm",
+            )
+
+    # ------------------------------------------------------------------ what the standard derives
+
+    @property
+    def _standard_tip_diameter(self) -> float:
+        """d_a = d + 2 m_n (h_aP + x + k)."""
+        rise = self.rack.addendum + self.profile_shift + self.tip_alteration
+        return self.reference_diameter + 2 * self.normal_module * rise
+
+    @property
+    def _standard_root_diameter(self) -> float:
+        """d_f = d - 2 m_n (h_fP - x)."""
+        return self.reference_diameter - 2 * self.normal_module * (self.rack.dedendum - self.profile_shift)
+
+    @property
+    def dedendum(self) -> float:
+        """Dedendum h_fP of the tool in normal modules: the rack's, or (d - d_f)/(2 m_n) + x for a given root circle."""
+        if isinstance(self.root_diameter, Derived):
+            return self.rack.dedendum
+        return (self.reference_diameter - self.root_diameter) / (2 * self.normal_module) + self.profile_shift
+
+    @property
+    def root_radius(self) -> float:
+        """Tip radius of the tool in normal modules, with "full" resolved for this gear."""
+        if self.rack.root_radius == "full":
+            return self.rack.full_root_radius(self.dedendum, self.tooth_thinning / self.normal_module)
+        return float(self.rack.root_radius)
+
+    @property
+    def transverse_module(self) -> float:
+        """m_t = m_n / cos beta."""
+        return self.normal_module / math.cos(math.radians(self.helix_angle))
+
+    @property
+    def transverse_pressure_angle(self) -> float:
+        """tan alpha_t = tan alpha_n / cos beta."""
+        tangent = math.tan(math.radians(self.rack.pressure_angle))
+        return math.degrees(math.atan(tangent / math.cos(math.radians(self.helix_angle))))
+
+    @property
+    def base_helix_angle(self) -> float:
+        """sin beta_b = sin beta cos alpha_n; signed like the helix angle."""
+        sine = math.sin(math.radians(self.helix_angle)) * math.cos(math.radians(self.rack.pressure_angle))
+        return math.degrees(math.asin(sine))
+
+    @property
+    def reference_diameter(self) -> float:
+        """d = z m_t."""
+        return self.teeth * self.transverse_module
+
+    @property
+    def base_diameter(self) -> float:
+        """d_b = d cos alpha_t."""
+        return self.reference_diameter * math.cos(math.radians(self.transverse_pressure_angle))
+
+    @property
+    def tip_form_diameter(self) -> float:
+        """d_Fa: the tip circle less the tip chamfers."""
+        return self.profile.tip_form_diameter
+
+    @property
+    def form_diameter(self) -> float:
+        """Root form circle d_Ff, where the involute begins."""
+        return self.profile.form_diameter
+
+    @property
+    def undercut(self) -> bool:
+        """True if the tool removes part of the involute."""
+        return self.profile.undercut
+
+    @property
+    def normal_tooth_thickness(self) -> float:
+        """s_n = m_n (pi/2 + 2 x tan alpha_n) - thinning, on the reference circle."""
+        tangent = math.tan(math.radians(self.rack.pressure_angle))
+        return self.normal_module * (math.pi / 2 + 2 * self.profile_shift * tangent) - self.tooth_thinning
+
+    @property
+    def transverse_tooth_thickness(self) -> float:
+        """s_t = s_n / cos beta, on the reference circle."""
+        return self.normal_tooth_thickness / math.cos(math.radians(self.helix_angle))
+
+    @property
+    def tip_thickness(self) -> float:
+        """Normal tooth thickness s_an on the tip circle, before a tip chamfer."""
+        plain = self.profile
+        transverse = self.tip_diameter * float(plain._involute_half_angle(self.tip_diameter / 2))
+        tip_helix = math.atan(math.tan(math.radians(self.helix_angle)) * self.tip_diameter / self.reference_diameter)
+        return transverse * math.cos(tip_helix)
+
+    @property
+    def transverse_pitch(self) -> float:
+        """p_t = pi m_t."""
+        return math.pi * self.transverse_module
+
+    @property
+    def transverse_base_pitch(self) -> float:
+        """p_bt = pi m_t cos alpha_t."""
+        return math.pi * self.base_diameter / self.teeth
+
+    @property
+    def lead(self) -> float:
+        """Lead p_z = pi d / tan |beta|; infinite for a spur gear."""
+        if self.helix_angle == 0:
+            return math.inf
+        return math.pi * self.reference_diameter / math.tan(math.radians(abs(self.helix_angle)))
+
+    @property
+    def twist(self) -> float:
+        """Rotation of the section over the face width in degrees (magnitude): 360 b / p_z."""
+        return 0.0 if self.helix_angle == 0 else 360 * self.face_width / self.lead
+
+    @property
+    def virtual_teeth(self) -> float:
+        """z_n = z / (cos^2 beta_b cos beta)."""
+        base, helix = math.radians(self.base_helix_angle), math.radians(self.helix_angle)
+        return self.teeth / (math.cos(base) ** 2 * math.cos(helix))
+
+    # ------------------------------------------------------------------ inspection
+
+    @cached_property
+    def span_teeth(self) -> int:
+        """Number k of teeth to span so that the anvils touch nearest to the middle of the flanks."""
+        return inspection.span_teeth(self)
+
+    @property
+    def span_measurement(self) -> float:
+        """Base tangent length W_k over `span_teeth` teeth."""
+        return inspection.span_measurement(self, self.span_teeth)
+
+    @property
+    def span_contact_diameter(self) -> float:
+        """Diameter on which the anvils touch over `span_teeth` teeth."""
+        return inspection.span_contact_diameter(self, self.span_teeth)
+
+    @cached_property
+    def ball_diameter(self) -> float:
+        """Ball or pin that touches near d + 2 x m_n, rounded to two digits."""
+        return inspection.suggested_ball_diameter(self)
+
+    @property
+    def over_balls(self) -> float:
+        """Dimension over two balls of `ball_diameter`."""
+        return inspection.over_balls(self, self.ball_diameter)
+
+    @property
+    def over_pins(self) -> float:
+        """Dimension over two pins of `ball_diameter`, free to shift along the axis."""
+        return inspection.over_pins(self, self.ball_diameter)
+
+    # ------------------------------------------------------------------ the tooth
+
+    @cached_property
+    def profile(self) -> ToothProfile:
+        """The exact outline of one tooth."""
+        m, helix = self.normal_module, math.radians(self.helix_angle)
+        shift = self.profile_shift * m
+        tool = ToolTip.cutting(
+            normal_module=m,
+            pressure_angle=math.radians(self.rack.pressure_angle),
+            helix_angle=helix,
+            reference_radius=self.reference_diameter / 2,
+            depth=self.dedendum * m - shift,
+            shift=shift,
+            radius=self.root_radius * m,
+            thinning=self.tooth_thinning,
+        )
+        return ToothProfile(
+            teeth=self.teeth,
+            reference_diameter=self.reference_diameter,
+            base_diameter=self.base_diameter,
+            tip_diameter=self.tip_diameter,
+            root_diameter=self.root_diameter,
+            base_half_angle=base_half_angle(self.teeth, self.normal_tooth_thickness, m, self.transverse_pressure_angle),
+            tool=tool,
+            tip_chamfer=self.body.tip_chamfer,
+        )
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What an engineer should know about this gear before making it."""
+        found = []
+        if self.undercut:
+            found.append(f"undercut: the involute begins at diameter {self.form_diameter:.4f} mm")
+        if self.tip_thickness < THIN_TIP * self.normal_module:
+            found.append(
+                f"thin tip: normal thickness {self.tip_thickness:.4f} mm is below {THIN_TIP} m_n (0.4 m_n if case-hardened)"
+            )
+        lowest, highest = self.form_diameter, self.tip_form_diameter
+        if not lowest <= self.span_contact_diameter <= highest:
+            found.append(f"span: the anvils would touch at diameter {self.span_contact_diameter:.4f} mm, off the involute")
+        span_width = self.span_measurement * math.sin(math.radians(abs(self.base_helix_angle)))
+        if self.face_width < span_width:
+            found.append(f"span: needs a face width of {span_width:.4f} mm")
+        return tuple(found)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
+        inputs = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("rack", "body")}
+        rack = {f.name: getattr(self.rack, f.name) for f in fields(self.rack)}
+        body = {f.name: getattr(self.body, f.name) for f in fields(self.body)} | {"hub_side": self.body.hub_side.value}
+        derived = {name: getattr(self, name) for name in _DERIVED}
+        if math.isinf(self.lead):
+            derived["lead"] = None
+        return {**inputs, "rack": rack, "body": body, **derived, "warnings": list(self.warnings)}
+
+
+def _floor(value: float, digits: int) -> float:
+    """`value` rounded down, so that a limit we print is itself permitted."""
+    return math.floor(value * 10**digits) / 10**digits

@@ -1,0 +1,46 @@
+"""The involute function and its inverse (ISO 21771, 4.4: inv alpha = tan alpha - alpha)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gearcad.errors import ParameterError, SolverError
+
+__all__ = ["inverse_involute", "involute"]
+
+_MAX_NEWTON_STEPS = 60
+
+
+def involute(angle: ArrayLike) -> Any:
+    """Involute of a pressure angle, inv(alpha) = tan(alpha) - alpha.
+
+    `angle` in degrees, scalar or array; returns the (dimensionless) involute of the same shape.
+    """
+    radians = np.radians(np.asarray(angle, float))
+    result = np.tan(radians) - radians
+    return float(result) if result.ndim == 0 else result
+
+
+def inverse_involute(value: ArrayLike) -> Any:
+    """Pressure angle in degrees whose involute is `value` (dimensionless, >= 0), to machine precision.
+
+    Newton on t - atan t = value for t = tan alpha: convex, so every step after the first approaches from above.
+    Scalar or array. Raises ParameterError for a negative value.
+    """
+    target = np.asarray(value, float)
+    if np.any(~(target >= 0)):
+        raise ParameterError("involute", float(np.min(target)), "must be a number at least 0")
+    tangent = np.minimum(target + np.pi / 2, np.cbrt(3 * target) * (1 + 0.4 * np.cbrt(3 * target)))
+    for _ in range(_MAX_NEWTON_STEPS):
+        slope = np.where(tangent > 0, tangent**2 / (1 + tangent**2), 1.0)
+        step = (tangent - np.arctan(tangent) - target) / slope
+        tangent = tangent - step
+        if np.all(np.abs(step) <= 4e-16 * np.abs(tangent) + 1e-16 / slope):
+            break
+    else:  # pragma: no cover - the iteration is convex
+        raise SolverError(f"inverse involute of {value!r} did not converge")
+    result = np.degrees(np.arctan(tangent))
+    return float(result) if result.ndim == 0 else result

@@ -1,0 +1,294 @@
+"""GearPair: two external gears on parallel axes, and how they mesh (ISO 21771, clause 5)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+from gearcad.errors import GeometryError, ParameterError, require_number
+from gearcad.geometry import contact
+from gearcad.geometry.contact import ContactLineLengths, PathOfContact
+from gearcad.geometry.derived import Derived
+from gearcad.geometry.gear import Gear
+from gearcad.geometry.involute import inverse_involute, involute
+from gearcad.geometry.shift import profile_shift_sum
+
+__all__ = ["CommonWidth", "GearPair"]
+
+ROUNDING_OVERLAP = 1e-4
+"""Overlap at the working circle, in normal modules, that comes from shifts printed to four digits: reported, not refused."""
+
+_SAME = 1e-9
+
+_DERIVED = (
+    "gear_ratio reference_centre_distance profile_shift_sum zero_backlash_shift_sum working_transverse_pressure_angle "
+    "working_pitch_diameters tip_alteration transverse_contact_ratio usable_contact_ratio overlap_ratio "
+    "total_contact_ratio tip_clearances circumferential_backlash normal_backlash active_root_diameters"
+).split()
+
+
+class CommonWidth(NamedTuple):
+    """Width (mm) over which the gears face each other, and the offset (mm) of its middle from the pinion's middle."""
+
+    width: float
+    offset: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearPair:
+    """Two gears in mesh; the pinion drives. Lengths in mm, angles in degrees.
+
+    `centre_distance` may be given; else it is the one without backlash for the gears' profile shifts (thinning then
+    gives the backlash). It is read as a number either way (see `Derived`). The gears stand with their middles in one
+    plane, moved apart by `axial_offset` (of the wheel, along +z).
+    Raises GeometryError where the gears do not fit each other, or the teeth would overlap.
+    """
+
+    pinion: Gear
+    wheel: Gear
+    centre_distance: float = Derived("nan")
+    axial_offset: float = 0.0
+    name: str = "pair"
+
+    def __post_init__(self) -> None:
+        for which in ("pinion", "wheel"):
+            if not isinstance(getattr(self, which), Gear):
+                raise ParameterError(which, getattr(self, which), "must be a Gear")
+        require_number("axial_offset", self.axial_offset, "mm")
+        self._check_mates()
+        given = self.centre_distance
+        if given is None or isinstance(given, Derived):
+            object.__setattr__(self, "centre_distance", Derived(self._zero_backlash_centre_distance))
+        else:
+            require_number("centre_distance", given, "mm", above=0)
+        least = (self.pinion.base_diameter + self.wheel.base_diameter) / 2
+        if self.centre_distance <= least:
+            raise GeometryError(
+                "centre_distance", self.centre_distance, f"must be above {least:.6g} mm, where the base circles touch", "mm"
+            )
+        self._check_overlap()
+
+    def _check_mates(self) -> None:
+        pinion, wheel = self.pinion, self.wheel
+        for name, unit, of in (
+            ("normal_module", "mm", lambda gear: gear.normal_module),
+            ("rack.pressure_angle", "deg", lambda gear: gear.rack.pressure_angle),
+        ):
+            if abs(of(pinion) - of(wheel)) > _SAME:
+                raise GeometryError(f"wheel.{name}", of(wheel), f"must be {of(pinion):g} {unit}, as on the pinion", unit)
+        if abs(pinion.helix_angle + wheel.helix_angle) > _SAME:
+            raise GeometryError(
+                "wheel.helix_angle", wheel.helix_angle, f"must be {-pinion.helix_angle:g} deg, opposite to the pinion", "deg"
+            )
+        if self.common_width.width <= 0:
+            most = (pinion.face_width + wheel.face_width) / 2
+            raise GeometryError("axial_offset", self.axial_offset, f"must be below {most:g} mm: the gears do not face", "mm")
+
+    def _check_overlap(self) -> None:
+        backlash = self.circumferential_backlash
+        if backlash < -ROUNDING_OVERLAP * self.pinion.normal_module:
+            raise GeometryError(
+                "centre_distance",
+                self.centre_distance,
+                f"must be at least {self._fitting_centre_distance:.6f} mm for these profile shifts and thinning, or the"
+                f" shift sum at most {self._fitting_shift_sum:.6f}: the backlash would be {backlash:.6f} mm",
+                "mm",
+            )
+        for number, clearance in enumerate(self.tip_clearances):
+            owner, mate = (("pinion", "wheel"), ("wheel", "pinion"))[number]
+            if clearance <= 0:
+                tip = getattr(self, owner).tip_diameter
+                raise GeometryError(
+                    f"{owner}.tip_diameter",
+                    tip,
+                    f"must be below {tip + 2 * clearance:.6f} mm: the tip reaches the {mate}'s root circle",
+                    "mm",
+                )
+
+    # ------------------------------------------------------------------ working data
+
+    @property
+    def gear_ratio(self) -> float:
+        """u = z_2/z_1."""
+        return self.wheel.teeth / self.pinion.teeth
+
+    @property
+    def reference_centre_distance(self) -> float:
+        """a_d = (d_1 + d_2)/2."""
+        return (self.pinion.reference_diameter + self.wheel.reference_diameter) / 2
+
+    @property
+    def profile_shift_sum(self) -> float:
+        """x_1 + x_2 of the gears."""
+        return self.pinion.profile_shift + self.wheel.profile_shift
+
+    @property
+    def zero_backlash_shift_sum(self) -> float:
+        """x_1 + x_2 that would mesh without backlash at this centre distance (no thinning)."""
+        return self._shift_sum_at(self.centre_distance)
+
+    def _shift_sum_at(self, centre_distance: float) -> float:
+        return profile_shift_sum(
+            normal_module=self.pinion.normal_module,
+            teeth=(self.pinion.teeth, self.wheel.teeth),
+            helix_angle=self.pinion.helix_angle,
+            pressure_angle=self.pinion.rack.pressure_angle,
+            centre_distance=centre_distance,
+        )
+
+    @property
+    def _thinning_as_shift(self) -> float:
+        """Change of the shift sum that thins the teeth as much as their tooth thinning does."""
+        thinning = self.pinion.tooth_thinning + self.wheel.tooth_thinning
+        return thinning / (2 * self.pinion.normal_module * math.tan(math.radians(self.pinion.rack.pressure_angle)))
+
+    @property
+    def _fitting_shift_sum(self) -> float:
+        return self.zero_backlash_shift_sum + self._thinning_as_shift
+
+    @property
+    def _zero_backlash_centre_distance(self) -> float:
+        return self._centre_distance_for(self.profile_shift_sum)
+
+    @property
+    def _fitting_centre_distance(self) -> float:
+        return self._centre_distance_for(self.profile_shift_sum - self._thinning_as_shift)
+
+    def _centre_distance_for(self, shift_sum: float) -> float:
+        """a = a_d cos alpha_t/cos alpha_wt, inv alpha_wt = inv alpha_t + 2 tan alpha_n sum(x)/sum(z)."""
+        pinion = self.pinion
+        teeth = pinion.teeth + self.wheel.teeth
+        rise = 2 * math.tan(math.radians(pinion.rack.pressure_angle)) * shift_sum / teeth
+        value = involute(pinion.transverse_pressure_angle) + rise
+        if value <= 0:
+            least = -involute(pinion.transverse_pressure_angle) * shift_sum / rise
+            raise GeometryError(
+                "wheel.profile_shift",
+                self.wheel.profile_shift,
+                f"must be above {least - pinion.profile_shift:.6g}: no centre distance meshes without backlash",
+            )
+        working = math.radians(inverse_involute(value))
+        return (pinion.base_diameter + self.wheel.base_diameter) / 2 / math.cos(working)
+
+    @property
+    def working_transverse_pressure_angle(self) -> float:
+        """cos alpha_wt = (d_b1 + d_b2)/(2 a)."""
+        cosine = (self.pinion.base_diameter + self.wheel.base_diameter) / (2 * self.centre_distance)
+        return math.degrees(math.acos(cosine))
+
+    @property
+    def working_pitch_diameters(self) -> tuple[float, float]:
+        """d_w1 = 2 a/(1 + u), d_w2 = u d_w1."""
+        pinion = 2 * self.centre_distance / (1 + self.gear_ratio)
+        return pinion, self.gear_ratio * pinion
+
+    @property
+    def tip_alteration(self) -> float:
+        """k that keeps the rack's tip clearance: (a - a_d)/m_n - (x_1 + x_2), never positive ("auto" in a spec)."""
+        change = (self.centre_distance - self.reference_centre_distance) / self.pinion.normal_module
+        return min(change - self.profile_shift_sum, 0.0)
+
+    @property
+    def tip_clearances(self) -> tuple[float, float]:
+        """Clearance of the pinion's tip in the wheel's root, and of the wheel's tip in the pinion's root."""
+        return (
+            self.centre_distance - (self.pinion.tip_diameter + self.wheel.root_diameter) / 2,
+            self.centre_distance - (self.wheel.tip_diameter + self.pinion.root_diameter) / 2,
+        )
+
+    @property
+    def circumferential_backlash(self) -> float:
+        """j_wt: working pitch less both tooth thicknesses on the working pitch circles (transverse)."""
+        working = involute(self.working_transverse_pressure_angle)
+        gap = 2 * math.pi / self.pinion.teeth
+        for gear, turn in ((self.pinion, 1.0), (self.wheel, self.gear_ratio)):
+            gap -= 2 * turn * (math.radians(gear.profile.base_half_angle) - working)
+        return gap * self.working_pitch_diameters[0] / 2
+
+    @property
+    def normal_backlash(self) -> float:
+        """j_bn along the base normal: j_wt cos alpha_wt cos beta_b."""
+        across = math.cos(math.radians(self.working_transverse_pressure_angle))
+        return self.circumferential_backlash * across * math.cos(math.radians(self.pinion.base_helix_angle))
+
+    # ------------------------------------------------------------------ contact
+
+    @cached_property
+    def common_width(self) -> CommonWidth:
+        """Common face width and where its middle lies, seen from the pinion's middle."""
+        half = (self.pinion.face_width / 2, self.wheel.face_width / 2)
+        low = max(-half[0], self.axial_offset - half[1])
+        high = min(half[0], self.axial_offset + half[1])
+        return CommonWidth(high - low, (high + low) / 2)
+
+    @property
+    def path_of_contact(self) -> PathOfContact:
+        """A, B, C, D, E on the line of action between the tip (form) circles, as distances from T1 (mm)."""
+        return contact.path_of_contact(self)
+
+    @property
+    def transverse_contact_ratio(self) -> float:
+        """epsilon_alpha from the tip circles, less tip chamfers."""
+        path = self.path_of_contact
+        return (path.E - path.A) / self.pinion.transverse_base_pitch
+
+    @property
+    def usable_contact_ratio(self) -> float:
+        """epsilon_alpha also limited by the root form circles; 0 where nothing is left."""
+        first, last = contact.usable_path(self)
+        return max(last - first, 0.0) / self.pinion.transverse_base_pitch
+
+    @property
+    def overlap_ratio(self) -> float:
+        """epsilon_beta = b sin |beta|/(pi m_n) on the common face width."""
+        sine = math.sin(math.radians(abs(self.pinion.helix_angle)))
+        return self.common_width.width * sine / (math.pi * self.pinion.normal_module)
+
+    @property
+    def total_contact_ratio(self) -> float:
+        """epsilon_gamma = epsilon_alpha + epsilon_beta."""
+        return self.transverse_contact_ratio + self.overlap_ratio
+
+    @property
+    def active_root_diameters(self) -> tuple[float, float]:
+        """Start-of-active-profile diameters d_Nf that the mate's tip form circle reaches (mm)."""
+        return contact.active_root_diameters(self)
+
+    @property
+    def contact_line_lengths(self) -> ContactLineLengths:
+        """Least, mean and greatest total length of the lines of contact over the cycle (mm)."""
+        return contact.contact_line_lengths(self)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What an engineer should know about this pair before making it."""
+        found = []
+        gears = (("pinion", self.pinion, "wheel"), ("wheel", self.wheel, "pinion"))
+        for (owner, gear, mate), active in zip(gears, self.active_root_diameters, strict=True):
+            if gear.form_diameter > active:
+                found.append(
+                    f"fillet interference: the {mate}'s tip reaches diameter {active:.4f} mm of the {owner}, below its root"
+                    f" form circle {gear.form_diameter:.4f} mm"
+                )
+        if self.circumferential_backlash < 0:
+            found.append(
+                f"zero backlash: the printed profile shifts overlap by {-self.circumferential_backlash:.3g} mm (rounding)"
+            )
+        if self.transverse_contact_ratio < 1:
+            found.append(f"contact ratio: transverse contact ratio {self.transverse_contact_ratio:.4f} is below 1")
+        return tuple(found)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Derived properties of the pair under their names, for JSON (the gears have their own)."""
+        derived = {name: getattr(self, name) for name in _DERIVED}
+        return {
+            "centre_distance": self.centre_distance,
+            "axial_offset": self.axial_offset,
+            "common_width": self.common_width._asdict(),
+            **{name: list(value) if isinstance(value, tuple) else value for name, value in derived.items()},
+            "path_of_contact": self.path_of_contact._asdict(),
+            "contact_line_lengths": self.contact_line_lengths._asdict(),
+            "warnings": list(self.warnings),
+        }

@@ -1,0 +1,234 @@
+"""ToothProfile: the one exact outline of a tooth, from which solids, drawings and meshes all start."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearcad.errors import GeometryError, ParameterError, require_number
+from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Fillet, Involute, Land, parameters_within
+from gearcad.geometry.involute import involute
+from gearcad.geometry.trochoid import ToolTip
+
+__all__ = ["ToothProfile"]
+
+Floats = NDArray[np.float64]
+
+LEAST_LAND = 4e-6
+"""Arcs shorter than this (mm) are left out: they are below the tolerance of a solid (and of any machine)."""
+
+_SLACK = 1e-9
+"""Relative excess of a radius over the tip or under the root that counts as rounding."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ToothProfile:
+    """Exact transverse outline of one external tooth: root land, trochoid, involute, tip chamfer, tip land.
+
+    Tooth 0 is centred on +x. Diameters in mm, `base_half_angle` (half tooth angle on the base circle) in degrees, `tool`
+    the tip of the hob, `tip_chamfer` its radial height in mm. Normally obtained as `gear.profile`.
+    Raises GeometryError where these make no tooth: pointed, cut off by undercut, or with no involute left.
+    """
+
+    teeth: int
+    reference_diameter: float
+    base_diameter: float
+    tip_diameter: float
+    root_diameter: float
+    base_half_angle: float
+    tool: ToolTip
+    tip_chamfer: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.root_diameter <= 0:
+            raise GeometryError("root_diameter", self.root_diameter, "must be above 0 mm: the tool reaches the axis", "mm")
+        if self.tip_diameter <= max(self.root_diameter, self.base_diameter):
+            limit = max(self.root_diameter, self.base_diameter)
+            raise GeometryError("tip_diameter", self.tip_diameter, f"must be above {limit:.6g} mm (root and base circle)", "mm")
+        self._refuse_pointed()
+        if self.form_diameter >= self.tip_form_diameter:
+            raise GeometryError(
+                "tip_diameter",
+                self.tip_form_diameter,
+                f"must be above the root form circle {self.form_diameter:.6g} mm: no involute is left on the flank",
+                "mm",
+            )
+        waist = float(np.min(self._fillet.polar(np.linspace(0, 1, 65))[1]))
+        if waist * self.root_diameter < LEAST_LAND:
+            raise GeometryError("teeth", self.teeth, "must be more, or the profile shift larger: undercut severs the tooth")
+
+    def _refuse_pointed(self) -> None:
+        thickness = self.tip_diameter * float(self._involute_half_angle(self.tip_diameter / 2))
+        if thickness < LEAST_LAND:
+            raise GeometryError(
+                "tip_diameter", self.tip_diameter, f"must be at most {self._pointed_diameter:.6g} mm (pointed tooth)", "mm"
+            )
+        if self.tip_chamfer and self.tip_diameter * self._land_half_angle < LEAST_LAND:
+            raise GeometryError("tip_chamfer", self.tip_chamfer, "must be less: it leaves no tip land", "mm")
+
+    # ------------------------------------------------------------------ characteristic circles
+
+    @cached_property
+    def undercut(self) -> bool:
+        """True if the tool's tip cuts away part of the involute: h > r sin^2 alpha_t."""
+        return self.tool.flank_depth > self.reference_diameter / 2 * self._sin_transverse_angle**2
+
+    @cached_property
+    def form_diameter(self) -> float:
+        """Root form circle d_Ff (mm), where involute and trochoid meet (ISO 21771, 5.4.3)."""
+        if self.undercut:
+            return 2 * float(self.tool.cut(self._last_theta)[0])
+        sine = self._sin_transverse_angle
+        roll_length = self.reference_diameter / 2 * sine - self.tool.flank_depth / sine
+        return 2 * math.hypot(self.base_diameter / 2, roll_length)
+
+    @property
+    def tip_form_diameter(self) -> float:
+        """Tip form circle d_Fa (mm), where the involute ends: the tip circle less the chamfers."""
+        return self.tip_diameter - 2 * self.tip_chamfer
+
+    @cached_property
+    def _sin_transverse_angle(self) -> float:
+        ratio = self.base_diameter / self.reference_diameter
+        return math.sqrt((1 - ratio) * (1 + ratio))
+
+    @cached_property
+    def _last_theta(self) -> float:
+        """theta of the tool tip where the fillet ends: at the tangent point, or where it crosses the involute."""
+        end = self.tool.last_angle
+        if not self.undercut:
+            return end
+        from scipy.optimize import brentq
+
+        base_radius = self.base_diameter / 2
+        start = float(self.tool.theta_at(base_radius, end)[0])
+        while self.tool.cut(start)[0] < base_radius:
+            start = math.nextafter(start, 2.0)
+
+        def excess(theta: float) -> float:
+            radius, angle = self.tool.cut(theta)
+            return float(self._half_pitch - angle - self._involute_half_angle(max(float(radius), base_radius)))
+
+        if excess(start) >= 0:  # undercut by less than rounding: the curves meet on the base circle
+            return start
+        return float(brentq(excess, start, end, xtol=1e-15, rtol=8.9e-16))
+
+    @cached_property
+    def _pointed_diameter(self) -> float:
+        from gearcad.geometry.involute import inverse_involute
+
+        return self.base_diameter / math.cos(math.radians(inverse_involute(math.radians(self.base_half_angle))))
+
+    # ------------------------------------------------------------------ the outline
+
+    @property
+    def _half_pitch(self) -> float:
+        return math.pi / self.teeth
+
+    @cached_property
+    def _fillet(self) -> Fillet:
+        return Fillet(self.tool, self._last_theta, self._half_pitch)
+
+    @cached_property
+    def _flank(self) -> Involute:
+        return Involute(
+            self.base_diameter / 2,
+            math.radians(self.base_half_angle),
+            self._roll(self.form_diameter / 2),
+            self._roll(self.tip_form_diameter / 2),
+        )
+
+    @cached_property
+    def _chamfer(self) -> Chamfer:
+        radius, tip = self.tip_form_diameter / 2, self.tip_diameter / 2
+        run = (math.sqrt(2 * tip**2 - radius**2) - radius) / 2
+        return Chamfer(radius, float(self._involute_half_angle(radius)), run)
+
+    @cached_property
+    def _land_half_angle(self) -> float:
+        """Half angle (rad) of the tip land that the chamfers leave."""
+        if self.tip_chamfer:
+            return float(self._chamfer.polar(1.0)[1])
+        return float(self._involute_half_angle(self.tip_diameter / 2))
+
+    @cached_property
+    def curves(self) -> tuple[Curve, ...]:
+        """Curves of half a tooth from the middle of the space to the middle of the tooth.
+
+        The root land is absent where the tool has a full radius, the chamfer where there is none.
+        """
+        root, tip = self.root_diameter / 2, self.tip_diameter / 2
+        start = float(self._fillet.polar(0.0)[1])
+        curves: list[Curve] = [self._fillet, self._flank]
+        if 2 * root * (self._half_pitch - start) >= LEAST_LAND:
+            curves.insert(0, Land(CurveKind.ROOT, root, self._half_pitch, start))
+        if self.tip_chamfer:
+            curves.append(self._chamfer)
+        return (*curves, Land(CurveKind.TIP, tip, self._land_half_angle, 0.0))
+
+    def half_angle(self, radius: ArrayLike) -> Any:
+        """Transverse half tooth angle in degrees at `radius` (mm), on trochoid, involute and tip chamfer alike.
+
+        Scalar or array. Raises ParameterError for a radius outside root circle ... tip circle.
+        """
+        given = np.asarray(radius, float)
+        root, tip = self.root_diameter / 2, self.tip_diameter / 2
+        outside = ~((given >= root * (1 - _SLACK)) & (given <= tip * (1 + _SLACK)))
+        if np.any(outside):
+            worst = float(given[outside].flat[0])
+            raise ParameterError("radius", worst, f"must be from {root:.10g} to {tip:.10g} mm (root to tip circle)", "mm")
+        flat = np.clip(given.ravel(), root, tip)
+        result = np.asarray(self._involute_half_angle(np.maximum(flat, self.base_diameter / 2)))
+        low = flat < self.form_diameter / 2
+        if np.any(low):
+            theta = self.tool.theta_at(flat[low], self._last_theta)
+            result[low] = self._half_pitch - self.tool.cut(theta)[1]
+        high = flat > self.tip_form_diameter / 2
+        if self.tip_chamfer and np.any(high):
+            start = self._chamfer.radius
+            run = (np.sqrt(2 * flat[high] ** 2 - start**2) - start) / 2
+            result[high] = self._chamfer.angle - np.arctan2(run, start + run)
+        degrees = np.degrees(result).reshape(given.shape)
+        return float(degrees) if degrees.ndim == 0 else degrees
+
+    def points(self, chord_error: float = 0.001) -> Floats:
+        """Outline of tooth 0, counter-clockwise from space to space: (n, 2) in mm, within `chord_error` (mm).
+
+        The first and last points are the middles of the two neighbouring spaces.
+        """
+        require_number("chord_error", chord_error, "mm", above=0)
+        halves = [curve.points(parameters_within(curve, chord_error)) for curve in self.curves]
+        left = np.concatenate([half[:-1] for half in halves] + [halves[-1][-1:]])
+        if self.curves[0].kind is not CurveKind.ROOT:
+            left[0] = self.root_diameter / 2 * np.array([math.cos(self._half_pitch), math.sin(self._half_pitch)])
+        return np.concatenate([left[:-1] * [1, -1], left[::-1]])
+
+    def contour(self, chord_error: float = 0.001) -> Floats:
+        """Outline of the whole gear, counter-clockwise: (n, 2) in mm, not repeating the first point."""
+        tooth = self.points(chord_error)[:-1]
+        angle = 2 * math.pi / self.teeth * np.arange(self.teeth)[:, None]
+        cosine, sine = np.cos(angle), np.sin(angle)
+        x, y = tooth.T
+        return np.stack([cosine * x - sine * y, sine * x + cosine * y], -1).reshape(-1, 2)
+
+    # ------------------------------------------------------------------ involute in radians
+
+    def _roll(self, radius: float) -> float:
+        base = self.base_diameter / 2
+        return math.sqrt(max((radius - base) * (radius + base), 0.0)) / base
+
+    def _involute_half_angle(self, radius: ArrayLike) -> Any:
+        base = self.base_diameter / 2
+        radius = np.asarray(radius, float)
+        tangent = np.sqrt((radius - base) * (radius + base)) / base
+        return math.radians(self.base_half_angle) - (tangent - np.arctan(tangent))
+
+
+def base_half_angle(teeth: int, normal_thickness: float, normal_module: float, transverse_pressure_angle: float) -> float:
+    """Half tooth angle on the base circle in degrees: s_n/(m_n z) + inv alpha_t (ISO 21771, 5.2)."""
+    return math.degrees(normal_thickness / (normal_module * teeth) + involute(transverse_pressure_angle))
