@@ -239,10 +239,8 @@ class Gear:
     @property
     def tip_thickness(self) -> float:
         """Normal tooth thickness s_an on the tip circle, before a tip chamfer."""
-        plain = self.profile
-        transverse = self.tip_diameter * float(plain._involute_half_angle(self.tip_diameter / 2))
         tip_helix = math.atan(math.tan(math.radians(self.helix_angle)) * self.tip_diameter / self.reference_diameter)
-        return transverse * math.cos(tip_helix)
+        return self.profile.tip_thickness * math.cos(tip_helix)
 
     @property
     def transverse_pitch(self) -> float:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from gearcad.errors import ParameterError, SolverError
 
@@ -14,6 +14,10 @@ __all__ = ["inverse_involute", "involute"]
 _MAX_NEWTON_STEPS = 60
 
 
+@overload
+def involute(angle: float) -> float: ...
+@overload
+def involute(angle: ArrayLike) -> NDArray[np.float64]: ...
 def involute(angle: ArrayLike) -> Any:
     """Involute of a pressure angle, inv(alpha) = tan(alpha) - alpha.
 
@@ -24,6 +28,10 @@ def involute(angle: ArrayLike) -> Any:
     return float(result) if result.ndim == 0 else result
 
 
+@overload
+def inverse_involute(value: float) -> float: ...
+@overload
+def inverse_involute(value: ArrayLike) -> NDArray[np.float64]: ...
 def inverse_involute(value: ArrayLike) -> Any:
     """Pressure angle in degrees whose involute is `value` (dimensionless, >= 0), to machine precision.
 

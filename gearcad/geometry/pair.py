@@ -72,12 +72,12 @@ class GearPair:
 
     def _check_mates(self) -> None:
         pinion, wheel = self.pinion, self.wheel
-        for name, unit, of in (
-            ("normal_module", "mm", lambda gear: gear.normal_module),
-            ("rack.pressure_angle", "deg", lambda gear: gear.rack.pressure_angle),
+        for name, unit, one, other in (
+            ("normal_module", "mm", pinion.normal_module, wheel.normal_module),
+            ("rack.pressure_angle", "deg", pinion.rack.pressure_angle, wheel.rack.pressure_angle),
         ):
-            if abs(of(pinion) - of(wheel)) > _SAME:
-                raise GeometryError(f"wheel.{name}", of(wheel), f"must be {of(pinion):g} {unit}, as on the pinion", unit)
+            if abs(one - other) > _SAME:
+                raise GeometryError(f"wheel.{name}", other, f"must be {one:g} {unit}, as on the pinion", unit)
         if abs(pinion.helix_angle + wheel.helix_angle) > _SAME:
             raise GeometryError(
                 "wheel.helix_angle", wheel.helix_angle, f"must be {-pinion.helix_angle:g} deg, opposite to the pinion", "deg"

@@ -63,8 +63,7 @@ class ToothProfile:
             raise GeometryError("teeth", self.teeth, "must be more, or the profile shift larger: undercut severs the tooth")
 
     def _refuse_pointed(self) -> None:
-        thickness = self.tip_diameter * float(self._involute_half_angle(self.tip_diameter / 2))
-        if thickness < LEAST_LAND:
+        if self.tip_thickness < LEAST_LAND:
             raise GeometryError(
                 "tip_diameter", self.tip_diameter, f"must be at most {self._pointed_diameter:.6g} mm (pointed tooth)", "mm"
             )
@@ -91,6 +90,16 @@ class ToothProfile:
     def tip_form_diameter(self) -> float:
         """Tip form circle d_Fa (mm), where the involute ends: the tip circle less the chamfers."""
         return self.tip_diameter - 2 * self.tip_chamfer
+
+    @property
+    def tip_thickness(self) -> float:
+        """Transverse tooth thickness s_at on the tip circle (mm), before a tip chamfer."""
+        return self.tip_diameter * self._tip_half_angle
+
+    @cached_property
+    def _tip_half_angle(self) -> float:
+        """Half tooth angle on the tip circle (rad), before a tip chamfer."""
+        return float(self._involute_half_angle(self.tip_diameter / 2))
 
     @cached_property
     def _sin_transverse_angle(self) -> float:
@@ -154,7 +163,7 @@ class ToothProfile:
         """Half angle (rad) of the tip land that the chamfers leave."""
         if self.tip_chamfer:
             return float(self._chamfer.polar(1.0)[1])
-        return float(self._involute_half_angle(self.tip_diameter / 2))
+        return self._tip_half_angle
 
     @cached_property
     def curves(self) -> tuple[Curve, ...]:
