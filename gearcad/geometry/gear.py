@@ -361,4 +361,4 @@ class Gear:
 
 def _floor(value: float, digits: int) -> float:
     """`value` rounded down, so that a limit we print is itself permitted."""
-    return math.floor(value * 10**digits) / 10**digits
+    return math.floor(value * 10.0**digits) / 10.0**digits
