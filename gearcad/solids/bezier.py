@@ -30,16 +30,17 @@ def bernstein(degree: int, t: Floats) -> Floats:
 @cache
 def _nodes(degree: int) -> tuple[Floats, Floats]:
     """Chebyshev-Lobatto nodes on [0, 1] and the matrix that turns values there into poles."""
-    nodes = 0.5 - 0.5 * np.cos(np.pi * np.arange(degree + 1) / degree)
+    nodes: Floats = np.asarray(0.5 - 0.5 * np.cos(np.pi * np.arange(degree + 1) / degree), float)
     nodes[0], nodes[-1] = 0.0, 1.0
-    return nodes, np.linalg.inv(bernstein(degree, nodes))
+    to_poles = np.asarray(np.linalg.inv(bernstein(degree, nodes)), float)
+    return nodes, to_poles
 
 
 @cache
 def _check(degree: int) -> tuple[Floats, Floats]:
     """Points between the nodes (the extremes of the interpolation error lie close to them), and their Bernstein values."""
     nodes, _ = _nodes(degree)
-    t = np.sort(np.concatenate([nodes[:-1] + f * np.diff(nodes) for f in (0.25, 0.5, 0.75)]))
+    t = np.sort(np.concatenate([nodes[:-1] + f * np.diff(nodes) for f in (0.25, 0.5, 0.75)])).astype(float)
     return t, bernstein(degree, t)
 
 

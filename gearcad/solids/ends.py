@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,7 @@ from gearcad.geometry.gear import Gear
 __all__ = ["End", "gear_ends"]
 
 _SNAP = 1e-5
-"""A chamfer that begins this close (mm) to where two curves of the outline meet begins there: no slivers."""
+"""A chamfer that begins this close (mm) to where two pieces of the outline meet begins there: no slivers."""
 
 
 @dataclass(frozen=True)
@@ -43,13 +44,11 @@ class End:
         return np.asarray(self.z + self.inward * np.maximum(radius - self.edge_radius, 0.0) / self.tangent)
 
 
-def gear_ends(gear: Gear) -> tuple[End, End]:
-    """Lower and upper end of a gear; a chamfer's small radius snaps to the circles where the outline's curves meet."""
+def gear_ends(gear: Gear, junctions: Iterable[float]) -> tuple[End, End]:
+    """Lower and upper end of a gear; a chamfer's small radius snaps to the radii (mm) where pieces of the outline meet."""
     radius, tangent = math.inf, 1.0
     if gear.body.end_chamfer:
         tangent = math.tan(math.radians(gear.body.end_chamfer_angle))
         radius = gear.tip_diameter / 2 - gear.body.end_chamfer * tangent
-        for diameter in (gear.root_diameter, gear.form_diameter, gear.tip_form_diameter):
-            if abs(radius - diameter / 2) < _SNAP:
-                radius = diameter / 2
+        radius = next((near for near in junctions if abs(near - radius) < _SNAP), radius)
     return End(0.0, 1, radius, tangent), End(gear.face_width, -1, radius, tangent)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from functools import cache
 from typing import Any
@@ -72,17 +73,28 @@ def bezier_surface(poles: Floats, width: float) -> Any:
 
 
 class Kernel:
-    """Makes vertices, edges and faces of one solid. Lengths in mm; vertices and edges get twice the `tolerance` (mm) of what is fitted."""
+    """Makes vertices, edges and faces of one solid (lengths in mm).
+
+    Vertices and edges get twice the `tolerance` to which their curves are fitted: a curve and its surface may differ by
+    as much from the exact shape, to opposite sides.
+    """
 
     def __init__(self, tolerance: float) -> None:
         from OCP.BRep import BRep_Builder
         from OCP.gp import gp_Ax1, gp_Ax3, gp_Dir, gp_Pnt
         from OCP.TopLoc import TopLoc_Location
-        from OCP.TopoDS import TopoDS_Shell
+        from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shell, TopoDS_Vertex, TopoDS_Wire
 
         self.tolerance = max(2 * tolerance, PRECISION)
+        self.here = TopLoc_Location()
+        self._point, self._vertex, self._edge, self._wire, self._face = (
+            gp_Pnt,
+            TopoDS_Vertex,
+            TopoDS_Edge,
+            TopoDS_Wire,
+            TopoDS_Face,
+        )
         self._builder = BRep_Builder()
-        self._location = TopLoc_Location()
         self._shell = TopoDS_Shell()
         self._builder.MakeShell(self._shell)
         self._axis = gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))
@@ -90,13 +102,14 @@ class Kernel:
 
     # ------------------------------------------------------------------ geometry about the z axis
 
-    def turn(self, angle: float) -> Any:
-        """Rotation about z (rad)."""
+    def turned(self, angle: float) -> Any:
+        """The place of a thing turned about z (rad)."""
         from OCP.gp import gp_Trsf
+        from OCP.TopLoc import TopLoc_Location
 
         rotation = gp_Trsf()
         rotation.SetRotation(self._axis, angle)
-        return rotation
+        return TopLoc_Location(rotation)
 
     def frame(self, z: float, *, up: bool = True) -> Any:
         """Right-handed frame at height z with its X on +x and its Z along +z or -z."""
@@ -123,6 +136,12 @@ class Kernel:
 
         return Geom_CylindricalSurface(self._frame, radius)
 
+    def cone(self, radius: float, sine: float, z: float, *, up: bool) -> Any:
+        """Cone of `radius` at height z that widens upwards (or downwards); `sine` of its half angle. Slant is its v."""
+        from OCP.Geom import Geom_ConicalSurface
+
+        return Geom_ConicalSurface(self.frame(z, up=up), math.asin(sine), radius)
+
     def plane(self, z: float) -> Any:
         from OCP.Geom import Geom_Plane
 
@@ -145,43 +164,37 @@ class Kernel:
 
     def vertex(self, point: Sequence[float]) -> tuple[Any, Any]:
         """A vertex as (forward, reversed)."""
-        from OCP.gp import gp_Pnt
-        from OCP.TopoDS import TopoDS_Vertex
-
-        vertex = TopoDS_Vertex()
-        self._builder.MakeVertex(vertex, gp_Pnt(*point), self.tolerance)
+        vertex = self._vertex()
+        self._builder.MakeVertex(vertex, self._point(*point), self.tolerance)
         return vertex, vertex.Reversed()
 
-    def edge(self, curve: Any, start: tuple[Any, Any], end: tuple[Any, Any], first: float, last: float) -> Any:
-        from OCP.TopoDS import TopoDS_Edge
-
-        edge = TopoDS_Edge()
-        self._builder.MakeEdge(edge, curve, self.tolerance)
+    def edge(
+        self, curve: Any, start: tuple[Any, Any], end: tuple[Any, Any], first: float, last: float, place: Any = None
+    ) -> Any:
+        """An edge on a curve (moved to `place`) from `start` at parameter `first` to `end` at `last`."""
+        edge = self._edge()
+        self._builder.MakeEdge(edge, curve, place or self.here, self.tolerance)
         self._builder.Add(edge, start[0])
         self._builder.Add(edge, end[1])
         self._builder.Range(edge, first, last)
         return edge
 
-    def lay(self, edge: Any, surface: Any, *curves: Any) -> None:
+    def lay(self, edge: Any, surface: Any, *curves: Any, place: Any = None) -> None:
         """Give an edge its curve in the parameters of a surface; two curves make it the seam of a closed one."""
-        self._builder.UpdateEdge(edge, *curves, surface, self._location, self.tolerance)
+        self._builder.UpdateEdge(edge, *curves, surface, place or self.here, self.tolerance)
 
     def wire(self, loop: Loop) -> Any:
-        from OCP.TopoDS import TopoDS_Wire
-
-        wire = TopoDS_Wire()
+        wire = self._wire()
         self._builder.MakeWire(wire)
         for edge, along in loop:
             self._builder.Add(wire, edge if along else edge.Reversed())
         wire.Closed(True)
         return wire
 
-    def face(self, surface: Any, loops: Iterable[Loop], *, outward: bool = True) -> None:
+    def face(self, surface: Any, loops: Iterable[Loop], *, outward: bool = True, place: Any = None) -> None:
         """Add a face to the shell; its loops run counter-clockwise (holes clockwise) about the surface's own normal."""
-        from OCP.TopoDS import TopoDS_Face
-
-        face = TopoDS_Face()
-        self._builder.MakeFace(face, surface, self._location, PRECISION)
+        face = self._face()
+        self._builder.MakeFace(face, surface, place or self.here, PRECISION)
         for loop in loops:
             self._builder.Add(face, self.wire(loop))
         self._builder.Add(self._shell, face if outward else face.Reversed())

@@ -59,7 +59,9 @@ def _part_document(solid: cadquery.Solid, name: str) -> Any:
     XCAFApp_Application.GetApplication_s().InitDocument(document)
     label = XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).AddShape(solid.wrapped, False)
     TDataStd_Name.Set_s(label, TCollection_ExtendedString(name))
-    XCAFDoc_DocumentTool.ColorTool_s(document.Main()).SetColor(label, Quantity_Color(*_STEEL, Quantity_TOC_RGB), XCAFDoc_ColorGen)
+    XCAFDoc_DocumentTool.ColorTool_s(document.Main()).SetColor(
+        label, Quantity_Color(*_STEEL, Quantity_TOC_RGB), XCAFDoc_ColorGen
+    )
     return document
 
 

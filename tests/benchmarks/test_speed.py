@@ -1,0 +1,104 @@
+"""Timings, side by side with py_gearworks where it is installed (the `bench` extra): `pytest -m benchmark_suite --benchmark-group-by=group`.
+
+Compare medians within one run; machines are shared and noisy.
+"""
+
+from __future__ import annotations
+
+import math
+import resource
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import cadquery
+import pytest
+
+from gearcad import BasicRack, Gear
+from gearcad.solids import gear_solid, tessellate, write_step, write_stl
+
+pytestmark = pytest.mark.benchmark_suite
+
+GEARS: dict[str, dict[str, Any]] = {
+    "spur m2 z30": {"teeth": 30, "normal_module": 2.0, "face_width": 20.0},
+    "helical z13": {
+        "teeth": 13, "normal_module": 2.5, "face_width": 18.3, "helix_angle": 28.0, "profile_shift": 0.107,
+        "tooth_thinning": 0.08, "rack": BasicRack(root_radius=0.48),
+    },
+    "helical z44": {
+        "teeth": 44, "normal_module": 2.5, "face_width": 15.1, "helix_angle": -28.0, "profile_shift": -0.378,
+        "tooth_thinning": 0.16, "rack": BasicRack(root_radius=0.32),
+    },
+    "spur m1.5 z161": {"teeth": 161, "normal_module": 1.5, "face_width": 10.0, "profile_shift": 0.1682},
+}  # fmt: skip
+
+
+def _py_gearworks(given: dict[str, Any]) -> Callable[[], Any]:
+    peer = pytest.importorskip("py_gearworks", reason="the bench extra is not installed")
+    rack = given.get("rack", BasicRack())
+    shared = {
+        "number_of_teeth": given["teeth"], "module": given["normal_module"], "height": given["face_width"],
+        "profile_shift": given.get("profile_shift", 0.0), "dedendum_coefficient": rack.dedendum, "tip_truncation": 0.0,
+        "root_fillet": rack.root_radius,
+    }  # fmt: skip
+    if given.get("helix_angle"):
+        helix = math.radians(given["helix_angle"])
+        return lambda: peer.HelicalGear(helix_angle=helix, **shared).build_part()
+    return lambda: peer.SpurGear(**shared).build_part()
+
+
+@pytest.mark.parametrize("name", GEARS)
+def test_profile(benchmark: Any, name: str) -> None:
+    benchmark.group = f"profile within 1 um: {name}"
+    benchmark(lambda: Gear(**GEARS[name]).profile.points(0.001))
+
+
+@pytest.mark.parametrize("maker", ["gearcad", "py_gearworks"])
+@pytest.mark.parametrize("name", GEARS)
+def test_solid(benchmark: Any, name: str, maker: str) -> None:
+    benchmark.group = f"solid: {name}"
+    build = (lambda: gear_solid(Gear(**GEARS[name]))) if maker == "gearcad" else _py_gearworks(GEARS[name])
+    benchmark.pedantic(build, rounds=7, warmup_rounds=1)
+
+
+@pytest.mark.parametrize("name", GEARS)
+def test_step(benchmark: Any, name: str, tmp_path: Path) -> None:
+    benchmark.group = f"STEP: {name}"
+    solid = gear_solid(Gear(**GEARS[name]))
+    benchmark.pedantic(lambda: write_step(solid, tmp_path / "gear.step", name="gear"), rounds=5, warmup_rounds=1)
+    benchmark.extra_info["bytes"] = (tmp_path / "gear.step").stat().st_size
+
+
+@pytest.mark.parametrize("chord_error", [0.005, 0.001])
+@pytest.mark.parametrize("name", GEARS)
+def test_stl(benchmark: Any, name: str, chord_error: float, tmp_path: Path) -> None:
+    benchmark.group = f"STL at {1000 * chord_error:g} um: {name}"
+    gear = Gear(**GEARS[name])
+    benchmark.pedantic(
+        lambda: write_stl(tessellate(gear, chord_error), tmp_path / "gear.stl"), rounds=7, warmup_rounds=1
+    )
+    benchmark.extra_info["triangles"] = len(tessellate(gear, chord_error).faces)
+
+
+@pytest.mark.parametrize("name", GEARS)
+def test_brep_mesh_at_one_micrometre(benchmark: Any, name: str) -> None:
+    """The kernel's own mesher on the same solid at the same chord error (the copy drops an earlier mesh)."""
+    benchmark.group = f"STL at 1 um: {name}"
+    solid = gear_solid(Gear(**GEARS[name]))
+    shapes = iter([cadquery.Shape.cast(solid.copy(mesh=False).wrapped) for _ in range(2)])
+    benchmark.pedantic(lambda: next(shapes).mesh(0.001, 1.0), rounds=1, warmup_rounds=0)
+
+
+def test_import(benchmark: Any) -> None:
+    """A whole interpreter: `python -c pass` takes part of it."""
+    benchmark.group = "import gearcad (new process)"
+    benchmark.pedantic(lambda: subprocess.run([sys.executable, "-c", "import gearcad"], check=True), rounds=7, warmup_rounds=1)
+
+
+def test_peak_memory(benchmark: Any) -> None:
+    """Peak memory of the process so far, after the largest gear (MiB)."""
+    benchmark.group = "memory"
+    benchmark.pedantic(lambda: gear_solid(Gear(**GEARS["spur m1.5 z161"])), rounds=1)
+    benchmark.extra_info["peak_MiB"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024

@@ -1,0 +1,86 @@
+"""Two gears posed in mesh: parts, places, no overlap, and contact after a turn by the backlash."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import cadquery
+import pytest
+
+from gearcad import BasicRack, Body, Gear, GearPair, GeometryError
+from gearcad.solids import pair_assembly, write_step
+
+
+def _volvo() -> GearPair:
+    pinion = Gear(
+        teeth=13, normal_module=2.5, face_width=18.3, helix_angle=28, profile_shift=0.107, tip_alteration=-0.007246444637613869,
+        tooth_thinning=0.08, rack=BasicRack(root_radius=0.48), body=Body(bore=16),
+    )  # fmt: skip
+    wheel = Gear(
+        teeth=44, normal_module=2.5, face_width=15.1, helix_angle=-28, profile_shift=-0.378, tip_alteration=-0.007246444637613869,
+        tooth_thinning=0.16, rack=BasicRack(root_radius=0.32), body=Body(bore=45),
+    )  # fmt: skip
+    return GearPair(pinion=pinion, wheel=wheel, centre_distance=80.0)
+
+
+def _turned(assembly: cadquery.Assembly, degrees: float) -> tuple[cadquery.Shape, cadquery.Shape]:
+    """Pinion, and wheel turned about its own axis."""
+    pinion, wheel = (assembly.objects[name] for name in ("pinion", "wheel"))
+    place = wheel.loc * cadquery.Location(cadquery.Vector(), cadquery.Vector(0, 0, 1), degrees)
+    return pinion.obj, wheel.obj.moved(place)
+
+
+def _clean() -> GearPair:
+    """A helical pair of different widths whose tips stay clear of the fillets."""
+    shared = {"normal_module": 2.5, "rack": BasicRack(root_radius=0.3)}
+    pinion = Gear(teeth=21, face_width=12.3, helix_angle=28, profile_shift=0.1, tooth_thinning=0.08, **shared)
+    wheel = Gear(teeth=30, face_width=8.1, helix_angle=-28, profile_shift=-0.1, tooth_thinning=0.16, **shared)
+    pair = GearPair(pinion=pinion, wheel=wheel, axial_offset=0.7)
+    assert not pair.warnings
+    return pair
+
+
+def test_solids_touch_only_after_the_backlash() -> None:
+    """Independent of the 2D proofs: the kernel's own booleans, on the solids."""
+    pair = _clean()
+    assembly = pair_assembly(pair)
+    half_backlash = math.degrees(pair.circumferential_backlash / pair.working_pitch_diameters[1])
+    for side in (-1, 1):
+        for share, overlaps in ((0.0, False), (0.97, False), (1.1, True)):
+            pinion, wheel = _turned(assembly, side * share * half_backlash)
+            assert (pinion.intersect(wheel).Volume() > 1e-9) is overlaps, (side, share)
+
+
+@pytest.mark.parametrize("bracket", [False, True])
+def test_parts_reopen_named_coloured_and_separate(tmp_path: Path, bracket: bool) -> None:
+    pair = _volvo()
+    path = tmp_path / "assembly.step"
+    write_step(pair_assembly(pair, bracket=bracket), path, name=pair.name)
+    solids = cadquery.importers.importStep(str(path)).solids().vals()
+    assert len(solids) == 2 + bracket
+    assert all(solid.isValid() for solid in solids)
+    again = cadquery.Assembly.importStep(str(path))
+    names = ["pinion", "wheel", "bracket"][: 2 + bracket]
+    assert [child.name for child in again.children] == names
+    assert len({child.color.toTuple() for child in again.children}) == len(names)
+    centre = again.children[1].toCompound().BoundingBox()
+    assert (centre.xmin + centre.xmax) / 2 == pytest.approx(80.0, abs=0.5)
+    assert (centre.zmin + centre.zmax) / 2 == pytest.approx(18.3 / 2, abs=1e-4)
+
+
+def test_bracket_shafts_fill_the_bores() -> None:
+    assembly = pair_assembly(_volvo(), bracket=True)
+    bracket = assembly.objects["bracket"].obj
+    for x, diameter in ((0.0, 16.0), (80.0, 45.0)):
+        edge = [cadquery.Vector(x + s * diameter / 2, 0, 9.0) for s in (0.999, 1.001)]
+        assert [bracket.isInside(point) for point in edge] == [True, False]
+    for name in ("pinion", "wheel"):
+        part = assembly.objects[name]
+        assert part.obj.moved(part.loc).intersect(bracket).Volume() < 1e-9
+
+
+def test_bracket_needs_bores() -> None:
+    gear = Gear(teeth=20, normal_module=2, face_width=10)
+    with pytest.raises(GeometryError, match=r"pinion\.body\.bore"):
+        pair_assembly(GearPair(pinion=gear, wheel=gear), bracket=True)

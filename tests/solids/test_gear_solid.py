@@ -1,0 +1,169 @@
+"""The built B-rep against the exact surface, before and after a STEP round trip (identity and reference)."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import cadquery
+import numpy as np
+import pytest
+from OCP.BRepAdaptor import BRepAdaptor_Surface
+from OCP.BRepCheck import BRepCheck_Analyzer
+from OCP.GeomAbs import GeomAbs_BSplineSurface
+from support.exact import chamfered_volume, distance_to_section, section_area, toothed_volume
+
+from gearcad import BasicRack, Body, Gear
+from gearcad.solids import gear_solid, write_step
+
+FLANK_TOLERANCE = 1e-5  # mm: the promise is 0.01 um
+FITTED = 1e-6  # mm: what a section is fitted to; misses of this size would show a fault in the construction
+VOLUME_TOLERANCE = 1e-7  # 0.1 ppm
+
+_TIP = -0.007246444637613869
+_QUARTER_TURN = math.pi * 20 / math.tan(math.radians(30)) / math.cos(math.radians(30)) / 2  # z 20, m 2: 90 deg of twist
+
+GEARS = {
+    "volvo pinion": {
+        "teeth": 13, "normal_module": 2.5, "face_width": 18.3, "helix_angle": 28.0, "profile_shift": 0.107,
+        "tip_alteration": _TIP, "tooth_thinning": 0.08, "rack": BasicRack(root_radius=0.48),
+    },
+    "volvo wheel": {
+        "teeth": 44, "normal_module": 2.5, "face_width": 15.1, "helix_angle": -28.0, "profile_shift": -0.378,
+        "tip_alteration": _TIP, "tooth_thinning": 0.16, "rack": BasicRack(root_radius=0.32),
+    },
+    "alm 18": {"teeth": 18, "normal_module": 1.5, "face_width": 15.0, "profile_shift": 0.3422, "tip_alteration": -0.0104},
+    "alm 161": {"teeth": 161, "normal_module": 1.5, "face_width": 10.0, "profile_shift": 0.1682, "tip_alteration": -0.0104},
+    "z 6 undercut": {"teeth": 6, "normal_module": 2.0, "face_width": 10.0},
+    "z 8 undercut": {"teeth": 8, "normal_module": 2.0, "face_width": 10.0},
+    "z 10 undercut helical": {"teeth": 10, "normal_module": 2.0, "face_width": 10.0, "helix_angle": 15.0},
+    "z 300": {"teeth": 300, "normal_module": 1.0, "face_width": 10.0},
+    "twist 90": {"teeth": 20, "normal_module": 2.0, "face_width": _QUARTER_TURN, "helix_angle": 30.0},
+    "twist 180": {"teeth": 20, "normal_module": 2.0, "face_width": 2 * _QUARTER_TURN, "helix_angle": -30.0},
+    "twist 720": {"teeth": 20, "normal_module": 2.0, "face_width": 7.999 * _QUARTER_TURN, "helix_angle": 30.0},
+    "m 0.1": {"teeth": 20, "normal_module": 0.1, "face_width": 1.0, "helix_angle": 20.0},
+    "m 20": {"teeth": 20, "normal_module": 20.0, "face_width": 200.0, "helix_angle": -20.0},
+    "full radius": {"teeth": 20, "normal_module": 2.0, "face_width": 20.0, "rack": BasicRack(root_radius="full")},
+    "sharp tool": {"teeth": 20, "normal_module": 2.0, "face_width": 20.0, "rack": BasicRack(root_radius=0)},
+    "nearly pointed": {"teeth": 20, "normal_module": 2.0, "face_width": 20.0, "tip_diameter": 46.0},
+    "tip chamfer": {"teeth": 20, "normal_module": 2.0, "face_width": 20.0, "helix_angle": -12.0, "body": Body(tip_chamfer=0.3)},
+}  # fmt: skip
+
+
+def _valid_and_closed(shape: cadquery.Shape) -> bool:
+    return BRepCheck_Analyzer(shape.wrapped).IsValid() and all(shell.wrapped.Closed() for shell in shape.Shells())
+
+
+def _flank_points(solid: cadquery.Shape, width: float, most: int = 40, grid: int = 11) -> np.ndarray:
+    """Points (n, 3) inside the B-spline faces (flanks, fillets, chamfers), from the first and last of them."""
+    faces = [BRepAdaptor_Surface(face.wrapped) for face in solid.Faces()]
+    faces = [face for face in faces if face.GetType() == GeomAbs_BSplineSurface]
+    assert faces, "a gear without flanks"
+    chosen = faces if len(faces) <= 2 * most else faces[:most] + faces[-most:]
+    points = [face.Value(u, v) for face in chosen for u in np.linspace(0, 1, grid) for v in np.linspace(0, width, grid)]
+    return np.array([(p.X(), p.Y(), p.Z()) for p in points])
+
+
+@pytest.mark.parametrize("name", GEARS)
+def test_flanks_volume_and_validity_before_and_after_step(name: str, tmp_path: Path) -> None:
+    gear = Gear(**GEARS[name])
+    solid = gear_solid(gear)
+    path = tmp_path / "gear.step"
+    write_step(solid, path, name="gear")
+    again = cadquery.importers.importStep(str(path)).val()
+    assert len(again.Solids()) == 1
+    volume = toothed_volume(gear)
+    for shape in (solid, again):
+        assert _valid_and_closed(shape)
+        assert shape.Volume() == pytest.approx(volume, rel=VOLUME_TOLERANCE)
+    assert distance_to_section(gear, _flank_points(solid, gear.face_width)).max() < FITTED < FLANK_TOLERANCE
+
+
+@pytest.mark.parametrize("helix", [0.0, 28.0, -17.0])
+@pytest.mark.parametrize("side", ["front", "back", "both"])
+def test_bore_keyway_and_hub(helix: float, side: str) -> None:
+    body = Body(bore=16, keyway_width=5, keyway_depth=2.3, hub_diameter=26, hub_length=4, hub_side=side)
+    gear = Gear(teeth=20, normal_module=2, face_width=12, helix_angle=helix, body=body)
+    solid = gear_solid(gear)
+    half = math.asin(2.5 / 8)
+    segment = 64 * half - 2.5 * math.sqrt(64 - 2.5**2)  # part of the bore beyond the keyway's mouth
+    opening = math.pi * 64 + 5 * (10.3 - math.sqrt(64 - 2.5**2)) - segment
+    hubs = 2 if side == "both" else 1
+    expected = (section_area(gear) - opening) * 12 + hubs * 4 * (math.pi * 13**2 - opening)
+    assert _valid_and_closed(solid)
+    assert solid.Volume() == pytest.approx(expected, rel=VOLUME_TOLERANCE)
+    box = solid.BoundingBox()
+    assert box.zmin == pytest.approx(0 if side == "front" else -4, abs=1e-5)
+    assert box.zmax == pytest.approx(12 if side == "back" else 16, abs=1e-5)
+    assert len(solid.Faces()) == len(gear_solid(Gear(teeth=20, normal_module=2, face_width=12)).Faces()) + 4 + 2 * hubs
+
+
+CHAMFERS = {
+    "on the tip land": (0.02, 45.0, 0.0),
+    "on the flank": (0.8, 30.0, 0.0),
+    "over the tip chamfer": (1.0, 45.0, 0.3),
+    "into the fillet": (2.05, 60.0, 0.0),
+    "below the root": (5.2, 45.0, 0.0),
+    "flat, below the root": (2.2, 70.0, 0.3),
+    "begins on the form circle": (None, 45.0, 0.0),
+}
+
+
+@pytest.mark.parametrize("helix", [0.0, 28.0, -17.0])
+@pytest.mark.parametrize("name", CHAMFERS)
+def test_end_chamfer(name: str, helix: float, tmp_path: Path) -> None:
+    length, angle, tip = CHAMFERS[name]
+    plain = {"teeth": 20, "normal_module": 2.0, "face_width": 12.0, "helix_angle": helix}
+    if length is None:
+        bare = Gear(**plain)
+        length = (bare.tip_diameter - bare.form_diameter) / 2
+    gear = Gear(**plain, body=Body(bore=12, end_chamfer=length, end_chamfer_angle=angle, tip_chamfer=tip))
+    solid = gear_solid(gear)
+    assert _valid_and_closed(solid)
+    expected = toothed_volume(gear) - math.pi * 36 * 12 - chamfered_volume(gear)
+    assert solid.Volume() == pytest.approx(expected, rel=VOLUME_TOLERANCE)
+    path = tmp_path / "gear.step"
+    write_step(solid, path, name="gear")
+    again = cadquery.importers.importStep(str(path)).val()
+    assert _valid_and_closed(again)
+    assert again.Volume() == pytest.approx(expected, rel=VOLUME_TOLERANCE)
+
+
+def test_a_chamfer_is_what_a_boolean_would_cut() -> None:
+    body = Body(end_chamfer=1.2, end_chamfer_angle=40.0)
+    plain = {"teeth": 12, "normal_module": 2.0, "face_width": 8.0, "helix_angle": 20.0}
+    gear = Gear(**plain, body=body)
+    radius, depth = gear.tip_diameter / 2, 1.2 * math.tan(math.radians(40.0))
+    blank = cadquery.Workplane("XZ").polyline(
+        [(0, 0), (radius - depth, 0), (radius, 1.2), (radius, 6.8), (radius - depth, 8), (0, 8)]
+    )
+    cut = gear_solid(Gear(**plain)).intersect(blank.close().revolve(360, (0, 0), (0, 1)).val())
+    assert gear_solid(gear).Volume() == pytest.approx(cut.Volume(), rel=1e-6)  # the boolean's own tolerance
+
+
+def test_right_hand_helix_turns_counter_clockwise_with_z() -> None:
+    for helix in (20.0, -20.0):
+        gear = Gear(teeth=12, normal_module=2.0, face_width=10.0, helix_angle=helix)
+        solid = gear_solid(gear)
+        turn = math.copysign(2 * math.pi * 5.0 / gear.lead, helix)
+        inside = gear.tip_diameter / 2 - 0.05
+        point = cadquery.Vector(inside * math.cos(turn), inside * math.sin(turn), 5.0)
+        mirrored = cadquery.Vector(point.x, -point.y, 5.0)
+        assert solid.isInside(point)
+        assert not solid.isInside(mirrored)
+
+
+def test_equal_input_gives_equal_bytes(tmp_path: Path) -> None:
+    gear = Gear(**GEARS["volvo pinion"])
+    for name in ("a.step", "b.step"):
+        write_step(gear_solid(gear), tmp_path / name, name="pinion")
+    assert (tmp_path / "a.step").read_bytes() == (tmp_path / "b.step").read_bytes()
+    assert b"'pinion'" in (tmp_path / "a.step").read_bytes()
+
+
+def test_users_go_on_in_cadquery() -> None:
+    gear = Gear(teeth=20, normal_module=2, face_width=10, body=Body(bore=10))
+    drilled = cadquery.Workplane(obj=gear_solid(gear)).faces(">Z").workplane(origin=(0, 0, 0)).polarArray(11, 0, 360, 4).hole(4)
+    assert drilled.val().isValid()
+    removed = gear_solid(gear).Volume() - drilled.val().Volume()
+    assert removed == pytest.approx(4 * math.pi * 4 * 10, rel=1e-6)
