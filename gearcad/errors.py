@@ -24,14 +24,19 @@ __all__ = [
 
 Choice = TypeVar("Choice", bound=Enum)
 
+LONGEST_VALUE = 120
+"""Most characters of a wrong value that a message repeats: it should stay one readable line."""
+
 
 def format_number(value: object) -> str:
-    """A number as a user would type it: up to ten significant digits, no trailing zeros."""
+    """A number as a user would type it: up to ten significant digits, no trailing zeros; a long text is cut short."""
     if isinstance(value, Enum):
         return repr(value.value)
     if isinstance(value, bool) or not isinstance(value, int | float):
-        return repr(value)
-    return f"{value:.10g}"
+        text = repr(value)
+        return text if len(text) <= LONGEST_VALUE else f"{text[: LONGEST_VALUE - 3]}..."
+    # Adding zero makes -0.0 a plain zero.
+    return f"{value + 0.0:.10g}"
 
 
 class GearcadError(Exception):
@@ -88,7 +93,7 @@ def require_number(
         for words, bound in (("above", above), ("at least", at_least), ("below", below), ("at most", at_most))
         if bound is not None
     ]
-    permitted = "must be a number" + (" " + " and ".join(bounds) if bounds else "")
+    permitted = "must be a number" + (" " + " and ".join(bounds) if bounds else f" in {unit}" if unit else "")
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
         raise ParameterError(parameter, value, permitted, unit if isinstance(value, float) else "")
     inside = (
@@ -104,7 +109,8 @@ def require_number(
 def require_whole(parameter: str, value: Any, *, at_least: int, at_most: int) -> None:
     """Raise ParameterError unless `value` is a whole number (`int`) in the closed interval."""
     if isinstance(value, bool) or not isinstance(value, int) or not at_least <= value <= at_most:
-        raise ParameterError(parameter, value, f"must be a whole number from {at_least} to {at_most}")
+        written = f" (write {value:.0f}, not {value!r})" if isinstance(value, float) and value.is_integer() else ""
+        raise ParameterError(parameter, value, f"must be a whole number from {at_least} to {at_most}{written}")
 
 
 def as_choice(parameter: str, value: Any, kind: type[Choice]) -> Choice:

@@ -9,7 +9,13 @@ from gearcad.geometry.pair import CommonWidth, GearPair
 from gearcad.geometry.pose import MeshPose, mesh_pose
 from gearcad.geometry.profile import ToothProfile
 from gearcad.geometry.rack import ISO53_A, ISO53_B, ISO53_C, ISO53_D, NAMED_RACKS, BasicRack
-from gearcad.geometry.shift import ShiftSplit, profile_shift_sum, specific_sliding, split_profile_shift
+from gearcad.geometry.shift import (
+    ShiftSplit,
+    profile_shift_sum,
+    specific_sliding,
+    split_profile_shift,
+    zero_backlash_centre_distance,
+)
 
 __all__ = [
     "ISO53_A",
@@ -40,4 +46,5 @@ __all__ = [
     "span_measurement",
     "specific_sliding",
     "split_profile_shift",
+    "zero_backlash_centre_distance",
 ]

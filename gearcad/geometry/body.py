@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from enum import Enum
 
 from gearcad.errors import GeometryError, ParameterError, as_choice, require_number
+from gearcad.geometry.limits import at_most
 
 __all__ = ["Body", "HubSide"]
 
-LEAST_CHAMFER = 0.001
-"""Smallest chamfer (mm) that is made; less is no chamfer a shop could make or measure."""
+LEAST_FEATURE = 0.001
+"""Smallest size (mm) of anything on a body; less could be neither made nor measured."""
 
 
 class HubSide(Enum):
@@ -45,17 +46,15 @@ class Body:
     tip_chamfer: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("bore", "keyway_width", "keyway_depth", "hub_diameter", "hub_length"):
-            require_number(name, getattr(self, name), "mm", at_least=0)
+        for name in ("bore", "keyway_width", "keyway_depth", "hub_diameter", "hub_length", "end_chamfer", "tip_chamfer"):
+            value = getattr(self, name)
+            require_number(name, value, "mm", at_least=0)
+            if 0 < value < LEAST_FEATURE:
+                raise ParameterError(name, value, f"must be 0 or at least {LEAST_FEATURE} mm", "mm")
         object.__setattr__(self, "hub_side", as_choice("hub_side", self.hub_side, HubSide))
         if self.rim_diameter is not None:
             require_number("rim_diameter", self.rim_diameter, "mm", above=0)
         require_number("end_chamfer_angle", self.end_chamfer_angle, "deg", at_least=5, at_most=85)
-        for name in ("end_chamfer", "tip_chamfer"):
-            value = getattr(self, name)
-            require_number(name, value, "mm", at_least=0)
-            if 0 < value < LEAST_CHAMFER:
-                raise ParameterError(name, value, f"must be 0 or at least {LEAST_CHAMFER} mm", "mm")
         self._check_keyway()
         self._check_hub()
 
@@ -65,7 +64,7 @@ class Body:
                 raise GeometryError(other, getattr(self, other), f"must be above 0 mm, as {one} is given", "mm")
         if self.keyway_width and self.keyway_width > 0.9 * self.bore:
             raise GeometryError(
-                "keyway_width", self.keyway_width, f"must be at most {0.9 * self.bore:.6g} mm (0.9 of the bore)", "mm"
+                "keyway_width", self.keyway_width, f"must be at most {at_most(0.9 * self.bore)} mm (0.9 of the bore)", "mm"
             )
 
     def _check_hub(self) -> None:

@@ -21,6 +21,9 @@ __all__ = ["Chamfer", "Curve", "CurveKind", "Fillet", "Involute", "Land", "param
 
 Floats = NDArray[np.float64]
 
+AIM = 0.98
+"""Share of the chord error that the local rule aims at: where the bend changes along a chord it is off by up to 1 %."""
+
 
 class CurveKind(Enum):
     """What a piece of the outline is."""
@@ -143,7 +146,7 @@ def parameters_within(curve: Curve, chord_error: float) -> Floats:
     points, heading = curve.points(fine), curve.direction(fine)
     length = np.hypot(*np.diff(points, axis=0).T)
     turn = np.abs(np.diff(heading))
-    effort = np.r_[0.0, np.cumsum(np.sqrt(turn * length / (8 * chord_error)))]
+    effort = np.r_[0.0, np.cumsum(np.sqrt(turn * length / (8 * AIM * chord_error)))]
     count = max(1, math.ceil(effort[-1] * (1 - 1e-12)))
     s: Floats = np.interp(np.linspace(0.0, effort[-1], count + 1), effort, fine)
     s[0], s[-1] = 0.0, 1.0

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any
 
-from gearcad.errors import GeometryError, ParameterError, require_number, require_whole
+from gearcad.errors import GeometryError, InputError, ParameterError, require_number, require_whole
 from gearcad.geometry import inspection
 from gearcad.geometry.body import Body
 from gearcad.geometry.derived import Derived
+from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.profile import ToothProfile, base_half_angle
 from gearcad.geometry.rack import ISO53_A, BasicRack
 from gearcad.geometry.trochoid import ToolTip
@@ -19,6 +20,9 @@ __all__ = ["Gear"]
 
 LEAST_RIM = 0.1
 """Least wall between bore, keyway or hub and the circle they must stay inside, in normal modules."""
+
+LEAST_HELIX = 1e-6
+"""Smallest helix angle (degrees) of a helical gear; less moves a tooth by less than 2e-8 of the face width."""
 
 MOST_TWIST = 720.0
 """Largest twist of a tooth over the face width (degrees) that one screw surface spans to the accuracy promised."""
@@ -67,7 +71,10 @@ class Gear:
             else:
                 require_number(name, value, "mm", above=0)
         self._check_tool()
-        self.profile  # noqa: B018 - built now, so that a gear that exists has teeth
+        try:
+            self.profile  # noqa: B018 - built now, so that a gear that exists has teeth
+        except InputError as error:
+            raise error.within("body") if error.parameter == "tip_chamfer" else error from None
         self._check_body()
 
     def _check_numbers(self) -> None:
@@ -77,6 +84,8 @@ class Gear:
         require_number("normal_module", self.normal_module, "mm", at_least=0.01, at_most=200)
         require_number("face_width", self.face_width, "mm", above=0, at_most=10000)
         require_number("helix_angle", self.helix_angle, "deg", at_least=-75, at_most=75)
+        if 0 < abs(self.helix_angle) < LEAST_HELIX:
+            raise ParameterError("helix_angle", self.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
         require_number("profile_shift", self.profile_shift, at_least=-5, at_most=5)
         require_number("tip_alteration", self.tip_alteration, at_least=-5, at_most=5)
         require_number("tooth_thinning", self.tooth_thinning, "mm", at_least=0)
@@ -84,13 +93,13 @@ class Gear:
             if not isinstance(getattr(self, name), kind):
                 raise ParameterError(name, getattr(self, name), f"must be a {kind.__name__}")
         if self.face_width < 0.01 * self.normal_module:
-            least = 0.01 * self.normal_module
-            raise GeometryError("face_width", self.face_width, f"must be at least {least:g} mm (0.01 m_n)", "mm")
+            least = at_least(0.01 * self.normal_module)
+            raise GeometryError("face_width", self.face_width, f"must be at least {least} mm (0.01 m_n)", "mm")
         if self.twist > MOST_TWIST:
             raise GeometryError(
                 "face_width",
                 self.face_width,
-                f"must be at most {MOST_TWIST / 360 * self.lead:.6g} mm ({MOST_TWIST:g} deg of twist)",
+                f"must be at most {at_most(MOST_TWIST / 360 * self.lead)} mm ({MOST_TWIST:g} deg of twist)",
                 "mm",
             )
 
@@ -99,23 +108,33 @@ class Gear:
         m, angle = self.normal_module, self.rack.pressure_angle
         thinning = f"thinning {self.tooth_thinning:g} mm" if self.tooth_thinning else "no thinning"
         terms = f"for dedendum {self.dedendum:.6g}, pressure angle {angle:g} deg, {thinning}"
+        least_shift = -math.pi / 4 / math.tan(math.radians(angle))
+        if self.profile_shift <= least_shift:
+            raise GeometryError(
+                "profile_shift", self.profile_shift, f"must be above {at_least(least_shift)}: no tooth on the reference circle"
+            )
         if self.normal_tooth_thickness <= 0:
             raise GeometryError(
                 "tooth_thinning",
                 self.tooth_thinning,
-                f"must be below {self.normal_tooth_thickness + self.tooth_thinning:.6g} mm, the normal tooth thickness",
+                f"must be below {at_most(self.normal_tooth_thickness + self.tooth_thinning)} mm, the normal tooth thickness",
                 "mm",
             )
         if self.dedendum <= 0:
             limit = self.reference_diameter + 2 * m * self.profile_shift
-            raise GeometryError("root_diameter", self.root_diameter, f"must be below {limit:.6g} mm (no tool depth left)", "mm")
+            raise GeometryError(
+                "root_diameter", self.root_diameter, f"must be below {at_most(limit)} mm (no tool depth left)", "mm"
+            )
         full = self.rack.full_root_radius(self.dedendum, self.tooth_thinning / m)
         if full < 0:
-            which, value, unit = ("rack.dedendum", self.rack.dedendum, "")
-            if not isinstance(self.root_diameter, Derived):
-                which, value, unit = ("root_diameter", self.root_diameter, "mm")
             most = (math.pi / 4 + self.tooth_thinning / m / 2) / math.tan(math.radians(angle))
-            raise GeometryError(which, value, f"must keep the tool's depth below {most:.4g} m_n, where its flanks meet", unit)
+            if isinstance(self.root_diameter, Derived):
+                permitted = f"must be at most {at_most(most)}, where the tool's flanks meet"
+                raise GeometryError("rack.dedendum", self.rack.dedendum, permitted)
+            least = at_least(self.reference_diameter - 2 * m * (most - self.profile_shift))
+            raise GeometryError(
+                "root_diameter", self.root_diameter, f"must be at least {least} mm, where the tool's flanks meet", "mm"
+            )
         if self.rack.root_radius != "full" and float(self.rack.root_radius) > full:
             raise GeometryError(
                 "rack.root_radius", self.rack.root_radius, f"must be at most {_floor(full, 3)} (full radius) {terms}"
@@ -131,14 +150,14 @@ class Gear:
             ("hub_diameter", body.hub_diameter),
         ):
             if opening > root:
-                spare = f"must be at most {max(root, 0):.6g} mm ({rim})"
+                spare = f"must be at most {at_most(max(root, 0))} mm ({rim})"
                 if name == "keyway_depth":
                     spare = f"must leave {rim}: bore and keyway reach out to diameter {opening:.6g} mm"
                 raise GeometryError(f"body.{name}", getattr(body, name), spare, "mm")
         if body.hub_diameter and body.opening_diameter > body.hub_diameter - 2 * wall:
             least = body.opening_diameter + 2 * wall
             raise GeometryError(
-                "body.hub_diameter", body.hub_diameter, f"must be at least {least:.6g} mm, to hold bore and keyway", "mm"
+                "body.hub_diameter", body.hub_diameter, f"must be at least {at_least(least)} mm, to hold bore and keyway", "mm"
             )
         if body.end_chamfer:
             self._check_end_chamfer(max(body.opening_diameter, body.hub_diameter) + 2 * wall)
@@ -151,7 +170,7 @@ class Gear:
             raise GeometryError(
                 "body.end_chamfer",
                 length,
-                f"must be at most {_floor(most, 4):g} mm at {self.body.end_chamfer_angle:g} deg"
+                f"must be at most {at_most(max(most, 0))} mm at {self.body.end_chamfer_angle:g} deg"
                 " (0.49 of the face width, and some end face left)",
                 "mm",
             )
@@ -343,9 +362,14 @@ class Gear:
         lowest, highest = self.form_diameter, self.tip_form_diameter
         if not lowest <= self.span_contact_diameter <= highest:
             found.append(f"span: the anvils would touch at diameter {self.span_contact_diameter:.4f} mm, off the involute")
+        ball_contact = inspection.ball_contact_diameter(self, self.ball_diameter)
+        if not lowest <= ball_contact <= highest:
+            found.append(
+                f"balls: a ball of {self.ball_diameter:g} mm would touch at diameter {ball_contact:.4f} mm, off the involute"
+            )
         span_width = self.span_measurement * math.sin(math.radians(abs(self.base_helix_angle)))
         if self.face_width < span_width:
-            found.append(f"span: needs a face width of {span_width:.4f} mm")
+            found.append(f"span: measuring over {self.span_teeth} teeth needs a face width of {span_width:.4f} mm")
         return tuple(found)
 
     def to_dict(self) -> dict[str, Any]:

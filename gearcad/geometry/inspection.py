@@ -1,4 +1,4 @@
-"""Measuring a gear: base tangent length, dimension over balls and pins, chordal thickness (ISO 21771, clause 6).
+"""Measuring a gear: base tangent length, dimension over balls and pins, chordal thickness (ISO 21771).
 
 All lengths in mm. Tooth thinning is included: these are the dimensions of the gear as cut.
 """
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from gearcad.geometry.gear import Gear
 
 __all__ = [
+    "ball_contact_diameter",
     "chordal_thickness",
     "over_balls",
     "over_pins",
@@ -23,6 +24,10 @@ __all__ = [
     "span_teeth",
     "suggested_ball_diameter",
 ]
+
+
+_FARTHEST_CENTRE = math.radians(75)
+"""Largest pressure angle at the centre of a suggested ball: there its dimension is 3.9 times the base circle."""
 
 
 def _normal_base_pitch(gear: Gear) -> float:
@@ -36,7 +41,7 @@ def _middle_diameter(gear: Gear) -> float:
 
 
 def span_measurement(gear: Gear, teeth: int) -> float:
-    """Base tangent length over `teeth` teeth: W_k = (k - 1) p_bn + s_bn (ISO 21771, 6.2).
+    """Base tangent length over `teeth` teeth: W_k = (k - 1) p_bn + s_bn (ISO 21771).
 
     s_bn = cos alpha_n (s_n + z m_n inv alpha_t). Raises ParameterError unless 1 <= k <= z.
     """
@@ -76,10 +81,13 @@ def suggested_ball_diameter(gear: Gear) -> float:
 
     The normal through the ball's centre is tangent to the base cylinder: with the space half angle eta_y at the touching
     point, alpha_K = alpha_y + eta_y - tan^2 beta_b (tan alpha_K - tan alpha_y), D = d_b (tan alpha_K - tan alpha_y)/cos beta_b.
+    In the wide spaces of very few teeth these normals meet far out or never; the ball is then made to touch lower, perhaps
+    off the involute (see `ball_contact_diameter`).
     """
-    middle = _middle_diameter(gear)
-    space = math.pi / gear.teeth - math.radians(gear.profile.half_angle(middle / 2))
-    touching = math.acos(min(gear.base_diameter / middle, 1.0))
+    touching = math.acos(min(gear.base_diameter / _middle_diameter(gear), 1.0))
+    space_at_base = math.pi / gear.teeth - math.radians(gear.profile.base_half_angle)
+    touching = min(touching, math.atan(_FARTHEST_CENTRE - space_at_base))
+    space = space_at_base + math.tan(touching) - touching
     base_helix = math.radians(gear.base_helix_angle)
     centre = touching + space
     for _ in range(50):
@@ -88,6 +96,16 @@ def suggested_ball_diameter(gear: Gear) -> float:
     ideal = gear.base_diameter * (math.tan(centre) - math.tan(touching)) / math.cos(base_helix)
     step = 10.0 ** (math.floor(math.log10(ideal)) - 1)
     return round(math.ceil(ideal / step) * step, 9)
+
+
+def ball_contact_diameter(gear: Gear, ball: float) -> float:
+    """Diameter on which a ball of diameter `ball` touches the flanks: tan alpha_y = tan alpha_K - D cos beta_b/d_b.
+
+    The base circle for a ball so large that it would have to touch beyond it.
+    """
+    centre = math.acos(gear.base_diameter / _ball_circle(gear, ball))
+    tangent = math.tan(centre) - ball * math.cos(math.radians(gear.base_helix_angle)) / gear.base_diameter
+    return gear.base_diameter * math.hypot(1.0, max(tangent, 0.0))
 
 
 def over_balls(gear: Gear, ball: float) -> float:

@@ -1,4 +1,4 @@
-"""The involute function and its inverse (ISO 21771, 4.4: inv alpha = tan alpha - alpha)."""
+"""The involute function and its inverse (ISO 21771: inv alpha = tan alpha - alpha)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""GearPair: two external gears on parallel axes, and how they mesh (ISO 21771, clause 5)."""
+"""GearPair: two external gears on parallel axes, and how they mesh (ISO 21771)."""
 
 from __future__ import annotations
 
@@ -7,13 +7,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from gearcad.errors import GeometryError, ParameterError, require_number
+from gearcad.errors import GeometryError, ParameterError, format_number, require_number
 from gearcad.geometry import contact
 from gearcad.geometry.contact import ContactLineLengths, PathOfContact
 from gearcad.geometry.derived import Derived
 from gearcad.geometry.gear import Gear
-from gearcad.geometry.involute import inverse_involute, involute
-from gearcad.geometry.shift import profile_shift_sum
+from gearcad.geometry.interference import fillet_cut
+from gearcad.geometry.involute import involute
+from gearcad.geometry.limits import at_least, at_most
+from gearcad.geometry.shift import least_profile_shift_sum, profile_shift_sum, zero_backlash_centre_distance
 
 __all__ = ["CommonWidth", "GearPair"]
 
@@ -60,13 +62,17 @@ class GearPair:
         self._check_mates()
         given = self.centre_distance
         if given is None or isinstance(given, Derived):
-            object.__setattr__(self, "centre_distance", Derived(self._zero_backlash_centre_distance))
+            self._check_shift_sum()
+            object.__setattr__(self, "centre_distance", Derived(self._centre_distance_for(self.profile_shift_sum)))
         else:
             require_number("centre_distance", given, "mm", above=0)
         least = (self.pinion.base_diameter + self.wheel.base_diameter) / 2
         if self.centre_distance <= least:
             raise GeometryError(
-                "centre_distance", self.centre_distance, f"must be above {least:.6g} mm, where the base circles touch", "mm"
+                "centre_distance",
+                self.centre_distance,
+                f"must be above {at_least(least)} mm, where the base circles touch",
+                "mm",
             )
         self._check_overlap()
 
@@ -77,22 +83,27 @@ class GearPair:
             ("rack.pressure_angle", "deg", pinion.rack.pressure_angle, wheel.rack.pressure_angle),
         ):
             if abs(one - other) > _SAME:
-                raise GeometryError(f"wheel.{name}", other, f"must be {one:g} {unit}, as on the pinion", unit)
+                raise GeometryError(f"wheel.{name}", other, f"must be {format_number(one)} {unit}, as on the pinion", unit)
         if abs(pinion.helix_angle + wheel.helix_angle) > _SAME:
             raise GeometryError(
-                "wheel.helix_angle", wheel.helix_angle, f"must be {-pinion.helix_angle:g} deg, opposite to the pinion", "deg"
+                "wheel.helix_angle",
+                wheel.helix_angle,
+                f"must be {format_number(-pinion.helix_angle)} deg, opposite to the pinion",
+                "deg",
             )
         if self.common_width.width <= 0:
-            most = (pinion.face_width + wheel.face_width) / 2
-            raise GeometryError("axial_offset", self.axial_offset, f"must be below {most:g} mm: the gears do not face", "mm")
+            most = at_most((pinion.face_width + wheel.face_width) / 2)
+            permitted = f"must be between -{most} and {most} mm, for the gears to face each other"
+            raise GeometryError("axial_offset", self.axial_offset, permitted, "mm")
 
     def _check_overlap(self) -> None:
         backlash = self.circumferential_backlash
         if backlash < -ROUNDING_OVERLAP * self.pinion.normal_module:
+            least = at_least(self._centre_distance_for(self.profile_shift_sum - self._thinning_as_shift), digits=9)
             raise GeometryError(
                 "centre_distance",
                 self.centre_distance,
-                f"must be at least {self._fitting_centre_distance:.6f} mm for these profile shifts and thinning, or the"
+                f"must be at least {least} mm for these profile shifts and thinning, or the"
                 f" shift sum at most {self._fitting_shift_sum:.6f}: the backlash would be {backlash:.6f} mm",
                 "mm",
             )
@@ -127,16 +138,17 @@ class GearPair:
     @property
     def zero_backlash_shift_sum(self) -> float:
         """x_1 + x_2 that would mesh without backlash at this centre distance (no thinning)."""
-        return self._shift_sum_at(self.centre_distance)
+        return profile_shift_sum(**self._common, centre_distance=self.centre_distance)
 
-    def _shift_sum_at(self, centre_distance: float) -> float:
-        return profile_shift_sum(
-            normal_module=self.pinion.normal_module,
-            teeth=(self.pinion.teeth, self.wheel.teeth),
-            helix_angle=self.pinion.helix_angle,
-            pressure_angle=self.pinion.rack.pressure_angle,
-            centre_distance=centre_distance,
-        )
+    @property
+    def _common(self) -> dict[str, Any]:
+        """What the formulas of profile shift and centre distance want to know of both gears."""
+        return {
+            "normal_module": self.pinion.normal_module,
+            "teeth": (self.pinion.teeth, self.wheel.teeth),
+            "helix_angle": self.pinion.helix_angle,
+            "pressure_angle": self.pinion.rack.pressure_angle,
+        }
 
     @property
     def _thinning_as_shift(self) -> float:
@@ -148,29 +160,17 @@ class GearPair:
     def _fitting_shift_sum(self) -> float:
         return self.zero_backlash_shift_sum + self._thinning_as_shift
 
-    @property
-    def _zero_backlash_centre_distance(self) -> float:
-        return self._centre_distance_for(self.profile_shift_sum)
-
-    @property
-    def _fitting_centre_distance(self) -> float:
-        return self._centre_distance_for(self.profile_shift_sum - self._thinning_as_shift)
-
     def _centre_distance_for(self, shift_sum: float) -> float:
-        """a = a_d cos alpha_t/cos alpha_wt, inv alpha_wt = inv alpha_t + 2 tan alpha_n sum(x)/sum(z)."""
-        pinion = self.pinion
-        teeth = pinion.teeth + self.wheel.teeth
-        rise = 2 * math.tan(math.radians(pinion.rack.pressure_angle)) * shift_sum / teeth
-        value = involute(pinion.transverse_pressure_angle) + rise
-        if value <= 0:
-            least = -involute(pinion.transverse_pressure_angle) * shift_sum / rise
-            raise GeometryError(
-                "wheel.profile_shift",
-                self.wheel.profile_shift,
-                f"must be above {least - pinion.profile_shift:.6g}: no centre distance meshes without backlash",
+        return zero_backlash_centre_distance(**self._common, shift_sum=shift_sum)
+
+    def _check_shift_sum(self) -> None:
+        size = {name: value for name, value in self._common.items() if name != "normal_module"}
+        least = least_profile_shift_sum(**size)
+        if self.profile_shift_sum <= least:
+            permitted = (
+                f"must be above {at_least(least - self.pinion.profile_shift)}: no centre distance meshes without backlash"
             )
-        working = math.radians(inverse_involute(value))
-        return (pinion.base_diameter + self.wheel.base_diameter) / 2 / math.cos(working)
+            raise GeometryError("wheel.profile_shift", self.wheel.profile_shift, permitted)
 
     @property
     def working_transverse_pressure_angle(self) -> float:
@@ -264,21 +264,30 @@ class GearPair:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What an engineer should know about this pair before making it."""
-        found = []
-        gears = (("pinion", self.pinion, "wheel"), ("wheel", self.wheel, "pinion"))
-        for (owner, gear, mate), active in zip(gears, self.active_root_diameters, strict=True):
-            if gear.form_diameter > active:
-                found.append(
-                    f"fillet interference: the {mate}'s tip reaches diameter {active:.4f} mm of the {owner}, below its root"
-                    f" form circle {gear.form_diameter:.4f} mm"
-                )
-        if self.circumferential_backlash < 0:
+        found = self._fillet_interference()
+        if self.circumferential_backlash < -_SAME * self.pinion.normal_module:
             found.append(
                 f"zero backlash: the printed profile shifts overlap by {-self.circumferential_backlash:.3g} mm (rounding)"
             )
         if self.transverse_contact_ratio < 1:
             found.append(f"contact ratio: transverse contact ratio {self.transverse_contact_ratio:.4f} is below 1")
         return tuple(found)
+
+    def _fillet_interference(self) -> list[str]:
+        found = []
+        gears = (("pinion", self.pinion, "wheel", self.wheel), ("wheel", self.wheel, "pinion", self.pinion))
+        for (owner, gear, other, mate), active in zip(gears, self.active_root_diameters, strict=True):
+            form = f"its root form circle {gear.form_diameter:.4f} mm"
+            if gear.form_diameter > active:
+                found.append(
+                    f"fillet interference: the {other}'s tip reaches diameter {active:.4f} mm of the {owner}, below {form}"
+                )
+            elif cut := fillet_cut(self, gear, mate):
+                found.append(
+                    f"fillet interference: the edge of the {other}'s tip cuts {cut.depth:.2g} mm into the {owner}'s fillet at"
+                    f" diameter {cut.diameter:.4f} mm, below {form}"
+                )
+        return found
 
     def to_dict(self) -> dict[str, Any]:
         """Derived properties of the pair under their names, for JSON (the gears have their own)."""

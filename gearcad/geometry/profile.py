@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearcad.errors import GeometryError, ParameterError, require_number
 from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Fillet, Involute, Land, parameters_within
-from gearcad.geometry.involute import involute
+from gearcad.geometry.involute import inverse_involute, involute
+from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.trochoid import ToolTip
 
 __all__ = ["ToothProfile"]
@@ -47,28 +48,63 @@ class ToothProfile:
     def __post_init__(self) -> None:
         if self.root_diameter <= 0:
             raise GeometryError("root_diameter", self.root_diameter, "must be above 0 mm: the tool reaches the axis", "mm")
-        if self.tip_diameter <= max(self.root_diameter, self.base_diameter):
-            limit = max(self.root_diameter, self.base_diameter)
-            raise GeometryError("tip_diameter", self.tip_diameter, f"must be above {limit:.6g} mm (root and base circle)", "mm")
-        self._refuse_pointed()
-        if self.form_diameter >= self.tip_form_diameter:
+        if self.tip_diameter <= self.form_diameter:
             raise GeometryError(
                 "tip_diameter",
-                self.tip_form_diameter,
-                f"must be above the root form circle {self.form_diameter:.6g} mm: no involute is left on the flank",
+                self.tip_diameter,
+                f"must be above {at_least(self.form_diameter)} mm, the root form circle: no involute is left on the flank",
                 "mm",
             )
-        waist = float(np.min(self._fillet.polar(np.linspace(0, 1, 65))[1]))
-        if waist * self.root_diameter < LEAST_LAND:
+        self._refuse_pointed()
+        if self.tip_chamfer:
+            self._refuse_wrong_chamfer()
+        if self.undercut and self._waist < LEAST_LAND:
             raise GeometryError("teeth", self.teeth, "must be more, or the profile shift larger: undercut severs the tooth")
 
     def _refuse_pointed(self) -> None:
         if self.tip_thickness < LEAST_LAND:
             raise GeometryError(
-                "tip_diameter", self.tip_diameter, f"must be at most {self._pointed_diameter:.6g} mm (pointed tooth)", "mm"
+                "tip_diameter",
+                self.tip_diameter,
+                f"must be at most {at_most(self._pointed_diameter)} mm (pointed tooth)",
+                "mm",
             )
-        if self.tip_chamfer and self.tip_diameter * self._land_half_angle < LEAST_LAND:
-            raise GeometryError("tip_chamfer", self.tip_chamfer, "must be less: it leaves no tip land", "mm")
+
+    def _refuse_wrong_chamfer(self) -> None:
+        """The chamfer must leave some involute and some tip land, and must take material off, not add it."""
+        deepest = (self.tip_diameter - self.form_diameter) / 2
+        if self.tip_chamfer >= deepest:
+            raise GeometryError(
+                "tip_chamfer",
+                self.tip_chamfer,
+                f"must be below {at_most(deepest)} mm: no involute is left above the root form circle",
+                "mm",
+            )
+        if self._land_half_angle >= self._tip_half_angle:
+            raise GeometryError(
+                "tip_chamfer",
+                self.tip_chamfer,
+                "must be 0 mm: at this tip circle the flank leans in by more than the chamfer's 45 deg",
+                "mm",
+            )
+        if self.tip_diameter * self._land_half_angle < LEAST_LAND:
+            raise GeometryError(
+                "tip_chamfer",
+                self.tip_chamfer,
+                f"must be at most {self._widest_chamfer(deepest)} mm: no tip land is left",
+                "mm",
+            )
+
+    def _widest_chamfer(self, deepest: float) -> str:
+        """The largest tip chamfer (mm, as text) that leaves a land on the tip."""
+        from scipy.optimize import brentq
+
+        def land(chamfer: float) -> float:
+            return self.tip_diameter * float(self._chamfer_of(chamfer).polar(1.0)[1]) - 2 * LEAST_LAND
+
+        if land(0.0) <= 0:
+            return "0"
+        return at_most(float(brentq(land, 0.0, min(self.tip_chamfer, deepest))))
 
     # ------------------------------------------------------------------ characteristic circles
 
@@ -79,7 +115,7 @@ class ToothProfile:
 
     @cached_property
     def form_diameter(self) -> float:
-        """Root form circle d_Ff (mm), where involute and trochoid meet (ISO 21771, 5.4.3)."""
+        """Root form circle d_Ff (mm), where involute and trochoid meet (ISO 21771)."""
         if self.undercut:
             return 2 * float(self.tool.cut(self._last_theta)[0])
         sine = self._sin_transverse_angle
@@ -125,13 +161,26 @@ class ToothProfile:
 
         if excess(start) >= 0:  # undercut by less than rounding: the curves meet on the base circle
             return start
+        if excess(end) <= 0:
+            return end
         return float(brentq(excess, start, end, xtol=1e-15, rtol=8.9e-16))
 
     @cached_property
     def _pointed_diameter(self) -> float:
-        from gearcad.geometry.involute import inverse_involute
+        """Diameter (mm) at which the flanks meet, less what a land of LEAST_LAND needs."""
+        angle = math.radians(inverse_involute(math.radians(self.base_half_angle)))
+        return self.base_diameter / math.cos(angle) - 2 * LEAST_LAND / math.tan(angle)
 
-        return self.base_diameter / math.cos(math.radians(inverse_involute(math.radians(self.base_half_angle))))
+    @property
+    def _waist(self) -> float:
+        """Least tooth thickness along the trochoid (mm); negative where undercut cuts the tooth off."""
+        s = np.linspace(0.0, 1.0, 65)
+        for _ in range(3):
+            radius, angle = self._fillet.polar(s)
+            thickness = 2 * radius * angle
+            least = int(np.argmin(thickness))
+            s = np.linspace(s[max(least - 1, 0)], s[min(least + 1, 64)], 65)
+        return float(thickness[least])
 
     # ------------------------------------------------------------------ the outline
 
@@ -154,7 +203,10 @@ class ToothProfile:
 
     @cached_property
     def _chamfer(self) -> Chamfer:
-        radius, tip = self.tip_form_diameter / 2, self.tip_diameter / 2
+        return self._chamfer_of(self.tip_chamfer)
+
+    def _chamfer_of(self, height: float) -> Chamfer:
+        radius, tip = self.tip_diameter / 2 - height, self.tip_diameter / 2
         run = (math.sqrt(2 * tip**2 - radius**2) - radius) / 2
         return Chamfer(radius, float(self._involute_half_angle(radius)), run)
 
@@ -239,5 +291,5 @@ class ToothProfile:
 
 
 def base_half_angle(teeth: int, normal_thickness: float, normal_module: float, transverse_pressure_angle: float) -> float:
-    """Half tooth angle on the base circle in degrees: s_n/(m_n z) + inv alpha_t (ISO 21771, 5.2)."""
+    """Half tooth angle on the base circle in degrees: s_n/(m_n z) + inv alpha_t (ISO 21771)."""
     return math.degrees(normal_thickness / (normal_module * teeth) + involute(transverse_pressure_angle))

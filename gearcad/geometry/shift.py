@@ -6,9 +6,17 @@ import math
 from enum import Enum
 
 from gearcad.errors import GeometryError
-from gearcad.geometry.involute import involute
+from gearcad.geometry.involute import inverse_involute, involute
+from gearcad.geometry.limits import at_least
 
-__all__ = ["ShiftSplit", "profile_shift_sum", "specific_sliding", "split_profile_shift"]
+__all__ = [
+    "ShiftSplit",
+    "least_profile_shift_sum",
+    "profile_shift_sum",
+    "specific_sliding",
+    "split_profile_shift",
+    "zero_backlash_centre_distance",
+]
 
 
 class ShiftSplit(Enum):
@@ -30,17 +38,40 @@ def _transverse(normal_module: float, teeth: int, helix_angle: float, pressure_a
 def profile_shift_sum(
     *, normal_module: float, teeth: tuple[int, int], helix_angle: float, pressure_angle: float, centre_distance: float
 ) -> float:
-    """x_1 + x_2 that meshes without backlash at `centre_distance` (mm); angles in degrees (ISO 21771, 5.3).
+    """x_1 + x_2 that meshes without backlash at `centre_distance` (mm); angles in degrees (ISO 21771).
 
     (z_1 + z_2)(inv alpha_wt - inv alpha_t)/(2 tan alpha_n). Raises GeometryError where the base circles would overlap.
     """
     _, base, angle = _transverse(normal_module, sum(teeth), helix_angle, pressure_angle)
     if centre_distance <= base:
         raise GeometryError(
-            "centre_distance", centre_distance, f"must be above {base:.6g} mm, where the base circles touch", "mm"
+            "centre_distance", centre_distance, f"must be above {at_least(base)} mm, where the base circles touch", "mm"
         )
     working = math.degrees(math.acos(base / centre_distance))
     return sum(teeth) * (involute(working) - involute(angle)) / (2 * math.tan(math.radians(pressure_angle)))
+
+
+def zero_backlash_centre_distance(
+    *, normal_module: float, teeth: tuple[int, int], helix_angle: float, pressure_angle: float, shift_sum: float
+) -> float:
+    """Centre distance (mm) at which teeth with this shift sum mesh without backlash; angles in degrees (ISO 21771).
+
+    a = a_d cos alpha_t/cos alpha_wt with inv alpha_wt = inv alpha_t + 2 tan alpha_n (x_1 + x_2)/(z_1 + z_2). Raises
+    GeometryError for a sum so negative that there is none.
+    """
+    base = _transverse(normal_module, sum(teeth), helix_angle, pressure_angle)[1]
+    least = least_profile_shift_sum(teeth=teeth, helix_angle=helix_angle, pressure_angle=pressure_angle)
+    if shift_sum <= least:
+        permitted = f"must be above {at_least(least)}: no centre distance meshes without backlash"
+        raise GeometryError("profile_shift_sum", shift_sum, permitted)
+    value = 2 * math.tan(math.radians(pressure_angle)) * (shift_sum - least) / sum(teeth)
+    return base / math.cos(math.radians(inverse_involute(value)))
+
+
+def least_profile_shift_sum(*, teeth: tuple[int, int], helix_angle: float, pressure_angle: float) -> float:
+    """x_1 + x_2 at which inv alpha_wt is 0 and the base circles touch: the lower bound of all shift sums that mesh."""
+    _, _, angle = _transverse(1.0, sum(teeth), helix_angle, pressure_angle)
+    return -sum(teeth) * involute(angle) / (2 * math.tan(math.radians(pressure_angle)))
 
 
 def specific_sliding(

@@ -16,6 +16,14 @@ __all__ = ["write_step"]
 
 _TIME_STAMP = re.compile(rb"(FILE_NAME\('[^']*',)'[^']*'")
 _OCCURRENCE = re.compile(rb"(NEXT_ASSEMBLY_USAGE_OCCURRENCE\()'\d+'")
+_COLOUR_BLOCK = re.compile(
+    rb"^#(\d+) = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION\([^;]*;"
+    rb"\s*#\d+ = STYLED_ITEM\('color',\([^)]*\),#(\d+)\);"
+    rb".*?(?=^#\d+ = MECHANICAL_DESIGN|^ENDSEC)",
+    re.DOTALL | re.MULTILINE,
+)
+_REFERENCE = re.compile(rb"#(\d+)")
+_ENTITY = re.compile(rb"^#\d+ = ", re.MULTILINE)
 _STEEL = (0.62, 0.66, 0.72)
 
 
@@ -69,4 +77,26 @@ def _reproducible(content: bytes) -> bytes:
     """The kernel stamps the time and numbers occurrences through the whole session: fix both."""
     content = _TIME_STAMP.sub(rb"\1'2000-01-01T00:00:00'", content, count=1)
     number = count(1)
-    return _OCCURRENCE.sub(lambda match: match[1] + b"'%d'" % next(number), content)
+    return _sort_colours(_OCCURRENCE.sub(lambda match: match[1] + b"'%d'" % next(number), content))
+
+
+def _sort_colours(content: bytes) -> bytes:
+    """Order the colours at the end of the data by the entity they colour: the kernel's order is that of addresses in memory.
+
+    Each block of entities is renumbered to its new place; a block refers to itself and to geometry before all blocks, as
+    long as no two parts share a colour.
+    """
+    blocks = list(_COLOUR_BLOCK.finditer(content))
+    if len(blocks) < 2:
+        return content
+    first = number = int(blocks[0][1])
+    ordered = b""
+    for block in sorted(blocks, key=lambda block: int(block[2])):
+        ordered += _renumber(block[0], first, number - int(block[1]))
+        number += len(_ENTITY.findall(block[0]))
+    return content[: blocks[0].start()] + ordered + content[blocks[-1].end() :]
+
+
+def _renumber(block: bytes, first: int, shift: int) -> bytes:
+    """Shift every entity number from `first` on."""
+    return _REFERENCE.sub(lambda match: b"#%d" % (int(match[1]) + (shift if int(match[1]) >= first else 0)), block)

@@ -1,4 +1,6 @@
-"""Timings, side by side with py_gearworks where it is installed (the `bench` extra): `pytest -m benchmark_suite --benchmark-group-by=group`.
+"""Timings, side by side with py_gearworks where it is installed (the `bench` extra).
+
+`pytest -m benchmark_suite tests/benchmarks --benchmark-group-by=group`
 
 Compare medians within one run; machines are shared and noisy.
 """
@@ -76,9 +78,7 @@ def test_step(benchmark: Any, name: str, tmp_path: Path) -> None:
 def test_stl(benchmark: Any, name: str, chord_error: float, tmp_path: Path) -> None:
     benchmark.group = f"STL at {1000 * chord_error:g} um: {name}"
     gear = Gear(**GEARS[name])
-    benchmark.pedantic(
-        lambda: write_stl(tessellate(gear, chord_error), tmp_path / "gear.stl"), rounds=7, warmup_rounds=1
-    )
+    benchmark.pedantic(lambda: write_stl(tessellate(gear, chord_error), tmp_path / "gear.stl"), rounds=7, warmup_rounds=1)
     benchmark.extra_info["triangles"] = len(tessellate(gear, chord_error).faces)
 
 

@@ -11,14 +11,16 @@ import pytest
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError
 from gearcad.solids import pair_assembly, write_step
 
+TIP_ALTERATION = -0.007246444637613869  # (80 - a_d)/2.5 - (0.107 - 0.378)
+
 
 def _volvo() -> GearPair:
     pinion = Gear(
-        teeth=13, normal_module=2.5, face_width=18.3, helix_angle=28, profile_shift=0.107, tip_alteration=-0.007246444637613869,
+        teeth=13, normal_module=2.5, face_width=18.3, helix_angle=28, profile_shift=0.107, tip_alteration=TIP_ALTERATION,
         tooth_thinning=0.08, rack=BasicRack(root_radius=0.48), body=Body(bore=16),
     )  # fmt: skip
     wheel = Gear(
-        teeth=44, normal_module=2.5, face_width=15.1, helix_angle=-28, profile_shift=-0.378, tip_alteration=-0.007246444637613869,
+        teeth=44, normal_module=2.5, face_width=15.1, helix_angle=-28, profile_shift=-0.378, tip_alteration=TIP_ALTERATION,
         tooth_thinning=0.16, rack=BasicRack(root_radius=0.32), body=Body(bore=45),
     )  # fmt: skip
     return GearPair(pinion=pinion, wheel=wheel, centre_distance=80.0)

@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 
 from gearcad import Gear
 
-__all__ = ["chamfered_volume", "distance_to_section", "section_area", "toothed_volume"]
+__all__ = ["chamfered_volume", "distance_to_section", "section_area", "solid_volume", "toothed_volume"]
 
 Floats = NDArray[np.float64]
 
@@ -56,6 +56,21 @@ def chamfered_volume(gear: Gear) -> float:
 
     below = quad(lambda r: depth(r) * 2 * math.pi * r, min(start, root), root, epsabs=1e-14)[0]
     return 2 * (below + _over_teeth(gear, depth, start))
+
+
+def solid_volume(gear: Gear) -> float:
+    """Volume of the whole gear (mm^3): teeth, less end chamfers, with hubs, less bore and keyway through everything."""
+    body, opening = gear.body, 0.0
+    if body.bore:
+        radius, half = body.bore / 2, body.keyway_width / 2
+        mouth = math.sqrt(radius**2 - half**2)
+        segment = radius**2 * math.asin(half / radius) - half * mouth  # of the bore, beyond the mouth of the keyway
+        opening = math.pi * radius**2
+        if body.keyway_width:
+            opening += body.keyway_width * (radius + body.keyway_depth - mouth) - segment
+    hubs = sum(body.hub_ends)
+    ends = chamfered_volume(gear) if body.end_chamfer else 0.0
+    return toothed_volume(gear) - ends + hubs * math.pi * body.hub_diameter**2 / 4 - opening * (gear.face_width + hubs)
 
 
 def distance_to_section(gear: Gear, points: Floats) -> Floats:

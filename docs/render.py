@@ -1,0 +1,123 @@
+"""Renders the pictures of this folder from the reference pair: `python docs/render.py` (off screen, through VTK)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 - registers the renderer
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkPolyDataNormals
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkLight,
+    vtkPolyDataMapper,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkWindowToImageFilter,
+)
+
+from gearcad import BasicRack, Body, Gear, GearPair
+from gearcad.geometry import mesh_pose
+from gearcad.solids import tessellate
+
+FOLDER = Path(__file__).parent
+BRASS, STEEL = (0.83, 0.62, 0.30), (0.60, 0.68, 0.76)
+FEATURE_ANGLE = 25.0
+
+Place = tuple[float, float, float]
+
+
+def reference_pair() -> GearPair:
+    """The helical pair 13/44 of the Volvo thesis, with keyways and small chamfers."""
+    shared = {"normal_module": 2.5, "tip_alteration": -0.00724644}
+    pinion = Gear(
+        teeth=13, face_width=18.3, helix_angle=28, profile_shift=0.107, tooth_thinning=0.08, rack=BasicRack(root_radius=0.48),
+        body=Body(bore=16, keyway_width=5, keyway_depth=2.3, end_chamfer=0.6), **shared,
+    )  # fmt: skip
+    wheel = Gear(
+        teeth=44, face_width=15.1, helix_angle=-28, profile_shift=-0.378, tooth_thinning=0.16, rack=BasicRack(root_radius=0.32),
+        body=Body(bore=45, keyway_width=14, keyway_depth=3.8, end_chamfer=0.6), **shared,
+    )  # fmt: skip
+    return GearPair(pinion=pinion, wheel=wheel, centre_distance=80.0)
+
+
+def actors(gear: Gear, colour: tuple[float, float, float], turn: float = 0.0, x: float = 0.0, z: float = 0.0) -> list[vtkActor]:
+    """A shaded body and its sharp edges."""
+    facets = tessellate(gear, 0.002)
+    angle = np.radians(turn)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    points = facets.vertices @ np.array([[cosine, sine, 0], [-sine, cosine, 0], [0, 0, 1]]) + [x, 0, z]
+    cells = np.ascontiguousarray(facets.faces, np.int64).ravel()
+    mesh, places, triangles = vtkPolyData(), vtkPoints(), vtkCellArray()
+    places.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
+    triangles.SetData(3, numpy_to_vtkIdTypeArray(cells, deep=True))
+    mesh.SetPoints(places)
+    mesh.SetPolys(triangles)
+    smooth, edges = vtkPolyDataNormals(), vtkFeatureEdges()
+    smooth.SetInputData(mesh)
+    smooth.SetFeatureAngle(FEATURE_ANGLE)
+    edges.SetInputData(mesh)
+    edges.SetFeatureAngle(FEATURE_ANGLE)
+    edges.BoundaryEdgesOff()
+    edges.ColoringOff()
+    made = []
+    for source, shade in ((smooth, colour), (edges, (0.12, 0.13, 0.15))):
+        mapper, actor = vtkPolyDataMapper(), vtkActor()
+        mapper.SetInputConnection(source.GetOutputPort())
+        mapper.ScalarVisibilityOff()
+        actor.SetMapper(mapper)
+        actor.GetProperty().SetColor(*shade)
+        made.append(actor)
+    made[0].GetProperty().SetSpecular(0.35)
+    made[0].GetProperty().SetSpecularPower(25)
+    made[1].GetProperty().SetLineWidth(1.6)
+    return made
+
+
+def render(parts: list[vtkActor], path: Path, *, focus: Place, eye: Place, scale: float) -> None:
+    """Write one picture; `eye` is the direction to look from, `scale` half the height of the view in mm."""
+    renderer, window = vtkRenderer(), vtkRenderWindow()
+    renderer.SetBackground(1, 1, 1)
+    for part in parts:
+        renderer.AddActor(part)
+    for direction, strength in (((-0.6, -0.9, 1.3), 0.85), ((0.9, -0.7, 0.5), 0.55), ((0.0, 1.0, 0.4), 0.3)):
+        light = vtkLight()
+        light.SetLightTypeToSceneLight()
+        light.SetPosition(*direction)
+        light.SetIntensity(strength)
+        light.PositionalOff()
+        renderer.AddLight(light)
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetFocalPoint(*focus)
+    camera.SetPosition(*(np.array(focus) + 300 * np.array(eye) / np.linalg.norm(eye)))
+    camera.SetViewUp(0, 0, 1)
+    camera.SetParallelScale(scale)
+    renderer.ResetCameraClippingRange()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(8)
+    window.SetSize(1400, 700)
+    window.AddRenderer(renderer)
+    window.Render()
+    image, writer = vtkWindowToImageFilter(), vtkPNGWriter()
+    image.SetInput(window)
+    image.ReadFrontBufferOff()
+    writer.SetFileName(str(path))
+    writer.SetInputConnection(image.GetOutputPort())
+    writer.Write()
+
+
+def main() -> None:
+    pair = reference_pair()
+    pose = mesh_pose(pair)
+    pinion, wheel = actors(pair.pinion, BRASS), actors(pair.wheel, STEEL, pose.rotation, pose.x, pose.z)
+    render(pinion + wheel, FOLDER / "pair.png", focus=(62, 0, 6), eye=(-0.3, -1.0, 0.75), scale=50)
+    render(pinion + wheel, FOLDER / "mesh.png", focus=(19, 0, 18), eye=(0.0, -0.05, 1.0), scale=9)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,147 @@
+"""Build: a design in, its files out - solids, meshes, contours, points, and the data sheet as `data.json`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from enum import Enum
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from gearcad.errors import GeometryError, ParameterError, require_number
+from gearcad.geometry import Gear, GearPair, mesh_pose
+from gearcad.output import json_text, staged_files
+from gearcad.spec.design import Design
+
+if TYPE_CHECKING:
+    from gearcad.solids import Facets
+
+__all__ = ["DEFAULT_FORMATS", "Format", "Progress", "build"]
+
+
+class Format(Enum):
+    """What can be written of a design; the value is the suffix of the file."""
+
+    STEP = "step"
+    STL = "stl"
+    THREE_MF = "3mf"
+    GLB = "glb"
+    DXF = "dxf"
+    CSV = "csv"
+
+
+DEFAULT_FORMATS = (Format.STEP, Format.STL)
+
+_SCENES = (Format.THREE_MF, Format.GLB)
+_ASSEMBLED = (Format.STEP, *_SCENES)
+
+Progress = Callable[[str, int, int], None]
+"""Called before each file with its name, how many are done, and how many there are."""
+
+
+class _Step(NamedTuple):
+    """One file to write: its name, and what writes it when given the path."""
+
+    file: str
+    write: Callable[[Path], None]
+
+
+def build(
+    design: Design,
+    folder: Path,
+    formats: Iterable[Format] = DEFAULT_FORMATS,
+    *,
+    bracket: bool = False,
+    chord_error: float = 0.005,
+    progress: Progress | None = None,
+) -> list[Path]:
+    """Write the design's files into `folder` and return their paths in the order they were made.
+
+    Per gear `pinion.step`, `wheel.step` or `gear.step` and so on; a pair also gets `assembly.*` in STEP, 3MF and GLB, posed in
+    mesh; `bracket` puts it on two shafts with a bracket (STEP). `chord_error` (mm) bounds the facets of STL, 3MF and GLB.
+    All files appear, or none. Raises ParameterError or GeometryError for wrong input, a folder that cannot be written too.
+    """
+    wanted = set(formats)
+    _check(design, wanted, bracket, chord_error)
+    steps = list(_plan(design, [kind for kind in Format if kind in wanted], bracket, chord_error))
+    with staged_files(folder) as staging:
+        for done, step in enumerate(steps):
+            if progress is not None:
+                progress(step.file, done, len(steps))
+            step.write(staging / step.file)
+    return [folder / step.file for step in steps]
+
+
+def _check(design: Design, formats: set[Format], bracket: bool, chord_error: float) -> None:
+    if not formats:
+        raise ParameterError("format", "", f"must be one or more of {', '.join(kind.value for kind in Format)}")
+    require_number("chord_error", chord_error, "mm", above=0)
+    if bracket and design.pair is None:
+        raise GeometryError("bracket", True, "needs a pair: a single gear has no assembly")
+    if bracket and Format.STEP not in formats:
+        raise GeometryError("bracket", True, "needs the format step: the bracket is part of assembly.step")
+
+
+def _plan(design: Design, formats: list[Format], bracket: bool, chord_error: float) -> Iterator[_Step]:
+    """Every file of the design, quickest first."""
+    yield _Step("data.json", partial(_write_data, design))
+    meshes = _Meshes(chord_error)
+    for kind in reversed(formats):
+        for name, gear in design.gears.items():
+            yield _Step(f"{name}.{kind.value}", partial(_write_gear, kind, name, gear, meshes))
+        if design.pair is not None and kind in _ASSEMBLED:
+            yield _Step(f"assembly.{kind.value}", partial(_write_assembly, kind, design.pair, meshes, bracket))
+
+
+@dataclass(frozen=True)
+class _Meshes:
+    """The facets of each gear, made once for all the formats that hold them."""
+
+    chord_error: float
+    made: dict[int, Facets] = field(default_factory=dict)
+
+    def of(self, gear: Gear) -> Facets:
+        from gearcad.solids import tessellate
+
+        if id(gear) not in self.made:
+            self.made[id(gear)] = tessellate(gear, self.chord_error)
+        return self.made[id(gear)]
+
+
+def _write_data(design: Design, path: Path) -> None:
+    path.write_text(json_text(design.to_dict()), encoding="utf-8")
+
+
+def _write_gear(kind: Format, name: str, gear: Gear, meshes: _Meshes, path: Path) -> None:
+    from gearcad import solids
+    from gearcad.solids.assembly import PART_COLOURS
+
+    if kind is Format.STEP:
+        solids.write_step(solids.gear_solid(gear), path, name=gear.name)
+    elif kind is Format.STL:
+        solids.write_stl(meshes.of(gear), path)
+    elif kind in _SCENES:
+        colour = PART_COLOURS.get(name, solids.Part.colour)
+        part = solids.Part(name=gear.name, facets=meshes.of(gear), colour=colour)
+        solids.write_scene([part], path)
+    elif kind is Format.DXF:
+        solids.write_dxf(gear, path)
+    else:
+        solids.write_points(gear, path)
+
+
+def _write_assembly(kind: Format, pair: GearPair, meshes: _Meshes, bracket: bool, path: Path) -> None:
+    from gearcad import solids
+    from gearcad.solids.assembly import PART_COLOURS
+
+    if kind is Format.STEP:
+        solids.write_step(solids.pair_assembly(pair, bracket=bracket), path, name=pair.name)
+        return
+    pose = mesh_pose(pair)
+    places = {"pinion": (pair.pinion, 0.0, (0.0, 0.0, 0.0)), "wheel": (pair.wheel, pose.rotation, (pose.x, 0.0, pose.z))}
+    parts = [
+        solids.Part(name=name, facets=meshes.of(gear), colour=PART_COLOURS[name], rotation=rotation, offset=offset)
+        for name, (gear, rotation, offset) in places.items()
+    ]
+    solids.write_scene(parts, path)

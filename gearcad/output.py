@@ -1,0 +1,73 @@
+"""Files that appear complete or not at all: written into a folder beside their place, then renamed."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+from gearcad.errors import ParameterError
+
+__all__ = ["json_text", "staged_files", "unwritable"]
+
+
+def json_text(document: dict[str, Any]) -> str:
+    """Strict JSON (no NaN, no Infinity) in ASCII, indented, the same bytes for the same document."""
+    return json.dumps(document, indent=2, allow_nan=False) + "\n"
+
+
+def unwritable(folder: Path, error: OSError) -> ParameterError:
+    """The error for a place that cannot be written, whatever the system's reason."""
+    reason = error.strerror or str(error)
+    return ParameterError("output", str(folder), f"cannot be written ({reason}); give a folder you may write to")
+
+
+@contextmanager
+def staged_files(folder: Path) -> Iterator[Path]:
+    """An empty folder to write into; on leaving, every file in it moves into `folder`, replacing its namesake.
+
+    The folder to write into lies inside `folder`, so both are on one file system and a rename is atomic; making it at once
+    proves before any work that `folder` can be written. If anything is raised (an interrupt too) nothing has changed: no
+    file moves, and folders that were made for this vanish. Raises ParameterError for a place that cannot be written.
+    """
+    made: list[Path] = []
+    staging = None
+    finished = False
+    try:
+        _make_folder(folder, made)
+        staging = Path(tempfile.mkdtemp(prefix=".unfinished-", dir=folder))
+        yield staging
+        _move_files(staging, folder)
+        finished = True
+    except OSError as error:
+        raise unwritable(folder, error) from error
+    finally:
+        if staging is not None:
+            shutil.rmtree(staging, ignore_errors=True)
+        if not finished:
+            # Another program may have put a file there meanwhile: then the folder stays.
+            with suppress(OSError):
+                for path in reversed(made):
+                    path.rmdir()
+
+
+def _make_folder(folder: Path, made: list[Path]) -> None:
+    """Make `folder` and its missing parents, and note in `made` which were missing, outermost first."""
+    missing = [path for path in (folder, *folder.parents) if not path.exists()]
+    for path in reversed(missing):
+        path.mkdir(exist_ok=True)
+        made.append(path)
+
+
+def _move_files(staging: Path, folder: Path) -> None:
+    """Rename all or none: what cannot be replaced is found before the first file moves."""
+    files = sorted(staging.iterdir())
+    for file in files:
+        if (folder / file.name).is_dir():
+            raise IsADirectoryError(0, f"{file.name} is a folder there")
+    for file in files:
+        file.replace(folder / file.name)

@@ -1,0 +1,95 @@
+"""Design: what one spec describes - a gear or a pair with its name, material and load - ready to be computed."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from enum import Enum
+from typing import Any
+
+from gearcad.errors import ParameterError
+from gearcad.geometry import Gear, GearPair
+from gearcad.load import Load
+from gearcad.material import Material
+
+__all__ = ["Design", "DesignKind", "require_plain_name"]
+
+LONGEST_NAME = 100
+"""Most characters of a design's name: it becomes a folder, and file systems stop at 255 bytes."""
+
+_RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{port}{number}" for port in ("COM", "LPT") for number in range(1, 10))}
+
+
+class DesignKind(Enum):
+    """What a spec makes."""
+
+    GEAR = "gear"
+    PAIR = "pair"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Design:
+    """A single gear (`gear` is set) or a pair (`pair` is set), with the inputs that later stages need.
+
+    `name` becomes the name of the output folder. Raises ParameterError for a name that is not a plain file name.
+    """
+
+    kind: DesignKind
+    name: str
+    gear: Gear | None = None
+    pair: GearPair | None = None
+    material: Material | None = None
+    load: Load | None = None
+
+    def __post_init__(self) -> None:
+        require_plain_name(self.name)
+        if (self.kind is DesignKind.GEAR) != (self.gear is not None) or (self.kind is DesignKind.PAIR) != (
+            self.pair is not None
+        ):
+            raise ParameterError("kind", self.kind, "must match the gear or the pair that is given")
+
+    @property
+    def gears(self) -> dict[str, Gear]:
+        """The gears under the names of their files: `gear`, or `pinion` and `wheel`."""
+        if self.pair is not None:
+            return {"pinion": self.pair.pinion, "wheel": self.pair.wheel}
+        assert self.gear is not None  # __post_init__ saw to it
+        return {"gear": self.gear}
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What an engineer should know before making this, each led by what it is about."""
+        found = [f"{name}: {text}" for name, gear in self.gears.items() for text in gear.warnings]
+        if self.pair is not None:
+            found += [f"pair: {text}" for text in self.pair.warnings]
+        return tuple(found)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
+        from gearcad import __version__
+
+        document: dict[str, Any] = {"kind": self.kind.value, "name": self.name, "gearcad": __version__}
+        document |= {name: gear.to_dict() for name, gear in self.gears.items()}
+        if self.pair is not None:
+            document["pair"] = self.pair.to_dict()
+        if self.material is not None:
+            document["material"] = asdict(self.material)
+        if self.load is not None:
+            document["load"] = asdict(self.load)
+        return document
+
+
+def require_plain_name(name: Any) -> None:
+    """Raise ParameterError unless `name` can name a folder on every system, and nothing but a folder."""
+    permitted = "must be a plain file name"
+    if not isinstance(name, str) or not name.strip():
+        raise ParameterError("name", name, f"{permitted}: a text that is not empty")
+    if len(name) > LONGEST_NAME:
+        raise ParameterError("name", name, f"{permitted} of at most {LONGEST_NAME} characters")
+    if not name.isprintable() or any(character in '/\\<>:"|?*' for character in name):
+        raise ParameterError("name", name, f'{permitted}, without / \\ < > : " | ? * and control characters')
+    if name[0] in ".- " or name[-1] in ". ":
+        raise ParameterError(
+            "name", name, f"{permitted}: not begun with a point, a dash or a space, nor ended with a point or space"
+        )
+    if name.split(".")[0].strip().upper() in _RESERVED:
+        raise ParameterError("name", name, f"{permitted}: Windows keeps this one for itself")

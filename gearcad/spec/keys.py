@@ -1,0 +1,61 @@
+"""Which keys a spec may have, and what to say about one that it may not."""
+
+from __future__ import annotations
+
+import difflib
+from dataclasses import fields
+
+from gearcad import symbols
+from gearcad.geometry import BasicRack, Body, Gear
+from gearcad.load import Load
+from gearcad.material import Material
+
+__all__ = ["KEYS", "SHARED", "explain_unknown_key", "explain_unknown_table"]
+
+_RACK = ("rack", *(f"rack.{field.name}" for field in fields(BasicRack)))
+_BODY = tuple(f"body.{field.name}" for field in fields(Body))
+_GEAR = (*(field.name for field in fields(Gear) if field.name not in ("rack", "body")), *_RACK, *_BODY)
+
+SHARED = ("normal_module", "helix_angle", "face_width", "tip_alteration", "tooth_thinning", *_RACK, *_BODY)
+"""Keys of a gear that may stand in [pair] for both; the helix angle there is the pinion's."""
+
+KEYS = {
+    "gear": _GEAR,
+    "pair": ("name", "centre_distance", "axial_offset", "profile_shift_split", *SHARED),
+    "pinion": _GEAR,
+    "wheel": _GEAR,
+    "material": tuple(field.name for field in fields(Material)),
+    "load": tuple(field.name for field in fields(Load)),
+}
+"""Permitted keys of each table, flattened with dots. `rack` alone is the name of a rack."""
+
+
+def explain_unknown_table(table: str) -> str:
+    """The end of the message about a table that is not one of ours."""
+    if near := difflib.get_close_matches(table, KEYS, n=1):
+        return f"unknown table; did you mean [{near[0]}]?"
+    return f"unknown table; permitted are {', '.join(f'[{name}]' for name in KEYS)}"
+
+
+def explain_unknown_key(table: str, key: str) -> str:
+    """The end of the message about a key that `table` does not have: where it belongs, or the nearest one."""
+    homes = [f"[{name}]" for name, keys in KEYS.items() if key in keys and name != "gear"]
+    if homes and table != "gear":
+        return f"unknown key here; it belongs in {' or '.join(homes)}"
+    known = KEYS[table]
+    if (near := _nearest(key, known)) is not None:
+        return f"unknown key; did you mean {near}?"
+    return f"unknown key; permitted are {', '.join(known)}"
+
+
+def _nearest(key: str, known: tuple[str, ...]) -> str | None:
+    """The known key whose symbol, last word or spelling is nearest."""
+    entries = symbols.GEAR | symbols.PAIR | symbols.MATERIAL | symbols.LOAD
+    by_symbol = {entries[name].symbol: name for name in known if name in entries and entries[name].symbol}
+    by_tail = {name.rpartition(".")[2]: name for name in reversed(known)}
+    if key in by_symbol:
+        return by_symbol[key]
+    for spellings in (by_tail, {name: name for name in known}):
+        if near := difflib.get_close_matches(key.lower(), spellings, n=1):
+            return spellings[near[0]]
+    return None

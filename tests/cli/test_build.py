@@ -1,0 +1,205 @@
+"""`gearcad build`: which files appear, whole or not at all, and that other programs can read them."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from gearcad import GeometryError, SolverError, solids
+from gearcad.build import Format, build
+from gearcad.cli import main
+from gearcad.spec import read_spec
+from gearcad.spec.design import Design
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+PAIR = ["pinion", "wheel"]
+
+
+@pytest.fixture
+def pair() -> Design:
+    return read_spec(TEMPLATES / "volvo-13-44.toml")
+
+
+@pytest.fixture
+def gear() -> Design:
+    return read_spec(TEMPLATES / "spur.toml")
+
+
+@pytest.fixture
+def stand_ins(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Solids that cost nothing: every writer leaves its name in its file, and every call its name in the list."""
+    calls: list[str] = []
+
+    def writer(name: str, path_at: int) -> Callable[..., None]:
+        def write(*arguments: Any, **_options: Any) -> None:
+            calls.append(name)
+            arguments[path_at].write_text(name)
+
+        return write
+
+    def maker(name: str) -> Callable[..., str]:
+        def make(*_arguments: Any, **options: Any) -> str:
+            calls.append(f"{name} {options}" if options else name)
+            return name
+
+        return make
+
+    for name, path_at in (("write_step", 1), ("write_stl", 1), ("write_scene", 1), ("write_dxf", 1), ("write_points", 1)):
+        monkeypatch.setattr(solids, name, writer(name, path_at))
+    for name in ("gear_solid", "pair_assembly", "tessellate"):
+        monkeypatch.setattr(solids, name, maker(name))
+    return calls
+
+
+def names(folder: Path) -> set[str]:
+    return {path.name for path in folder.iterdir()}
+
+
+@pytest.mark.parametrize("kind", Format)
+def test_single_gear_gives_one_file_per_format(kind: Format, gear: Design, stand_ins: list[str], tmp_path: Path) -> None:
+    files = build(gear, tmp_path / "out", [kind])
+    assert files == [tmp_path / "out" / "data.json", tmp_path / "out" / f"gear.{kind.value}"]
+    assert names(tmp_path / "out") == {"data.json", f"gear.{kind.value}"}
+
+
+@pytest.mark.parametrize("kind", Format)
+def test_pair_gives_both_gears_and_the_assembly_where_the_format_has_one(
+    kind: Format, pair: Design, stand_ins: list[str], tmp_path: Path
+) -> None:
+    build(pair, tmp_path / "out", [kind])
+    parts = PAIR if kind in (Format.STL, Format.DXF, Format.CSV) else [*PAIR, "assembly"]
+    assert names(tmp_path / "out") == {"data.json", *(f"{part}.{kind.value}" for part in parts)}
+
+
+def test_facets_of_a_gear_are_made_once_for_all_formats(pair: Design, stand_ins: list[str], tmp_path: Path) -> None:
+    build(pair, tmp_path, [Format.STL, Format.THREE_MF, Format.GLB])
+    assert stand_ins.count("tessellate") == 2
+
+
+def test_bracket_reaches_the_assembly(pair: Design, stand_ins: list[str], tmp_path: Path) -> None:
+    build(pair, tmp_path, [Format.STEP], bracket=True)
+    assert "pair_assembly {'bracket': True}" in stand_ins
+
+
+def test_progress_counts_up_to_the_last_file(pair: Design, stand_ins: list[str], tmp_path: Path) -> None:
+    seen: list[tuple[str, int, int]] = []
+    files = build(pair, tmp_path, progress=lambda *step: seen.append(step))
+    assert [(file, done) for file, done, _ in seen] == [(file.name, number) for number, file in enumerate(files)]
+    assert {total for *_, total in seen} == {len(files)}
+
+
+@pytest.mark.parametrize("error", [SolverError("no"), RuntimeError("no"), KeyboardInterrupt(), MemoryError()])
+def test_failure_at_the_last_file_leaves_no_file_at_all(
+    error: BaseException, pair: Design, stand_ins: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_arguments: Any, **_options: Any) -> None:
+        raise error
+
+    monkeypatch.setattr(solids, "pair_assembly", fail)
+    with pytest.raises(type(error)):
+        build(pair, tmp_path / "output" / "x")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_data_json_is_what_the_data_command_prints(pair: Design, stand_ins: list[str], tmp_path: Path) -> None:
+    build(pair, tmp_path, [Format.DXF])
+    printed = CliRunner().invoke(main, ["data", str(TEMPLATES / "volvo-13-44.toml"), "--json"]).stdout
+    assert (tmp_path / "data.json").read_text() == printed
+
+
+def test_command_reports_files_on_stdout_and_the_rest_on_stderr(
+    stand_ins: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    spec = str(TEMPLATES / "volvo-13-44.toml")
+    plain = CliRunner().invoke(main, ["build", spec, "--format", " DXF , stl,dxf"])
+    files = [f"output/volvo-13-44/{name}" for name in ("data.json", "pinion.dxf", "wheel.dxf", "pinion.stl", "wheel.stl")]
+    assert (plain.exit_code, plain.stdout.splitlines()) == (0, files)
+    assert all(Path(file).is_file() for file in files)
+    assert plain.stderr.startswith("[1/5] data.json\n[2/5] pinion.dxf\n")
+    assert "Warning: pair: fillet interference" in plain.stderr
+
+    quiet = CliRunner().invoke(main, ["build", spec, "--quiet", "--json", "-o", "elsewhere", "--format", "csv"])
+    assert (quiet.exit_code, quiet.stderr) == (0, "")
+    document = json.loads(quiet.stdout)
+    assert document["files"] == [f"elsewhere/{name}" for name in ("data.json", "pinion.csv", "wheel.csv")]
+    assert (document["kind"], document["name"], document["output"]) == ("build", "volvo-13-44", "elsewhere")
+    assert any("fillet interference" in warning for warning in document["warnings"])
+
+
+def test_kernel_failure_is_status_1(stand_ins: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_arguments: Any, **_options: Any) -> None:
+        raise SolverError("the CAD kernel could not write it")
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(solids, "gear_solid", fail)
+    result = CliRunner().invoke(main, ["build", str(TEMPLATES / "spur.toml"), "--quiet"])
+    assert (result.exit_code, result.stderr) == (1, "Error: the CAD kernel could not write it\n")
+    assert list(tmp_path.iterdir()) == []
+
+
+# ---------------------------------------------------------------------- the real thing
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("built")
+    build(read_spec(TEMPLATES / "volvo-13-44.toml"), folder, Format, chord_error=0.02)
+    return folder
+
+
+def test_every_file_of_the_reference_pair_is_there(built: Path) -> None:
+    meshes = {f"{part}.{suffix}" for part in [*PAIR, "assembly"] for suffix in ("step", "3mf", "glb")}
+    assert names(built) == {"data.json", *meshes, *(f"{part}.{suffix}" for part in PAIR for suffix in ("stl", "dxf", "csv"))}
+
+
+def test_equal_input_gives_equal_bytes(built: Path, tmp_path: Path) -> None:
+    build(read_spec(TEMPLATES / "volvo-13-44.toml"), tmp_path, Format, chord_error=0.02)
+    assert [name for name in sorted(names(built)) if (built / name).read_bytes() != (tmp_path / name).read_bytes()] == []
+
+
+def test_step_assembly_opens_in_cadquery_as_two_gears_at_the_centre_distance(built: Path) -> None:
+    import cadquery
+
+    found = cadquery.importers.importStep(str(built / "assembly.step")).solids().vals()
+    assert len(found) == 2
+    pinion, wheel = sorted(found, key=lambda solid: solid.Volume())
+    alone = [cadquery.importers.importStep(str(built / f"{part}.step")).val() for part in PAIR]
+    assert [pinion.Volume(), wheel.Volume()] == pytest.approx([part.Volume() for part in alone], rel=1e-9)
+    # The centre of mass of a gear with teeth all round lies on its axis; the tolerance is that of OCC's integration.
+    assert wheel.Center().x - pinion.Center().x == pytest.approx(80.0, abs=1e-4)
+
+
+def test_meshes_open_in_trimesh_closed_and_of_the_solids_volume(built: Path) -> None:
+    import cadquery
+    import trimesh
+
+    for part in PAIR:
+        mesh = trimesh.load_mesh(built / f"{part}.stl")
+        assert mesh.is_watertight
+        solid = cadquery.importers.importStep(str(built / f"{part}.step")).val()
+        # A chord error e on the whole surface changes the volume by less than area times e.
+        assert abs(mesh.volume - solid.Volume()) < 0.02 * solid.Area()
+    for suffix in ("3mf", "glb"):
+        scene = trimesh.load_scene(built / f"assembly.{suffix}")
+        assert set(scene.geometry) == set(PAIR)
+
+
+def test_contours_open_in_ezdxf(built: Path) -> None:
+    import ezdxf
+
+    for part in PAIR:
+        document = ezdxf.readfile(built / f"{part}.dxf")
+        assert not document.audit().has_errors
+        assert len(document.modelspace()) > 0
+
+
+def test_bracket_without_bores_is_refused_and_leaves_nothing(pair: Design, tmp_path: Path) -> None:
+    spec = tmp_path / "bare.toml"
+    spec.write_text((TEMPLATES / "volvo-13-44.toml").read_text().replace("body.bore = 16.0", ""))
+    with pytest.raises(GeometryError, match=r"pinion\.body\.bore = 0 mm: must be above 0 mm"):
+        build(read_spec(spec), tmp_path / "out", [Format.STEP], bracket=True)
+    assert names(tmp_path) == {"bare.toml"}

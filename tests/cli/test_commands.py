@@ -1,0 +1,335 @@
+"""The commands as a user meets them: starters, data sheet, JSON, options, wrong input."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+import gearcad
+from gearcad.cli import main
+from gearcad.spec import read_spec
+from gearcad.spec.starters import starters
+
+VOLVO = "volvo-13-44"
+STARTERS = ["alm-18-161", "spur", VOLVO]
+
+RATIO = 1e-9
+"""Absolute, for contact ratios of about 1: what the references promise."""
+
+
+def run(*arguments: str, status: int = 0) -> Result:
+    """Run in-process in the current folder; checks the exit status and that no traceback shows."""
+    result = CliRunner().invoke(main, list(arguments), prog_name="gearcad")
+    assert result.exit_code == status, result.stderr
+    assert "Traceback" not in result.output
+    return result
+
+
+def starter(folder: Path, kind: str = VOLVO, *changes: tuple[str, str]) -> Path:
+    """A starter spec with texts replaced, each of which must be there."""
+    text = run("new", kind, "-o", "-").stdout
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    path = folder / f"{kind}.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.fixture(autouse=True)
+def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+# ---------------------------------------------------------------------- new
+
+
+def test_new_without_a_kind_lists_the_starters() -> None:
+    lines = run("new").stdout.splitlines()
+    assert [line.split()[0] for line in lines] == STARTERS
+    assert all(len(line.split()) > 5 for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"), [("pair", VOLVO), ("volvo", VOLVO), ("gear", "spur"), ("spur", "spur"), ("alm", "alm-18-161")]
+)
+def test_new_writes_a_spec_that_reads_and_names_the_next_command(kind: str, name: str) -> None:
+    result = run("new", kind)
+    assert result.stdout == f"{name}.toml\n"
+    assert result.stderr == f"Next: gearcad data {name}.toml\n"
+    assert read_spec(Path(f"{name}.toml")).name == name
+    assert [path.name for path in Path().iterdir()] == [f"{name}.toml"]
+
+
+def test_new_refuses_to_overwrite_unless_forced() -> None:
+    Path("mine.toml").write_text("precious")
+    result = run("new", "spur", "-o", "mine.toml", status=2)
+    assert result.stderr == "Error: output = 'mine.toml': exists; give another name, or --force to replace it\n"
+    assert Path("mine.toml").read_text() == "precious"
+    run("new", "spur", "-o", "mine.toml", "--force")
+    assert read_spec(Path("mine.toml")).name == "spur"
+
+
+def test_new_refuses_what_it_does_not_have() -> None:
+    result = run("new", "bevel", status=2)
+    assert result.stderr == "Error: kind = 'bevel': must be one of alm-18-161, spur, volvo-13-44 (or gear, pair)\n"
+
+
+@pytest.mark.parametrize("output", ["blocked/x.toml", "folder"])
+def test_new_to_an_impossible_place_is_one_line(output: str) -> None:
+    Path("blocked").write_text("a file, not a folder")
+    Path("folder").mkdir()
+    result = run("new", "spur", "-o", output, status=2)
+    assert result.stderr.startswith("Error: output = ") and result.stderr.count("\n") == 1
+    assert sorted(path.name for path in Path().rglob("*")) == ["blocked", "folder"]
+
+
+def test_starters_are_found_in_an_installed_package_too(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    import gearcad.spec.starters
+
+    package = tmp_path / "site" / "gearcad"
+    (package / "templates").mkdir(parents=True)
+    (package / "templates" / "only.toml").write_text("# The only one.\n")
+    monkeypatch.setattr(gearcad.spec.starters, "__file__", str(package / "spec" / "starters.py"))
+    assert starters() == {"only": "The only one"}
+
+
+# ---------------------------------------------------------------------- data
+
+
+def test_data_json_holds_the_reference_values(tmp_path: Path) -> None:
+    """Chalmers/Volvo thesis, table 2, verified to all digits: contact ratios 1.363079284, 1.335147988 above the form circle."""
+    data = json.loads(run("data", str(starter(tmp_path)), "--json").stdout)
+    assert (data["kind"], data["name"], data["gearcad"]) == ("pair", VOLVO, gearcad.__version__)
+    pair = data["pair"]
+    assert pair["transverse_contact_ratio"] == pytest.approx(1.363079284108014, abs=RATIO)
+    assert pair["usable_contact_ratio"] == pytest.approx(1.3351479875350558, abs=RATIO)
+    assert pair["overlap_ratio"] == pytest.approx(0.9026021358900956, abs=RATIO)
+    assert pair["active_root_diameters"][0] == pytest.approx(34.138822072090015, abs=RATIO)
+    assert data["pinion"]["form_diameter"] == pytest.approx(34.17844815853416, abs=RATIO)
+    assert data["wheel"]["tip_diameter"] == pytest.approx(127.65647335260623, abs=RATIO)
+    assert data["wheel"]["helix_angle"] == -28.0
+    assert data["material"]["youngs_modulus"] == 205000.0
+    assert data["load"]["torque"] == 220.0
+
+
+def test_alm_starter_has_the_contact_ratio_of_its_thesis(tmp_path: Path) -> None:
+    """Alm thesis, first pair: 1.573 printed, 1.573509033 with k on both gears."""
+    pair = json.loads(run("data", str(starter(tmp_path, "alm")), "--json").stdout)["pair"]
+    assert pair["transverse_contact_ratio"] == pytest.approx(1.573509033274298, abs=RATIO)
+
+
+@pytest.mark.parametrize("kind", STARTERS)
+def test_data_runs_on_every_starter_and_json_is_strict(kind: str, tmp_path: Path) -> None:
+    path = starter(tmp_path, kind)
+    assert kind in run("data", str(path)).stdout
+
+    def refuse(constant: str) -> None:
+        raise AssertionError(constant)
+
+    json.loads(run("data", str(path), "--json").stdout, parse_constant=refuse)
+
+
+def test_data_warns_of_fillet_interference_with_both_diameters(tmp_path: Path) -> None:
+    sheet = run("data", str(starter(tmp_path))).stdout
+    warnings = sheet[sheet.index("\nWarnings") :]
+    assert "fillet interference" in warnings
+    assert "34.1388 mm" in warnings and "34.1784 mm" in warnings
+
+
+@pytest.mark.parametrize(
+    ("changes", "warning"),
+    [
+        ([("teeth = 30", "teeth = 12")], "undercut: the involute begins at diameter"),
+        ([("teeth = 30", "teeth = 20"), ("profile_shift = 0.0", "profile_shift = 1.1")], "thin tip: normal thickness"),
+    ],
+)
+def test_data_warns_of_what_a_gear_suffers_from(changes: list[tuple[str, str]], warning: str, tmp_path: Path) -> None:
+    bare = [("body.bore = 20.0", ""), ("body.keyway_width = 6.0", ""), ("body.keyway_depth = 2.8", "")]
+    sheet = run("data", str(starter(tmp_path, "spur", *bare, *changes))).stdout
+    assert warning in sheet[sheet.index("\nWarnings") :]
+
+
+def test_data_warns_of_zero_backlash(tmp_path: Path) -> None:
+    assert "zero backlash" in run("data", str(starter(tmp_path, "alm"))).stdout
+
+
+# ---------------------------------------------------------------------- build, without waiting for solids
+
+
+def test_build_refuses_unknown_formats_before_anything_is_written(tmp_path: Path) -> None:
+    result = run("build", str(starter(tmp_path)), "--format", "step,iges", status=2)
+    assert result.stderr.startswith("Error: format = 'iges': must be one of 'step', 'stl', '3mf', 'glb', 'dxf', 'csv'")
+    assert not Path("output").exists()
+
+
+@pytest.mark.parametrize(
+    ("kind", "options", "message"),
+    [
+        ("spur", ["--bracket"], "bracket = True: needs a pair"),
+        (VOLVO, ["--bracket", "--format", "stl"], "bracket = True: needs the format step"),
+        (VOLVO, ["--chord-error", "0"], "chord_error = 0 mm: must be a number above 0 mm"),
+    ],
+)
+def test_build_refuses_options_that_do_not_fit(kind: str, options: list[str], message: str, tmp_path: Path) -> None:
+    result = run("build", str(starter(tmp_path, kind)), *options, status=2)
+    assert result.stderr.startswith(f"Error: {message}") and result.stderr.count("\n") == 1
+    assert not Path("output").exists()
+
+
+def test_build_finds_an_unwritable_output_before_any_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder below a regular file: that fails for root as well."""
+    import gearcad.spec.design
+
+    def work(self: object) -> None:
+        raise AssertionError("worked before it looked")
+
+    monkeypatch.setattr(gearcad.spec.design.Design, "to_dict", work)
+    spec = starter(tmp_path)
+    Path("blocked").write_text("a file")
+    for output in ("blocked", "blocked/deep/er"):
+        result = run("build", str(spec), "-o", output, status=2)
+        assert result.stderr.startswith(f"Error: output = '{output}': cannot be written (")
+        assert result.stderr.endswith("give a folder you may write to\n")
+    assert sorted(path.name for path in Path().rglob("*")) == ["blocked", spec.name]
+
+
+# ---------------------------------------------------------------------- wrong input
+
+WRONG = {
+    "half a tooth": ([("teeth = 13", "teeth = 2.5")], "pinion.teeth = 2.5: must be a whole number from 3 to 2000"),
+    "negative width": (
+        [("= 18.3", "= -18.3")],
+        "pinion.face_width = -18.3 mm: must be a number above 0 mm and at most 10000 mm",
+    ),
+    "helix 95": ([("= 28.0", "= 95")], "pair.helix_angle = 95 deg: must be a number at least -75 deg and at most 75 deg"),
+    "centre distance too small": (
+        [("centre_distance = 80.0", "centre_distance = 74"), ("profile_shift = 0.107", 'profile_shift = "auto"')],
+        "pair.centre_distance = 74 mm: must be above 74.60",
+    ),
+    "teeth overlap": (
+        [("centre_distance = 80.0", "centre_distance = 79")],
+        "pair.centre_distance = 79 mm: must be at least 79.646",
+    ),
+    "tool tip too round": (
+        [("tooth_thinning = 0.08", "")],
+        "pinion.rack.root_radius = 0.48: must be at most 0.471 (full radius) for dedendum 1.25, pressure angle 20 deg",
+    ),
+    "pointed teeth": (
+        [("centre_distance = 80.0", ""), ("profile_shift = 0.107", "profile_shift = 1.4\ntip_alteration = 0.3")],
+        "pinion.tip_diameter = ",
+    ),
+    "bore in the root": ([("body.bore = 16.0", "body.bore = 31.2")], "pinion.body.bore = 31.2 mm: must be at most 30.5"),
+    "misspelt key": ([("face_width = 18.3", "face_widht = 18.3")], "pinion.face_widht: unknown key; did you mean face_width?"),
+    "missing key": ([("teeth = 44", "")], "wheel.teeth is missing: must be a whole number from 3 to 2000"),
+    "bad name": ([('"volvo-13-44"', '"../elsewhere"')], "pair.name = '../elsewhere': must be a plain file name"),
+}
+
+
+@pytest.mark.parametrize("command", ["data", "build"])
+@pytest.mark.parametrize("mistake", WRONG)
+def test_wrong_input_is_one_line_and_leaves_nothing(mistake: str, command: str, tmp_path: Path) -> None:
+    changes, message = WRONG[mistake]
+    spec = starter(tmp_path, VOLVO, *changes)
+    result = run(command, str(spec), status=2)
+    assert result.stdout == ""
+    assert result.stderr.count("\n") == 1
+    assert result.stderr.startswith(f"Error: {spec} line ")
+    assert message in result.stderr
+    assert list(Path().rglob("*")) == [Path(spec.name)]
+
+
+def test_pointed_teeth_say_where_the_point_is(tmp_path: Path) -> None:
+    changes, _ = WRONG["pointed teeth"]
+    message = run("data", str(starter(tmp_path, VOLVO, *changes)), status=2).stderr
+    assert "mm (derived): must be at most " in message and "pointed" in message
+
+
+@pytest.mark.parametrize("command", ["data", "build"])
+def test_missing_file_is_one_line(command: str) -> None:
+    result = run(command, "nowhere.toml", status=2)
+    assert result.stderr.startswith("Error: nowhere.toml: cannot be read (No such file or directory)")
+    assert result.stderr.count("\n") == 1
+
+
+def test_fault_of_ours_is_one_line_with_status_1_and_a_traceback_only_on_demand(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import gearcad.spec
+
+    def fail(path: Path) -> None:
+        raise ZeroDivisionError("two\nlines")
+
+    monkeypatch.setattr(gearcad.spec, "read_spec", fail)
+    result = run("data", "x.toml", status=1)
+    assert result.stderr.startswith("Error: unexpected ZeroDivisionError: two lines (")
+    assert "--debug" in result.stderr and result.stderr.count("\n") == 1
+    for arguments in (["--debug", "data", "x.toml"], ["data", "x.toml", "--debug"]):
+        assert isinstance(CliRunner().invoke(main, arguments).exception, ZeroDivisionError)
+
+
+# ---------------------------------------------------------------------- as a process
+
+
+def process(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "gearcad", *arguments],
+        capture_output=True,
+        text=True,
+        env={**os.environ, **environment},
+        timeout=60,
+    )
+
+
+def test_sheet_has_no_escapes_when_piped_and_cuts_no_number(tmp_path: Path) -> None:
+    spec = str(starter(tmp_path))
+    narrow, wide = (process("data", spec, COLUMNS=width, NO_COLOR="", TERM="xterm").stdout for width in ("80", "120"))
+    for sheet in (narrow, wide):
+        assert "\x1b" not in sheet
+        assert "127.6565" in sheet and "1.3631" in sheet
+        assert all(line == line.rstrip() for line in sheet.splitlines())
+    table = narrow[: narrow.index("\nWarnings")].splitlines()
+    assert max(map(len, table)) <= 80
+    assert "ISO 21771:2007" in wide and "Annex A" in wide
+
+
+def test_old_terminal_gets_the_numbers_all_the_same(tmp_path: Path) -> None:
+    done = process("data", str(starter(tmp_path)), PYTHONIOENCODING="ascii")
+    assert done.returncode == 0 and "127.6565" in done.stdout
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full (Linux)")
+def test_full_disk_behind_stdout_is_one_line(tmp_path: Path) -> None:
+    with Path("/dev/full").open("w") as full:
+        command = [sys.executable, "-m", "gearcad", "data", str(starter(tmp_path)), "--json"]
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+    assert (done.returncode, done.stderr) == (1, "Error: No space left on device\n")
+
+
+def test_wrong_input_as_a_process(tmp_path: Path) -> None:
+    done = process("data", str(starter(tmp_path, VOLVO, ("teeth = 13", "teeth = 2.5"))))
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
+
+
+def test_version_and_help() -> None:
+    assert process("--version").stdout == f"gearcad, version {gearcad.__version__}\n"
+    help_text = process("--help").stdout
+    assert help_text.index("  new ") < help_text.index("  data ") < help_text.index("  build ")
+    assert "gearcad new pair" in help_text
+
+
+def test_data_imports_nothing_heavy(tmp_path: Path) -> None:
+    spec = starter(tmp_path)
+    heavy = ["scipy", "cadquery", "OCP", "trimesh", "ezdxf", "matplotlib", "gmsh", "skfem", "rich"]
+    code = f"""
+import sys
+from gearcad.cli import main
+main(['data', {str(spec)!r}, '--json'], standalone_mode=False)
+print([name for name in {heavy} if name in sys.modules], file=sys.stderr)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.stderr == "[]\n"

@@ -1,0 +1,63 @@
+"""The sheet shows everything that the data hold."""
+
+import io
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from gearcad import Body, Gear, datasheet, symbols
+from gearcad.datasheet import print_datasheet
+from gearcad.spec import read_spec
+from gearcad.spec.design import Design, DesignKind
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+
+
+def sheet(design: Design, width: int = 80) -> str:
+    file = io.StringIO()
+    print_datasheet(design, Console(file=file, width=width))
+    return file.getvalue()
+
+
+def test_every_quantity_has_its_place() -> None:
+    gear = {key for keys in datasheet._GEAR_BLOCKS.values() for key in keys.split()}
+    pair = {key for keys in datasheet._PAIR_BLOCKS.values() for key in keys.split()} | set(datasheet._BOTH.split())
+    assert gear == set(symbols.GEAR) - {"name"}
+    assert pair == set(symbols.PAIR)
+
+
+def test_pair_shows_both_gears_side_by_side_then_the_pair() -> None:
+    text = sheet(read_spec(TEMPLATES / "volvo-13-44.toml"))
+    lines = {line[:39].strip(): line[39:].split() for line in text.splitlines()}
+    assert lines["number of teeth"] == ["z", "13", "44"]
+    assert lines["tip diameter"] == ["d_a", "mm", "42.3073", "127.6565"]
+    assert lines["working pitch diameter"] == ["d_w", "mm", "36.4912", "123.5088"]
+    assert lines["total contact ratio"] == ["ε_γ", "2.2657"]
+    assert lines["Young's modulus"] == ["E", "MPa", "205000"]
+    assert "keyway" not in text
+    assert "yield strength" not in text
+
+
+def test_body_shows_what_is_there_and_nothing_else() -> None:
+    gear = Gear(teeth=30, normal_module=2.0, face_width=9.0, body=Body(bore=20.0, keyway_width=6.0, keyway_depth=2.8))
+    text = sheet(Design(kind=DesignKind.GEAR, name="x", gear=gear))
+    body = text[text.index("\nBody\n") : text.index("\n\n", text.index("\nBody\n"))]
+    assert [line.split()[-1] for line in body.strip().splitlines()[1:]] == ["20.0000", "6.0000", "2.8000"]
+    assert text.endswith("\nNo warnings.\n")
+
+
+@pytest.mark.parametrize("width", [80, 120])
+def test_terminal_gets_colour_and_the_same_words(width: int) -> None:
+    design = read_spec(TEMPLATES / "spur.toml")
+    file = io.StringIO()
+    print_datasheet(design, Console(file=file, width=width, force_terminal=True, color_system="standard"))
+    assert "\x1b[" in file.getvalue()
+    assert file.getvalue().count("\n") == sheet(design, width).count("\n")
+
+
+def test_spur_gear_has_no_lead_and_zero_has_no_sign() -> None:
+    gear = Gear(teeth=30, normal_module=2.0, face_width=9.0, profile_shift=-0.00001)
+    lines = sheet(Design(kind=DesignKind.GEAR, name="x", gear=gear)).splitlines()
+    assert not any("lead" in line for line in lines)
+    assert next(line for line in lines if "profile shift" in line).endswith(" 0.0000")

@@ -1,0 +1,130 @@
+"""Tooth profiles of the theses' gears, point by point, against a brute-force sweep of the tool (and a closed form)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from support.cases import case, profile_cases
+
+from gearcad import BasicRack, Gear
+from gearcad.geometry.curves import CurveKind
+from gearcad.geometry.trochoid import ToolTip
+
+ANGLE = 1e-10
+"""rad: what the project promises for half angles; the two references agree with each other to 1e-15 rad."""
+
+DIAMETER = 1e-9
+"""mm: what the project promises for diameters; also used for the tool's lengths."""
+
+INFEASIBLE = "s001_gear1_profile"
+"""Its tool tip of 1.2 mm is larger than the full radius, so only the bare equations make a profile of it."""
+
+FEASIBLE = [name for name in profile_cases() if name != INFEASIBLE]
+
+
+def _gear(name: str) -> Gear:
+    given = case(name)["inputs"]
+    return Gear(
+        teeth=given["z"],
+        normal_module=given["mn"],
+        face_width=10.0,
+        helix_angle=given["beta"],
+        profile_shift=given["x"],
+        tip_alteration=given["k"],
+        tooth_thinning=given.get("tooth_thinning_normal_mm", 0.0),
+        rack=BasicRack(pressure_angle=given["alpha_n"], dedendum=given["hfP"], root_radius=given["rho"] / given["mn"]),
+    )
+
+
+def _tool(name: str) -> ToolTip:
+    given = case(name)["inputs"]
+    shift = given["x"] * given["mn"]
+    return ToolTip.cutting(
+        normal_module=given["mn"],
+        pressure_angle=math.radians(given["alpha_n"]),
+        helix_angle=math.radians(given["beta"]),
+        reference_radius=given["mn"] * given["z"] / math.cos(math.radians(given["beta"])) / 2,
+        depth=given["hfP"] * given["mn"] - shift,
+        shift=shift,
+        radius=given["rho"],
+        thinning=given.get("tooth_thinning_normal_mm", 0.0),
+    )
+
+
+@pytest.mark.parametrize("name", FEASIBLE)
+@pytest.mark.parametrize("reference", ["half_angle_rad", "half_angle_bruteforce_rad"])
+def test_half_angles(name: str, reference: str) -> None:
+    points = case(name)["verified"]["profile"]
+    found = np.radians(_gear(name).profile.half_angle([point["R_mm"] for point in points]))
+    assert found == pytest.approx([point[reference] for point in points], abs=ANGLE, rel=0)
+
+
+@pytest.mark.parametrize("name", FEASIBLE)
+def test_which_curve_each_point_lies_on(name: str) -> None:
+    profile = _gear(name).profile
+    radii = {
+        kind: sorted(curve.polar(end)[0] for end in (0.0, 1.0))
+        for kind in (CurveKind.FILLET, CurveKind.INVOLUTE)
+        for curve in profile.curves
+        if curve.kind is kind
+    }
+    for point in case(name)["verified"]["profile"]:
+        low, high = radii[CurveKind.FILLET if point["curve"] == "fillet" else CurveKind.INVOLUTE]
+        assert low - DIAMETER <= point["R_mm"] <= high + DIAMETER
+
+
+@pytest.mark.parametrize("name", FEASIBLE)
+def test_characteristic_circles(name: str) -> None:
+    gear, verified = _gear(name), case(name)["verified"]
+    found = {
+        "d": gear.reference_diameter,
+        "db": gear.base_diameter,
+        "da": gear.tip_diameter,
+        "df": gear.root_diameter,
+        "d_Ff": gear.form_diameter,
+    }
+    assert found == pytest.approx({key: verified[key] for key in found}, abs=DIAMETER, rel=0)
+    assert gear.undercut is verified["undercut"]
+
+
+@pytest.mark.parametrize("name", FEASIBLE)
+def test_half_angles_at_reference_base_and_root(name: str) -> None:
+    gear, verified = _gear(name), case(name)["verified"]
+    reference = gear.transverse_tooth_thickness / gear.reference_diameter
+    assert reference == pytest.approx(verified["half_tooth_angle_ref_rad"], abs=ANGLE, rel=0)
+    base = math.radians(gear.profile.base_half_angle)
+    assert base == pytest.approx(verified["half_tooth_angle_base_rad"], abs=ANGLE, rel=0)
+    land = gear.profile.curves[0]
+    assert land.kind is CurveKind.ROOT
+    first, last = (float(land.polar(end)[1]) for end in (0.0, 1.0))
+    assert first - last == pytest.approx(verified["gap_half_angle_of_root_flat_rad"], abs=ANGLE, rel=0)
+
+
+@pytest.mark.parametrize("name", FEASIBLE)
+def test_tool(name: str) -> None:
+    tool, verified = _gear(name).profile.tool, case(name)["verified"]["tool"]
+    found = {
+        "rho_mm_normal": tool.radius,
+        "tip_centre_u_mm_normal": tool.u,
+        "tip_centre_v_mm": tool.v,
+        "straight_flank_end_below_rolling_line_mm": tool.flank_depth,
+    }
+    assert found == pytest.approx({key: verified[key] for key in found}, abs=DIAMETER, rel=0)
+
+
+def test_infeasible_tool_by_the_bare_equations() -> None:
+    tool, verified = _tool(INFEASIBLE), case(INFEASIBLE)["verified"]
+    assert not verified["tool"]["feasible"]
+    assert tool.u == pytest.approx(verified["tool"]["tip_centre_u_mm_normal"], abs=DIAMETER, rel=0)
+    points = [point for point in verified["profile"] if point["curve"] == "fillet"]
+    radii = np.array([point["R_mm"] for point in points])
+    theta = tool.theta_at(radii, tool.last_angle)
+    radius, angle = tool.cut(theta)
+    assert radius == pytest.approx(radii, abs=DIAMETER, rel=0)
+    half_angles = math.pi / case(INFEASIBLE)["inputs"]["z"] - angle
+    for reference in ("half_angle_rad", "half_angle_bruteforce_rad"):
+        assert half_angles == pytest.approx([point[reference] for point in points], abs=ANGLE, rel=0)
+    end = tool.cut(tool.last_angle)[0]
+    assert 2 * end == pytest.approx(verified["d_Ff"], abs=DIAMETER, rel=0)

@@ -1,0 +1,165 @@
+"""DXF contour: one closed chain of arcs on the exact profile, read back with ezdxf (identity)."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+from ezdxf.document import Drawing
+from support.exact import distance_to_section, section_area
+from support.samples import SAMPLES
+
+from gearcad import Body, Gear, ParameterError
+from gearcad.geometry.curves import CurveKind
+from gearcad.solids.contour import gear_contour, write_dxf
+
+ACCURACY = 0.0005  # mm, the default
+EXACT = 1e-9  # mm: joints and lands are exact but for rounding
+TANGENT = 1e-6  # rad: an arc's end tangents follow from its bulge with the rounding of short chords
+
+
+def _drawn(gear: Gear, path: Path) -> Drawing:
+    write_dxf(gear, path)
+    document = ezdxf.readfile(path)
+    assert not document.audit().has_issues
+    return document
+
+
+def _polyline(document: Drawing, layer: str) -> np.ndarray:
+    (line,) = document.modelspace().query(f'LWPOLYLINE[layer=="{layer}"]')
+    assert line.closed
+    return np.array(line.get_points("xyb"))
+
+
+def _along_arcs(contour: np.ndarray, count: int = 9) -> np.ndarray:
+    """Points (n, count, 2) on every arc, by its centre and radius: an independent reading of the bulge."""
+    start, bulge = contour[:, :2], contour[:, 2]
+    chord = np.roll(start, -1, axis=0) - start
+    share = np.linspace(0, 1, count)
+    angle = 4 * np.arctan(bulge)
+    straight = np.abs(angle) < 1e-12
+    half = np.where(straight, 1.0, angle / 2)
+    radius = np.hypot(*chord.T) / (2 * np.sin(half))
+    heading = np.arctan2(chord[:, 1], chord[:, 0]) - half
+    centre = start + radius[:, None] * np.stack([-np.sin(heading), np.cos(heading)], -1)
+    turned = heading[:, None] + share * 2 * half[:, None]
+    arcs = centre[:, None] + radius[:, None, None] * np.stack([np.sin(turned), -np.cos(turned)], -1)
+    return np.where(straight[:, None, None], start[:, None] + share[:, None] * chord[:, None], arcs)
+
+
+def _area(contour: np.ndarray) -> float:
+    """Area inside: the polygon and the segments between chords and arcs."""
+    x, y, bulge = contour.T
+    following = np.roll(contour, -1, axis=0)
+    chord = np.hypot(following[:, 0] - x, following[:, 1] - y)
+    curved = np.abs(bulge) > 1e-9
+    b = np.where(curved, bulge, 1.0)
+    angle, radius = 4 * np.arctan(b), chord * (1 + b**2) / (4 * b)
+    segments = np.where(curved, radius**2 * (angle - np.sin(angle)) / 2, chord**2 * bulge / 3)
+    return float(np.sum(x * following[:, 1] - y * following[:, 0]) / 2 + np.sum(np.sign(b) * np.abs(segments)))
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_contour_is_one_closed_chain_on_the_exact_profile(name: str, tmp_path: Path) -> None:
+    gear = SAMPLES[name]
+    contour = _polyline(_drawn(gear, tmp_path / "gear.dxf"), "PROFILE")
+    assert len(contour) % gear.teeth == 0
+    points = _along_arcs(contour)[: len(contour) // gear.teeth]
+    flat = np.column_stack([points.reshape(-1, 2), np.zeros(points.size // 2)])
+    # A section at z = 0 has not turned yet, so the helix plays no part.
+    assert distance_to_section(gear, flat).max() <= ACCURACY
+    assert np.hypot(*(points[:-1, -1] - points[1:, 0]).T).max() < EXACT
+    chords = np.hypot(*(np.roll(contour, -1, axis=0) - contour)[:, :2].T)
+    assert chords.min() > 2e-6  # mm: nothing that a machine would take for a point
+    perimeter = np.hypot(*np.diff(points, axis=1).reshape(-1, 2).T).sum() * gear.teeth
+    assert _area(contour) == pytest.approx(section_area(gear), abs=ACCURACY * perimeter)
+
+
+def _corner_count(gear: Gear) -> int:
+    """Corners of a tooth: at both ends of the tip land or of the chamfers; at the form circle if undercut."""
+    chamfers = 4 if gear.body.tip_chamfer else 2
+    return chamfers + (2 if gear.undercut else 0)
+
+
+@pytest.mark.parametrize("name", ["spur", "helical", "chamfered", "undercut", "deeply undercut", "full radius", "many teeth"])
+def test_contour_is_smooth_but_for_the_true_corners(name: str) -> None:
+    gear = SAMPLES[name]
+    contour = gear_contour(gear)
+    chord = (np.roll(contour, -1, axis=0) - contour)[:, :2]
+    direction, half = np.arctan2(chord[:, 1], chord[:, 0]), 2 * np.arctan(contour[:, 2])
+    arrives, leaves = direction + half, np.roll(direction - half, -1)
+    kink = np.abs(np.mod(leaves - arrives + np.pi, 2 * np.pi) - np.pi)
+    assert np.count_nonzero(kink > TANGENT) == gear.teeth * _corner_count(gear)
+
+
+def test_lands_are_single_exact_arcs_and_chamfers_straight() -> None:
+    gear = SAMPLES["chamfered"]
+    contour = gear_contour(gear)
+    radius = np.hypot(contour[:, 0], contour[:, 1])
+    for circle, land in ((gear.tip_diameter / 2, gear.profile.curves[-1]), (gear.root_diameter / 2, gear.profile.curves[0])):
+        on_circle = np.abs(radius - circle) < EXACT
+        assert on_circle.sum() == 2 * gear.teeth
+        arcs = contour[on_circle & np.roll(on_circle, -1), 2]
+        angles = 2 * np.abs(np.diff(land.polar(np.array([0.0, 1.0]))[1]))
+        assert 4 * np.arctan(arcs) == pytest.approx(np.full(gear.teeth, angles[0]), abs=1e-12)
+    assert np.count_nonzero(contour[:, 2] == 0) == 2 * gear.teeth
+
+
+def test_full_radius_root_shares_the_point_between_two_teeth() -> None:
+    gear = SAMPLES["full radius"]
+    assert gear.profile.curves[0].kind is CurveKind.FILLET
+    contour = gear_contour(gear)
+    on_root = np.abs(np.hypot(contour[:, 0], contour[:, 1]) - gear.root_diameter / 2) < EXACT
+    angle = np.degrees(np.arctan2(contour[on_root, 1], contour[on_root, 0]))
+    assert np.sort(np.mod(angle, 360)) == pytest.approx(7.5 + 15.0 * np.arange(24), abs=1e-9)
+
+
+def test_arcs_converge_with_the_cube_of_their_number() -> None:
+    """A pair of arcs is off by some h^3: a thousandth of the error takes ten times the arcs."""
+    gear = SAMPLES["spur"]
+    coarse, fine = (len(gear_contour(gear, accuracy)) / gear.teeth for accuracy in (1e-4, 1e-7))
+    assert fine / coarse == pytest.approx(10, rel=0.15)
+
+
+def test_accuracy_is_kept_and_not_wasted() -> None:
+    gear = SAMPLES["spur"]
+    for accuracy in (5e-3, 5e-4, 5e-6):
+        points = _along_arcs(gear_contour(gear, accuracy), 17).reshape(-1, 2)
+        worst = distance_to_section(gear, np.column_stack([points, np.zeros(len(points))])).max()
+        assert 0.2 * accuracy < worst <= accuracy
+
+
+def test_bore_circles_and_units(tmp_path: Path) -> None:
+    gear = Gear(teeth=20, normal_module=2, face_width=10, helix_angle=15, body=Body(bore=14))
+    document = _drawn(gear, tmp_path / "gear.dxf")
+    assert (document.header["$INSUNITS"], document.header["$MEASUREMENT"]) == (4, 1)
+    (bore,) = document.modelspace().query('CIRCLE[layer=="BORE"]')
+    assert bore.dxf.radius == 7.0
+    circles = sorted(2 * circle.dxf.radius for circle in document.modelspace().query('CIRCLE[layer=="CIRCLES"]'))
+    expected = [gear.root_diameter, gear.base_diameter, gear.reference_diameter, gear.tip_diameter]
+    assert circles == pytest.approx(sorted(expected), rel=1e-15)
+
+
+def test_keyway_is_part_of_the_bore(tmp_path: Path) -> None:
+    gear = Gear(teeth=20, normal_module=2, face_width=10, body=Body(bore=14, keyway_width=5, keyway_depth=2.3))
+    bore = _polyline(_drawn(gear, tmp_path / "gear.dxf"), "BORE")
+    half_angle = math.asin(2.5 / 7)
+    kept = 49 * (math.pi - half_angle) + 2.5 * 7 * math.cos(half_angle)  # the circle without its segment beyond the walls
+    assert _area(bore) == pytest.approx(kept + 5 * (9.3 - 7 * math.cos(half_angle)), rel=1e-14)
+    assert bore[:, 0].max() == 9.3
+
+
+def test_equal_gears_give_equal_bytes_and_leave_ezdxf_as_it_was(tmp_path: Path) -> None:
+    write_dxf(SAMPLES["spur"], tmp_path / "one.dxf")
+    write_dxf(SAMPLES["spur"], tmp_path / "two.dxf")
+    assert (tmp_path / "one.dxf").read_bytes() == (tmp_path / "two.dxf").read_bytes()
+    assert not ezdxf.options.write_fixed_meta_data_for_testing
+
+
+@pytest.mark.parametrize("wrong", [0, -1, 1e-9, math.nan])
+def test_impossible_accuracies_are_refused(wrong: float) -> None:
+    with pytest.raises(ParameterError, match="accuracy"):
+        gear_contour(SAMPLES["spur"], wrong)

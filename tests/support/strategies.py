@@ -1,0 +1,174 @@
+"""Random gears and pairs over the whole parameter space that is promised, valid or not."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hypothesis import strategies as st
+
+from gearcad import BasicRack, Body, Gear, GearPair
+from gearcad.errors import InputError
+from gearcad.geometry import HubSide
+
+__all__ = ["build_gear", "build_pair", "gear_inputs", "pair_inputs"]
+
+MOST_TEETH = 300
+
+
+def _number(low: float, high: float) -> st.SearchStrategy[float]:
+    return st.floats(low, high, allow_nan=False, allow_infinity=False)
+
+
+def _often(value: Any, rest: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
+    """The ordinary value half of the time."""
+    return st.one_of(st.just(value), rest)
+
+
+TEETH = st.one_of(st.integers(3, 12), st.integers(8, 60), st.integers(3, MOST_TEETH))
+MODULE = _often(1.0, _number(0.1, 20))
+HELIX = st.one_of(st.just(0.0), _number(0.001, 60), _number(-60, -0.001))
+SHIFT = st.one_of(st.just(0.0), _number(-0.4, 0.6), _number(-0.4, 0.6), _number(-1.5, 1.5))
+THINNING = _often(0.0, _number(0, 0.15))
+PRESSURE_ANGLE = st.one_of(st.sampled_from([20.0, 14.5, 25.0, 30.0]), _number(12, 32))
+
+
+@st.composite
+def _racks(draw: st.DrawFn, pressure_angle: float) -> dict[str, Any]:
+    """A rack: standard, or a drawn addendum with some bottom clearance; the tip radius up to a little beyond the full one."""
+    addendum = draw(_often(1.0, _number(0.4, 1.4)))
+    dedendum = addendum + draw(_often(0.25, _number(0.02, 0.6)))
+    rack = BasicRack(pressure_angle=pressure_angle, addendum=addendum, dedendum=dedendum, root_radius="full")
+    share = draw(st.one_of(st.sampled_from([0.8, 0.5, 0.0]), _number(0, 1.02)))
+    drawn = draw(_often(max(share * rack.full_root_radius(), 0.0), st.sampled_from(["full", 0.38])))
+    return {"pressure_angle": pressure_angle, "addendum": addendum, "dedendum": dedendum, "root_radius": drawn}
+
+
+@st.composite
+def _bodies(draw: st.DrawFn) -> dict[str, Any]:
+    """Parts of a body in normal modules (and per module of reference diameter, which `build_gear` knows)."""
+    return {
+        "bore": draw(_often(0.0, _number(0, 0.9))),
+        "keyway": draw(_often(0.0, _number(0.05, 0.5))),
+        "hub": draw(_often(0.0, _number(0.1, 0.95))),
+        "hub_side": draw(st.sampled_from(HubSide)),
+        "end_chamfer": draw(_often(0.0, _number(0.05, 1))),
+        "end_chamfer_angle": draw(_number(10, 70)),
+        "tip_chamfer": draw(_often(0.0, _number(0.002, 0.5))),
+    }
+
+
+@st.composite
+def gear_inputs(draw: st.DrawFn) -> dict[str, Any]:
+    """Inputs of one gear; lengths in normal modules, overrides as changes of the derived radii."""
+    return {
+        "teeth": draw(TEETH),
+        "normal_module": draw(MODULE),
+        "helix_angle": draw(HELIX),
+        "profile_shift": draw(SHIFT),
+        "tip_alteration": draw(_often(0.0, _number(-0.4, 0.3))),
+        "thinning": draw(THINNING),
+        "width": draw(_number(0.5, 15)),
+        "rack": draw(_racks(draw(PRESSURE_ANGLE))),
+        "tip_change": draw(_often(None, _number(-0.6, 0.4))),
+        "root_change": draw(_often(None, _number(-0.6, 0.8))),
+        "body": draw(_bodies()),
+    }
+
+
+def _owned(owner: str, kind: type[Any], **inputs: Any) -> Any:
+    """A part of a gear; its errors name it as the gear's user knows it."""
+    try:
+        return kind(**inputs)
+    except InputError as error:
+        raise error.within(owner) from None
+
+
+def build_gear(inputs: dict[str, Any]) -> Gear:
+    """The gear of some drawn inputs; raises GearcadError where there is none."""
+    m, body, shift = inputs["normal_module"], inputs["body"], inputs["profile_shift"]
+    plain = {
+        "teeth": inputs["teeth"],
+        "normal_module": m,
+        "face_width": inputs["width"] * m,
+        "helix_angle": inputs["helix_angle"],
+        "profile_shift": shift,
+        "tip_alteration": inputs["tip_alteration"],
+        "tooth_thinning": inputs["thinning"] * m,
+        "rack": _owned("rack", BasicRack, **inputs["rack"]),
+    }
+    core = max(inputs["teeth"] - 2 * (inputs["rack"]["dedendum"] - shift), 0.0) * m
+    bore = body["bore"] * core
+    made = _owned(
+        "body",
+        Body,
+        bore=bore,
+        keyway_width=body["keyway"] * bore,
+        keyway_depth=body["keyway"] * bore / 2,
+        hub_diameter=body["hub"] * core,
+        hub_length=m if body["hub"] * core else 0.0,
+        hub_side=body["hub_side"],
+        end_chamfer=body["end_chamfer"] * m,
+        end_chamfer_angle=body["end_chamfer_angle"],
+        tip_chamfer=body["tip_chamfer"] * m,
+    )
+    gear = Gear(**plain)
+    given = {}
+    for end in ("tip", "root"):
+        if inputs[f"{end}_change"] is not None:
+            given[f"{end}_diameter"] = getattr(gear, f"{end}_diameter") + 2 * m * inputs[f"{end}_change"]
+    return Gear(**plain, **given, body=made)
+
+
+@st.composite
+def pair_inputs(draw: st.DrawFn) -> dict[str, Any]:
+    """Inputs of a pair: two gears that share what they must, and how they are set up."""
+    angle = draw(PRESSURE_ANGLE)
+    first = draw(_racks(angle))
+    second = draw(_often(first, _racks(angle)))
+    gears = [
+        {
+            "teeth": draw(TEETH),
+            "profile_shift": draw(SHIFT),
+            "thinning": draw(THINNING),
+            "width": draw(_number(1, 15)),
+            "tip_chamfer": draw(_often(0.0, _number(0.01, 0.2))),
+            "rack": rack,
+        }
+        for rack in (first, second)
+    ]
+    return {
+        "normal_module": draw(MODULE),
+        "helix_angle": draw(HELIX),
+        "gears": gears,
+        "spread": draw(_often(None, _number(0, 0.4))),
+        "shortened": draw(st.booleans()),
+        "axial_offset": draw(_often(0.0, _number(-5, 5))),
+    }
+
+
+def build_pair(inputs: dict[str, Any]) -> GearPair:
+    """The pair of some drawn inputs; raises GearcadError where there is none."""
+    m = inputs["normal_module"]
+
+    def gear(index: int, k: float) -> Gear:
+        one = inputs["gears"][index]
+        return Gear(
+            teeth=one["teeth"],
+            normal_module=m,
+            face_width=one["width"] * m,
+            helix_angle=(1, -1)[index] * inputs["helix_angle"],
+            profile_shift=one["profile_shift"],
+            tip_alteration=k,
+            tooth_thinning=one["thinning"] * m,
+            rack=BasicRack(**one["rack"]),
+            body=Body(tip_chamfer=one["tip_chamfer"] * m),
+        )
+
+    def pair(k: float, distance: float | None) -> GearPair:
+        return GearPair(pinion=gear(0, k), wheel=gear(1, k), centre_distance=distance, axial_offset=inputs["axial_offset"] * m)
+
+    # A short tip for the first look, so that a clash of the full tips does not hide the pair that shortening allows.
+    first = pair(-0.3 if inputs["shortened"] else 0.0, None)
+    distance = None if inputs["spread"] is None else first.centre_distance + inputs["spread"] * m
+    spread = first if distance is None else pair(first.pinion.tip_alteration, distance)
+    return pair(spread.tip_alteration if inputs["shortened"] else 0.0, distance)
