@@ -6,7 +6,9 @@ Every error has two parents: `GearcadError`, so that one clause catches all of o
 from __future__ import annotations
 
 import math
+from dataclasses import fields
 from enum import Enum
+from numbers import Integral, Real
 from typing import Any, Self, TypeVar
 
 __all__ = [
@@ -18,6 +20,7 @@ __all__ = [
     "SpecError",
     "as_choice",
     "format_number",
+    "plain_numbers",
     "require_number",
     "require_whole",
 ]
@@ -75,6 +78,14 @@ class SpecError(GearcadError, ValueError):
 
 class SolverError(GearcadError, RuntimeError):
     """An iteration that did not reach its tolerance."""
+
+
+def plain_numbers(instance: Any) -> None:
+    """Turn the numpy numbers among the fields of a frozen dataclass into Python's own: they print, compare and save as such."""
+    for each in fields(instance):
+        value = getattr(instance, each.name)
+        if isinstance(value, Real) and not isinstance(value, bool | int | float):
+            object.__setattr__(instance, each.name, int(value) if isinstance(value, Integral) else float(value))
 
 
 def require_number(

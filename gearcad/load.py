@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gearcad.errors import require_number
+from gearcad.errors import plain_numbers, require_number
 
 __all__ = ["Load"]
 
@@ -21,6 +21,7 @@ class Load:
     application_factor: float = 1.0
 
     def __post_init__(self) -> None:
+        plain_numbers(self)
         require_number("torque", self.torque, "N·m")
         require_number("speed", self.speed, "rpm")
         require_number("application_factor", self.application_factor, above=0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gearcad.errors import require_number
+from gearcad.errors import plain_numbers, require_number
 
 __all__ = ["Material"]
 
@@ -25,6 +25,7 @@ class Material:
     root_limit: float | None = None
 
     def __post_init__(self) -> None:
+        plain_numbers(self)
         require_number("youngs_modulus", self.youngs_modulus, "MPa", above=0)
         require_number("poisson_ratio", self.poisson_ratio, at_least=0, below=0.5)
         require_number("density", self.density, "kg/m^3", above=0)

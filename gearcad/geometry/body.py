@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from gearcad.errors import GeometryError, ParameterError, as_choice, require_number
+from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_number
 from gearcad.geometry.limits import at_most
 
 __all__ = ["Body", "HubSide"]
@@ -46,6 +46,7 @@ class Body:
     tip_chamfer: float = 0.0
 
     def __post_init__(self) -> None:
+        plain_numbers(self)
         for name in ("bore", "keyway_width", "keyway_depth", "hub_diameter", "hub_length", "end_chamfer", "tip_chamfer"):
             value = getattr(self, name)
             require_number(name, value, "mm", at_least=0)

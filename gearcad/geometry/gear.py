@@ -7,25 +7,15 @@ from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any
 
-from gearcad.errors import GeometryError, InputError, ParameterError, require_number, require_whole
-from gearcad.geometry import inspection
+from gearcad.errors import InputError, plain_numbers, require_number
+from gearcad.geometry import feasibility, inspection
 from gearcad.geometry.body import Body
 from gearcad.geometry.derived import Derived
-from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.profile import ToothProfile, base_half_angle
 from gearcad.geometry.rack import ISO53_A, BasicRack
 from gearcad.geometry.trochoid import ToolTip
 
 __all__ = ["Gear"]
-
-LEAST_RIM = 0.1
-"""Least wall between bore, keyway or hub and the circle they must stay inside, in normal modules."""
-
-LEAST_HELIX = 1e-6
-"""Smallest helix angle (degrees) of a helical gear; less moves a tooth by less than 2e-8 of the face width."""
-
-MOST_TWIST = 720.0
-"""Largest twist of a tooth over the face width (degrees) that one screw surface spans to the accuracy promised."""
 
 THIN_TIP = 0.2
 """Normal tip thickness below which the data sheet warns, in normal modules (0.4 for case-hardened teeth)."""
@@ -63,117 +53,20 @@ class Gear:
     root_diameter: float = Derived("nan")
 
     def __post_init__(self) -> None:
-        self._check_numbers()
+        plain_numbers(self)
+        feasibility.check_numbers(self)
         for name in ("tip_diameter", "root_diameter"):
             value = getattr(self, name)
             if value is None or isinstance(value, Derived):
                 object.__setattr__(self, name, Derived(getattr(self, "_standard_" + name)))
             else:
                 require_number(name, value, "mm", above=0)
-        self._check_tool()
+        feasibility.check_tool(self)
         try:
             self.profile  # noqa: B018 - built now, so that a gear that exists has teeth
         except InputError as error:
             raise error.within("body") if error.parameter == "tip_chamfer" else error from None
-        self._check_body()
-
-    def _check_numbers(self) -> None:
-        if not isinstance(self.name, str) or not self.name.strip():
-            raise ParameterError("name", self.name, "must be a non-empty text")
-        require_whole("teeth", self.teeth, at_least=3, at_most=2000)
-        require_number("normal_module", self.normal_module, "mm", at_least=0.01, at_most=200)
-        require_number("face_width", self.face_width, "mm", above=0, at_most=10000)
-        require_number("helix_angle", self.helix_angle, "deg", at_least=-75, at_most=75)
-        if 0 < abs(self.helix_angle) < LEAST_HELIX:
-            raise ParameterError("helix_angle", self.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
-        require_number("profile_shift", self.profile_shift, at_least=-5, at_most=5)
-        require_number("tip_alteration", self.tip_alteration, at_least=-5, at_most=5)
-        require_number("tooth_thinning", self.tooth_thinning, "mm", at_least=0)
-        for name, kind in (("rack", BasicRack), ("body", Body)):
-            if not isinstance(getattr(self, name), kind):
-                raise ParameterError(name, getattr(self, name), f"must be a {kind.__name__}")
-        if self.face_width < 0.01 * self.normal_module:
-            least = at_least(0.01 * self.normal_module)
-            raise GeometryError("face_width", self.face_width, f"must be at least {least} mm (0.01 m_n)", "mm")
-        if self.twist > MOST_TWIST:
-            raise GeometryError(
-                "face_width",
-                self.face_width,
-                f"must be at most {at_most(MOST_TWIST / 360 * self.lead)} mm ({MOST_TWIST:g} deg of twist)",
-                "mm",
-            )
-
-    def _check_tool(self) -> None:
-        """The tool must be able to exist: its tip radius fits between its flanks, and it leaves some tooth."""
-        m, angle = self.normal_module, self.rack.pressure_angle
-        thinning = f"thinning {self.tooth_thinning:g} mm" if self.tooth_thinning else "no thinning"
-        terms = f"for dedendum {self.dedendum:.6g}, pressure angle {angle:g} deg, {thinning}"
-        least_shift = -math.pi / 4 / math.tan(math.radians(angle))
-        if self.profile_shift <= least_shift:
-            raise GeometryError(
-                "profile_shift", self.profile_shift, f"must be above {at_least(least_shift)}: no tooth on the reference circle"
-            )
-        if self.normal_tooth_thickness <= 0:
-            raise GeometryError(
-                "tooth_thinning",
-                self.tooth_thinning,
-                f"must be below {at_most(self.normal_tooth_thickness + self.tooth_thinning)} mm, the normal tooth thickness",
-                "mm",
-            )
-        if self.dedendum <= 0:
-            limit = self.reference_diameter + 2 * m * self.profile_shift
-            raise GeometryError(
-                "root_diameter", self.root_diameter, f"must be below {at_most(limit)} mm (no tool depth left)", "mm"
-            )
-        full = self.rack.full_root_radius(self.dedendum, self.tooth_thinning / m)
-        if full < 0:
-            most = (math.pi / 4 + self.tooth_thinning / m / 2) / math.tan(math.radians(angle))
-            if isinstance(self.root_diameter, Derived):
-                permitted = f"must be at most {at_most(most)}, where the tool's flanks meet"
-                raise GeometryError("rack.dedendum", self.rack.dedendum, permitted)
-            least = at_least(self.reference_diameter - 2 * m * (most - self.profile_shift))
-            raise GeometryError(
-                "root_diameter", self.root_diameter, f"must be at least {least} mm, where the tool's flanks meet", "mm"
-            )
-        if self.rack.root_radius != "full" and float(self.rack.root_radius) > full:
-            raise GeometryError(
-                "rack.root_radius", self.rack.root_radius, f"must be at most {_floor(full, 3)} (full radius) {terms}"
-            )
-
-    def _check_body(self) -> None:
-        body, wall = self.body, LEAST_RIM * self.normal_module
-        root = self.root_diameter - 2 * wall
-        rim = f"a rim of {LEAST_RIM} m_n inside the root circle {self.root_diameter:.6g} mm"
-        for name, opening in (
-            ("bore", body.bore),
-            ("keyway_depth", body.opening_diameter),
-            ("hub_diameter", body.hub_diameter),
-        ):
-            if opening > root:
-                spare = f"must be at most {at_most(max(root, 0))} mm ({rim})"
-                if name == "keyway_depth":
-                    spare = f"must leave {rim}: bore and keyway reach out to diameter {opening:.6g} mm"
-                raise GeometryError(f"body.{name}", getattr(body, name), spare, "mm")
-        if body.hub_diameter and body.opening_diameter > body.hub_diameter - 2 * wall:
-            least = body.opening_diameter + 2 * wall
-            raise GeometryError(
-                "body.hub_diameter", body.hub_diameter, f"must be at least {at_least(least)} mm, to hold bore and keyway", "mm"
-            )
-        if body.end_chamfer:
-            self._check_end_chamfer(max(body.opening_diameter, body.hub_diameter) + 2 * wall)
-
-    def _check_end_chamfer(self, least_face: float) -> None:
-        length = self.body.end_chamfer
-        slope = math.tan(math.radians(self.body.end_chamfer_angle))
-        most = min(0.49 * self.face_width, (self.tip_diameter - least_face) / 2 / slope)
-        if length > most:
-            raise GeometryError(
-                "body.end_chamfer",
-                length,
-                f"must be at most {at_most(max(most, 0))} mm at {self.body.end_chamfer_angle:g} deg"
-                " (0.49 of the face width, and some end face left)",
-                "mm",
-            )
+        feasibility.check_body(self)
 
     # ------------------------------------------------------------------ what the standard derives
 
@@ -381,8 +274,3 @@ class Gear:
         if math.isinf(self.lead):
             derived["lead"] = None
         return {**inputs, "rack": rack, "body": body, **derived, "warnings": list(self.warnings)}
-
-
-def _floor(value: float, digits: int) -> float:
-    """`value` rounded down, so that a limit we print is itself permitted."""
-    return math.floor(value * 10.0**digits) / 10.0**digits

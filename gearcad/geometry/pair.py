@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from gearcad.errors import GeometryError, ParameterError, format_number, require_number
+from gearcad.errors import GeometryError, ParameterError, format_number, plain_numbers, require_number
 from gearcad.geometry import contact
 from gearcad.geometry.contact import ContactLineLengths, PathOfContact
 from gearcad.geometry.derived import Derived
@@ -55,6 +55,7 @@ class GearPair:
     name: str = "pair"
 
     def __post_init__(self) -> None:
+        plain_numbers(self)
         for which in ("pinion", "wheel"):
             if not isinstance(getattr(self, which), Gear):
                 raise ParameterError(which, getattr(self, which), "must be a Gear")

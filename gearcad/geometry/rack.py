@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from gearcad.errors import ParameterError, require_number
+from gearcad.errors import ParameterError, plain_numbers, require_number
 
 __all__ = ["ISO53_A", "ISO53_B", "ISO53_C", "ISO53_D", "NAMED_RACKS", "BasicRack"]
 
@@ -29,6 +29,7 @@ class BasicRack:
     root_radius: float | Literal["full"] = 0.38
 
     def __post_init__(self) -> None:
+        plain_numbers(self)
         require_number("pressure_angle", self.pressure_angle, "deg", at_least=5, at_most=45)
         require_number("addendum", self.addendum, above=0, at_most=5)
         require_number("dedendum", self.dedendum, above=0, at_most=5)

@@ -267,9 +267,6 @@ class _Spec:
     def _gear_inputs(self, owner: str) -> dict[str, Any]:
         """Keyword arguments of Gear; "auto" not yet resolved, what is missing as None for Gear to complain about."""
         given = self.fields_of(owner)
-        if "body.rim_diameter" in given:
-            permitted = "is for internal gears: leave it out of an external one"
-            raise GeometryError("body.rim_diameter", given["body.rim_diameter"], permitted, "mm")
         parts: dict[str, dict[str, Any]] = {"rack": {}, "body": {}}
         inputs: dict[str, Any] = dict.fromkeys(("teeth", "normal_module", "face_width"))
         for key, value in given.items():

@@ -217,7 +217,7 @@ WRONG = {
     ),
     "tool tip too round": (
         [("tooth_thinning = 0.08", "")],
-        "pinion.rack.root_radius = 0.48: must be at most 0.471 (full radius) for dedendum 1.25, pressure angle 20 deg",
+        "pinion.rack.root_radius = 0.48: must be at most 0.4719 (full radius) for dedendum 1.25, pressure angle 20 deg",
     ),
     "pointed teeth": (
         [("centre_distance = 80.0", ""), ("profile_shift = 0.107", "profile_shift = 1.4\ntip_alteration = 0.3")],

@@ -207,7 +207,7 @@ def test_tool_tip_of_the_pinion_is_refused_without_thinning() -> None:
         )
     assert caught.value.parameter == "rack.root_radius"
     # 1.1797765 mm; the pinion's feasible limit with 0.08 mm of thinning is 1.2369025 mm
-    assert "at most 0.471 (full radius)" in str(caught.value)
+    assert "at most 0.4719 (full radius)" in str(caught.value)
     limit = BasicRack().full_root_radius() * 2.5
     assert limit == pytest.approx(case("s001_gear1_profile")["verified"]["tool"]["rho_max_mm"], abs=DIAMETER, rel=0)
     thinned = BasicRack().full_root_radius(thinning=0.08 / 2.5) * 2.5

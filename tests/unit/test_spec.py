@@ -278,11 +278,11 @@ def test_a_derived_shift_that_makes_no_gear_says_where_it_comes_from() -> None:
         ({"pinion": {"rack": "DIN867"}}, "<pinion.rack>: pinion.rack = 'DIN867': must be one of 'ISO53_A', 'ISO53_B', "),
         (
             {"wheel": {"rack": {"root_radius": 0.6}}},
-            "<wheel.rack.root_radius>: wheel.rack.root_radius = 0.6: must be at most 0.471 (full radius) for dedendum 1.25",
+            "<wheel.rack.root_radius>: wheel.rack.root_radius = 0.6: must be at most 0.4719 (full radius) for dedendum 1.25",
         ),
         (
             {"pair": {"rack": {"root_radius": 0.6}}},
-            "<pair.rack.root_radius>: pair.rack.root_radius = 0.6: must be at most 0.471 (full radius) for dedendum 1.25",
+            "<pair.rack.root_radius>: pair.rack.root_radius = 0.6: must be at most 0.4719 (full radius) for dedendum 1.25",
         ),
         (
             {"pair": {"rack": {"dedendum": 1.5}}},
@@ -295,7 +295,7 @@ def test_a_derived_shift_that_makes_no_gear_says_where_it_comes_from() -> None:
         ({"pinion": {"body": {"tip_chamfer": 9}}}, "<pinion.body.tip_chamfer>: pinion.body.tip_chamfer = 9 mm: must be "),
         (
             {"pinion": {"body": {"rim_diameter": 90}}},
-            "<pinion.body.rim_diameter>: pinion.body.rim_diameter = 90 mm: is for internal gears",
+            "<pinion.body.rim_diameter>: pinion.body.rim_diameter = 90 mm: must be left out",
         ),
         ({"pair": {"axial_offset": 20}}, "<pair.axial_offset>: pair.axial_offset = 20 mm: must be between -20 and 20 mm"),
         ({"pair": {"name": "a/b"}}, "<pair.name>: pair.name = 'a/b': must be a plain file name, without / "),

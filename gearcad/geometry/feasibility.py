@@ -1,0 +1,135 @@
+"""Can this gear exist? Each number by itself, the tool that must cut it, and the body around the teeth.
+
+Raises ParameterError or GeometryError, whose limits can be used as they are printed.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from gearcad.errors import GeometryError, ParameterError, require_number, require_whole
+from gearcad.geometry.body import Body
+from gearcad.geometry.derived import Derived
+from gearcad.geometry.limits import at_least, at_most
+from gearcad.geometry.rack import BasicRack
+
+if TYPE_CHECKING:
+    from gearcad.geometry.gear import Gear
+
+__all__ = ["check_body", "check_numbers", "check_tool"]
+
+LEAST_RIM = 0.1
+"""Least wall between bore, keyway or hub and the circle they must stay inside, in normal modules."""
+
+LEAST_HELIX = 1e-6
+"""Smallest helix angle (degrees) of a helical gear; less moves a tooth by less than 2e-8 of the face width."""
+
+MOST_TWIST = 720.0
+"""Largest twist of a tooth over the face width (degrees) that one screw surface spans to the accuracy promised."""
+
+
+def check_numbers(gear: Gear) -> None:
+    """Each number by itself, and the width against module and lead."""
+    if not isinstance(gear.name, str) or not gear.name.strip():
+        raise ParameterError("name", gear.name, "must be a non-empty text")
+    require_whole("teeth", gear.teeth, at_least=3, at_most=2000)
+    require_number("normal_module", gear.normal_module, "mm", at_least=0.01, at_most=200)
+    require_number("face_width", gear.face_width, "mm", above=0, at_most=10000)
+    require_number("helix_angle", gear.helix_angle, "deg", at_least=-75, at_most=75)
+    if 0 < abs(gear.helix_angle) < LEAST_HELIX:
+        raise ParameterError("helix_angle", gear.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
+    require_number("profile_shift", gear.profile_shift, at_least=-5, at_most=5)
+    require_number("tip_alteration", gear.tip_alteration, at_least=-5, at_most=5)
+    require_number("tooth_thinning", gear.tooth_thinning, "mm", at_least=0)
+    for name, kind in (("rack", BasicRack), ("body", Body)):
+        if not isinstance(getattr(gear, name), kind):
+            raise ParameterError(name, getattr(gear, name), f"must be a {kind.__name__}")
+    if gear.face_width < 0.01 * gear.normal_module:
+        least = at_least(0.01 * gear.normal_module)
+        raise GeometryError("face_width", gear.face_width, f"must be at least {least} mm (0.01 m_n)", "mm")
+    if gear.twist > MOST_TWIST:
+        raise GeometryError(
+            "face_width",
+            gear.face_width,
+            f"must be at most {at_most(MOST_TWIST / 360 * gear.lead)} mm ({MOST_TWIST:g} deg of twist)",
+            "mm",
+        )
+
+
+def check_tool(gear: Gear) -> None:
+    """The tool must be able to exist: its tip radius fits between its flanks, and it leaves some tooth."""
+    m, angle = gear.normal_module, gear.rack.pressure_angle
+    thinning = f"thinning {gear.tooth_thinning:g} mm" if gear.tooth_thinning else "no thinning"
+    terms = f"for dedendum {gear.dedendum:.6g}, pressure angle {angle:g} deg, {thinning}"
+    least_shift = -math.pi / 4 / math.tan(math.radians(angle))
+    if gear.profile_shift <= least_shift:
+        raise GeometryError(
+            "profile_shift", gear.profile_shift, f"must be above {at_least(least_shift)}: no tooth on the reference circle"
+        )
+    if gear.normal_tooth_thickness <= 0:
+        raise GeometryError(
+            "tooth_thinning",
+            gear.tooth_thinning,
+            f"must be below {at_most(gear.normal_tooth_thickness + gear.tooth_thinning)} mm, the normal tooth thickness",
+            "mm",
+        )
+    if gear.dedendum <= 0:
+        limit = gear.reference_diameter + 2 * m * gear.profile_shift
+        raise GeometryError(
+            "root_diameter", gear.root_diameter, f"must be below {at_most(limit)} mm (no tool depth left)", "mm"
+        )
+    full = gear.rack.full_root_radius(gear.dedendum, gear.tooth_thinning / m)
+    if full < 0:
+        most = (math.pi / 4 + gear.tooth_thinning / m / 2) / math.tan(math.radians(angle))
+        if isinstance(gear.root_diameter, Derived):
+            permitted = f"must be at most {at_most(most)}, where the tool's flanks meet"
+            raise GeometryError("rack.dedendum", gear.rack.dedendum, permitted)
+        least = at_least(gear.reference_diameter - 2 * m * (most - gear.profile_shift))
+        raise GeometryError(
+            "root_diameter", gear.root_diameter, f"must be at least {least} mm, where the tool's flanks meet", "mm"
+        )
+    if gear.rack.root_radius != "full" and float(gear.rack.root_radius) > full:
+        raise GeometryError(
+            "rack.root_radius", gear.rack.root_radius, f"must be at most {at_most(full, 4)} (full radius) {terms}"
+        )
+
+
+def check_body(gear: Gear) -> None:
+    """Bore, keyway and hub must leave a rim, the end chamfers some end face."""
+    if gear.body.rim_diameter is not None:
+        raise GeometryError("body.rim_diameter", gear.body.rim_diameter, "must be left out: it is for internal gears", "mm")
+    body, wall = gear.body, LEAST_RIM * gear.normal_module
+    root = gear.root_diameter - 2 * wall
+    rim = f"a rim of {LEAST_RIM} m_n inside the root circle {gear.root_diameter:.6g} mm"
+    for name, opening in (
+        ("bore", body.bore),
+        ("keyway_depth", body.opening_diameter),
+        ("hub_diameter", body.hub_diameter),
+    ):
+        if opening > root:
+            spare = f"must be at most {at_most(max(root, 0))} mm ({rim})"
+            if name == "keyway_depth":
+                spare = f"must leave {rim}: bore and keyway reach out to diameter {opening:.6g} mm"
+            raise GeometryError(f"body.{name}", getattr(body, name), spare, "mm")
+    if body.hub_diameter and body.opening_diameter > body.hub_diameter - 2 * wall:
+        least = body.opening_diameter + 2 * wall
+        raise GeometryError(
+            "body.hub_diameter", body.hub_diameter, f"must be at least {at_least(least)} mm, to hold bore and keyway", "mm"
+        )
+    if body.end_chamfer:
+        _check_end_chamfer(gear, max(body.opening_diameter, body.hub_diameter) + 2 * wall)
+
+
+def _check_end_chamfer(gear: Gear, least_face: float) -> None:
+    length = gear.body.end_chamfer
+    slope = math.tan(math.radians(gear.body.end_chamfer_angle))
+    most = min(0.49 * gear.face_width, (gear.tip_diameter - least_face) / 2 / slope)
+    if length > most:
+        raise GeometryError(
+            "body.end_chamfer",
+            length,
+            f"must be at most {at_most(max(most, 0))} mm at {gear.body.end_chamfer_angle:g} deg"
+            " (0.49 of the face width, and some end face left)",
+            "mm",
+        )
