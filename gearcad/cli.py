@@ -42,6 +42,9 @@ class _Commands(click.Group):
         """Run the command; raises SystemExit by way of `ctx.exit`."""
         try:
             return super().invoke(ctx)
+        except click.UsageError as error:
+            click.echo(f"Error: {error.format_message()}", err=True)
+            ctx.exit(2)
         except (click.ClickException, click.Abort, click.exceptions.Exit):
             raise
         except Exception as error:
@@ -64,9 +67,13 @@ class _Commands(click.Group):
 
 def _interrupted(error: BaseException | None) -> bool:
     """True for an error that began as Ctrl-C: an extension module that is being imported turns one into the other."""
-    while error is not None and not isinstance(error, KeyboardInterrupt):
+    seen: set[int] = set()
+    while error is not None and id(error) not in seen:
+        if isinstance(error, KeyboardInterrupt):
+            return True
+        seen.add(id(error))
         error = error.__cause__ or error.__context__
-    return error is not None
+    return False
 
 
 def _debug_option(command: Command) -> Command:

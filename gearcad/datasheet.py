@@ -20,7 +20,7 @@ _GEAR_BLOCKS = {
     "Transverse section": "transverse_module transverse_pressure_angle base_helix_angle transverse_pitch transverse_base_pitch",
     "Diameters": "tip_diameter tip_form_diameter reference_diameter base_diameter form_diameter root_diameter undercut",
     "Tooth thickness": "normal_tooth_thickness transverse_tooth_thickness tip_thickness",
-    "Inspection": "span_teeth span_measurement span_contact_diameter ball_diameter over_balls over_pins",
+    "Inspection": "span_teeth span_measurement span_contact_diameter ball_diameter over_balls over_pins pin_axial_shift",
     "Body": "body.bore body.keyway_width body.keyway_depth body.hub_diameter body.hub_length body.hub_side body.rim_diameter"
     " body.end_chamfer body.end_chamfer_angle body.tip_chamfer",
 }

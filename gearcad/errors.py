@@ -21,6 +21,7 @@ __all__ = [
     "as_choice",
     "format_number",
     "plain_numbers",
+    "require_name",
     "require_number",
     "require_whole",
 ]
@@ -40,6 +41,10 @@ def format_number(value: object) -> str:
         return text if len(text) <= LONGEST_VALUE else f"{text[: LONGEST_VALUE - 3]}..."
     # Adding zero makes -0.0 a plain zero.
     return f"{value + 0.0:.10g}"
+
+
+_MOST_EXACT = 2**53
+"""Largest whole number up to which a float holds every one; a larger one is left to the checks."""
 
 
 class GearcadError(Exception):
@@ -81,11 +86,18 @@ class SolverError(GearcadError, RuntimeError):
 
 
 def plain_numbers(instance: Any) -> None:
-    """Turn the numpy numbers among the fields of a frozen dataclass into Python's own: they print, compare and save as such."""
+    """Turn the numbers among the fields of a frozen dataclass into Python's own, and whole lengths into floats.
+
+    So numpy's numbers are accepted, and equal inputs print, compare and save as equal.
+    """
     for each in fields(instance):
         value = getattr(instance, each.name)
-        if isinstance(value, Real) and not isinstance(value, bool | int | float):
-            object.__setattr__(instance, each.name, int(value) if isinstance(value, Integral) else float(value))
+        if isinstance(value, bool) or not isinstance(value, Real):
+            continue
+        if isinstance(value, Integral) and (each.type == "int" or abs(int(value)) > _MOST_EXACT):
+            object.__setattr__(instance, each.name, int(value))
+        elif not isinstance(value, float):
+            object.__setattr__(instance, each.name, float(value))
 
 
 def require_number(
@@ -115,6 +127,12 @@ def require_number(
     )
     if not inside:
         raise ParameterError(parameter, value, permitted, unit)
+
+
+def require_name(parameter: str, value: Any) -> None:
+    """Raise ParameterError unless `value` is a text that any file format can hold: not blank, no control characters."""
+    if not isinstance(value, str) or not value.strip() or not value.isprintable():
+        raise ParameterError(parameter, value, "must be a text that is not blank, without control characters")
 
 
 def require_whole(parameter: str, value: Any, *, at_least: int, at_most: int) -> None:

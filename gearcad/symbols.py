@@ -67,6 +67,7 @@ GEAR = {
     "ball_diameter": Symbol("D_M", "mm", "Annex A", "ball or pin diameter"),
     "over_balls": Symbol("M_dK", "mm", "Annex A", "over two balls"),
     "over_pins": Symbol("M_dR", "mm", "Annex A", "over two pins"),
+    "pin_axial_shift": Symbol("", "mm", "", "pins apart along the axis"),
 }
 
 PAIR = {

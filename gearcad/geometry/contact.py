@@ -21,6 +21,7 @@ __all__ = [
     "active_root_diameters",
     "contact_line_length",
     "contact_line_lengths",
+    "farthest_centre_distance",
     "path_of_contact",
     "usable_path",
 ]
@@ -61,6 +62,12 @@ def path_of_contact(pair: GearPair) -> PathOfContact:
     pitch = pair.pinion.transverse_base_pitch
     middle = pair.pinion.base_diameter / 2 * math.tan(math.radians(pair.working_transverse_pressure_angle))
     return PathOfContact(start, end - pitch, middle, start + pitch, end)
+
+
+def farthest_centre_distance(pinion: Gear, wheel: Gear) -> float:
+    """Centre distance (mm) at which the path of contact vanishes: both tip form circles meet on the line of action."""
+    tangents = _tangent_length(pinion, pinion.tip_form_diameter) + _tangent_length(wheel, wheel.tip_form_diameter)
+    return math.hypot((pinion.base_diameter + wheel.base_diameter) / 2, tangents)
 
 
 def usable_path(pair: GearPair) -> tuple[float, float]:

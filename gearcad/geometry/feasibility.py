@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from gearcad.errors import GeometryError, ParameterError, require_number, require_whole
+from gearcad.errors import GeometryError, ParameterError, require_name, require_number, require_whole
 from gearcad.geometry.body import Body
 from gearcad.geometry.derived import Derived
 from gearcad.geometry.limits import at_least, at_most
@@ -31,8 +31,7 @@ MOST_TWIST = 720.0
 
 def check_numbers(gear: Gear) -> None:
     """Each number by itself, and the width against module and lead."""
-    if not isinstance(gear.name, str) or not gear.name.strip():
-        raise ParameterError("name", gear.name, "must be a non-empty text")
+    require_name("name", gear.name)
     require_whole("teeth", gear.teeth, at_least=3, at_most=2000)
     require_number("normal_module", gear.normal_module, "mm", at_least=0.01, at_most=200)
     require_number("face_width", gear.face_width, "mm", above=0, at_most=10000)

@@ -24,7 +24,7 @@ _DERIVED = (
     "transverse_module transverse_pressure_angle base_helix_angle reference_diameter base_diameter tip_form_diameter "
     "form_diameter undercut normal_tooth_thickness transverse_tooth_thickness tip_thickness transverse_pitch "
     "transverse_base_pitch lead virtual_teeth span_teeth span_measurement span_contact_diameter ball_diameter over_balls "
-    "over_pins"
+    "over_pins pin_axial_shift"
 ).split()
 
 
@@ -214,6 +214,11 @@ class Gear:
         """Dimension over two pins of `ball_diameter`, free to shift along the axis."""
         return inspection.over_pins(self, self.ball_diameter)
 
+    @property
+    def pin_axial_shift(self) -> float:
+        """Distance along the axis between the two pins of `over_pins`."""
+        return inspection.pin_axial_shift(self)
+
     # ------------------------------------------------------------------ the tooth
 
     @cached_property
@@ -259,6 +264,10 @@ class Gear:
         if not lowest <= ball_contact <= highest:
             found.append(
                 f"balls: a ball of {self.ball_diameter:g} mm would touch at diameter {ball_contact:.4f} mm, off the involute"
+            )
+        if self.face_width < self.pin_axial_shift:
+            found.append(
+                f"pins: the dimension over two pins needs a face width of {self.pin_axial_shift:.4f} mm; use balls, or one pin"
             )
         span_width = self.span_measurement * math.sin(math.radians(abs(self.base_helix_angle)))
         if self.face_width < span_width:

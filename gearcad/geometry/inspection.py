@@ -19,6 +19,7 @@ __all__ = [
     "chordal_thickness",
     "over_balls",
     "over_pins",
+    "pin_axial_shift",
     "span_contact_diameter",
     "span_measurement",
     "span_teeth",
@@ -86,13 +87,17 @@ def suggested_ball_diameter(gear: Gear) -> float:
     """
     touching = math.acos(min(gear.base_diameter / _middle_diameter(gear), 1.0))
     space_at_base = math.pi / gear.teeth - math.radians(gear.profile.base_half_angle)
-    touching = min(touching, math.atan(_FARTHEST_CENTRE - space_at_base))
+    farthest = max(_FARTHEST_CENTRE, (touching + math.pi / 2) / 2)
+    touching = min(touching, math.atan(farthest - space_at_base))
     space = space_at_base + math.tan(touching) - touching
     base_helix = math.radians(gear.base_helix_angle)
-    centre = touching + space
-    for _ in range(50):
-        residual = centre - touching - space + math.tan(base_helix) ** 2 * (math.tan(centre) - math.tan(touching))
-        centre -= residual / (1 + math.tan(base_helix) ** 2 / math.cos(centre) ** 2)
+    low, high = touching, min(touching + space, math.pi / 2 - 1e-9)
+    for _ in range(60):  # the left side less the right grows steadily with alpha_K
+        centre = (low + high) / 2
+        if centre - touching - space + math.tan(base_helix) ** 2 * (math.tan(centre) - math.tan(touching)) < 0:
+            low = centre
+        else:
+            high = centre
     ideal = gear.base_diameter * (math.tan(centre) - math.tan(touching)) / math.cos(base_helix)
     step = 10.0 ** (math.floor(math.log10(ideal)) - 1)
     return round(math.ceil(ideal / step) * step, 9)
@@ -121,12 +126,19 @@ def over_balls(gear: Gear, ball: float) -> float:
 def over_pins(gear: Gear, pin: float) -> float:
     """Dimension over two pins of diameter `pin` between parallel planes.
 
-    As over balls, but on a helical gear with an odd number of teeth the pins roll along their spaces (by half an axial
-    pitch in all) until they lie diametrically opposite: M = d_K + D there.
+    As over balls, but on a helical gear with an odd number of teeth the pins roll along their spaces until they lie
+    diametrically opposite, `pin_axial_shift` apart along the axis: M = d_K + D there.
     """
     if gear.helix_angle and gear.teeth % 2:
         return _ball_circle(gear, pin) + pin
     return over_balls(gear, pin)
+
+
+def pin_axial_shift(gear: Gear) -> float:
+    """How far apart along the axis two pins lie that are measured over (mm): half an axial pitch if z is odd, else 0."""
+    if not gear.helix_angle or gear.teeth % 2 == 0:
+        return 0.0
+    return gear.lead / gear.teeth / 2
 
 
 def chordal_thickness(gear: Gear) -> tuple[float, float]:

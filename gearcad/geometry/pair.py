@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from gearcad.errors import GeometryError, ParameterError, format_number, plain_numbers, require_number
+from gearcad.errors import GeometryError, ParameterError, format_number, plain_numbers, require_name, require_number
 from gearcad.geometry import contact
 from gearcad.geometry.contact import ContactLineLengths, PathOfContact
 from gearcad.geometry.derived import Derived
@@ -60,6 +60,7 @@ class GearPair:
             if not isinstance(getattr(self, which), Gear):
                 raise ParameterError(which, getattr(self, which), "must be a Gear")
         require_number("axial_offset", self.axial_offset, "mm")
+        require_name("name", self.name)
         self._check_mates()
         given = self.centre_distance
         if given is None or isinstance(given, Derived):
@@ -76,6 +77,14 @@ class GearPair:
                 "mm",
             )
         self._check_overlap()
+        self._check_reach()
+
+    def _check_reach(self) -> None:
+        """Some path of contact must be left between the tip form circles."""
+        farthest = contact.farthest_centre_distance(self.pinion, self.wheel)
+        if self.centre_distance >= farthest:
+            permitted = f"must be below {at_most(farthest)} mm, where the tips reach each other's flanks"
+            raise GeometryError("centre_distance", self.centre_distance, permitted, "mm")
 
     def _check_mates(self) -> None:
         pinion, wheel = self.pinion, self.wheel

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from enum import Enum
 
-from gearcad.errors import GeometryError
+from gearcad.errors import GeometryError, as_choice
 from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.geometry.limits import at_least
 
@@ -108,6 +108,7 @@ def split_profile_shift(
     `addenda` h_aP* of both racks and `tip_alteration` k (normal modules) fix the tips for equal specific sliding.
     Raises GeometryError where no split balances the sliding.
     """
+    split = as_choice("split", split, ShiftSplit)
     if split is ShiftSplit.EQUAL:
         return total / 2, total / 2
     if split is ShiftSplit.PINION:

@@ -32,7 +32,8 @@ def pair_assembly(pair: GearPair, *, bracket: bool = False) -> cadquery.Assembly
     pose = mesh_pose(pair)
     axis = cadquery.Vector(0, 0, 1)
     wheel_at = cadquery.Location(cadquery.Vector(pose.x, 0, pose.z), axis, pose.rotation)
-    assembly = cadquery.Assembly(name=pair.name)
+    # CadQuery wants every name once, and a pair may be called "pinion".
+    assembly = cadquery.Assembly(name=f"{pair.name} assembly" if pair.name in PART_COLOURS else pair.name)
     assembly.add(gear_solid(pair.pinion), name="pinion", color=cadquery.Color(*PART_COLOURS["pinion"], 1.0))
     assembly.add(gear_solid(pair.wheel), name="wheel", loc=wheel_at, color=cadquery.Color(*PART_COLOURS["wheel"], 1.0))
     if bracket:

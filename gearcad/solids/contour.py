@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections import OrderedDict
 from dataclasses import dataclass
 from pathlib import Path
+from threading import Lock
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,6 +31,10 @@ _CHECKED = np.linspace(0.0, 1.0, 17)[1:-1]
 """Where between its ends a pair of arcs is compared with the curve."""
 
 _MOST_PAIRS = 1000
+
+_fixed_meta_data = Lock()
+"""Held while the global option of ezdxf is changed, so that threads do not restore each other's value."""
+
 _MILLIMETRES, _METRIC = 4, 1
 
 
@@ -40,7 +46,7 @@ class _Arcs:
     bulges: Floats
 
 
-def write_dxf(gear: Gear, path: Path, *, accuracy: float = 0.0005) -> None:
+def write_dxf(gear: Gear, path: Path | str, *, accuracy: float = 0.0005) -> None:
     """Write the transverse section at z = 0 as DXF (R2010, mm): tooth 0 on +x.
 
     Layer PROFILE holds the contour, one closed polyline of arcs (see `gear_contour`); BORE the bore, a circle, or with a
@@ -50,20 +56,21 @@ def write_dxf(gear: Gear, path: Path, *, accuracy: float = 0.0005) -> None:
     import ezdxf
 
     contour = gear_contour(gear, accuracy)
-    # The only way to keep ezdxf from writing the time and new identifiers into the file is this global option.
-    before = ezdxf.options.write_fixed_meta_data_for_testing
-    ezdxf.options.write_fixed_meta_data_for_testing = True
-    try:
-        document = _document()
-        space = document.modelspace()
-        space.add_lwpolyline(contour.tolist(), format="xyb", close=True, dxfattribs={"layer": "PROFILE"})
-        _draw_bore(space, gear.body)
-        for diameter in (gear.tip_diameter, gear.reference_diameter, gear.base_diameter, gear.root_diameter):
-            space.add_circle((0, 0), diameter / 2, dxfattribs={"layer": "CIRCLES"})
-        with path.open("w", encoding=document.output_encoding, errors="dxfreplace", newline="\n") as stream:
-            document.write(stream)
-    finally:
-        ezdxf.options.write_fixed_meta_data_for_testing = before
+    with _fixed_meta_data:
+        # The only way to keep ezdxf from writing the time and new identifiers into the file is this global option.
+        before = ezdxf.options.write_fixed_meta_data_for_testing
+        ezdxf.options.write_fixed_meta_data_for_testing = True
+        try:
+            document = _document()
+            space = document.modelspace()
+            space.add_lwpolyline(contour.tolist(), format="xyb", close=True, dxfattribs={"layer": "PROFILE"})
+            _draw_bore(space, gear.body)
+            for diameter in (gear.tip_diameter, gear.reference_diameter, gear.base_diameter, gear.root_diameter):
+                space.add_circle((0, 0), diameter / 2, dxfattribs={"layer": "CIRCLES"})
+            with Path(path).open("w", encoding=document.output_encoding, errors="dxfreplace", newline="\n") as stream:
+                document.write(stream)
+        finally:
+            ezdxf.options.write_fixed_meta_data_for_testing = before
 
 
 def gear_contour(gear: Gear, accuracy: float = 0.0005) -> Floats:
@@ -170,6 +177,9 @@ def _document() -> Drawing:
     import ezdxf
 
     document = ezdxf.new("R2010", setup=["linetypes"])
+    # ezdxf adds these from a set when it writes, in an order that changes from process to process.
+    document.classes.add_required_classes(document.dxfversion)
+    document.classes.classes = OrderedDict(sorted(document.classes.classes.items()))
     document.header["$INSUNITS"], document.header["$MEASUREMENT"] = _MILLIMETRES, _METRIC
     for name, (colour, linetype) in _LAYERS.items():
         document.layers.add(name, color=colour, linetype=linetype)

@@ -49,12 +49,12 @@ class Part:
         return matrix
 
 
-def write_stl(facets: Facets, path: Path) -> None:
+def write_stl(facets: Facets, path: Path | str) -> None:
     """Write binary STL, in mm (the format states no unit) and single precision."""
-    path.write_bytes(_trimesh(facets).export(file_type="stl"))
+    Path(path).write_bytes(_trimesh(facets).export(file_type="stl"))
 
 
-def write_scene(parts: Sequence[Part], path: Path) -> None:
+def write_scene(parts: Sequence[Part], path: Path | str) -> None:
     """Write 3MF or GLB, by the suffix of `path`: every part a named, coloured body in its place.
 
     3MF states the millimetre. glTF knows only metres with y up, so in GLB the data stay in mm with z up, and the node
@@ -62,6 +62,7 @@ def write_scene(parts: Sequence[Part], path: Path) -> None:
     Raises ParameterError for another suffix.
     """
     writers = {".3mf": _three_mf, ".glb": _glb}
+    path = Path(path)
     suffix = path.suffix.lower()
     if suffix not in writers:
         raise ParameterError("path", str(path), "must end in .3mf or .glb")

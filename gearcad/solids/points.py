@@ -34,13 +34,13 @@ class PointBlock(NamedTuple):
     points: Floats
 
 
-def write_points(gear: Gear, path: Path, *, chord_error: float = 0.0005) -> None:
+def write_points(gear: Gear, path: Path | str, *, chord_error: float = 0.0005) -> None:
     """Write the points of `gear_points` as CSV: curve, index, parameter (degrees), radius, half angle, x, y.
 
     The half angle (degrees) is counted from the middle of tooth 0, on +x. Raises ParameterError for a chord error (mm)
     that is not positive.
     """
-    with path.open("w", encoding="utf-8", newline="") as stream:
+    with Path(path).open("w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(_HEADER)
         for block in gear_points(gear, chord_error):

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
+from threading import RLock
 from typing import TYPE_CHECKING, Any
 
 from gearcad.errors import SolverError
@@ -26,39 +29,88 @@ _REFERENCE = re.compile(rb"#(\d+)")
 _ENTITY = re.compile(rb"^#\d+ = ", re.MULTILINE)
 _STEEL = (0.62, 0.66, 0.72)
 
+_kernel = RLock()
+"""Held while the kernel's global settings are changed."""
 
-def write_step(model: cadquery.Assembly | cadquery.Solid, path: Path, *, name: str) -> None:
-    """Write a solid (as one part called `name`) or an assembly to `path` (STEP AP214, mm).
+
+def write_step(model: cadquery.Assembly | cadquery.Solid, path: Path | str, *, name: str) -> None:
+    """Write a solid, as one part called `name`, or an assembly, which has names of its own, to `path` (STEP AP214, mm).
 
     Curves in the parameters of surfaces are left out (write.surfacecurve.mode 0): readers rebuild them, and the file is a
     third to a half smaller. Time stamp and running numbers are fixed. Raises SolverError if the kernel cannot write.
     """
     import cadquery
-    from cadquery.occ_impl.assembly import toCAF
     from OCP.IFSelect import IFSelect_RetDone
-    from OCP.Interface import Interface_Static
     from OCP.STEPCAFControl import STEPCAFControl_Writer
     from OCP.STEPControl import STEPControl_StepModelType
 
-    writer = STEPCAFControl_Writer()
-    writer.SetColorMode(True)
-    writer.SetNameMode(True)
-    for setting, value in (("write.surfacecurve.mode", 0), ("write.precision.mode", 0)):
-        Interface_Static.SetIVal_s(setting, value)
-    for setting, text in (("write.step.schema", "AP214IS"), ("xstep.cascade.unit", "MM"), ("write.step.unit", "MM")):
-        Interface_Static.SetCVal_s(setting, text)
-    document = toCAF(model, True)[1] if isinstance(model, cadquery.Assembly) else _part_document(model, name)
-    transferred = writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs)
-    if not transferred or writer.Write(str(path)) != IFSelect_RetDone:
+    path = Path(path)
+    assembled = isinstance(model, cadquery.Assembly)
+    with _settings():
+        writer = STEPCAFControl_Writer()
+        writer.SetColorMode(True)
+        writer.SetNameMode(True)
+        document = _assembly_document(model) if assembled else _part_document(model, name)
+        transferred = writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs)
+        written = transferred and writer.Write(str(path)) == IFSelect_RetDone
+    if not written:
         raise SolverError(f"the CAD kernel could not write {path}")
     path.write_bytes(_reproducible(path.read_bytes()))
 
 
-def _part_document(solid: cadquery.Solid, name: str) -> Any:
+@contextmanager
+def _settings() -> Iterator[None]:
+    """The kernel's global settings of this module while it writes; afterwards the user's are back."""
+    from OCP.Interface import Interface_Static
+
+    numbers = {"write.surfacecurve.mode": 0, "write.precision.mode": 0}
+    texts = {"write.step.schema": "AP214IS", "xstep.cascade.unit": "MM", "write.step.unit": "MM"}
+    with _kernel:
+        _initialise()
+        before = {name: Interface_Static.IVal_s(name) for name in numbers}
+        before_texts = {name: Interface_Static.CVal_s(name) for name in texts}
+        try:
+            _set(numbers, texts)
+            yield
+        finally:
+            _set(before, before_texts)
+
+
+def _initialise() -> None:
+    """Without a controller the settings do not exist yet."""
+    from OCP.STEPCAFControl import STEPCAFControl_Controller
+
+    STEPCAFControl_Controller.Init_s()
+
+
+def _set(numbers: dict[str, int], texts: dict[str, str]) -> None:
+    from OCP.Interface import Interface_Static
+
+    for setting, value in numbers.items():
+        Interface_Static.SetIVal_s(setting, value)
+    for setting, text in texts.items():
+        Interface_Static.SetCVal_s(setting, text)
+
+
+def _name(label: Any, name: str) -> None:
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDataStd import TDataStd_Name
+
+    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))  # True: the text is UTF-8
+
+
+def _assembly_document(assembly: Any) -> Any:
+    from cadquery.occ_impl.assembly import toCAF
+
+    label, document = toCAF(assembly, True)
+    _name(label, assembly.name)  # CadQuery takes the bytes of a name for Latin-1
+    return document
+
+
+def _part_document(solid: Any, name: str) -> Any:
     """An XCAF document that holds one named, coloured part."""
     from OCP.Quantity import Quantity_Color, Quantity_TOC_RGB
     from OCP.TCollection import TCollection_ExtendedString
-    from OCP.TDataStd import TDataStd_Name
     from OCP.TDocStd import TDocStd_Document
     from OCP.XCAFApp import XCAFApp_Application
     from OCP.XCAFDoc import XCAFDoc_ColorGen, XCAFDoc_DocumentTool
@@ -66,10 +118,9 @@ def _part_document(solid: cadquery.Solid, name: str) -> Any:
     document = TDocStd_Document(TCollection_ExtendedString("XmlXCAF"))
     XCAFApp_Application.GetApplication_s().InitDocument(document)
     label = XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).AddShape(solid.wrapped, False)
-    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name))
-    XCAFDoc_DocumentTool.ColorTool_s(document.Main()).SetColor(
-        label, Quantity_Color(*_STEEL, Quantity_TOC_RGB), XCAFDoc_ColorGen
-    )
+    _name(label, name)
+    colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
+    colours.SetColor(label, Quantity_Color(*_STEEL, Quantity_TOC_RGB), XCAFDoc_ColorGen)
     return document
 
 

@@ -26,7 +26,7 @@ from gearcad.geometry import NAMED_RACKS, BasicRack, Body, Gear, GearPair, Shift
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.spec.auto import AUTO, resolve_profile_shifts, resolve_tip_alterations
-from gearcad.spec.design import Design, DesignKind
+from gearcad.spec.design import Design, DesignKind, require_plain_name
 from gearcad.spec.keys import KEYS, SHARED, explain_unknown_key, explain_unknown_table
 from gearcad.spec.lines import explain_syntax, find_lines, nearest_line
 
@@ -50,11 +50,12 @@ class _Given(NamedTuple):
     note: str = ""
 
 
-def read_spec(path: Path) -> Design:
+def read_spec(path: Path | str) -> Design:
     """Read a TOML spec. The name of the design is its own, else the stem of the file.
 
     Raises SpecError, one line that names the file, the line, the key and what is permitted.
     """
+    path = Path(path)
     try:
         text = path.read_bytes().decode("utf-8-sig")
     except OSError as error:
@@ -89,6 +90,8 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
     load = spec.simple("load", Load) if "load" in tables else None
     main = kind.value
     name = spec.values.get(f"{main}.name", _Given(default_name, f"{main}.name", "from the file's name")).value
+    with spec.blame(main):
+        require_plain_name(name)
     gear = spec.gear(name) if kind is DesignKind.GEAR else None
     pair = spec.pair(name) if kind is DesignKind.PAIR else None
     with spec.blame(main):
@@ -279,7 +282,9 @@ class _Spec:
             base = _named_rack(given["rack"]) if "rack" in given else BasicRack()
             inputs["rack"] = BasicRack(**{f.name: getattr(base, f.name) for f in fields(base)} | parts["rack"])
         except InputError as error:
-            raise error if error.parameter == "rack" else error.within("rack") from error
+            if error.parameter == "rack":
+                raise
+            raise error.within("rack") from error
         try:
             inputs["body"] = Body(**parts["body"])
         except InputError as error:

@@ -226,6 +226,7 @@ WRONG = {
     "bore in the root": ([("body.bore = 16.0", "body.bore = 31.2")], "pinion.body.bore = 31.2 mm: must be at most 30.5"),
     "misspelt key": ([("face_width = 18.3", "face_widht = 18.3")], "pinion.face_widht: unknown key; did you mean face_width?"),
     "missing key": ([("teeth = 44", "")], "wheel.teeth is missing: must be a whole number from 3 to 2000"),
+    "unknown rack": ([("rack.root_radius = 0.48", 'rack = "ISO53_E"')], "pinion.rack = 'ISO53_E': must be one of 'ISO53_A', "),
     "bad name": ([('"volvo-13-44"', '"../elsewhere"')], "pair.name = '../elsewhere': must be a plain file name"),
 }
 
@@ -241,6 +242,19 @@ def test_wrong_input_is_one_line_and_leaves_nothing(mistake: str, command: str, 
     assert result.stderr.startswith(f"Error: {spec} line ")
     assert message in result.stderr
     assert list(Path().rglob("*")) == [Path(spec.name)]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["build", "x.toml", "--chord-error", "a"], "Invalid value for '--chord-error': 'a' is not a valid float"),
+        (["bild", "x.toml"], "No such command 'bild'"),
+        (["data"], "Missing argument 'SPEC'"),
+    ],
+)
+def test_wrong_usage_is_one_line(arguments: list[str], message: str) -> None:
+    result = run(*arguments, status=2)
+    assert result.stderr.startswith(f"Error: {message}") and result.stderr.count("\n") == 1
 
 
 def test_pointed_teeth_say_where_the_point_is(tmp_path: Path) -> None:

@@ -4,33 +4,19 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import fields
 from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import event, given, settings
-from support.strategies import build_gear, gear_inputs
+from support.strategies import build_gear, gear_inputs, names_a_field
 
-from gearcad import BasicRack, Body, Gear
+from gearcad import Gear
 from gearcad.errors import InputError
 from gearcad.geometry.curves import CurveKind
 
 ROUNDING = 1e-12
 """Relative rounding of radii and angles."""
-
-FIELDS = {
-    "": {field.name for field in fields(Gear)},
-    "rack.": {field.name for field in fields(BasicRack)},
-    "body.": {field.name for field in fields(Body)},
-}
-
-
-def names_a_field(error: InputError) -> bool:
-    """Whether the error is one line that names a field a user can change, as seen from a gear."""
-    owner, _, name = error.parameter.rpartition(".")
-    known = {prefix for prefix, names in FIELDS.items() if name in names}
-    return "\n" not in str(error) and (f"{owner}." if owner else "") in known
 
 
 def check_gear(gear: Gear) -> None:

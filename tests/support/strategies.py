@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
 from hypothesis import strategies as st
@@ -10,7 +11,7 @@ from gearcad import BasicRack, Body, Gear, GearPair
 from gearcad.errors import InputError
 from gearcad.geometry import HubSide
 
-__all__ = ["build_gear", "build_pair", "gear_inputs", "pair_inputs"]
+__all__ = ["build_gear", "build_pair", "gear_inputs", "names_a_field", "pair_inputs"]
 
 MOST_TEETH = 300
 
@@ -25,11 +26,11 @@ def _often(value: Any, rest: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
 
 
 TEETH = st.one_of(st.integers(3, 12), st.integers(8, 60), st.integers(3, MOST_TEETH))
-MODULE = _often(1.0, _number(0.1, 20))
+MODULE = st.one_of(st.just(1.0), _number(0.1, 20), _number(0.01, 200))
 HELIX = st.one_of(st.just(0.0), _number(0.001, 60), _number(-60, -0.001))
-SHIFT = st.one_of(st.just(0.0), _number(-0.4, 0.6), _number(-0.4, 0.6), _number(-1.5, 1.5))
+SHIFT = st.one_of(st.just(0.0), _number(-0.4, 0.6), _number(-0.4, 0.6), _number(-1.5, 1.5), _number(-5, 5))
 THINNING = _often(0.0, _number(0, 0.15))
-PRESSURE_ANGLE = st.one_of(st.sampled_from([20.0, 14.5, 25.0, 30.0]), _number(12, 32))
+PRESSURE_ANGLE = st.one_of(st.sampled_from([20.0, 14.5, 25.0, 30.0]), _number(12, 32), _number(5, 45))
 
 
 @st.composite
@@ -172,3 +173,17 @@ def build_pair(inputs: dict[str, Any]) -> GearPair:
     distance = None if inputs["spread"] is None else first.centre_distance + inputs["spread"] * m
     spread = first if distance is None else pair(first.pinion.tip_alteration, distance)
     return pair(spread.tip_alteration if inputs["shortened"] else 0.0, distance)
+
+
+FIELDS = {
+    "": {field.name for field in fields(Gear)},
+    "rack.": {field.name for field in fields(BasicRack)},
+    "body.": {field.name for field in fields(Body)},
+}
+
+
+def names_a_field(error: InputError) -> bool:
+    """Whether the error is one line that names a field a user can change, as seen from a gear."""
+    owner, _, name = error.parameter.rpartition(".")
+    known = {prefix for prefix, names in FIELDS.items() if name in names}
+    return "\n" not in str(error) and (f"{owner}." if owner else "") in known

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import json
 import math
 import pickle
 import re
@@ -10,12 +11,13 @@ from collections.abc import Callable
 from dataclasses import FrozenInstanceError, replace
 from typing import Any
 
+import numpy as np
 import pytest
 from support.cases import volvo_pair
 from support.samples import SAMPLES
 
 from gearcad import BasicRack, Body, Gear, GearcadError, GearPair, GeometryError, ParameterError, ToothProfile
-from gearcad.geometry import NAMED_RACKS
+from gearcad.geometry import NAMED_RACKS, split_profile_shift
 from gearcad.geometry.limits import at_least, at_most
 
 
@@ -155,7 +157,7 @@ SINGLE: list[tuple[Callable[..., Any], dict[str, Any], str, str]] = [
     (_gear, {"tooth_thinning": -0.1}, "tooth_thinning", "tooth_thinning = -0.1 mm: must be a number at least 0 mm"),
     (_gear, {"tip_diameter": 0}, "tip_diameter", "must be a number above 0 mm"),
     (_gear, {"root_diameter": -1}, "root_diameter", "must be a number above 0 mm"),
-    (_gear, {"name": " "}, "name", "must be a non-empty text"),
+    (_gear, {"name": " "}, "name", "must be a text that is not blank"),
     (_gear, {"rack": 20}, "rack", "must be a BasicRack"),
     (_gear, {"body": 5.0}, "body", "must be a Body"),
     (BasicRack, {"pressure_angle": 50}, "pressure_angle", "must be a number at least 5 deg and at most 45 deg"),
@@ -307,3 +309,50 @@ def test_profile_on_its_own_names_its_own_parameters() -> None:
     assert caught.value.parameter == "tip_chamfer"
     assert isinstance(profile, ToothProfile)
     assert issubclass(GeometryError, GearcadError)
+
+
+def test_gears_too_far_apart_to_touch_are_refused_at_the_limit_that_is_printed() -> None:
+    pinion, wheel = (Gear(teeth=z, normal_module=2, face_width=10) for z in (20, 35))
+    with pytest.raises(GeometryError, match=r"centre_distance = 70 mm: must be below [\d.]+ mm") as caught:
+        GearPair(pinion=pinion, wheel=wheel, centre_distance=70)
+    limit = float(caught.value.permitted.split()[3])
+    nearly = GearPair(pinion=pinion, wheel=wheel, centre_distance=limit)
+    assert 0 < nearly.transverse_contact_ratio < 1e-3
+
+
+def test_whole_and_numpy_numbers_are_the_same_gear() -> None:
+    one = Gear(teeth=20, normal_module=2.0, face_width=10.0)
+    other = Gear(teeth=np.int64(20), normal_module=2, face_width=np.float32(10))
+    assert json.dumps(one.to_dict()) == json.dumps(other.to_dict())
+
+
+@pytest.mark.parametrize("name", ["a\x01b", "two\nlines", "\t"])
+def test_names_without_control_characters(name: str) -> None:
+    with pytest.raises(ParameterError, match="name = "):
+        Gear(name=name, teeth=20, normal_module=2, face_width=10)
+
+
+def test_a_split_given_as_text_is_what_it_says() -> None:
+    common = {"normal_module": 2.0, "teeth": (20, 35), "helix_angle": 0.0, "pressure_angle": 20.0, "centre_distance": 56.0}
+    assert split_profile_shift(0.5, "equal", **common) == (0.25, 0.25)
+    with pytest.raises(ParameterError, match="'equal', 'pinion', 'equal_specific_sliding'"):
+        split_profile_shift(0.5, "fair", **common)
+
+
+def test_ball_of_a_steep_gear_with_a_large_pressure_angle() -> None:
+    """tan^2 beta_b is large here, and the balanced ball hardly rises above the touching point."""
+    rack = BasicRack(pressure_angle=44.31357297955632, addendum=1.2899095893191663, dedendum=0.2151733, root_radius=0.0)
+    gear = Gear(
+        teeth=9, normal_module=137.8, helix_angle=-74.0103, profile_shift=2.780184, face_width=156.0, tip_alteration=-0.9067,
+        rack=rack,
+    )  # fmt: skip
+    assert gear.ball_diameter > 0
+    assert gear.over_balls > gear.ball_diameter
+
+
+def test_pins_of_an_odd_helical_gear_lie_half_an_axial_pitch_apart() -> None:
+    gear = Gear(teeth=13, normal_module=2, face_width=10, helix_angle=1.0)
+    axial_pitch = math.pi * 2 / math.sin(math.radians(1.0))
+    assert gear.pin_axial_shift == pytest.approx(axial_pitch / 2, rel=1e-12)
+    assert any(warning.startswith("pins: ") for warning in gear.warnings)
+    assert replace(gear, teeth=14).pin_axial_shift == 0

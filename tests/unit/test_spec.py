@@ -373,7 +373,7 @@ def test_name_is_the_stem_of_the_file_by_default(tmp_path: Path) -> None:
         ("gear.teeth = 2\n", " line 1: gear.teeth = 2: "),
         ("[gear]\nteeth = 20\nteeth = 21\n", " line 3, column 11: is not valid TOML: Cannot overwrite a value"),
         ("[gear]\nface_width = 18,3\n", "; write 18.3 with a point"),
-        ('[gear]\nname = """\nteeth = 1\n"""\nteeth = 2\n', " line 5: gear.teeth = 2: "),
+        ('[gear]\nname = """\\\nteeth = 1"""\nteeth = 2\n', " line 4: gear.teeth = 2: "),
     ],
 )
 def test_file_and_line_lead_the_message(tmp_path: Path, text: str, message: str) -> None:

@@ -1,0 +1,115 @@
+"""Files that anyone can read anywhere: names in every script, equal bytes in every process, global settings left alone."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import cadquery
+import ezdxf
+import pytest
+from OCP.IFSelect import IFSelect_RetDone
+from OCP.Interface import Interface_Static
+from OCP.STEPCAFControl import STEPCAFControl_Reader
+from OCP.TCollection import TCollection_ExtendedString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_LabelSequence
+from OCP.TDocStd import TDocStd_Document
+from OCP.XCAFApp import XCAFApp_Application
+from OCP.XCAFDoc import XCAFDoc_DocumentTool
+
+from gearcad import Body, Gear, GearPair
+from gearcad.solids import (
+    Part,
+    gear_solid,
+    pair_assembly,
+    tessellate,
+    write_dxf,
+    write_points,
+    write_scene,
+    write_step,
+    write_stl,
+)
+
+GEAR = Gear(teeth=12, normal_module=2, face_width=6, helix_angle=15, body=Body(bore=8))
+MATE = Gear(teeth=17, normal_module=2, face_width=5, helix_angle=-15, body=Body(bore=8))
+
+WRITE_ALL = """
+import sys
+sys.path.insert(0, sys.argv[2])
+from test_files import write_all
+write_all(sys.argv[1])
+"""
+
+
+def write_all(folder: str) -> None:
+    """Every format, by plain text paths."""
+    facets = tessellate(GEAR, 0.01)
+    write_step(gear_solid(GEAR), f"{folder}/gear.step", name="gear")
+    write_step(pair_assembly(GearPair(pinion=GEAR, wheel=MATE)), f"{folder}/pair.step", name="pair")
+    write_stl(facets, f"{folder}/gear.stl")
+    write_dxf(GEAR, f"{folder}/gear.dxf")
+    write_points(GEAR, f"{folder}/gear.csv")
+    for suffix in ("3mf", "glb"):
+        write_scene([Part(name="gear", facets=facets)], f"{folder}/gear.{suffix}")
+
+
+def test_equal_bytes_from_processes_that_hash_differently(tmp_path: Path) -> None:
+    made = []
+    for seed in ("1", "2", "3"):
+        folder = tmp_path / seed
+        folder.mkdir()
+        command = [sys.executable, "-c", WRITE_ALL, str(folder), str(Path(__file__).parent)]
+        subprocess.run(command, check=True, env={**os.environ, "PYTHONHASHSEED": seed})
+        made.append({path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in folder.iterdir()})
+    assert len(made[0]) == 7
+    assert made[0] == made[1] == made[2]
+
+
+@pytest.mark.parametrize("name", ["Zähne 歯", "pinion", "wheel", "bracket"])
+def test_any_name_reads_back(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "named.step"
+    write_step(gear_solid(GEAR), path, name=name)
+    assert _product_names(path) == [name]
+    pair = GearPair(pinion=GEAR, wheel=MATE, name=name)
+    write_step(pair_assembly(pair, bracket=True), path, name=pair.name)
+    again = cadquery.Assembly.importStep(str(path))
+    assert [child.name for child in again.children] == ["pinion", "wheel", "bracket"]
+    whole = name if name == "Zähne 歯" else f"{name} assembly"
+    assert _product_names(path) == [whole, "pinion", "wheel", "bracket"]
+
+
+def _product_names(path: Path) -> list[str]:
+    """Names of the products in a STEP file, read by the kernel."""
+    document = TDocStd_Document(TCollection_ExtendedString("XmlXCAF"))
+    XCAFApp_Application.GetApplication_s().InitDocument(document)
+    reader = STEPCAFControl_Reader()
+    reader.SetNameMode(True)
+    assert reader.ReadFile(str(path)) == IFSelect_RetDone
+    assert reader.Transfer(document)
+    labels = TDF_LabelSequence()
+    XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetShapes(labels)
+    names = []
+    for i in range(1, labels.Length() + 1):
+        attribute = TDataStd_Name()
+        if labels.Value(i).FindAttribute(TDataStd_Name.GetID_s(), attribute):
+            names.append(attribute.Get().ToExtString())
+    return names
+
+
+def test_global_settings_stay_as_they_were(tmp_path: Path) -> None:
+    write_step(gear_solid(GEAR), tmp_path / "first.step", name="gear")  # the settings exist from now on
+    Interface_Static.SetIVal_s("write.surfacecurve.mode", 1)
+    Interface_Static.SetCVal_s("write.step.schema", "AP203")
+    with ThreadPoolExecutor(8) as pool:
+        list(pool.map(lambda i: write_dxf(GEAR, tmp_path / f"{i}.dxf"), range(24)))
+        list(pool.map(lambda i: write_step(gear_solid(GEAR), tmp_path / f"{i}.step", name="gear"), range(6)))
+    assert Interface_Static.IVal_s("write.surfacecurve.mode") == 1
+    assert Interface_Static.CVal_s("write.step.schema") == "AP203"
+    assert ezdxf.options.write_fixed_meta_data_for_testing is False
+    assert len({(tmp_path / f"{i}.step").read_bytes() for i in range(6)}) == 1
+    assert len({(tmp_path / f"{i}.dxf").read_bytes() for i in range(24)}) == 1
