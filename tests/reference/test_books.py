@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import pytest
-from support.cases import case, half_unit
+from support.cases import case, diameters, half_unit
 
 from gearcad import BasicRack, Gear, GearPair
 from gearcad.geometry import chordal_thickness, inverse_involute, involute, over_balls, profile_shift_sum, span_measurement
@@ -59,13 +59,9 @@ def _values(pair: GearPair) -> dict[str, float]:
         "h": (pair.pinion.tip_diameter - pair.pinion.root_diameter) / 2,
         "rw1": pair.working_pitch_diameters[0] / 2,
     }
+    found |= diameters(pair)
     for number, gear in enumerate((pair.pinion, pair.wheel), start=1):
         found |= {
-            f"d{number}": gear.reference_diameter,
-            f"db{number}": gear.base_diameter,
-            f"da{number}": gear.tip_diameter,
-            f"df{number}": gear.root_diameter,
-            f"dw{number}": pair.working_pitch_diameters[number - 1],
             f"ha{number}": (gear.tip_diameter - gear.reference_diameter) / 2,
         }
     return found

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.cases import case, half_unit, volvo_pair
+from support.cases import case, diameters, half_unit, volvo_pair
 
 from gearcad import BasicRack, Gear, GearPair, GeometryError
 from gearcad.geometry import contact_line_length
@@ -29,14 +29,9 @@ def pair() -> GearPair:
 
 
 def _gear_diameters(pair: GearPair) -> dict[str, float]:
-    found = {}
+    found = diameters(pair)
     for number, gear in enumerate((pair.pinion, pair.wheel), start=1):
         found |= {
-            f"d{number}": gear.reference_diameter,
-            f"db{number}": gear.base_diameter,
-            f"da{number}": gear.tip_diameter,
-            f"df{number}": gear.root_diameter,
-            f"dw{number}": pair.working_pitch_diameters[number - 1],
             f"d_Ff{number}": gear.form_diameter,
             f"d_SAP{number}": pair.active_root_diameters[number - 1],
         }

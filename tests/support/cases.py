@@ -9,7 +9,7 @@ from typing import Any
 
 from gearcad import BasicRack, Gear, GearPair
 
-__all__ = ["FACE_WIDTHS", "case", "half_unit", "profile_cases", "volvo_pair"]
+__all__ = ["FACE_WIDTHS", "case", "diameters", "half_unit", "profile_cases", "volvo_pair"]
 
 _FILE = Path(__file__).parent.parent / "data" / "geometry.json"
 _CASES: dict[str, dict[str, Any]] = {entry["id"]: entry for entry in json.loads(_FILE.read_text(encoding="utf-8"))}
@@ -25,6 +25,20 @@ def case(name: str) -> dict[str, Any]:
 def profile_cases() -> list[str]:
     """Names of the cases that hold points of a tooth profile."""
     return [name for name in _CASES if name.endswith(("_profile", "_profile_thin"))]
+
+
+def diameters(pair: GearPair) -> dict[str, float]:
+    """Diameters of both gears under the names of the reference cases: d1, db1, da1, df1, dw1, d2 ..."""
+    found = {}
+    for number, gear in enumerate((pair.pinion, pair.wheel), start=1):
+        found |= {
+            f"d{number}": gear.reference_diameter,
+            f"db{number}": gear.base_diameter,
+            f"da{number}": gear.tip_diameter,
+            f"df{number}": gear.root_diameter,
+            f"dw{number}": pair.working_pitch_diameters[number - 1],
+        }
+    return found
 
 
 def half_unit(printed: str) -> float:
