@@ -1,0 +1,122 @@
+"""Commands on one design: new, data, build."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+import gearcad
+from gearcad.cli.group import debug_option, spec_argument
+from gearcad.cli.progress import file_progress
+from gearcad.errors import ParameterError, as_choice
+
+if TYPE_CHECKING:
+    from gearcad.build import Format
+    from gearcad.spec.design import Design
+
+__all__ = ["build", "data", "new"]
+
+
+@click.command()
+@click.argument("kind", required=False)
+@click.option("-o", "--output", metavar="FILE", help="Where to write it; - prints it.  [default: KIND.toml here]")
+@click.option("--force", is_flag=True, help="Replace a file that exists.")
+@debug_option
+def new(kind: str | None, output: str | None, force: bool) -> None:
+    """Write a commented starter spec.
+
+    KIND is the name of a starter or its beginning; without it the starters are listed.
+    """
+    from gearcad.spec.starters import starter_text, starters
+
+    if kind is None:
+        click.echo("".join(f"{name:<14}{what}\n" for name, what in starters().items()), nl=False)
+        return
+    name, text = starter_text(kind)
+    if output == "-":
+        click.echo(text, nl=False)
+        return
+    path = Path(output or f"{name}.toml")
+    _write_new(path, text, force)
+    click.echo(path)
+    click.echo(f"Next: gearcad data {path}", err=True)
+
+
+def _write_new(path: Path, text: str, force: bool) -> None:
+    from gearcad.output import staged_files
+
+    if path.is_dir():
+        raise ParameterError("output", str(path), "is a folder; give the name of a file")
+    if path.exists() and not force:
+        raise ParameterError("output", str(path), "exists; give another name, or --force to replace it")
+    with staged_files(path.parent) as staging:
+        (staging / path.name).write_text(text, encoding="utf-8")
+
+
+@click.command()
+@spec_argument
+@click.option("--json", "as_json", is_flag=True, help="Print the document of data.json and nothing else.")
+@debug_option
+def data(spec: Path, as_json: bool) -> None:
+    """Show the geometry of SPEC: every derived quantity, and warnings."""
+    from gearcad.output import json_text
+    from gearcad.spec import read_spec
+
+    design = read_spec(spec)
+    if as_json:
+        click.echo(json_text(design.to_dict()), nl=False)
+        return
+    from rich.console import Console
+
+    from gearcad.datasheet import print_datasheet
+
+    print_datasheet(design, Console(highlight=False))
+
+
+@click.command(short_help="Write the solids of SPEC as STEP, STL and other files.")
+@spec_argument
+@click.option("-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/NAME]")
+@click.option(
+    "--format", "formats", default="step,stl", show_default=True, help="Comma-separated list of step, stl, 3mf, glb, dxf, csv."
+)
+@click.option("--chord-error", default=0.005, show_default=True, metavar="MM", help="Largest error of the facets, in mm.")
+@click.option("--bracket", is_flag=True, help="Put the assembly on two shafts with a bracket (STEP).")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON document: the files and the warnings.")
+@click.option("--quiet", is_flag=True, help="No progress and no warnings on the screen.")
+@debug_option
+def build(spec: Path, output: Path | None, formats: str, chord_error: float, bracket: bool, as_json: bool, quiet: bool) -> None:
+    """Write the solids of SPEC: pinion.step, wheel.stl, assembly.step ... and data.json.
+
+    \b
+    step  the exact solid          stl       facets within --chord-error
+    3mf   facets, for printing     glb       facets, for viewers
+    dxf   exact section, for cutting         csv  points of flank and fillet
+    """
+    from gearcad.build import build as build_files
+    from gearcad.output import json_text
+    from gearcad.spec import read_spec
+
+    wanted = _formats(formats)
+    design = read_spec(spec)
+    folder = output if output is not None else Path("output") / design.name
+    with file_progress(shown=not quiet) as progress:
+        files = build_files(design, folder, wanted, bracket=bracket, chord_error=chord_error, progress=progress)
+    if as_json:
+        document = {"kind": "build", "name": design.name, "gearcad": gearcad.__version__, "output": str(folder)}
+        click.echo(json_text({**document, "files": [str(file) for file in files], "warnings": list(design.warnings)}), nl=False)
+    else:
+        click.echo("".join(f"{file}\n" for file in files), nl=False)
+    _echo_warnings(design, shown=not quiet)
+
+
+def _formats(text: str) -> list[Format]:
+    from gearcad.build import Format
+
+    return [as_choice("format", name.strip().lower(), Format) for name in text.split(",")]
+
+
+def _echo_warnings(design: Design, *, shown: bool) -> None:
+    for warning in design.warnings if shown else ():
+        click.echo(f"Warning: {warning}", err=True)

@@ -1,0 +1,76 @@
+"""What all commands share: one-line errors, exit statuses, common options."""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+from gearcad.errors import GearcadError, SolverError
+
+__all__ = ["Commands", "debug_option", "spec_argument"]
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+class Commands(click.Group):
+    """A group whose commands end with one line instead of a traceback, and with the exit status that fits."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """In the order of use, not of the alphabet."""
+        return list(self.commands)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; raises SystemExit by way of `ctx.exit`."""
+        try:
+            return super().invoke(ctx)
+        except click.UsageError as error:
+            click.echo(f"Error: {error.format_message()}", err=True)
+            ctx.exit(2)
+        except (click.ClickException, click.Abort, click.exceptions.Exit):
+            raise
+        except Exception as error:
+            if isinstance(error, OSError) and error.errno == errno.EPIPE:
+                raise  # click ends quietly when the reader of a pipe has gone
+            if _interrupted(error):
+                raise click.Abort from error
+            if ctx.meta.get("gearcad.debug"):
+                raise
+            if isinstance(error, GearcadError):
+                click.echo(f"Error: {error}", err=True)
+                ctx.exit(1 if isinstance(error, SolverError) else 2)
+            if isinstance(error, OSError):  # the system's fault, such as a full disk behind stdout
+                click.echo(f"Error: {error.strerror or error}", err=True)
+                ctx.exit(1)
+            what = " ".join(f"{type(error).__name__}: {error}".split())
+            click.echo(f"Error: unexpected {what} (a fault of gearcad: please report it, with what --debug shows)", err=True)
+            ctx.exit(1)
+
+
+def _interrupted(error: BaseException | None) -> bool:
+    """True for an error that began as Ctrl-C: an extension module that is being imported turns one into the other."""
+    seen: set[int] = set()
+    while error is not None and id(error) not in seen:
+        if isinstance(error, KeyboardInterrupt):
+            return True
+        seen.add(id(error))
+        error = error.__cause__ or error.__context__
+    return False
+
+
+def debug_option(command: Command) -> Command:
+    def remember(ctx: click.Context, _parameter: click.Parameter, value: bool) -> None:
+        # `meta` is shared by a command and its group, so the option works in both places.
+        ctx.meta["gearcad.debug"] = ctx.meta.get("gearcad.debug", False) or value
+
+    option = click.option(
+        "--debug", is_flag=True, expose_value=False, callback=remember, help="Show the traceback of an error."
+    )
+    return option(command)
+
+
+def spec_argument(command: Command) -> Command:
+    return click.argument("spec", type=click.Path(path_type=Path))(command)
