@@ -1,8 +1,9 @@
-"""Renders the pictures of this folder from the reference pair: `python docs/render.py` (off screen, through VTK)."""
+"""Renders the pictures of this folder from the reference pair: `python docs/render.py` (off screen; solids through VTK)."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 - registers the renderer
@@ -21,8 +22,12 @@ from vtkmodules.vtkRenderingCore import (
 )
 
 from gearcad import BasicRack, Body, Gear, GearPair
+from gearcad.batch import Step, Wanted, run_table
 from gearcad.geometry import mesh_pose
+from gearcad.plot_data import read_points
+from gearcad.plots import plot_contours, save_plot
 from gearcad.solids import tessellate
+from gearcad.study import plan_study, write_study
 
 FOLDER = Path(__file__).parent
 BRASS, STEEL = (0.83, 0.62, 0.30), (0.60, 0.68, 0.76)
@@ -111,12 +116,25 @@ def render(parts: list[vtkActor], path: Path, *, focus: Place, eye: Place, scale
     writer.Write()
 
 
+def plot_study(path: Path) -> None:
+    """The study of the README."""
+    spec = FOLDER.parent / "templates" / "volvo-13-44.toml"
+    varied = ["wheel.profile_shift=auto", "pinion.profile_shift=-0.2:0.6:33", "helix_angle=20:30:21"]
+    with TemporaryDirectory() as folder:
+        table, target = Path(folder, "study.csv"), Path(folder, "study")
+        write_study(plan_study(spec, varied), table)
+        run_table(table, target, Wanted(steps=(Step.DATA,)))
+        points = read_points(target / "results.csv", "pinion.profile_shift", "helix_angle", contour="usable_contact_ratio")
+        save_plot(plot_contours, points, path)
+
+
 def main() -> None:
     pair = reference_pair()
     pose = mesh_pose(pair)
     pinion, wheel = actors(pair.pinion, BRASS), actors(pair.wheel, STEEL, pose.rotation, pose.x, pose.z)
     render(pinion + wheel, FOLDER / "pair.png", focus=(62, 0, 6), eye=(-0.3, -1.0, 0.75), scale=50)
     render(pinion + wheel, FOLDER / "mesh.png", focus=(19, 0, 18), eye=(0.0, -0.05, 1.0), scale=9)
+    plot_study(FOLDER / "study.png")
 
 
 if __name__ == "__main__":

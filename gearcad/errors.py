@@ -15,6 +15,7 @@ __all__ = [
     "GearcadError",
     "GeometryError",
     "InputError",
+    "OutputError",
     "ParameterError",
     "SolverError",
     "SpecError",
@@ -77,8 +78,19 @@ class GeometryError(InputError):
     """A combination of permitted values that makes no gear; `parameter` is the one to change first."""
 
 
+class OutputError(ParameterError):
+    """A place that cannot be written."""
+
+
 class SpecError(GearcadError, ValueError):
-    """A spec file or table that cannot be used; the text names the file, the line or row, and the key."""
+    """A spec file or table that cannot be used; the text names the file, the line or row, and the key.
+
+    `key` is the dotted key at fault, "" where it is none; an InputError that began it is the `__cause__`.
+    """
+
+    def __init__(self, message: str, key: str = "") -> None:
+        super().__init__(message)
+        self.key = key
 
 
 class SolverError(GearcadError, RuntimeError):

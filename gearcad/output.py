@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from gearcad.errors import ParameterError
+from gearcad.errors import OutputError
 
 __all__ = ["json_text", "staged_files", "unwritable"]
 
@@ -20,26 +20,27 @@ def json_text(document: dict[str, Any]) -> str:
     return json.dumps(document, indent=2, allow_nan=False) + "\n"
 
 
-def unwritable(folder: Path, error: OSError) -> ParameterError:
+def unwritable(folder: Path, error: OSError) -> OutputError:
     """The error for a place that cannot be written, whatever the system's reason."""
     reason = error.strerror or str(error)
-    return ParameterError("output", str(folder), f"cannot be written ({reason}); give a folder you may write to")
+    return OutputError("output", str(folder), f"cannot be written ({reason}); give a folder you may write to")
 
 
 @contextmanager
-def staged_files(folder: Path) -> Iterator[Path]:
+def staged_files(folder: Path, inside: Path | None = None) -> Iterator[Path]:
     """An empty folder to write into; on leaving, every file in it moves into `folder`, replacing its namesake.
 
     The folder to write into lies inside `folder`, so both are on one file system and a rename is atomic; making it at once
-    proves before any work that `folder` can be written. If anything is raised (an interrupt too) nothing has changed: no
-    file moves, and folders that were made for this vanish. Raises ParameterError for a place that cannot be written.
+    proves before any work that `folder` can be written. A process that is killed leaves it behind: `inside` (on the same
+    file system) is a place for it that is cleared one day. If anything is raised (an interrupt too) nothing has changed: no
+    file moves, and folders that were made for this vanish. Raises OutputError for a place that cannot be written.
     """
     made: list[Path] = []
     staging = None
     finished = False
     try:
         _make_folder(folder, made)
-        staging = Path(tempfile.mkdtemp(prefix=".unfinished-", dir=folder))
+        staging = Path(tempfile.mkdtemp(prefix=".unfinished-", dir=inside or folder))
         yield staging
         _move_files(staging, folder)
         finished = True

@@ -10,6 +10,8 @@ import click
 import gearcad
 from gearcad.cli.designs import build, data, new
 from gearcad.cli.group import Commands, debug_option
+from gearcad.cli.studies import plot, study
+from gearcad.cli.tables import batch
 
 __all__ = ["main"]
 
@@ -34,5 +36,5 @@ def main() -> None:
             stream.reconfigure(errors="replace")  # an old terminal shows ? for a Greek letter, and goes on
 
 
-for _command in (new, data, build):
+for _command in (new, data, build, study, batch, plot):
     main.add_command(_command)

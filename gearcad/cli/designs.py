@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 import click
 
 import gearcad
-from gearcad.cli.group import debug_option, spec_argument
+from gearcad.cli.group import debug_option, parse_choices, spec_argument
 from gearcad.cli.progress import file_progress
-from gearcad.errors import ParameterError, as_choice
+from gearcad.errors import ParameterError
 
 if TYPE_CHECKING:
-    from gearcad.build import Format
     from gearcad.spec.design import Design
 
 __all__ = ["build", "data", "new"]
@@ -21,11 +20,11 @@ __all__ = ["build", "data", "new"]
 
 @click.command()
 @click.argument("kind", required=False)
-@click.option("-o", "--output", metavar="FILE", help="Where to write it; - prints it.  [default: KIND.toml here]")
+@click.option("-o", "--output", metavar="FILE", help="Where to write it; - prints it.  [default: its own name here]")
 @click.option("--force", is_flag=True, help="Replace a file that exists.")
 @debug_option
 def new(kind: str | None, output: str | None, force: bool) -> None:
-    """Write a commented starter spec.
+    """Write a commented starter: a spec of one design, or a table of many.
 
     KIND is the name of a starter or its beginning; without it the starters are listed.
     """
@@ -38,10 +37,10 @@ def new(kind: str | None, output: str | None, force: bool) -> None:
     if output == "-":
         click.echo(text, nl=False)
         return
-    path = Path(output or f"{name}.toml")
+    path = Path(output or name)
     _write_new(path, text, force)
     click.echo(path)
-    click.echo(f"Next: gearcad data {path}", err=True)
+    click.echo(f"Next: gearcad {'batch' if name.endswith('.csv') else 'data'} {path}", err=True)
 
 
 def _write_new(path: Path, text: str, force: bool) -> None:
@@ -94,11 +93,12 @@ def build(spec: Path, output: Path | None, formats: str, chord_error: float, bra
     3mf   facets, for printing     glb       facets, for viewers
     dxf   exact section, for cutting         csv  points of flank and fillet
     """
+    from gearcad.build import Format
     from gearcad.build import build as build_files
     from gearcad.output import json_text
     from gearcad.spec import read_spec
 
-    wanted = _formats(formats)
+    wanted = parse_choices("format", formats, Format)
     design = read_spec(spec)
     folder = output if output is not None else Path("output") / design.name
     with file_progress(shown=not quiet) as progress:
@@ -109,12 +109,6 @@ def build(spec: Path, output: Path | None, formats: str, chord_error: float, bra
     else:
         click.echo("".join(f"{file}\n" for file in files), nl=False)
     _echo_warnings(design, shown=not quiet)
-
-
-def _formats(text: str) -> list[Format]:
-    from gearcad.build import Format
-
-    return [as_choice("format", name.strip().lower(), Format) for name in text.split(",")]
 
 
 def _echo_warnings(design: Design, *, shown: bool) -> None:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import errno
 from collections.abc import Callable
+from enum import Enum
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
-from gearcad.errors import GearcadError, SolverError
+from gearcad.errors import GearcadError, SolverError, as_choice
 
-__all__ = ["Commands", "debug_option", "spec_argument"]
+__all__ = ["Commands", "debug_option", "parse_choices", "spec_argument"]
 
 Command = TypeVar("Command", bound=Callable[..., Any])
+Choice = TypeVar("Choice", bound=Enum)
 
 
 class Commands(click.Group):
@@ -40,7 +42,7 @@ class Commands(click.Group):
             if ctx.meta.get("gearcad.debug"):
                 raise
             if isinstance(error, GearcadError):
-                click.echo(f"Error: {error}", err=True)
+                click.echo("".join(f"Error: {line}\n" for line in str(error).split("\n")), err=True, nl=False)
                 ctx.exit(1 if isinstance(error, SolverError) else 2)
             if isinstance(error, OSError):  # the system's fault, such as a full disk behind stdout
                 click.echo(f"Error: {error.strerror or error}", err=True)
@@ -74,3 +76,8 @@ def debug_option(command: Command) -> Command:
 
 def spec_argument(command: Command) -> Command:
     return click.argument("spec", type=click.Path(path_type=Path))(command)
+
+
+def parse_choices(parameter: str, text: str, kind: type[Choice]) -> tuple[Choice, ...]:
+    """Members of an enum from a comma-separated list of their values; raises ParameterError."""
+    return tuple(as_choice(parameter, name.strip().lower(), kind) for name in text.split(","))

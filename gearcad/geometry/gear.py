@@ -95,29 +95,29 @@ class Gear:
             return self.rack.full_root_radius(self.dedendum, self.tooth_thinning / self.normal_module)
         return float(self.rack.root_radius)
 
-    @property
+    @cached_property
     def transverse_module(self) -> float:
         """m_t = m_n / cos beta."""
         return self.normal_module / math.cos(math.radians(self.helix_angle))
 
-    @property
+    @cached_property
     def transverse_pressure_angle(self) -> float:
         """tan alpha_t = tan alpha_n / cos beta."""
         tangent = math.tan(math.radians(self.rack.pressure_angle))
         return math.degrees(math.atan(tangent / math.cos(math.radians(self.helix_angle))))
 
-    @property
+    @cached_property
     def base_helix_angle(self) -> float:
         """sin beta_b = sin beta cos alpha_n; signed like the helix angle."""
         sine = math.sin(math.radians(self.helix_angle)) * math.cos(math.radians(self.rack.pressure_angle))
         return math.degrees(math.asin(sine))
 
-    @property
+    @cached_property
     def reference_diameter(self) -> float:
         """d = z m_t."""
         return self.teeth * self.transverse_module
 
-    @property
+    @cached_property
     def base_diameter(self) -> float:
         """d_b = d cos alpha_t."""
         return self.reference_diameter * math.cos(math.radians(self.transverse_pressure_angle))
@@ -204,12 +204,12 @@ class Gear:
         """Ball or pin that touches near d + 2 x m_n, rounded to two digits."""
         return inspection.suggested_ball_diameter(self)
 
-    @property
+    @cached_property
     def over_balls(self) -> float:
         """Dimension over two balls of `ball_diameter`."""
         return inspection.over_balls(self, self.ball_diameter)
 
-    @property
+    @cached_property
     def over_pins(self) -> float:
         """Dimension over two pins of `ball_diameter`, free to shift along the axis."""
         return inspection.over_pins(self, self.ball_diameter)
@@ -247,7 +247,7 @@ class Gear:
             tip_chamfer=self.body.tip_chamfer,
         )
 
-    @property
+    @cached_property
     def warnings(self) -> tuple[str, ...]:
         """What an engineer should know about this gear before making it."""
         found = []

@@ -166,7 +166,7 @@ class GearPair:
         thinning = self.pinion.tooth_thinning + self.wheel.tooth_thinning
         return thinning / (2 * self.pinion.normal_module * math.tan(math.radians(self.pinion.rack.pressure_angle)))
 
-    @property
+    @cached_property
     def _fitting_shift_sum(self) -> float:
         return self.zero_backlash_shift_sum + self._thinning_as_shift
 
@@ -182,7 +182,7 @@ class GearPair:
             )
             raise GeometryError("wheel.profile_shift", self.wheel.profile_shift, permitted)
 
-    @property
+    @cached_property
     def working_transverse_pressure_angle(self) -> float:
         """cos alpha_wt = (d_b1 + d_b2)/(2 a)."""
         cosine = (self.pinion.base_diameter + self.wheel.base_diameter) / (2 * self.centre_distance)
@@ -233,7 +233,7 @@ class GearPair:
         high = min(half[0], self.axial_offset + half[1])
         return CommonWidth(high - low, (high + low) / 2)
 
-    @property
+    @cached_property
     def path_of_contact(self) -> PathOfContact:
         """A, B, C, D, E on the line of action between the tip (form) circles, as distances from T1 (mm)."""
         return contact.path_of_contact(self)
@@ -266,12 +266,12 @@ class GearPair:
         """Start-of-active-profile diameters d_Nf that the mate's tip form circle reaches (mm)."""
         return contact.active_root_diameters(self)
 
-    @property
+    @cached_property
     def contact_line_lengths(self) -> ContactLineLengths:
         """Least, mean and greatest total length of the lines of contact over the cycle (mm)."""
         return contact.contact_line_lengths(self)
 
-    @property
+    @cached_property
     def warnings(self) -> tuple[str, ...]:
         """What an engineer should know about this pair before making it."""
         found = self._fillet_interference()

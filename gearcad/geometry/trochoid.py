@@ -104,12 +104,12 @@ class ToolTip:
         cosine = math.cos(self.helix_angle)
 
         def root_of_f(theta: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-            eta = self.v - self.radius * np.cos(theta)
-            across = -eta * np.tan(theta) * cosine
+            c, s = np.cos(theta), np.sin(theta)
+            tangent = s / c
+            eta = self.v - self.radius * c
+            across = -eta * tangent * cosine
             f = across**2 + 2 * self.radius * np.sin(theta / 2) ** 2 * (2 * r + eta + bottom)
-            slope = eta**2 * np.tan(theta) / np.cos(theta) ** 2 * cosine**2 + self.radius * np.sin(theta) * (
-                r + eta + cosine**2 * eta * np.tan(theta) ** 2
-            )
+            slope = eta**2 * tangent / c**2 * cosine**2 + self.radius * s * (r + eta + cosine**2 * eta * tangent**2)
             return np.sqrt(f), slope
 
         low, high = np.zeros_like(goal), np.full_like(goal, last)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import BytesIO
 from itertools import count
 from pathlib import Path
 from threading import RLock
@@ -37,7 +38,8 @@ def write_step(model: cadquery.Assembly | cadquery.Solid, path: Path | str, *, n
     """Write a solid, as one part called `name`, or an assembly, which has names of its own, to `path` (STEP AP214, mm).
 
     Curves in the parameters of surfaces are left out (write.surfacecurve.mode 0): readers rebuild them, and the file is a
-    third to a half smaller. Time stamp and running numbers are fixed. Raises SolverError if the kernel cannot write.
+    third to a half smaller. Time stamp and running numbers are fixed. Raises SolverError if the kernel cannot write,
+    and OSError if the file cannot be written.
     """
     import cadquery
     from OCP.IFSelect import IFSelect_RetDone
@@ -52,10 +54,11 @@ def write_step(model: cadquery.Assembly | cadquery.Solid, path: Path | str, *, n
         writer.SetNameMode(True)
         document = _assembly_document(model) if assembled else _part_document(model, name)
         transferred = writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs)
-        written = transferred and writer.Write(str(path)) == IFSelect_RetDone
+        stream = BytesIO()  # the kernel is silent about a disk that is full, Python is not
+        written = transferred and writer.WriteStream(stream) == IFSelect_RetDone
     if not written:
         raise SolverError(f"the CAD kernel could not write {path}")
-    path.write_bytes(_reproducible(path.read_bytes()))
+    path.write_bytes(_reproducible(stream.getvalue()))
 
 
 @contextmanager

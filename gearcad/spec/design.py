@@ -16,6 +16,9 @@ __all__ = ["Design", "DesignKind", "require_plain_name"]
 LONGEST_NAME = 100
 """Most characters of a design's name: it becomes a folder, and file systems stop at 255 bytes."""
 
+LONGEST_NAME_IN_BYTES = 200
+"""The same in UTF-8, with room for what the names of files beside the folder add."""
+
 _RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{port}{number}" for port in ("COM", "LPT") for number in range(1, 10))}
 
 
@@ -87,6 +90,8 @@ def require_plain_name(name: Any) -> None:
         raise ParameterError("name", name, f"{permitted} of at most {LONGEST_NAME} characters")
     if not name.isprintable() or any(character in '/\\<>:"|?*' for character in name):
         raise ParameterError("name", name, f'{permitted}, without / \\ < > : " | ? * and control characters')
+    if len(name.encode()) > LONGEST_NAME_IN_BYTES:
+        raise ParameterError("name", name, f"{permitted} of at most {LONGEST_NAME_IN_BYTES} bytes in UTF-8")
     if name[0] in ".- " or name[-1] in ". ":
         raise ParameterError(
             "name", name, f"{permitted}: not begun with a point, a dash or a space, nor ended with a point or space"

@@ -10,7 +10,15 @@ from gearcad.geometry import BasicRack, Body, Gear
 from gearcad.load import Load
 from gearcad.material import Material
 
-__all__ = ["KEYS", "SHARED", "explain_unknown_key", "explain_unknown_table"]
+__all__ = [
+    "COLUMNS",
+    "KEYS",
+    "SHARED",
+    "explain_unknown_column",
+    "explain_unknown_key",
+    "explain_unknown_table",
+    "nearest_table",
+]
 
 _RACK = ("rack", *(f"rack.{field.name}" for field in fields(BasicRack)))
 _BODY = tuple(f"body.{field.name}" for field in fields(Body))
@@ -28,6 +36,12 @@ KEYS = {
     "load": tuple(field.name for field in fields(Load)),
 }
 """Permitted keys of each table, flattened with dots. `rack` alone is the name of a rack."""
+
+COLUMNS = {
+    table: tuple(field for field in fields if (table, field) not in (("gear", "name"), ("pair", "name")))
+    for table, fields in KEYS.items()
+}
+"""The same for the columns of a design table, where the design's own name has a column `name`."""
 
 
 def explain_unknown_table(table: str) -> str:
@@ -59,3 +73,28 @@ def _nearest(key: str, known: tuple[str, ...]) -> str | None:
         if near := difflib.get_close_matches(key.lower(), spellings, n=1):
             return spellings[near[0]]
     return None
+
+
+def nearest_table(name: str) -> str | None:
+    """The table that was meant by `name`, if any."""
+    near = difflib.get_close_matches(name.lower(), KEYS, n=1, cutoff=0.75)
+    return near[0] if near else None
+
+
+def explain_unknown_column(heading: str, main: str) -> str:
+    """The end of the message about a heading of a design table that is no key; bare keys are those of the table `main`."""
+    if heading.lower() == "name":
+        return "unknown column; did you mean name?"
+    first, dot, rest = heading.partition(".")
+    table = nearest_table(first) if dot else None
+    owner, field = (table, rest) if table else (main, heading)
+    # A pair has no [gear]; a table with nothing but bare keys may have been meant for pairs.
+    owners = [owner, *(name for name in COLUMNS if name != owner and (name != "gear" or main == "gear"))]
+    for meant in (field, *(_nearest(field, COLUMNS[name]) for name in owners)):
+        if homes := [f"{name}.{meant}" for name in owners if meant in COLUMNS[name]]:
+            found = homes[:1] if homes[0].startswith(f"{owner}.") else homes
+            return f"unknown column; did you mean {' or '.join(found)}?"
+    if table:
+        return f"unknown column; permitted behind {table}. are {', '.join(COLUMNS[table])}"
+    examples = "gear.teeth" if main == "gear" else "pair.normal_module, pinion.teeth"
+    return f"unknown column; must be name, or a key of a spec with its table, such as {examples} or load.torque"

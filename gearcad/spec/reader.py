@@ -30,7 +30,7 @@ from gearcad.spec.design import Design, DesignKind, require_plain_name
 from gearcad.spec.keys import KEYS, SHARED, explain_unknown_key, explain_unknown_table
 from gearcad.spec.lines import explain_syntax, find_lines, nearest_line
 
-__all__ = ["design_from_tables", "read_spec"]
+__all__ = ["Cell", "design_from_tables", "read_spec", "spec_values"]
 
 Where = Callable[[str], str]
 """Says where a key stands, such as `pair.toml line 7`, for the beginning of a message."""
@@ -38,6 +38,9 @@ Where = Callable[[str], str]
 _DERIVED = ("tip_diameter", "root_diameter", "centre_distance")
 _WHOLE = ("teeth",)
 _MOST_WHOLE = 10**15
+
+Cell = int | float | str
+"""What a spec and a cell of a design table can both hold."""
 
 Simple = TypeVar("Simple", Material, Load)
 
@@ -55,6 +58,28 @@ def read_spec(path: Path | str) -> Design:
 
     Raises SpecError, one line that names the file, the line, the key and what is permitted.
     """
+    tables, where = _read_tables(path)
+    return design_from_tables(tables, where=where, default_name=Path(path).stem)
+
+
+def spec_values(path: Path | str) -> tuple[DesignKind, str, dict[str, Cell]]:
+    """Kind and name of a spec, and its other values under their dotted keys as a design table holds them: "auto" is a text.
+
+    The values need not make a gear. Raises SpecError, for a value that no cell can hold too.
+    """
+    tables, where = _read_tables(path)
+    kind = _kind(tables, where)
+    spec = _Spec(_flatten(tables, where), where)
+    name = spec.name(kind.value, Path(path).stem)
+    values = {key: given.value for key, given in spec.values.items() if key != f"{kind.value}.name"}
+    for key, value in values.items():
+        if isinstance(value, bool) or not isinstance(value, int | float | str):
+            raise SpecError(f"{where(key)}: {key} = {format_number(value)}: must be a number or a text")
+    return kind, name, values
+
+
+def _read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
+    """The tables of a TOML spec as they are written, and what locates a key of theirs for messages. Raises SpecError."""
     path = Path(path)
     try:
         text = path.read_bytes().decode("utf-8-sig")
@@ -76,7 +101,7 @@ def read_spec(path: Path | str) -> Design:
         line = nearest_line(lines, key)
         return f"{path} line {line}" if line else str(path)
 
-    return design_from_tables(tables, where=where, default_name=path.stem)
+    return tables, where
 
 
 def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name: str) -> Design:
@@ -89,9 +114,7 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
     material = spec.simple("material", Material) if "material" in tables else None
     load = spec.simple("load", Load) if "load" in tables else None
     main = kind.value
-    name = spec.values.get(f"{main}.name", _Given(default_name, f"{main}.name", "from the file's name")).value
-    with spec.blame(main):
-        require_plain_name(name)
+    name = spec.name(main, default_name)
     gear = spec.gear(name) if kind is DesignKind.GEAR else None
     pair = spec.pair(name) if kind is DesignKind.PAIR else None
     with spec.blame(main):
@@ -127,7 +150,8 @@ def _flatten(tables: Mapping[str, Any], where: Where) -> dict[str, _Given]:
                 raise SpecError(f"{where(key)}: {_printable(key)}: {explain_unknown_key(table, field)}")
             if isinstance(value, int) and not isinstance(value, bool):
                 if abs(value) > _MOST_WHOLE:
-                    raise SpecError(f"{where(key)}: {key}: must be a smaller number; this one has {len(str(value))} digits")
+                    permitted = f"must be a smaller number; this one has {len(str(value))} digits"
+                    raise SpecError(f"{where(key)}: {key}: {permitted}", key)
                 value = value if field in _WHOLE else float(value)
             # The sum makes -0.0 a plain zero, so that equal inputs give equal files.
             values[key] = _Given(value + 0.0 if isinstance(value, float) else value, key)
@@ -161,9 +185,9 @@ class _Spec:
         try:
             yield
         except InputError as error:
-            raise SpecError(self._explain(error, owner)) from error
+            raise self._explained(error, owner) from error
 
-    def _explain(self, error: InputError, owner: str) -> str:
+    def _explained(self, error: InputError, owner: str) -> SpecError:
         field = error.parameter
         if field.startswith(("pinion.", "wheel.")):
             owner, _, field = field.partition(".")
@@ -175,13 +199,15 @@ class _Spec:
         given = self.values.get(f"{owner}.{field}")
         if given is None and error.value is None:
             shared = " (here or in [pair])" if owner in ("pinion", "wheel") and field in SHARED else ""
-            return f"{self.where(owner)}: {owner}.{field} is missing: {permitted}{shared}"
+            key = f"{owner}.{field}"
+            return SpecError(f"{self.where(key)}: {key} is missing: {permitted}{shared}", key)
         if given is None:
             given = self._unwritten(owner, field)
         note = f" ({given.note})" if given.note else ""
         unit = f" {error.unit}" if error.unit else ""
         cause = self._automatic_cause(owner, field)
-        return f"{self.where(given.key)}: {given.key} = {format_number(error.value)}{unit}{note}: {permitted}{cause}"
+        text = f"{self.where(given.key)}: {given.key} = {format_number(error.value)}{unit}{note}: {permitted}{cause}"
+        return SpecError(text, given.key)
 
     def _automatic_cause(self, owner: str, field: str) -> str:
         """A reminder that the profile shift of the gear at fault was derived, and from what."""
@@ -197,6 +223,13 @@ class _Spec:
             return named._replace(key=f"{owner}.{field}", note=f"of {named.value}")
         note = "derived" if field in _DERIVED else "from the file's name" if field == "name" else "by default"
         return _Given(None, f"{owner}.{field}", note)
+
+    def name(self, main: str, default: str) -> str:
+        """The name of the design, which its main table or else the file gives."""
+        given = self.values.get(f"{main}.name")
+        with self.blame(main):
+            require_plain_name(default if given is None else given.value)
+        return default if given is None else str(given.value)
 
     def fields_of(self, owner: str) -> dict[str, Any]:
         """Values of one table, still flat: `rack.root_radius` is one key."""

@@ -1,4 +1,4 @@
-"""Starter specs: the templates that ship with gearcad, found in an installed package and in a source checkout alike."""
+"""Starter specs and tables: the templates that ship with gearcad, found in an installed package and in a checkout alike."""
 
 from __future__ import annotations
 
@@ -19,19 +19,24 @@ def _folder() -> Path:
     return installed if installed.is_dir() else package.parent / "templates"
 
 
+def _files() -> dict[str, Path]:
+    return {path.stem: path for path in sorted(_folder().iterdir()) if path.suffix in (".toml", ".csv")}
+
+
 def starters() -> dict[str, str]:
     """Name of every starter and what it is, from the first line of its file."""
     found = {}
-    for path in sorted(_folder().glob("*.toml")):
+    for name, path in _files().items():
         with path.open(encoding="utf-8") as file:
-            found[path.stem] = file.readline().strip("# \n").rstrip(".")
+            found[name] = file.readline().strip("# \n").rstrip(".")
     return found
 
 
 def starter_text(kind: str) -> tuple[str, str]:
-    """Full name and text of the starter called `kind` - its name, or the beginning of one. Raises ParameterError."""
-    names = starters()
-    matches = [kind] if kind in names else [name for name in names if name.startswith(_ALIASES.get(kind, kind))]
+    """Name of the file and text of the starter called `kind` - its name, or the beginning of one. Raises ParameterError."""
+    files = _files()
+    matches = [kind] if kind in files else [name for name in files if name.startswith(_ALIASES.get(kind, kind))]
     if len(matches) != 1:
-        raise ParameterError("kind", kind, f"must be one of {', '.join(names)} (or gear, pair)")
-    return matches[0], (_folder() / f"{matches[0]}.toml").read_text(encoding="utf-8")
+        raise ParameterError("kind", kind, f"must be one of {', '.join(files)} (or gear, pair)")
+    path = files[matches[0]]
+    return path.name, path.read_text(encoding="utf-8")

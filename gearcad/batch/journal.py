@@ -1,0 +1,76 @@
+"""The journal of a run: rows and records on disk, so that memory does not grow with the table, and names are compared there."""
+
+from __future__ import annotations
+
+import pickle
+import sqlite3
+import unicodedata
+from collections.abc import Iterator
+from typing import Any
+
+from gearcad.batch.row import Record, Status
+from gearcad.errors import OutputError, format_number
+from gearcad.spec.table import Row
+
+__all__ = ["Journal"]
+
+RESERVED = ("results.csv", "results.parquet")
+"""Names in the output folder that are not a row's."""
+
+
+class Journal:
+    """A temporary database that vanishes with the process, however that ends. Not for more than one thread."""
+
+    def __init__(self) -> None:
+        self._database = sqlite3.connect("", isolation_level=None)  # "": on disk, without a name
+        self._database.execute("PRAGMA journal_mode = OFF")
+        self._database.execute("BEGIN")  # and never commit: nobody reads it after us
+        self._database.execute(
+            "CREATE TABLE rows (number INTEGER PRIMARY KEY, name TEXT, folded TEXT UNIQUE, row BLOB, record BLOB)"
+        )
+
+    def close(self) -> None:
+        """Remove the database."""
+        self._database.close()
+
+    def add(self, row: Row) -> list[str]:
+        """Note a row of the table; faults of its name beside the other names."""
+        folded = unicodedata.normalize("NFC", row.name).casefold() or None
+        taken = self._execute("SELECT number, name FROM rows WHERE folded = ?", (folded,)).fetchone()
+        content = (row.number, row.name, None if taken else folded, pickle.dumps(row))
+        self._execute("INSERT INTO rows (number, name, folded, row) VALUES (?, ?, ?, ?)", content)
+        said = f"{row.where('name')}: name = {format_number(row.name)}"
+        if taken is not None:
+            number, name = taken
+            same = "has it too" if name == row.name else f"has {format_number(name)}, which differs in case only"
+            return [f"{said}: must be unique, for it names a folder; row {number} {same}"]
+        if folded in RESERVED:
+            return [f"{said}: must be another one; this is the name of the table of results"]
+        return []
+
+    def finish(self, record: Record) -> None:
+        """Note how a row ended."""
+        self._execute("UPDATE rows SET record = ? WHERE number = ?", (pickle.dumps(record), record.number))
+
+    def open_rows(self) -> Iterator[Row]:
+        """The rows without a record, in the order of the table."""
+        last = -1
+        query = "SELECT number, row FROM rows WHERE record IS NULL AND number > ? ORDER BY number LIMIT 1"
+        while (found := self._execute(query, (last,)).fetchone()) is not None:
+            last = found[0]
+            yield pickle.loads(found[1])
+
+    def results(self) -> Iterator[tuple[Row, Record]]:
+        """Every row and its record, in the order of the table."""
+        for number, row, record in self._execute("SELECT number, row, record FROM rows ORDER BY number"):
+            yield pickle.loads(row), pickle.loads(record) if record else Record(number=number, status=Status.NOT_RUN)
+
+    def count(self) -> int:
+        """Rows of the table."""
+        return int(self._execute("SELECT count(*) FROM rows").fetchone()[0])
+
+    def _execute(self, statement: str, values: tuple[Any, ...] = ()) -> sqlite3.Cursor:
+        try:
+            return self._database.execute(statement, values)
+        except sqlite3.OperationalError as error:  # the disk for temporary files is full
+            raise OutputError("temporary files", "", f"cannot be written ({error}); TMPDIR names their folder") from error

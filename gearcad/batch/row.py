@@ -1,0 +1,170 @@
+"""One row in a worker: its design, the parts of it that are missing or changed, and what the table of results says of it."""
+
+from __future__ import annotations
+
+import errno
+import json
+import shutil
+import socket
+import time
+import uuid
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+from gearcad.batch.manifest import Manifest, Part, inputs_hash, publish, read_manifest
+from gearcad.batch.steps import Wanted, make_parts, part_of
+from gearcad.errors import GearcadError, OutputError, SpecError
+from gearcad.output import unwritable
+from gearcad.spec.table import Row
+
+__all__ = ["Record", "Status", "Task", "check_rows", "make_row"]
+
+_HOPELESS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.ENOENT)
+"""Errors of the target that every other row would meet too."""
+
+
+_WARNING = ("gear", "pinion", "wheel", "pair")
+"""Parts of data.json that have warnings."""
+
+
+class Status(Enum):
+    """How a row ended."""
+
+    OK = "ok"
+    FAILED = "failed"
+    NOT_RUN = "not run"
+
+
+@dataclass(frozen=True)
+class Task:
+    """One row and what to make of it: in `folder`/NAME, by way of `workspace` on the same file system."""
+
+    row: Row
+    wanted: Wanted
+    folder: Path
+    workspace: Path
+    fresh: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Record:
+    """What the table of results says of a row; `stop` is set if no other row can fare better."""
+
+    number: int
+    status: Status
+    error: str = ""
+    warnings: tuple[str, ...] = ()
+    seconds: float | None = None
+    files: tuple[str, ...] = ()
+    values: Mapping[str, Any] = field(default_factory=dict)
+    stop: bool = False
+
+
+def check_rows(rows: list[Row]) -> list[list[str]]:
+    """The faults of each row; runs in a worker."""
+    return [row.all_faults() for row in rows]
+
+
+def make_row(task: Task) -> Record:
+    """Make what is missing or changed of one row; runs in a worker. What goes wrong is in the record."""
+    began = time.perf_counter()
+    number = task.row.number
+    try:
+        _require_workspace(task)
+        folder = task.folder / task.row.name
+        made, parts = _update(task, folder)
+        document = json.loads((folder / "data.json").read_text(encoding="utf-8"))
+    except GearcadError as error:
+        stop = isinstance(error, OutputError) and getattr(error.__cause__, "errno", None) in _HOPELESS
+        # An error of the table says where it is; of a full disk or the like it does not matter.
+        text = str(error) if stop or isinstance(error, SpecError) else f"{task.row.where('')}: {error}"
+        return Record(number=number, status=Status.FAILED, error=text, seconds=_since(began), stop=stop)
+    except Exception as error:
+        what = " ".join(f"unexpected {type(error).__name__}: {error}".split())
+        text = f"{task.row.where('')}: {what} (a fault of gearcad: please report it)"
+        return Record(number=number, status=Status.FAILED, error=text, seconds=_since(began))
+    return Record(
+        number=number,
+        status=Status.OK,
+        warnings=tuple(f"{part}: {text}" for part in document if part in _WARNING for text in document[part]["warnings"]),
+        seconds=_since(began) if made else None,
+        files=tuple(file for part in parts for file in part.files),
+        values=dict(_flat(document)),
+    )
+
+
+def _require_workspace(task: Task) -> None:
+    if not task.workspace.is_dir():
+        permitted = f"is not there for the worker on {socket.gethostname()}; give a folder that all workers share"
+        raise OutputError("output", str(task.folder), permitted) from FileNotFoundError(errno.ENOENT, "no workspace")
+
+
+def _since(began: float) -> float:
+    return round(time.perf_counter() - began, 4)
+
+
+def _update(task: Task, folder: Path) -> tuple[bool, list[Part]]:
+    """Whether anything was made now, and the row's parts, all of which are there now."""
+    row = task.row
+    inputs = inputs_hash({"name": row.name} | row.values)
+    wanted = task.wanted.parts
+    before = read_manifest(folder)
+    kept = _kept(before, inputs, folder)
+    missing = [name for name, options in wanted.items() if task.fresh or name not in kept or kept[name].options != options]
+    if missing:
+        design = row.design()
+        with _staging(task, folder) as staging:
+            make_parts(design, missing, task.wanted, staging)
+            made = _parts_in(staging, wanted)
+            publish(staging, folder, Manifest(inputs, kept | made), before)
+        kept |= made
+    return bool(missing), [kept[name] for name in wanted]
+
+
+@contextmanager
+def _staging(task: Task, folder: Path) -> Iterator[Path]:
+    """An empty folder in the workspace, for files that go to `folder`; raises OutputError."""
+    staging = task.workspace / uuid.uuid4().hex
+    try:
+        if folder.is_symlink():
+            raise OSError(errno.ELOOP, "it is a link, which may lead anywhere")
+        staging.mkdir()
+        yield staging
+    except OSError as error:
+        raise unwritable(folder, error) from error
+    except OutputError as error:  # it names the staging folder, of which the user knows nothing
+        raise OutputError("output", str(folder), error.permitted) from error.__cause__
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)
+
+
+def _kept(before: Manifest | None, inputs: str, folder: Path) -> dict[str, Part]:
+    """The parts that are there and still true."""
+    if before is None or before.inputs != inputs:
+        return {}
+    return {name: part for name, part in before.parts.items() if part.is_there(folder)}
+
+
+def _parts_in(staging: Path, options: Mapping[str, Mapping[str, Any]]) -> dict[str, Part]:
+    files: dict[str, dict[str, int]] = {}
+    for file in sorted(staging.iterdir()):
+        files.setdefault(part_of(file.name), {})[file.name] = file.stat().st_size
+    return {name: Part(options[name], of) for name, of in files.items()}
+
+
+def _flat(document: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """The document's values under dotted keys; two values are the pinion's and the wheel's, warnings have their own column."""
+    for key, value in document.items():
+        if isinstance(value, dict):
+            yield from _flat(value, f"{prefix}{key}.")
+        elif key == "warnings" or not prefix:
+            continue
+        elif isinstance(value, (list, tuple)):
+            yield from ((f"{prefix}{key}.{gear}", of_gear) for gear, of_gear in zip(("pinion", "wheel"), value, strict=True))
+        else:
+            # A plain float: a derived length is of a class of its own.
+            yield prefix + key, float(value) if isinstance(value, float) else value

@@ -1,0 +1,219 @@
+"""A design table from the first fault to the last file."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager, suppress
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+
+from filelock import FileLock, Timeout
+
+from gearcad.batch.journal import Journal
+from gearcad.batch.pool import Outcome, Pool, open_pool
+from gearcad.batch.results import RESULTS, write_results
+from gearcad.batch.row import Record, Status, Task, check_rows, make_row
+from gearcad.batch.steps import Wanted
+from gearcad.batch.worker import WorkerLostError
+from gearcad.errors import OutputError, SpecError, require_number
+from gearcad.output import unwritable
+from gearcad.spec.table import Row, Table, open_table
+
+__all__ = ["Progress", "Summary", "run_table"]
+
+WORKSPACE = ".gearcad-batch"
+"""Folder inside the output folder where rows grow; it is there during a run, and after one that was killed."""
+
+_ROWS_PER_CHECK = 50
+_CHECK_SECONDS = 600.0
+_LONGEST_LIMIT = 1e6
+
+Progress = Callable[[str, int, int, int | None], None]
+"""Called with what is being done ("checking", "making"), rows done, rows failed, and rows there are (None: not known yet)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Summary:
+    """How a run ended: its files, rows by status, one line for each failed row, and why it stopped early if it did."""
+
+    results: tuple[Path, ...]
+    ok: int
+    failed: int
+    not_run: int
+    errors: tuple[str, ...]
+    stopped: str = ""
+
+
+def run_table(
+    path: Path | str,
+    folder: Path,
+    wanted: Wanted,
+    *,
+    jobs: int | None = None,
+    cluster: str | None = None,
+    time_limit: float = 600.0,
+    fresh: bool = False,
+    keep_going: bool = False,
+    progress: Progress | None = None,
+) -> Summary:
+    """Make every row of the design table at `path` in a folder of its own inside `folder`, and the table of results.
+
+    First all rows are checked; if any is at fault nothing is made, unless `keep_going`. What a former run has made of the
+    same inputs by the same gearcad stays, unless `fresh`. A row gets `time_limit` (s). `jobs` and `cluster` are those of
+    `open_pool`. Raises SpecError with one line per fault, ParameterError, and OutputError for a folder that cannot be written.
+    """
+    require_number("time_limit", time_limit, "s", above=0, at_most=_LONGEST_LIMIT)
+    table = open_table(path)
+    if table.path.resolve() == (folder / RESULTS).resolve():
+        raise OutputError("output", str(folder), f"has the table itself as its {RESULTS}; give another folder")
+    with closing(Journal()) as journal, open_pool(jobs, cluster) as pool:
+        run = _Run(journal, pool, progress or _silent)
+        faults = run.check(table)
+        if not run.total:
+            raise SpecError(f"{table.path}: has a heading but no design; add a row with a name for each gear or pair")
+        if faults and not keep_going:
+            raise SpecError("\n".join(faults))
+        with _workspace(folder) as workspace:
+            target = workspace.parent
+            tasks = (Task(row, wanted, target, workspace, fresh) for row in journal.open_rows())
+            try:
+                run.make(tasks, time_limit)
+            finally:  # an interrupted run too tells what it has
+                pool.stop()
+                results = run.write_results(folder, workspace)
+        return run.summary(results)
+
+
+def _silent(_phase: str, _done: int, _failed: int, _total: int | None) -> None:
+    pass
+
+
+class _Run:
+    """One run: the journal, the pool, and the count."""
+
+    def __init__(self, journal: Journal, pool: Pool, progress: Progress) -> None:
+        self.journal = journal
+        self.pool = pool
+        self.progress = progress
+        self.total = 0
+        self.done = 0
+        self.failed = 0
+        self.stopped = ""
+
+    def check(self, table: Table) -> list[str]:
+        """Note every row in the journal; the faults of all of them in the order of the table. A row at fault has failed."""
+        faults: dict[int, list[str]] = {}
+        for outcome in self.pool.run(check_rows, self._chunks(table, faults), _CHECK_SECONDS):
+            for row, found in zip(outcome.argument, _checked(outcome), strict=True):
+                # The name's own fault comes first; that of its place among the others next.
+                if found or row.number in faults:
+                    faults[row.number] = [*found, *faults.get(row.number, ())]
+            self.done += len(outcome.argument)
+            self.progress("checking", self.done, len(faults), None)
+        for number, lines in faults.items():
+            self.journal.finish(Record(number=number, status=Status.FAILED, error="; ".join(lines)))
+        self.done = self.failed = len(faults)
+        return [line for number in sorted(faults) for line in faults[number]]
+
+    def _chunks(self, table: Table, faults: dict[int, list[str]]) -> Iterator[list[Row]]:
+        rows = table.rows()
+        while chunk := list(islice(rows, _ROWS_PER_CHECK)):
+            for row in chunk:
+                if found := self.journal.add(row):
+                    faults[row.number] = found
+            self.total += len(chunk)
+            yield chunk
+
+    def make(self, tasks: Iterator[Task], time_limit: float) -> None:
+        """Make the rows until all are done, or one finds that no other can be."""
+        self.progress("making", self.done, self.failed, self.total)
+        for outcome in self.pool.run(make_row, tasks, time_limit):
+            record = _record(outcome)
+            if record.stop:
+                self.stopped = record.error
+                return
+            self.journal.finish(record)
+            self.done += 1
+            self.failed += record.status is Status.FAILED
+            self.progress("making", self.done, self.failed, self.total)
+
+    def write_results(self, folder: Path, workspace: Path) -> list[Path]:
+        """The table of results; where even that cannot be written, the run says so."""
+        try:
+            return write_results(self.journal, folder, workspace)
+        except OutputError as error:
+            self.stopped = self.stopped or str(error)
+            return []
+
+    def summary(self, results: list[Path]) -> Summary:
+        """What to tell the user."""
+        states = dict.fromkeys(Status, 0)
+        errors = []
+        for _, record in self.journal.results():
+            states[record.status] += 1
+            if record.error:
+                errors.append(record.error)
+        return Summary(
+            results=tuple(results),
+            ok=states[Status.OK],
+            failed=states[Status.FAILED],
+            not_run=states[Status.NOT_RUN],
+            errors=tuple(errors),
+            stopped=self.stopped,
+        )
+
+
+def _checked(outcome: Outcome[list[Row], list[list[str]]]) -> list[list[str]]:
+    try:
+        return outcome.future.result()
+    except WorkerLostError:
+        return check_rows(outcome.argument)  # it did not die of this: checking calls no kernel
+
+
+def _record(outcome: Outcome[Task, Record]) -> Record:
+    row = outcome.argument.row
+    try:
+        return outcome.future.result()
+    except WorkerLostError as error:
+        text = f"{row.where('')}: {error}"
+    except Exception as error:  # Dask has errors of its own
+        text = f"{row.where('')}: " + " ".join(f"{type(error).__name__}: {error}".split())
+    return Record(number=row.number, status=Status.FAILED, error=text)
+
+
+@contextmanager
+def _workspace(folder: Path) -> Iterator[Path]:
+    """A folder on the file system of `folder` where files grow until they are finished, for one run at a time.
+
+    Raises OutputError if `folder` cannot be written, or if another run is at it.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        workspace = folder.resolve() / WORKSPACE
+        workspace.mkdir(exist_ok=True)
+        lock = FileLock(workspace / "lock")
+        lock.acquire(blocking=False)
+    except Timeout as error:
+        raise OutputError("output", str(folder), "is in use by another gearcad batch; wait for its end") from error
+    except OSError as error:
+        raise unwritable(folder, error) from error
+    try:
+        _clear(workspace)
+        yield workspace
+    finally:
+        _clear(workspace)
+        with suppress(OSError):  # while it is ours: once released it may be that of the next run
+            (workspace / "lock").unlink(missing_ok=True)
+        lock.release()
+        with suppress(OSError):
+            workspace.rmdir()
+
+
+def _clear(workspace: Path) -> None:
+    """Remove what a killed run has left."""
+    with suppress(FileNotFoundError):  # somebody has removed the whole folder
+        for path in workspace.iterdir():
+            if path.is_dir():
+                shutil.rmtree(path, ignore_errors=True)

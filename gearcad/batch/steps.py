@@ -1,0 +1,70 @@
+"""What a row can be asked for, in parts that are made, kept and made again each on its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+from gearcad.build import DEFAULT_FORMATS, Format, build
+from gearcad.errors import ParameterError, require_number
+from gearcad.output import json_text
+from gearcad.spec import Design
+
+__all__ = ["DATA", "Step", "Wanted", "make_parts"]
+
+DATA = "data"
+"""The part that is `data.json`; the other parts are the formats, under their suffixes."""
+
+_FACETED = (Format.STL, Format.THREE_MF, Format.GLB)
+
+
+class Step(Enum):
+    """What `--do` offers."""
+
+    DATA = "data"
+    BUILD = "build"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wanted:
+    """What is made of every row; formats, chord error (mm) and bracket are those of `build`. Raises ParameterError."""
+
+    steps: tuple[Step, ...] = (Step.BUILD,)
+    formats: tuple[Format, ...] = DEFAULT_FORMATS
+    chord_error: float = 0.005
+    bracket: bool = False
+
+    def __post_init__(self) -> None:
+        if not self.steps:
+            raise ParameterError("do", "", f"must be one or more of {', '.join(step.value for step in Step)}")
+        if not self.formats:
+            raise ParameterError("format", "", f"must be one or more of {', '.join(kind.value for kind in Format)}")
+        require_number("chord_error", self.chord_error, "mm", above=0)
+
+    @property
+    def parts(self) -> dict[str, dict[str, Any]]:
+        """Every part of a row and the options it depends on. Data is always one: the table of results needs it."""
+        parts: dict[str, dict[str, Any]] = {DATA: {}}
+        for kind in self.formats if Step.BUILD in self.steps else ():
+            parts[kind.value] = {"chord_error": self.chord_error} if kind in _FACETED else {}
+        if Format.STEP.value in parts:
+            parts[Format.STEP.value] = {"bracket": self.bracket}
+        return parts
+
+
+def make_parts(design: Design, parts: Iterable[str], wanted: Wanted, folder: Path) -> None:
+    """Make the named parts in an empty folder."""
+    formats = [Format(part) for part in parts if part != DATA]
+    if formats:
+        bracket = wanted.bracket and Format.STEP in formats and design.pair is not None
+        build(design, folder, formats, bracket=bracket, chord_error=wanted.chord_error)
+    elif DATA in parts:
+        (folder / "data.json").write_text(json_text(design.to_dict()), encoding="utf-8")
+
+
+def part_of(file: str) -> str:
+    """The part to which a file belongs."""
+    return DATA if file == "data.json" else file.rpartition(".")[2]

@@ -1,0 +1,107 @@
+"""The command on a design table: batch."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+import gearcad
+from gearcad.cli.group import debug_option, parse_choices
+from gearcad.cli.progress import row_progress
+
+if TYPE_CHECKING:
+    from gearcad.batch import Summary
+
+__all__ = ["batch"]
+
+
+@click.command(short_help="Make every row of a design table, in parallel.")
+@click.argument("table", type=click.Path(path_type=Path))
+@click.option("-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/TABLE]")
+@click.option("-j", "--jobs", type=int, metavar="N", help="Processes at work.  [default: the cores]")
+@click.option("--do", "steps", default="build", show_default=True, help="Comma-separated list of data, build.")
+@click.option(
+    "--format", "formats", default="step,stl", show_default=True, help="Comma-separated list of step, stl, 3mf, glb, dxf, csv."
+)
+@click.option("--chord-error", default=0.005, show_default=True, metavar="MM", help="Largest error of the facets, in mm.")
+@click.option("--bracket", is_flag=True, help="Put the assemblies on two shafts with a bracket (STEP).")
+@click.option("--time-limit", default=600.0, show_default=True, metavar="S", help="Longest time for one row, in seconds.")
+@click.option("--fresh", is_flag=True, help="Make everything again, also what is there and unchanged.")
+@click.option("--keep-going", is_flag=True, help="Make the good rows of a table that has faults.")
+@click.option("--cluster", metavar="ADDRESS", help="Work on a Dask cluster: tcp://HOST:PORT, or local.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON document: the results and the failures.")
+@click.option("--quiet", is_flag=True, help="No progress on the screen.")
+@debug_option
+def batch(
+    table: Path,
+    output: Path | None,
+    jobs: int | None,
+    steps: str,
+    formats: str,
+    chord_error: float,
+    bracket: bool,
+    time_limit: float,
+    fresh: bool,
+    keep_going: bool,
+    cluster: str | None,
+    as_json: bool,
+    quiet: bool,
+) -> None:
+    """Make every row of TABLE (CSV or xlsx) in a folder of its own, and results.csv with all derived numbers.
+
+    All rows are checked before anything is made. Run it again after a change, a crash or a Ctrl-C: it makes only what is
+    missing or changed. `gearcad new pairs` writes a commented table to begin with.
+    """
+    from gearcad.batch import Step, Wanted, run_table
+    from gearcad.build import Format
+
+    wanted = Wanted(
+        steps=parse_choices("do", steps, Step),
+        formats=parse_choices("format", formats, Format),
+        chord_error=chord_error,
+        bracket=bracket,
+    )
+    folder = output if output is not None else Path("output") / table.stem
+    began = time.perf_counter()
+    with row_progress(shown=not quiet) as progress:
+        summary = run_table(
+            table,
+            folder,
+            wanted,
+            jobs=jobs,
+            cluster=cluster,
+            time_limit=time_limit,
+            fresh=fresh,
+            keep_going=keep_going,
+            progress=progress,
+        )
+    _report(summary, time.perf_counter() - began, as_json=as_json, quiet=quiet)
+    if summary.failed or summary.not_run or summary.stopped:
+        click.get_current_context().exit(1)
+
+
+def _report(summary: Summary, seconds: float, *, as_json: bool, quiet: bool) -> None:
+    from gearcad.output import json_text
+
+    results = [str(path) for path in summary.results]
+    if as_json:
+        counts = {"ok": summary.ok, "failed": summary.failed, "not_run": summary.not_run}
+        document = {
+            "kind": "batch",
+            "gearcad": gearcad.__version__,
+            "results": results,
+            **counts,
+            "errors": list(summary.errors),
+        }
+        click.echo(json_text(document), nl=False)
+    else:
+        click.echo("".join(f"{path}\n" for path in results), nl=False)
+    for line in (*summary.errors, *filter(None, [summary.stopped])):
+        click.echo(f"Error: {line}", err=True)
+    if not quiet:
+        rest = f", {summary.not_run} not run" if summary.not_run else ""
+        rate = (summary.ok + summary.failed) / seconds
+        click.echo(f"{summary.ok} rows ok, {summary.failed} failed{rest} in {seconds:.1f} s ({rate:.3g} rows/s)", err=True)

@@ -1,0 +1,63 @@
+"""Design tables as a user starts one: `gearcad new pairs`, `gearcad new gears`."""
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from gearcad.cli import main
+from gearcad.spec import open_table
+from gearcad.spec.starters import starters
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+
+
+def run(*arguments: str, status: int = 0) -> Result:
+    """Run in-process in the current folder; checks the exit status."""
+    result = CliRunner().invoke(main, list(arguments), prog_name="gearcad")
+    assert result.exit_code == status, result.stderr
+    return result
+
+
+@pytest.fixture(autouse=True)
+def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize("kind", ["pairs", "gears"])
+def test_new_writes_a_table_and_names_the_next_command(kind: str) -> None:
+    result = run("new", kind)
+    assert (result.stdout, result.stderr) == (f"{kind}.csv\n", f"Next: gearcad batch {kind}.csv\n")
+    assert [path.name for path in Path().iterdir()] == [f"{kind}.csv"]
+    assert Path(f"{kind}.csv").read_bytes() == (TEMPLATES / f"{kind}.csv").read_bytes()
+    assert all(not row.all_faults() for row in open_table(f"{kind}.csv").rows())
+
+
+def test_new_writes_a_table_under_another_name_or_prints_it() -> None:
+    result = run("new", "gears", "-o", "mine.txt")
+    assert (result.stdout, result.stderr) == ("mine.txt\n", "Next: gearcad batch mine.txt\n")
+    printed = run("new", "gears", "-o", "-")
+    assert (printed.stdout, printed.stderr) == (Path("mine.txt").read_text(), "")
+
+
+@pytest.mark.parametrize(("kind", "file"), [("pair", "volvo-13-44.toml"), ("gear", "spur.toml")])
+def test_one_pair_or_gear_is_a_spec_still(kind: str, file: str) -> None:
+    assert run("new", kind).stdout == f"{file}\n"
+
+
+def test_new_lists_tables_beside_specs() -> None:
+    lines = run("new").stdout.splitlines()
+    assert [line.split()[0] for line in lines] == ["alm-18-161", "gears", "pairs", "spur", "volvo-13-44"]
+    assert lines[1:3] == [
+        "gears         A design table of single gears: each row below the heading is one gear",
+        "pairs         A design table of gear pairs: each row below the heading is one pair",
+    ]
+    assert list(starters()) == [line.split()[0] for line in lines]
+
+
+def test_new_does_not_overwrite_a_table() -> None:
+    Path("pairs.csv").write_text("precious")
+    assert run("new", "pairs", status=2).stderr == (
+        "Error: output = 'pairs.csv': exists; give another name, or --force to replace it\n"
+    )
+    assert Path("pairs.csv").read_text() == "precious"
