@@ -58,10 +58,8 @@ _SAME = 1e-9
 
 _OTHER_LABELS = {
     "seconds": "time to make the row in s",
-    "pair.usable_contact_ratio": "contact ratio above the form circles",
-    "pair.common_width.offset": "middle of the common face width from the pinion's in mm",
 }
-"""Columns without a symbol whose words in the data sheet lean on the line above, or that it does not have."""
+"""Columns that are no quantity of the data sheet."""
 
 Draw = Callable[[Points, "Axes"], "Axes"]
 """A function that draws points on axes."""

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from gearcad.errors import ParameterError, format_number, require_whole
 from gearcad.output import staged_files
-from gearcad.spec.cells import CellReader, Layout
+from gearcad.spec.cells import CellReader, Layout, guarded_text
 from gearcad.spec.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES, DesignKind
 from gearcad.spec.keys import KEYS, explain_unknown_column
 from gearcad.spec.reader import Cell, spec_values
@@ -210,10 +210,8 @@ def check_table(path: Path) -> TableCheck:
 
 
 def _cell_text(value: Cell) -> str:
-    """A cell of the table; a text that a spreadsheet would run as a formula gets an apostrophe, which readers take off."""
-    if isinstance(value, str):
-        return f"'{value}" if value.lstrip("'").startswith(("=", "+", "-", "@")) else value
-    return repr(value)
+    """A cell of the table."""
+    return guarded_text(value) if isinstance(value, str) else repr(value)
 
 
 def _variation(text: str, kind: DesignKind, *, sampled: bool) -> Choices | Span:

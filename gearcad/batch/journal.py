@@ -42,7 +42,7 @@ class Journal:
         said = f"{row.where('name')}: name = {format_number(row.name)}"
         if taken is not None:
             number, name = taken
-            same = "has it too" if name == row.name else f"has {format_number(name)}, which differs in case only"
+            same = "has it too" if name == row.name else f"has {format_number(name)}, which some file systems take for the same"
             return [f"{said}: must be unique, for it names a folder; row {number} {same}"]
         if folded in RESERVED:
             return [f"{said}: must be another one; this is the name of the table of results"]

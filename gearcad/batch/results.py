@@ -11,15 +11,13 @@ from typing import Any, Protocol
 
 from gearcad.batch.row import Record
 from gearcad.output import staged_files
+from gearcad.spec.cells import guarded_text
 from gearcad.spec.table import Row
 
 __all__ = ["RESULTS", "Results", "write_results"]
 
 RESULTS = "results.csv"
 PARQUET = "results.parquet"
-
-_FORMULA = ("=", "+", "-", "@", "\t", "\r")
-"""What a text must not begin with, or a spreadsheet runs it."""
 
 _ROWS_PER_GROUP = 1000
 
@@ -98,7 +96,7 @@ def _text(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
-        return f"'{value}" if value.lstrip("'").startswith(_FORMULA) else value
+        return guarded_text(value)
     return repr(value)
 
 

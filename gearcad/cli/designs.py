@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 import click
 
 import gearcad
-from gearcad.cli.group import debug_option, parse_choices, spec_argument
+from gearcad.cli.group import debug_option, parse_choices, require_new_file, spec_argument
 from gearcad.cli.progress import file_progress
-from gearcad.errors import ParameterError
 
 if TYPE_CHECKING:
     from gearcad.spec.design import Design
@@ -46,10 +45,7 @@ def new(kind: str | None, output: str | None, force: bool) -> None:
 def _write_new(path: Path, text: str, force: bool) -> None:
     from gearcad.output import staged_files
 
-    if path.is_dir():
-        raise ParameterError("output", str(path), "is a folder; give the name of a file")
-    if path.exists() and not force:
-        raise ParameterError("output", str(path), "exists; give another name, or --force to replace it")
+    require_new_file(path, force)
     with staged_files(path.parent) as staging:
         (staging / path.name).write_text(text, encoding="utf-8")
 

@@ -10,9 +10,9 @@ from typing import Any, TypeVar
 
 import click
 
-from gearcad.errors import GearcadError, SolverError, as_choice
+from gearcad.errors import GearcadError, ParameterError, SolverError, as_choice
 
-__all__ = ["Commands", "debug_option", "parse_choices", "spec_argument"]
+__all__ = ["Commands", "debug_option", "parse_choices", "require_new_file", "spec_argument"]
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Choice = TypeVar("Choice", bound=Enum)
@@ -81,3 +81,11 @@ def spec_argument(command: Command) -> Command:
 def parse_choices(parameter: str, text: str, kind: type[Choice]) -> tuple[Choice, ...]:
     """Members of an enum from a comma-separated list of their values; raises ParameterError."""
     return tuple(as_choice(parameter, name.strip().lower(), kind) for name in text.split(","))
+
+
+def require_new_file(path: Path, force: bool) -> None:
+    """Raise ParameterError for the name of a folder, and without `force` for that of a file that exists."""
+    if path.is_dir():
+        raise ParameterError("output", str(path), "is a folder; give the name of a file")
+    if path.exists() and not force:
+        raise ParameterError("output", str(path), "exists; give another name, or --force to replace it")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from gearcad.cli.group import debug_option, spec_argument
+from gearcad.cli.group import debug_option, require_new_file, spec_argument
 from gearcad.errors import ParameterError, as_choice
 
 if TYPE_CHECKING:
@@ -52,7 +52,9 @@ def study(
 
     planned = plan_study(spec, variations, _sample(sample, rows, seed))
     path = output if output is not None else Path(f"{planned.name}-study.csv")
-    _require_new_table(path, force)
+    if path.suffix.lower() != ".csv":
+        raise ParameterError("output", str(path), "must end in .csv")
+    require_new_file(path, force)
     write_study(planned, path)
     click.echo(path)
     _echo_prospects(path, planned.rows)
@@ -73,15 +75,6 @@ def _sample(method: str | None, rows: int | None, seed: int | None) -> Sample | 
     if chosen is Method.SOBOL and rows > 0 and rows & (rows - 1):
         click.echo("Note: Sobol points are spread most evenly if --n is a power of 2, such as 128 or 256", err=True)
     return Sample(method=chosen, rows=rows, seed=seed or 0)
-
-
-def _require_new_table(path: Path, force: bool) -> None:
-    if path.is_dir():
-        raise ParameterError("output", str(path), "is a folder; give the name of a file")
-    if path.suffix.lower() != ".csv":
-        raise ParameterError("output", str(path), "must end in .csv")
-    if path.exists() and not force:
-        raise ParameterError("output", str(path), "exists; give another name, or --force to replace it")
 
 
 def _echo_prospects(path: Path, rows: int) -> None:

@@ -25,6 +25,9 @@ LEAST_RIM = 0.1
 LEAST_HELIX = 1e-6
 """Smallest helix angle (degrees) of a helical gear; less moves a tooth by less than 2e-8 of the face width."""
 
+LARGEST_DIAMETER = 2e6
+"""Largest diameter that may be given (mm): no permitted teeth and module make a larger gear."""
+
 MOST_TWIST = 720.0
 """Largest twist of a tooth over the face width (degrees) that one screw surface spans to the accuracy promised."""
 

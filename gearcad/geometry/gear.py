@@ -60,7 +60,7 @@ class Gear:
             if value is None or isinstance(value, Derived):
                 object.__setattr__(self, name, Derived(getattr(self, "_standard_" + name)))
             else:
-                require_number(name, value, "mm", above=0)
+                require_number(name, value, "mm", above=0, at_most=feasibility.LARGEST_DIAMETER)
         feasibility.check_tool(self)
         try:
             self.profile  # noqa: B018 - built now, so that a gear that exists has teeth

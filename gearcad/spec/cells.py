@@ -12,7 +12,7 @@ from gearcad.errors import ParameterError
 from gearcad.spec.keys import COLUMNS
 from gearcad.spec.reader import Cell
 
-__all__ = ["CellReader", "Layout", "RawCell", "Unreadable", "is_blank", "is_comment", "plain_text"]
+__all__ = ["CellReader", "Layout", "RawCell", "Unreadable", "guarded_text", "is_blank", "is_comment", "plain_text"]
 
 
 class Layout(Enum):
@@ -65,6 +65,11 @@ def plain_text(cell: RawCell) -> str:
     if isinstance(cell, Unreadable):
         return cell.shown
     return str(int(cell)) if abs(cell) <= _MOST_EXACT and float(cell).is_integer() else repr(cell)
+
+
+def guarded_text(text: str) -> str:
+    """The text as a cell that no spreadsheet runs as a formula; `plain_text` takes the apostrophe off again."""
+    return f"'{text}" if _GUARDED.match(f"'{text}") else text
 
 
 def is_blank(cell: RawCell) -> bool:

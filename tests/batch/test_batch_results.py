@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from support import jobs
-from support.tables import GEARS, MIXED, PAIRS, read_results, rows_of, write_table
+from support.batches import GEARS, MIXED, PAIRS, read_results, rows_of, write_table
 
 from gearcad.batch import Step, Summary, Wanted, run_table
 from gearcad.batch import run as run_module
@@ -177,7 +177,11 @@ FORMULAS = ("=1+2", "+a", "@x", "=cmd", "'=twice", "''@thrice")
 
 
 def test_texts_that_a_spreadsheet_would_run_have_an_apostrophe_in_front(tmp_path: Path) -> None:
-    lines = ("name,teeth,normal_module,face_width,profile_shift", *(f"'{name},20,1,5,-0.25" for name in FORMULAS), "it's,20,1,5,")
+    lines = (
+        "name,teeth,normal_module,face_width,profile_shift",
+        *(f"'{name},20,1,5,-0.25" for name in FORMULAS),
+        "it's,20,1,5,",
+    )
     make(tmp_path, lines)
     results = read_results(tmp_path / "out")
     assert [line["name"] for line in results] == [*(f"'{name}" for name in FORMULAS), "it's"]
@@ -308,9 +312,9 @@ def test_options_are_checked_first(tmp_path: Path) -> None:
         with pytest.raises(ParameterError) as caught:
             run_table(write_table(tmp_path / "table.csv", GEARS), tmp_path / "out", DATA, **({"jobs": 1} | options))
         assert str(caught.value).startswith(message)
-    with pytest.raises(ParameterError, match="^do = '': must be one or more of data, build$"):
+    with pytest.raises(ParameterError, match=r"^do = '': must be one or more of data, build$"):
         replace(DATA, steps=())
-    with pytest.raises(ParameterError, match="^format = '': must be one or more of step, stl, 3mf, glb, dxf, csv$"):
+    with pytest.raises(ParameterError, match=r"^format = '': must be one or more of step, stl, 3mf, glb, dxf, csv$"):
         Wanted(formats=())
     assert not (tmp_path / "out").exists()
 

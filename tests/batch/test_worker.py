@@ -91,7 +91,9 @@ def test_call_within_its_limit_is_not_stopped_later() -> None:
     assert call(jobs.own_process) == first
 
 
-@pytest.mark.parametrize("error", [GeometryError("teeth", 2, "must be more"), SpecError("two\nlines", "gear.teeth"), KeyError(3)])
+@pytest.mark.parametrize(
+    "error", [GeometryError("teeth", 2, "must be more"), SpecError("two\nlines", "gear.teeth"), KeyError(3)]
+)
 def test_errors_arrive_as_they_were_raised(error: Exception) -> None:
     before = call(jobs.own_process)
     with pytest.raises(type(error)) as caught:
@@ -109,7 +111,7 @@ def test_want_of_memory_is_an_error_of_the_call_only() -> None:
 
 def test_error_that_cannot_be_sent_arrives_as_its_text() -> None:
     before = call(jobs.own_process)
-    with pytest.raises(RuntimeError, match="^Unsendable: 1 and 2$"):
+    with pytest.raises(RuntimeError, match=r"^Unsendable: 1 and 2$"):
         call(jobs.raise_unsendable)
     assert call(jobs.own_process) == before
 
@@ -121,14 +123,14 @@ def test_answer_that_cannot_be_sent_is_an_error() -> None:
 
 
 def test_answer_that_cannot_be_read_is_not_mixed_with_the_next() -> None:
-    with pytest.raises(ImportError, match="^no$"):
+    with pytest.raises(ImportError, match=r"^no$"):
         call(jobs.unreadable)
     assert [call(jobs.echo, number) for number in range(3)] == [0, 1, 2]
 
 
 def test_call_that_cannot_be_read_is_not_mixed_with_the_next() -> None:
     """As when a worker has another version of gearcad."""
-    with pytest.raises(ImportError, match="^no$"):
+    with pytest.raises(ImportError, match=r"^no$"):
         call(jobs.echo, jobs.unreadable())
     assert [call(jobs.echo, number) for number in range(3)] == [0, 1, 2]
 

@@ -16,6 +16,7 @@ from gearcad.spec.starters import starters
 
 VOLVO = "volvo-13-44"
 STARTERS = ["alm-18-161", "spur", VOLVO]
+TABLES = ["gears", "pairs"]
 
 RATIO = 1e-9
 """Absolute, for contact ratios of about 1: what the references promise."""
@@ -50,7 +51,7 @@ def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
 
 def test_new_without_a_kind_lists_the_starters() -> None:
     lines = run("new").stdout.splitlines()
-    assert [line.split()[0] for line in lines] == STARTERS
+    assert [line.split()[0] for line in lines] == sorted(STARTERS + TABLES)
     assert all(len(line.split()) > 5 for line in lines)
 
 
@@ -76,7 +77,7 @@ def test_new_refuses_to_overwrite_unless_forced() -> None:
 
 def test_new_refuses_what_it_does_not_have() -> None:
     result = run("new", "bevel", status=2)
-    assert result.stderr == "Error: kind = 'bevel': must be one of alm-18-161, spur, volvo-13-44 (or gear, pair)\n"
+    assert result.stderr == "Error: kind = 'bevel': must be one of alm-18-161, gears, pairs, spur, volvo-13-44 (or gear, pair)\n"
 
 
 @pytest.mark.parametrize("output", ["blocked/x.toml", "folder"])

@@ -8,6 +8,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, NoReturn
 
 from gearcad.batch import manifest
@@ -17,14 +18,17 @@ __all__ = [
     "die",
     "echo",
     "hold_the_interpreter",
-    "make_row_killed",
+    "interrupt",
+    "killed_at",
     "make_row_of_another_gearcad",
     "make_row_or_die",
     "own_process",
     "print_everywhere",
     "raise_it",
+    "raise_unsendable",
     "repeat",
     "unreadable",
+    "unsendable_answer",
     "wait",
     "work",
 ]
@@ -141,14 +145,14 @@ def make_row_of_another_gearcad(task: Task) -> Record:
     return make_row(task)
 
 
-def kill_before_write(number: int, inside: str) -> None:
-    """Kill this process just before the `number`-th time (from 1) that it changes something in a folder."""
+def kill_before_write(number: int, inside: Path) -> None:
+    """Kill this process just before the `number`-th time (from 1) that it changes something below the folder `inside`."""
     left = number
 
     def watch(event: str, arguments: tuple[Any, ...]) -> None:
         nonlocal left
         changes = event in WRITES or (event == "open" and _to_write(arguments))
-        if changes and str(arguments[0]).startswith(inside):
+        if changes and str(arguments[0]).startswith(str(inside)):
             left -= 1
             if left == 0:
                 os.kill(os.getpid(), signal.SIGKILL)
@@ -160,8 +164,14 @@ def _to_write(arguments: tuple[Any, ...]) -> bool:
     return bool(arguments[2] & (os.O_WRONLY | os.O_RDWR | os.O_CREAT))
 
 
-def make_row_killed(task_and_number: tuple[Task, int]) -> Record:
-    """Make the row in a process that is killed just before its n-th change on disk."""
-    task, number = task_and_number
-    kill_before_write(number, str(task.folder))
-    return make_row(task)
+def killed_at(attempt: tuple[Callable[[], Any], int, Path]) -> bool:
+    """Do a thing in a fork of this process that is killed before its n-th change below a folder; False if it was done before."""
+    function, number, folder = attempt
+    process = os.fork()
+    if process == 0:
+        kill_before_write(number, folder)
+        function()
+        os._exit(0)
+    _, status = os.waitpid(process, 0)
+    assert status in (0, signal.SIGKILL), status
+    return status != 0

@@ -8,11 +8,12 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from pathlib import Path
 
 import psutil
 
-__all__ = ["batch_command", "children", "run_batch", "start_batch", "wait_for_end", "wait_until"]
+__all__ = ["PATIENCE", "batch_command", "below", "run_batch", "send_to_all", "start_batch", "wait_for_end", "wait_until"]
 
 PATIENCE = 60.0
 """Seconds that anything may take on a busy machine before a test gives up."""
@@ -36,12 +37,14 @@ def start_batch(*arguments: str | Path) -> subprocess.Popen[str]:
     )
 
 
-def children(process: subprocess.Popen[str]) -> list[psutil.Process]:
-    """All processes below this one."""
-    try:
-        return psutil.Process(process.pid).children(recursive=True)
-    except psutil.NoSuchProcess:
-        return []
+def below(process: subprocess.Popen[str]) -> list[psutil.Process]:
+    """The processes that a process from `start_batch` has started, also when it has gone itself."""
+    found = []
+    for each in psutil.process_iter():
+        with suppress(ProcessLookupError):
+            if each.pid != process.pid and os.getsid(each.pid) == process.pid:
+                found.append(each)
+    return found
 
 
 def wait_for_end(processes: Iterable[psutil.Process], seconds: float) -> list[psutil.Process]:
@@ -70,9 +73,7 @@ def wait_until(true: Callable[[], object], what: str) -> None:
         time.sleep(0.005)
 
 
-def kill_group(process: subprocess.Popen[str]) -> None:
-    """SIGKILL to the process and its children at once."""
-    try:
-        os.killpg(process.pid, signal.SIGKILL)
-    except ProcessLookupError:
-        pass  # it had ended
+def send_to_all(process: subprocess.Popen[str], signal_number: signal.Signals) -> None:
+    """A signal to the process and all below it at once, as a terminal sends Ctrl-C."""
+    with suppress(ProcessLookupError):  # it had ended
+        os.killpg(process.pid, signal_number)

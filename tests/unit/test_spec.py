@@ -247,10 +247,10 @@ def test_a_derived_shift_that_makes_no_gear_says_where_it_comes_from() -> None:
             {"pinion": {"teeth": 13.0}},
             "<pinion.teeth>: pinion.teeth = 13: must be a whole number from 3 to 2000 (write 13, not 13.0)",
         ),
-        ({"pinion": {"teeth": None}}, "<pinion>: pinion.teeth is missing: must be a whole number from 3 to 2000"),
+        ({"pinion": {"teeth": None}}, "<pinion.teeth>: pinion.teeth is missing: must be a whole number from 3 to 2000"),
         (
             {"pair": {"normal_module": None}},
-            "<pinion>: pinion.normal_module is missing: must be a number at least 0.01 mm and at most 200 mm"
+            "<pinion.normal_module>: pinion.normal_module is missing: must be a number at least 0.01 mm and at most 200 mm"
             " (here or in [pair])",
         ),
         (
@@ -273,7 +273,7 @@ def test_a_derived_shift_that_makes_no_gear_says_where_it_comes_from() -> None:
             "<pinion.centre_distance>: pinion.centre_distance: unknown key here; it belongs in [pair]",
         ),
         ({"lod": {}}, "<lod>: lod: unknown table; did you mean [load]?"),
-        ({"load": {"speed": 3}}, "<load>: load.torque is missing: must be a number in N·m"),
+        ({"load": {"speed": 3}}, "<load.torque>: load.torque is missing: must be a number in N·m"),
         ({"material": {"name": 3}}, "<material.name>: material.name = 3: must be a text"),
         ({"pinion": {"rack": "DIN867"}}, "<pinion.rack>: pinion.rack = 'DIN867': must be one of 'ISO53_A', 'ISO53_B', "),
         (
