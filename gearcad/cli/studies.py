@@ -52,9 +52,9 @@ def study(
 
     planned = plan_study(spec, variations, _sample(sample, rows, seed))
     path = output if output is not None else Path(f"{planned.name}-study.csv")
+    require_new_file(path, force)
     if path.suffix.lower() != ".csv":
         raise ParameterError("output", str(path), "must end in .csv")
-    require_new_file(path, force)
     write_study(planned, path)
     click.echo(path)
     _echo_prospects(path, planned.rows)
