@@ -145,4 +145,6 @@ def _value(value: Any) -> str:
 
 
 def _given(value: Any) -> str:
+    if isinstance(value, tuple):
+        return " ... ".join(map(format_number, value))
     return value if isinstance(value, str) else format_number(value)

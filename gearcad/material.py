@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from gearcad.errors import plain_numbers, require_number
+from gearcad.errors import ParameterError, plain_numbers, require_number
 
 __all__ = ["Material"]
 
@@ -13,7 +14,8 @@ __all__ = ["Material"]
 class Material:
     """Linear elastic material. `youngs_modulus` and the limits in MPa, `density` in kg/m^3.
 
-    `contact_limit` and `root_limit` are allowable stresses; None gives no verdict. Raises ParameterError.
+    `contact_limit` and `root_limit` are allowable stresses, or the range (low, high) in which that of the material lies;
+    None gives no verdict. Raises ParameterError.
     """
 
     name: str = "steel"
@@ -21,14 +23,28 @@ class Material:
     poisson_ratio: float = 0.3
     density: float = 7850.0
     yield_strength: float | None = None
-    contact_limit: float | None = None
-    root_limit: float | None = None
+    contact_limit: float | tuple[float, float] | None = None
+    root_limit: float | tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         plain_numbers(self)
         require_number("youngs_modulus", self.youngs_modulus, "MPa", above=0)
         require_number("poisson_ratio", self.poisson_ratio, at_least=0, below=0.5)
         require_number("density", self.density, "kg/m^3", above=0)
-        for name in ("yield_strength", "contact_limit", "root_limit"):
-            if getattr(self, name) is not None:
-                require_number(name, getattr(self, name), "MPa", above=0)
+        if self.yield_strength is not None:
+            require_number("yield_strength", self.yield_strength, "MPa", above=0)
+        for name in ("contact_limit", "root_limit"):
+            value = getattr(self, name)
+            if isinstance(value, list | tuple):
+                object.__setattr__(self, name, _range(name, value))
+            elif value is not None:
+                require_number(name, value, "MPa", above=0)
+
+
+def _range(name: str, values: Sequence[float]) -> tuple[float, float]:
+    """A range of limits, checked."""
+    for value in values:
+        require_number(name, value, "MPa", above=0)
+    if len(values) != 2 or values[0] >= values[1]:
+        raise ParameterError(name, list(values), "must be a number, or a range [low, high]", "MPa")
+    return float(values[0]), float(values[1])

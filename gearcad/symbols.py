@@ -1,15 +1,15 @@
 """The one table from field name to symbol, unit, source and words: data sheet, CSV headers and drawings read it.
 
-Keys are those of `Gear.to_dict()`, `GearPair.to_dict()`, `Material` and `Load`, nested ones joined by a dot
-(`rack.root_radius`, `path_of_contact.A`). Clauses are those of ISO 21771:2007 unless another standard is named; an empty
-source means that the quantity is our own.
+Keys are those of `Gear.to_dict()`, `GearPair.to_dict()`, `Material`, `Load` and `Rating.to_dict()`, nested ones joined by a
+dot (`rack.root_radius`, `path_of_contact.A`); GEAR_RATING holds those under a rating's "pinion" and "wheel". Clauses are
+those of ISO 21771:2007 unless another standard is named; an empty source means that the quantity is our own.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["GEAR", "LOAD", "MATERIAL", "PAIR", "Symbol"]
+__all__ = ["GEAR", "GEAR_RATING", "LOAD", "MATERIAL", "PAIR", "RATING", "Symbol"]
 
 
 class Symbol(NamedTuple):
@@ -114,4 +114,54 @@ LOAD = {
     "torque": Symbol("T_1", "N·m", "ISO 6336-1", "torque on the pinion"),
     "speed": Symbol("n_1", "rpm", "ISO 6336-1", "speed of the pinion"),
     "application_factor": Symbol("K_A", "", "ISO 6336-1", "application factor"),
+}
+
+RATING = {
+    "edition": Symbol("", "", "", "standard"),
+    "F_t": Symbol("F_t", "N", "ISO 6336-1", "tangential force at the reference circle"),
+    "F_bn": Symbol("F_bn", "N", "ISO 6336-1", "normal force in the base tangent plane"),
+    "K_A": Symbol("K_A", "", "ISO 6336-1", "application factor"),
+    "w_t": Symbol("F_t K_A/b", "N/mm", "ISO 6336-1, 9", "specific load"),
+    "q_prime": Symbol("q'", "mm·µm/N", "ISO 6336-1 (82)", "least flexibility of a pair of teeth"),
+    "c_th": Symbol("c'_th", "N/(mm·µm)", "ISO 6336-1 (81)", "theoretical single stiffness"),
+    "C_M": Symbol("C_M", "", "ISO 6336-1 (83)", "correction factor of the stiffness"),
+    "C_R": Symbol("C_R", "", "ISO 6336-1 (84)", "gear blank factor"),
+    "C_B": Symbol("C_B", "", "ISO 6336-1 (86)", "basic rack factor"),
+    "xi": Symbol("E/E_St", "", "ISO 6336-1 (88)", "material factor of the stiffness"),
+    "c_prime": Symbol("c'", "N/(mm·µm)", "ISO 6336-1 (80)", "single stiffness from 100 N/mm on"),
+    "c_gamma_alpha": Symbol("c_γα", "N/(mm·µm)", "ISO 6336-1 (91)", "mesh stiffness from 100 N/mm on"),
+    "c_gamma_beta": Symbol("c_γβ", "N/(mm·µm)", "ISO 6336-1 (92)", "mesh stiffness for K_Hβ from 100 N/mm on"),
+    "low_load_factor": Symbol("", "", "ISO 6336-1 (90)", "factor of a low load on the stiffness"),
+    "c_prime_lowload": Symbol("c'", "N/(mm·µm)", "ISO 6336-1 (90)", "single stiffness at this load"),
+    "c_gamma_alpha_lowload": Symbol("c_γα", "N/(mm·µm)", "ISO 6336-1 (91)", "mesh stiffness at this load"),
+    "c_gamma_beta_lowload": Symbol("c_γβ", "N/(mm·µm)", "ISO 6336-1 (92)", "mesh stiffness for K_Hβ at this load"),
+    "Z_H": Symbol("Z_H", "", "ISO 6336-2, 6.1", "zone factor"),
+    "Z_E": Symbol("Z_E", "√MPa", "ISO 6336-2, 7", "elasticity factor"),
+    "Z_eps": Symbol("Z_ε", "", "ISO 6336-2, 8", "contact ratio factor"),
+    "Z_beta": Symbol("Z_β", "", "ISO 6336-2, 9", "helix angle factor of the contact stress"),
+    "Z_B": Symbol("Z_B", "", "ISO 6336-2, 6.2", "single contact factor of the pinion"),
+    "Z_D": Symbol("Z_D", "", "ISO 6336-2, 6.2", "single contact factor of the wheel"),
+    "sigma_H0": Symbol("σ_H0", "MPa", "ISO 6336-2, 5", "nominal contact stress"),
+    "rho_C": Symbol("ρ_C", "mm", "Hertz", "reduced radius of curvature at the pitch point"),
+    "p_0": Symbol("p_0", "MPa", "Hertz", "peak pressure at the pitch point"),
+    "b_H": Symbol("b_H", "mm", "Hertz", "half width of contact at the pitch point"),
+}
+
+GEAR_RATING = {
+    "theta": Symbol("θ", "deg", "ISO 6336-3 (14)", "angle of the 30° tangent on the tool's tip"),
+    "s_Fn": Symbol("s_Fn", "mm", "ISO 6336-3 (15)", "chord of the root section"),
+    "rho_F": Symbol("ρ_F", "mm", "ISO 6336-3 (17)", "radius of the fillet at the root section"),
+    "h_Fe": Symbol("h_Fe", "mm", "ISO 6336-3 (18)", "arm of the load at the root section"),
+    "q_s": Symbol("q_s", "", "ISO 6336-3 (38)", "notch parameter"),
+    "d_en": Symbol("d_en", "mm", "ISO 6336-3 (28)", "diameter of the load on the virtual gear"),
+    "alpha_Fen": Symbol("α_Fen", "deg", "ISO 6336-3 (31)", "angle of the load"),
+    "Y_F": Symbol("Y_F", "", "ISO 6336-3 (9)", "form factor"),
+    "Y_S": Symbol("Y_S", "", "ISO 6336-3 (36)", "stress correction factor"),
+    "Y_beta": Symbol("Y_β", "", "ISO 6336-3, 8", "helix angle factor of the root stress"),
+    "Y_B": Symbol("Y_B", "", "ISO 6336-3, 9", "rim thickness factor"),
+    "Y_DT": Symbol("Y_DT", "", "ISO 6336-3, 10", "deep tooth factor"),
+    "b": Symbol("b", "mm", "ISO 6336-3, 5", "width that carries at the root"),
+    "sigma_F0": Symbol("σ_F0", "MPa", "ISO 6336-3, 5", "nominal root stress"),
+    "sigma_H": Symbol("σ_H", "MPa", "ISO 6336-2, 5", "contact stress with K_A"),
+    "sigma_F": Symbol("σ_F", "MPa", "ISO 6336-3, 5", "root stress with K_A"),
 }

@@ -6,6 +6,7 @@ import pickle
 import sqlite3
 import unicodedata
 from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from gearcad.batch.row import Record, Status
@@ -62,15 +63,22 @@ class Journal:
 
     def results(self) -> Iterator[tuple[Row, Record]]:
         """Every row and its record, in the order of the table."""
-        for number, row, record in self._execute("SELECT number, row, record FROM rows ORDER BY number"):
-            yield pickle.loads(row), pickle.loads(record) if record else Record(number=number, status=Status.NOT_RUN)
+        with _writable():
+            for number, row, record in self._execute("SELECT number, row, record FROM rows ORDER BY number"):
+                yield pickle.loads(row), pickle.loads(record) if record else Record(number=number, status=Status.NOT_RUN)
 
     def count(self) -> int:
         """Rows of the table."""
         return int(self._execute("SELECT count(*) FROM rows").fetchone()[0])
 
     def _execute(self, statement: str, values: tuple[Any, ...] = ()) -> sqlite3.Cursor:
-        try:
+        with _writable():
             return self._database.execute(statement, values)
-        except sqlite3.OperationalError as error:  # the disk for temporary files is full
-            raise OutputError("temporary files", "", f"cannot be written ({error}); TMPDIR names their folder") from error
+
+
+@contextmanager
+def _writable() -> Iterator[None]:
+    try:
+        yield
+    except sqlite3.DatabaseError as error:  # the disk for temporary files is full, or was: then the database is in pieces
+        raise OutputError("temporary files", "", f"cannot be written ({error}); TMPDIR names their folder") from error

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
+import logging
 import os
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from functools import partial
 from typing import Any, Generic, TypeVar
 
 from gearcad import __version__
 from gearcad.batch.worker import close_workers, isolated
-from gearcad.errors import ParameterError, require_whole
+from gearcad.errors import GearcadError, ParameterError, require_whole
 
-__all__ = ["Pool", "available_cores", "open_pool"]
+__all__ = ["ClusterLostError", "Pool", "available_cores", "open_pool"]
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
@@ -25,6 +26,11 @@ _AHEAD = 3
 
 _MOST_JOBS = 1024
 _CONNECT_SECONDS = 20
+_LOOK_SECONDS = 2.0
+
+
+class ClusterLostError(GearcadError, RuntimeError):
+    """The Dask cluster went away during the run."""
 
 
 @dataclass(frozen=True)
@@ -37,34 +43,37 @@ class Outcome(Generic[Argument, Result]):
 
 @dataclass(frozen=True)
 class Pool:
-    """An executor, and how many calls it does at a time."""
+    """An executor, how many calls it does at a time, what ends all that is waiting or running, and whether it is there yet."""
 
     executor: Executor
     threads: int
-    end_workers: Callable[[], None]
+    stop: Callable[[], None]
+    is_there: Callable[[], bool] = lambda: True
 
     def run(
         self, function: Callable[[Argument], Result], arguments: Iterable[Argument], time_limit: float
     ) -> Iterator[Outcome[Argument, Result]]:
-        """Call `function`, which must be importable, with each argument in a worker process; outcomes as they come."""
+        """Call `function`, which must be importable, with each argument in a worker process; outcomes as they come.
+
+        Raises ClusterLostError if nobody is left who could do it.
+        """
         pending: dict[Future[Result], Argument] = {}
         for argument in arguments:
             pending[self.executor.submit(isolated, function, argument, time_limit)] = argument
             if len(pending) >= _AHEAD * self.threads:
-                yield from _ended(pending)
+                yield from self._ended(pending)
         while pending:
-            yield from _ended(pending)
+            yield from self._ended(pending)
 
-    def stop(self) -> None:
-        """End everything that is waiting or running."""
-        self.executor.shutdown(wait=False, cancel_futures=True)
-        self.end_workers()
-
-
-def _ended(pending: dict[Future[Result], Argument]) -> Iterator[Outcome[Argument, Result]]:
-    """Wait for one call at least, and take all that have ended from `pending`."""
-    for future in wait(pending, return_when=FIRST_COMPLETED).done:
-        yield Outcome(pending.pop(future), future)
+    def _ended(self, pending: dict[Future[Result], Argument]) -> Iterator[Outcome[Argument, Result]]:
+        """Wait for one call at least, and take all that have ended from `pending`."""
+        done: set[Future[Result]] = set()
+        while not done and self.is_there():
+            done = wait(pending, _LOOK_SECONDS, FIRST_COMPLETED).done
+        if not done or any(future.cancelled() for future in done):
+            raise ClusterLostError("the cluster is gone: its scheduler does not answer any more")
+        for future in done:
+            yield Outcome(pending.pop(future), future)
 
 
 def available_cores() -> int:
@@ -86,39 +95,84 @@ def open_pool(jobs: int | None, cluster: str | None) -> Iterator[Pool]:
         with _dask_pool(cluster, count) as pool:
             yield pool
         return
-    pool = Pool(ThreadPoolExecutor(count, thread_name_prefix="gearcad"), count, close_workers)
+    executor = ThreadPoolExecutor(count, thread_name_prefix="gearcad")
+
+    def stop() -> None:
+        executor.shutdown(wait=False, cancel_futures=True)
+        close_workers()
+
     try:
-        yield pool
+        yield Pool(executor, count, stop)
     finally:
-        pool.stop()
+        stop()
 
 
 @contextmanager
 def _dask_pool(address: str, jobs: int) -> Iterator[Pool]:
+    with _client(address, jobs) as client, _quiet_log():
+        _require_our_version(client, address)
+        executor = client.get_executor(pure=False)
+
+        def stop() -> None:
+            with suppress(Exception):  # the cluster may be what ended the run
+                executor.shutdown(wait=False)
+                client.run(close_workers)
+
+        try:
+            yield Pool(executor, sum(client.nthreads().values()), stop, lambda: client.status not in ("closing", "closed"))
+        finally:
+            stop()
+
+
+@contextmanager
+def _client(address: str, jobs: int) -> Iterator[Any]:
+    """A client of the Dask cluster, which "local" starts and ends."""
     try:
         from distributed import Client, LocalCluster
     except ImportError as error:
         raise ParameterError("cluster", address, 'needs Dask: pip install "gearcad[cluster]"') from error
-    local = address == LOCAL_CLUSTER
-    try:
+    if address == LOCAL_CLUSTER:
         # Without a limit of Dask's: the memory is that of the children, which it does not see.
-        where: Any = (
-            LocalCluster(n_workers=jobs, threads_per_worker=1, memory_limit=None, dashboard_address=None) if local else address
-        )
-        client = Client(where, timeout=_CONNECT_SECONDS)
-    except (OSError, ValueError) as error:
-        reason = " ".join(str(error).split())
-        raise ParameterError("cluster", address, f"cannot be reached ({reason}); give tcp://HOST:PORT or local") from error
+        with (
+            LocalCluster(n_workers=jobs, threads_per_worker=1, memory_limit=None, dashboard_address=None) as cluster,
+            Client(cluster) as client,
+        ):
+            yield client
+        return
     try:
-        _require_our_version(client, address)
-        threads = sum(client.nthreads().values())
-        yield Pool(client.get_executor(pure=False), threads, partial(client.run, close_workers))
+        asyncio.run(_greet(address))
+        client = Client(address, timeout=_CONNECT_SECONDS)
+    except (OSError, ValueError) as error:
+        reason = " ".join(str(error).split()) or f"no answer in {_CONNECT_SECONDS:g} s"
+        raise ParameterError("cluster", address, f"cannot be reached ({reason}); give tcp://HOST:PORT or local") from error
+    except Exception as error:  # whatever Dask makes of the answer of, say, a web server
+        permitted = "answers, but not as a Dask scheduler does; give its tcp://HOST:PORT or local"
+        raise ParameterError("cluster", address, permitted) from error
+    with client:
+        yield client
+
+
+@contextmanager
+def _quiet_log() -> Iterator[None]:
+    """Dask logs to stderr, with tracebacks; what a user can do something about becomes an error of ours."""
+    loggers = [logging.getLogger(name) for name in ("distributed", "distributed.client", "tornado.application", "asyncio")]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL)
+    try:
+        yield
     finally:
-        with suppress(Exception):  # the cluster may be what ended the run
-            client.run(close_workers)
-        client.close()
-        if local:
-            where.close()
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
+
+
+async def _greet(address: str) -> None:
+    """Shake hands once: Dask's client would wait for ever for what is no scheduler."""
+    from distributed.comm import connect
+    from distributed.security import Security
+
+    connection = connect(address, timeout=_CONNECT_SECONDS, **Security().get_connection_args("client"))
+    await (await asyncio.wait_for(connection, _CONNECT_SECONDS)).close()
 
 
 def _require_our_version(client: Any, address: str) -> None:

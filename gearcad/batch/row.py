@@ -157,14 +157,16 @@ def _parts_in(staging: Path, options: Mapping[str, Mapping[str, Any]]) -> dict[s
 
 
 def _flat(document: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """The document's values under dotted keys; two values are the pinion's and the wheel's, warnings have their own column."""
+    """The document's values under dotted keys; two of a pair are the pinion's and the wheel's; warnings have a column."""
     for key, value in document.items():
         if isinstance(value, dict):
             yield from _flat(value, f"{prefix}{key}.")
         elif key == "warnings" or not prefix:
             continue
-        elif isinstance(value, (list, tuple)):
+        elif isinstance(value, list) and prefix == "pair.":
             yield from ((f"{prefix}{key}.{gear}", of_gear) for gear, of_gear in zip(("pinion", "wheel"), value, strict=True))
+        elif isinstance(value, list):
+            yield prefix + key, " ".join(map(str, value))
         else:
             # A plain float: a derived length is of a class of its own.
             yield prefix + key, float(value) if isinstance(value, float) else value

@@ -12,7 +12,7 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from gearcad.batch.journal import Journal
-from gearcad.batch.pool import Outcome, Pool, open_pool
+from gearcad.batch.pool import ClusterLostError, Outcome, Pool, open_pool
 from gearcad.batch.results import RESULTS, write_results
 from gearcad.batch.row import Record, Status, Task, check_rows, make_row
 from gearcad.batch.steps import Wanted
@@ -80,6 +80,8 @@ def run_table(
             tasks = (Task(row, wanted, target, workspace, fresh) for row in journal.open_rows())
             try:
                 run.make(tasks, time_limit)
+            except ClusterLostError as error:
+                run.stopped = str(error)
             finally:  # an interrupted run too tells what it has
                 pool.stop()
                 results = run.write_results(folder, workspace)

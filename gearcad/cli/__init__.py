@@ -8,6 +8,7 @@ import sys
 import click
 
 import gearcad
+from gearcad.cli.checks import check
 from gearcad.cli.designs import build, data, new
 from gearcad.cli.group import Commands, debug_option
 from gearcad.cli.studies import plot, study
@@ -36,5 +37,5 @@ def main() -> None:
             stream.reconfigure(errors="replace")  # an old terminal shows ? for a Greek letter, and goes on
 
 
-for _command in (new, data, build, study, batch, plot):
+for _command in (new, data, build, check, study, batch, plot):
     main.add_command(_command)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from gearcad.errors import ParameterError
 from gearcad.spec.keys import COLUMNS
-from gearcad.spec.reader import Cell
+from gearcad.spec.reader import WHOLE_FIELDS, Cell
 
 __all__ = ["CellReader", "Layout", "RawCell", "Unreadable", "guarded_text", "is_blank", "is_comment", "plain_text"]
 
@@ -34,11 +34,11 @@ class Unreadable(NamedTuple):
 RawCell = str | int | float | Unreadable | None
 """A cell as the file holds it; a text file has texts only."""
 
-_TEXT_FIELDS = ("name", "rack", "body.hub_side", "profile_shift_split")
+_TEXT_FIELDS = ("name", "rack", "body.hub_side", "profile_shift_split", "plane", "cuts")
 _TEXTS = frozenset(f"{table}.{field}" for table, fields in COLUMNS.items() for field in fields if field in _TEXT_FIELDS) | {
     "name"
 }
-_COUNTS = frozenset(f"{table}.teeth" for table, fields in COLUMNS.items() if "teeth" in fields)
+_COUNTS = frozenset(f"{table}.{field}" for table, fields in COLUMNS.items() for field in fields if field in WHOLE_FIELDS)
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _GROUPED = re.compile(r"[+-]?[0-9.,]*[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?")

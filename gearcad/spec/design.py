@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from enum import Enum
 from typing import Any
 
+from gearcad.check.options import CheckOptions
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load
@@ -42,6 +43,7 @@ class Design:
     pair: GearPair | None = None
     material: Material | None = None
     load: Load | None = None
+    check: CheckOptions | None = None
 
     def __post_init__(self) -> None:
         require_plain_name(self.name)
@@ -78,6 +80,8 @@ class Design:
             document["material"] = asdict(self.material)
         if self.load is not None:
             document["load"] = asdict(self.load)
+        if self.check is not None:
+            document["check"] = asdict(self.check)
         return document
 
 

@@ -6,6 +6,7 @@ import difflib
 from dataclasses import fields
 
 from gearcad import symbols
+from gearcad.check.options import CheckOptions
 from gearcad.geometry import BasicRack, Body, Gear
 from gearcad.load import Load
 from gearcad.material import Material
@@ -34,13 +35,14 @@ KEYS = {
     "wheel": _GEAR,
     "material": tuple(field.name for field in fields(Material)),
     "load": tuple(field.name for field in fields(Load)),
+    "check": tuple(field.name for field in fields(CheckOptions)),
 }
 """Permitted keys of each table, flattened with dots. `rack` alone is the name of a rack."""
 
-COLUMNS = {
-    table: tuple(field for field in fields if (table, field) not in (("gear", "name"), ("pair", "name")))
-    for table, fields in KEYS.items()
-}
+_NO_COLUMN = (("gear", "name"), ("pair", "name"), ("check", "torques"))
+"""A cell holds one value, not a list."""
+
+COLUMNS = {table: tuple(field for field in fields if (table, field) not in _NO_COLUMN) for table, fields in KEYS.items()}
 """The same for the columns of a design table, where the design's own name has a column `name`."""
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
+from gearcad.check.options import CheckOptions
 from gearcad.errors import (
     GeometryError,
     InputError,
@@ -36,13 +37,15 @@ Where = Callable[[str], str]
 """Says where a key stands, such as `pair.toml line 7`, for the beginning of a message."""
 
 _DERIVED = ("tip_diameter", "root_diameter", "centre_distance")
-_WHOLE = ("teeth",)
+WHOLE_FIELDS = ("teeth", "body_teeth", "positions")
+"""Fields that are whole numbers; elsewhere 2 means 2.0."""
+
 _MOST_WHOLE = 10**15
 
 Cell = int | float | str
 """What a spec and a cell of a design table can both hold."""
 
-Simple = TypeVar("Simple", Material, Load)
+Simple = TypeVar("Simple", Material, Load, CheckOptions)
 
 
 class _Given(NamedTuple):
@@ -113,12 +116,13 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
     spec = _Spec(_flatten(tables, where), where)
     material = spec.simple("material", Material) if "material" in tables else None
     load = spec.simple("load", Load) if "load" in tables else None
+    check = spec.simple("check", CheckOptions) if "check" in tables else None
     main = kind.value
     name = spec.name(main, default_name)
     gear = spec.gear(name) if kind is DesignKind.GEAR else None
     pair = spec.pair(name) if kind is DesignKind.PAIR else None
     with spec.blame(main):
-        return Design(kind=kind, name=name, gear=gear, pair=pair, material=material, load=load)
+        return Design(kind=kind, name=name, gear=gear, pair=pair, material=material, load=load, check=check)
 
 
 def _kind(tables: Mapping[str, Any], where: Where) -> DesignKind:
@@ -152,7 +156,7 @@ def _flatten(tables: Mapping[str, Any], where: Where) -> dict[str, _Given]:
                 if abs(value) > _MOST_WHOLE:
                     permitted = f"must be a smaller number; this one has {len(str(value))} digits"
                     raise SpecError(f"{where(key)}: {key}: {permitted}", key)
-                value = value if field in _WHOLE else float(value)
+                value = value if field in WHOLE_FIELDS else float(value)
             # The sum makes -0.0 a plain zero, so that equal inputs give equal files.
             values[key] = _Given(value + 0.0 if isinstance(value, float) else value, key)
     return values
@@ -236,7 +240,7 @@ class _Spec:
         return {key.partition(".")[2]: given.value for key, given in self.values.items() if key.startswith(owner + ".")}
 
     def simple(self, owner: str, kind: type[Simple]) -> Simple:
-        """A Material or a Load."""
+        """A Material, a Load or the options of a check."""
         values = self.fields_of(owner)
         with self.blame(owner):
             if not isinstance(values.get("name", ""), str):

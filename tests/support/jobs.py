@@ -165,7 +165,7 @@ def _to_write(arguments: tuple[Any, ...]) -> bool:
 
 
 def killed_at(attempt: tuple[Callable[[], Any], int, Path]) -> bool:
-    """Do a thing in a fork of this process that is killed before its n-th change below a folder; False if it was done before."""
+    """Do a thing in a fork of this process killed before its n-th change below a folder; False if it has not so many."""
     function, number, folder = attempt
     process = os.fork()
     if process == 0:

@@ -5,17 +5,15 @@ A picture is drawn on a Figure of its own and never through pyplot: it needs no 
 
 from __future__ import annotations
 
-import re
-import textwrap
 import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gearcad import symbols
 from gearcad.errors import ParameterError, format_number
 from gearcad.output import staged_files
 from gearcad.plot_data import Column, Points
+from gearcad.plots.labels import axis_label, plain, wrapped
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-__all__ = ["axis_label", "plot_contours", "plot_scatter", "require_picture", "save_plot"]
+__all__ = ["plot_contours", "plot_scatter", "require_picture", "save_plot"]
 
 _INCHES = (6.4, 4.4)
 _DOTS_PER_INCH = 150
@@ -56,63 +54,8 @@ _MANY = 300
 _SAME = 1e-9
 """Relative difference that is rounding."""
 
-_OTHER_LABELS = {
-    "seconds": "time to make the row in s",
-}
-"""Columns that are no quantity of the data sheet."""
-
 Draw = Callable[[Points, "Axes"], "Axes"]
 """A function that draws points on axes."""
-
-
-# ---------------------------------------------------------------------- labels
-
-
-def axis_label(key: str) -> str:
-    """Words, symbol (as mathtext) and unit of a column: "pinion: tip diameter $d_{\\mathrm{a}}$ in mm"."""
-    found = _find_symbol(key)
-    if key in _OTHER_LABELS or found is None:
-        return _OTHER_LABELS.get(key, _plain(key))
-    owner, symbol = found
-    unit = {"deg": "°"}.get(symbol.unit, symbol.unit)
-    parts = (owner and f"{owner}:", symbol.words, _mathtext(symbol.symbol), unit and f"in {unit}")
-    return " ".join(part for part in parts if part)
-
-
-def _find_symbol(key: str) -> tuple[str, symbols.Symbol] | None:
-    """Whose the quantity of a column is ("" where that goes without saying), and how it is written."""
-    table, _, field = key.partition(".")
-    tables = {
-        "gear": symbols.GEAR,
-        "pinion": symbols.GEAR,
-        "wheel": symbols.GEAR,
-        "pair": symbols.GEAR | symbols.PAIR,
-        "material": symbols.MATERIAL,
-        "load": symbols.LOAD,
-    }
-    known = tables.get(table, {})
-    if field in known:
-        return (table if table in ("pinion", "wheel") else ""), known[field]
-    field, _, owner = field.rpartition(".")
-    return (owner, known[field]) if field in known and owner in ("pinion", "wheel") else None
-
-
-def _mathtext(symbol: str) -> str:
-    """The symbol with its index upright: h_aP* becomes $h_{\\mathrm{aP}}^{*}$, and T1A $T_1A$."""
-    if not symbol:
-        return ""
-    body, _, index = symbol.rstrip("*").partition("_")
-    body = re.sub(r"(?<=[A-Z])(\d)", r"_\1", body)
-    return f"${body}" + (f"_{{\\mathrm{{{index}}}}}" if index else "") + ("^{*}$" if symbol.endswith("*") else "$")
-
-
-def _plain(text: str) -> str:
-    """A text of the user's, not to be taken for mathtext."""
-    return text.replace("$", r"\$")
-
-
-def _wrapped(text: str, width: int) -> str:
-    return "\n".join(textwrap.wrap(text, width, break_long_words=False, break_on_hyphens=False))
 
 
 # ---------------------------------------------------------------------- scatter
@@ -167,14 +110,14 @@ def _is_swept(x: NDArray[np.float64]) -> bool:
 
 def _add_legend(axes: Axes, key: str, entries: list[str]) -> None:
     """A legend beside the axes. Its words replace the labels, because matplotlib hides a label that begins with _."""
-    title = _wrapped(axis_label(key), _LONGEST_LEGEND)
+    title = wrapped(axis_label(key), _LONGEST_LEGEND)
     legend = axes.legend(title=title, loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, alignment="left")
     for text, words in zip(legend.get_texts(), entries, strict=True):
-        text.set_text(_wrapped(_plain(words), _LONGEST_LEGEND))
+        text.set_text(wrapped(plain(words), _LONGEST_LEGEND))
 
 
 def _add_colour_bar(axes: Axes, drawn: Any, key: str) -> None:
-    axes.figure.colorbar(drawn, ax=axes, label=_wrapped(axis_label(key), _LONGEST_LABEL))
+    axes.figure.colorbar(drawn, ax=axes, label=wrapped(axis_label(key), _LONGEST_LABEL))
 
 
 # ---------------------------------------------------------------------- contours
@@ -268,9 +211,9 @@ def _prepared(points: Points, ax: Axes | None) -> Axes:
     from matplotlib.ticker import MaxNLocator
 
     axes = _new_figure().subplots() if ax is None else ax
-    axes.set_title(_plain(points.name))
-    axes.set_xlabel(_wrapped(axis_label(points.x.key), _LONGEST_LABEL))
-    axes.set_ylabel(_wrapped(axis_label(points.y.key), _LONGEST_LABEL))
+    axes.set_title(plain(points.name))
+    axes.set_xlabel(wrapped(axis_label(points.x.key), _LONGEST_LABEL))
+    axes.set_ylabel(wrapped(axis_label(points.y.key), _LONGEST_LABEL))
     axes.ticklabel_format(useOffset=False)
     for axis, column in ((axes.xaxis, points.x), (axes.yaxis, points.y)):
         whole = bool((column.numbers % 1 == 0).all())

@@ -1,0 +1,126 @@
+"""The comparisons of a check: gates that decide, and references with a band that inform."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from gearcad.check.comparison import Comparison, Role, against, at_most
+from gearcad.check.convergence import Convergence
+from gearcad.check.options import CheckOptions
+from gearcad.check.summary import Summary
+from gearcad.fea.cycle import Cycle, PairContact
+from gearcad.material import Material
+from gearcad.rating import Rating
+
+__all__ = ["compare"]
+
+_HERTZ = 0.01
+_REACTION = 0.005
+_DISCRETISATION = 0.01
+
+
+def compare(
+    cycle: Cycle,
+    summary: Summary,
+    convergence: tuple[Convergence, ...],
+    rating: Rating,
+    material: Material,
+    options: CheckOptions,
+) -> tuple[Comparison, ...]:
+    """All comparisons, gates first."""
+    return (
+        *_hertz(cycle),
+        *_reactions(cycle),
+        *_errors(convergence),
+        *_limits(summary, material),
+        *_standards(summary, rating, options),
+    )
+
+
+def _hertz(cycle: Cycle) -> Iterator[Comparison]:
+    """Peak pressure and half width against two cylinders under the load carried, where they are furthest apart."""
+    contacts = list(cycle.interior_contacts)
+    source = "Hertz: two cylinders of the flanks' curvature under the load that this pair of teeth carries"
+
+    def deviation(of: tuple[object, PairContact], name: str, reference: str) -> float:
+        computed, expected = float(getattr(of[1], name)), float(getattr(of[1], reference))
+        return abs(computed / expected - 1)
+
+    for words, name, reference, unit in (
+        ("peak contact pressure", "peak_pressure", "hertz_pressure", "MPa"),
+        ("half width of contact", "half_width", "hertz_half_width", "mm"),
+    ):
+        if not contacts:
+            continue
+        position, contact = max(contacts, key=lambda of: deviation(of, name, reference))
+        note = f"the worst of {len(contacts)} interior contacts, at roll angle {position.roll_angle:.2f} deg"
+        yield against(words, getattr(contact, name), getattr(contact, reference), _HERTZ, unit, source, Role.GATE, note)
+
+
+def _reactions(cycle: Cycle) -> Iterator[Comparison]:
+    """Torque on the hub of each gear against that applied, at the position where they differ most."""
+    model = cycle.model
+    force = model.force(cycle.torque) * model.width / 1000
+    for gear, (owner, body) in enumerate((("pinion", model.pinion), ("wheel", model.wheel))):
+        reactions = [
+            sum(body.hub_torque(contact.centre(gear)) * contact.force for contact in position.contacts) * model.width / 1000
+            for position in cycle.positions
+        ]
+        applied = force * body.flank.base_radius
+        worst = max(reactions, key=lambda reaction: abs(reaction - applied))
+        source = "equilibrium: the torque that is applied through the teeth"
+        yield against(f"torque reaction of the {owner}", worst, applied, _REACTION, "N·m", source, Role.GATE)
+
+
+def _errors(convergence: tuple[Convergence, ...]) -> Iterator[Comparison]:
+    for each in convergence:
+        order = "no clear order" if each.order is None else f"observed order {each.order:.1f}"
+        yield at_most(
+            f"discretisation error, {each.quantity}",
+            100 * each.error,
+            100 * _DISCRETISATION,
+            "%",
+            "three meshes, Richardson",
+            order,
+        )
+
+
+def _limits(summary: Summary, material: Material) -> Iterator[Comparison]:
+    """What the material gives a limit for."""
+    pressure = "the greatest away from the corners of the flanks"
+    for words, value, limit, note in (
+        ("contact pressure", summary.contact_pressure, material.contact_limit, pressure),
+        ("root stress, pinion", summary.root_tension[0], material.root_limit, "tension"),
+        ("root stress, wheel", summary.root_tension[1], material.root_limit, "tension"),
+        (
+            "von Mises stress below the flank",
+            summary.von_mises,
+            material.yield_strength,
+            f"{summary.von_mises_depth:.3g} mm deep",
+        ),
+    ):
+        if isinstance(limit, tuple):
+            note += f"; the limit of this material lies between {limit[0]:g} and {limit[1]:g} MPa, and the lower one counts"
+            limit = limit[0]
+        if limit is not None:
+            yield at_most(words, value, limit, "MPa", f"limit of {material.name}", note)
+
+
+def _standards(summary: Summary, rating: Rating, options: CheckOptions) -> Iterator[Comparison]:
+    """The FE against ISO 6336, with a band for what the two leave out differently."""
+    root, stiffness = options.root_band / 100, options.stiffness_band / 100
+    sharing = "ISO puts the whole load on one pair of teeth at its outer point; the FE shares it, and sees the true fillet"
+    for owner, value, reference in zip(("pinion", "wheel"), summary.root_tension, rating.root_stresses, strict=True):
+        source = "sigma_F0, ISO 6336-3:2006 Method B"
+        yield against(f"root stress, {owner}", value, reference, root, "MPa", source, Role.INFORMATION, sharing)
+    body = "ISO's discs are stiffer or softer than this body; see how the bodies are held"
+    for words, value, reference, source in (
+        (
+            "mean mesh stiffness",
+            summary.mesh_stiffness_mean,
+            rating.stiffness.mesh_alpha,
+            "c_gamma_alpha, ISO 6336-1:2006 Method B",
+        ),
+        ("single stiffness", summary.single_stiffness, rating.stiffness.single, "c', ISO 6336-1:2006 Method B"),
+    ):
+        yield against(words, value, reference, stiffness, "N/(mm µm)", source, Role.INFORMATION, body)

@@ -1,0 +1,117 @@
+"""The structural check of a pair: check."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from gearcad.cli.group import debug_option, spec_argument
+from gearcad.cli.progress import file_progress
+from gearcad.errors import ParameterError
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from gearcad.check.run import CheckResult
+    from gearcad.rating import Rating
+    from gearcad.spec.design import Design
+
+__all__ = ["check"]
+
+
+@click.command(short_help="Check the strength of SPEC's pair by finite elements.")
+@spec_argument
+@click.option("-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/NAME]")
+@click.option("--model", type=click.Choice(["2d", "3d"]), default="2d", show_default=True, help="Plane or solid bodies.")
+@click.option("--json", "as_json", is_flag=True, help="Print the document of check.json and nothing else.")
+@click.option("--quiet", is_flag=True, help="No progress on the screen.")
+@debug_option
+def check(spec: Path, output: Path | None, model: str, as_json: bool, quiet: bool) -> None:
+    """Check the pair of SPEC under its [load]: contact and root stress by finite elements, beside Hertz and ISO 6336.
+
+    Writes check.json and report.html. Exit status 1 if a gate is not passed; [check] in SPEC sets body, torques and bands.
+    """
+    from gearcad.check.document import check_document
+    from gearcad.check.run import check_pair
+    from gearcad.material import Material
+    from gearcad.output import json_text, staged_files
+    from gearcad.rating import rate
+    from gearcad.report import write_report
+    from gearcad.spec import read_spec
+
+    design = read_spec(spec)
+    if design.pair is None:
+        raise ParameterError("kind", design.kind.value, "must be a pair: a single gear has nothing to press against")
+    if design.load is None:
+        raise ParameterError(
+            "load.torque", None, "must be given in [load], in N·m on the pinion: without it there is no stress"
+        )
+    if model == "3d":
+        raise ParameterError("model", model, "must be 2d: the solid model is not there yet")
+    material = design.material or Material()
+    if design.pair.pinion.helix_angle and not as_json:
+        _print_rating(design, rate(design.pair, material, design.load))
+    with file_progress(shown=not quiet) as progress:
+        result = check_pair(design.pair, material, design.load, design.check, progress)
+    document = check_document(result)
+    folder = output if output is not None else Path("output") / design.name
+    with staged_files(folder) as staging:
+        (staging / "check.json").write_text(json_text(document), encoding="utf-8")
+        write_report(result, design.name, staging / "report.html")
+    if as_json:
+        click.echo(json_text(document), nl=False)
+    else:
+        _print_verdict(design, result)
+        click.echo("".join(f"{folder / file}\n" for file in ("check.json", "report.html")), nl=False)
+    if not result.passed:
+        click.get_current_context().exit(1)
+
+
+def _console() -> Console:
+    from rich.console import Console
+
+    return Console(highlight=False)
+
+
+def _print_verdict(design: Design, result: CheckResult) -> None:
+    """The comparisons, gates first, and the verdict."""
+    from rich.table import Table
+    from rich.text import Text
+
+    console = _console()
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for heading in ("", "quantity", "computed", "reference", "unit", "deviation", "permitted", "source"):
+        table.add_column(heading, justify="right" if heading in ("computed", "reference", "deviation", "permitted") else "left")
+    for each in result.comparisons:
+        gate = each.role.value == "gate"
+        word = ("ok" if each.passed else "FAILED") if gate else ("in band" if each.passed else "OUTSIDE")
+        style = "green" if each.passed else "bold red" if gate else "yellow"
+        permitted = "at most" if each.tolerance is None else f"±{100 * each.tolerance:g} %"
+        figures = (f"{each.computed:.4g}", f"{each.reference:.4g}", each.unit, f"{100 * each.deviation:+.2f} %", permitted)
+        table.add_row(Text(word, style=style), each.quantity, *figures, each.source.split(":")[0])
+    console.print(table, soft_wrap=True)
+    for warning in result.warnings:
+        console.print(Text(f"Warning: {warning}", style="yellow"), soft_wrap=True)
+    torque = result.load.torque * result.load.application_factor
+    verdict = f"{design.name} at {torque:g} N·m: " + ("passed" if result.passed else "NOT passed")
+    console.print(Text(verdict, style="bold green" if result.passed else "bold red"), soft_wrap=True)
+
+
+def _print_rating(design: Design, rating: Rating) -> None:
+    """The rating by ISO 6336: a symbol a line, those of one gear in two columns."""
+    from gearcad import symbols
+
+    document = rating.to_dict()
+    pinion, wheel = document.pop("pinion"), document.pop("wheel")
+    lines = [f"{design.name}: rating by {document.pop('edition')}, Method B"]
+    warnings = document.pop("warnings")
+    both = {symbol: (value,) for symbol, value in document.items()} | {
+        symbol: (pinion[symbol], wheel[symbol]) for symbol in pinion
+    }
+    for symbol, values in both.items():
+        words = symbols.RATING[symbol] if symbol in symbols.RATING else symbols.Symbol(symbol, "", "", "")
+        figures = "".join(f"{value:>12.5g}" if isinstance(value, float | int) else f"{value!s:>12}" for value in values)
+        lines.append(f"  {words.words:<44}{symbol:<22}{words.unit:<10}{figures}")
+    click.echo("\n".join([*lines, *(f"Warning: {warning}" for warning in warnings)]))

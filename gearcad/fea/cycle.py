@@ -1,0 +1,198 @@
+"""One mesh cycle: the contact at positions over a base pitch, and what an engineer reads from it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.fea.contact import ContactPair, ContactSolution
+from gearcad.fea.flexible_pair import FlexiblePair
+from gearcad.fea.root import Fillets, FilletStress
+from gearcad.meshing.outline import Side
+
+__all__ = ["Cycle", "PairContact", "Position", "pitch_point_contact", "root_loads", "run_cycle", "single_stiffness"]
+
+Floats = NDArray[np.float64]
+
+_INTERIOR = 3.0
+"""Half widths from the ends of both involutes beyond which a contact is that of two cylinders."""
+
+
+@dataclass(frozen=True)
+class PairContact:
+    """One pair of flanks in contact: what it carries, and the comparison with two cylinders under the same load.
+
+    Pressures in MPa, half widths in mm, `force` in N per mm. `interior` is False where the edge of a flank is near.
+    """
+
+    pair: ContactPair
+    pressures: Floats
+    force: float
+    share: float
+    modulus: float
+    edge_distance: float
+
+    @property
+    def peak_pressure(self) -> float:
+        """Greatest cell pressure."""
+        return float(self.pressures.max())
+
+    @property
+    def hertz_half_width(self) -> float:
+        """a = sqrt(4 F rho/(pi E*))."""
+        return math.sqrt(4 * self.force * self.pair.radius / (math.pi * self.modulus))
+
+    @property
+    def hertz_pressure(self) -> float:
+        """p0 = 2 F/(pi a)."""
+        return 2 * self.force / (math.pi * self.hertz_half_width)
+
+    @property
+    def interior(self) -> bool:
+        """True where the ends of both flanks are some half widths away."""
+        return self.edge_distance > _INTERIOR * self.hertz_half_width
+
+    @cached_property
+    def half_width(self) -> float:
+        """Half width by a fit of p^2 over x^2 in the loaded cells: counting cells would be quantised."""
+        loaded = self.pressures > 0.5 * self.peak_pressure
+        x, squared = self.pair.cells.place[loaded], self.pressures[loaded] ** 2
+        if len(x) < 4:
+            return math.nan
+        middle, scale = x.mean(), np.ptp(x)
+        two, one, zero = np.polyfit((x - middle) / scale, squared, 2)
+        return float(scale * math.sqrt(max(one**2 - 4 * two * zero, 0.0)) / (2 * abs(two)))
+
+    def centre(self, gear: int) -> float:
+        """Roll length (mm) at the centre of pressure on the pinion (0) or the wheel (1)."""
+        lengths = (self.pair.cells.pinion, self.pair.cells.wheel)[gear]
+        return float((lengths * self.pressures).sum() / self.pressures.sum())
+
+
+@dataclass(frozen=True)
+class Position:
+    """One position of the mesh: contacts, approach and each gear's part of it (mm), and the root stresses of both gears."""
+
+    roll_angle: float
+    approach: float
+    approach_parts: tuple[float, float]
+    force: float
+    contacts: tuple[PairContact, ...]
+    tension: tuple[FilletStress, FilletStress]
+    compression: tuple[FilletStress, FilletStress]
+
+    @property
+    def stiffness(self) -> float:
+        """N/(mm um): normal force over approach, per mm of common face width."""
+        return self.force / (self.approach * 1000)
+
+    @property
+    def transmission_error(self) -> float:
+        """um along the line of action by which the wheel lags."""
+        return self.approach * 1000
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """All positions of one base pitch at one torque (N m on the pinion)."""
+
+    model: FlexiblePair
+    torque: float
+    positions: tuple[Position, ...]
+
+    def values(self, name: str) -> Floats:
+        """A quantity of every position, such as "stiffness"."""
+        return np.array([getattr(position, name) for position in self.positions])
+
+    @property
+    def interior_contacts(self) -> Iterator[tuple[Position, PairContact]]:
+        """Contacts away from the ends of the flanks that carry a fair share."""
+        for position in self.positions:
+            for contact in position.contacts:
+                if contact.interior and contact.share > 0.1:
+                    yield position, contact
+
+    @property
+    def worst_contact(self) -> tuple[Position, PairContact]:
+        """The contact of the greatest pressure away from the ends of the flanks; if none is, that of the greatest load."""
+        inside = list(self.interior_contacts)
+        if inside:
+            return max(inside, key=lambda of: of[1].peak_pressure)
+        every = [(position, contact) for position in self.positions for contact in position.contacts]
+        return max(every, key=lambda of: of[1].force)
+
+    def worst_position(self, gear: int) -> Position:
+        """The position of the greatest root tension of the pinion (0) or the wheel (1)."""
+        return max(self.positions, key=lambda position: position.tension[gear].stress)
+
+
+def run_cycle(model: FlexiblePair, torque: float, count: int = 60) -> Cycle:
+    """Solve `count` positions over one base pitch. Raises SolverError."""
+    roots = (Fillets(model.pinion), Fillets(model.wheel))
+    angles = model.roll_angles(count)
+    return Cycle(model, torque, tuple(_position(model, roots, float(angle), torque) for angle in angles))
+
+
+def pitch_point_contact(model: FlexiblePair, torque: float) -> PairContact:
+    """The contact of the middle pair at the pitch point."""
+    contacts = _contacts(model, model.solve(0.0, torque))
+    return next(contact for contact in contacts if contact.pair.tooth == 0)
+
+
+def single_stiffness(model: FlexiblePair, torque: float, count: int = 25) -> float:
+    """Greatest stiffness (N/(mm um)) of one pair of teeth alone, over its path of contact."""
+    path = model.pair.path_of_contact
+    lengths = np.linspace(path.A, path.E, count + 2)[1:-1]
+    angles = np.degrees((lengths - path.C) / model.base_radius)
+    return max(model.force(torque) / (model.solve(float(angle), torque, single=True).approach * 1000) for angle in angles)
+
+
+def _position(model: FlexiblePair, roots: tuple[Fillets, Fillets], angle: float, torque: float) -> Position:
+    solution = model.solve(angle, torque)
+    contacts = _contacts(model, solution)
+    tension, compression = (
+        tuple(_greatest(root, side, contacts, gear) for gear, root in enumerate(roots))
+        for side in (Side.LEFT_FILLET, Side.RIGHT_FILLET)
+    )
+    return Position(angle, solution.approach, solution.parts, model.force(torque), contacts, tension, compression)  # type: ignore[arg-type]
+
+
+def _greatest(root: Fillets, side: Side, contacts: tuple[PairContact, ...], gear: int) -> FilletStress:
+    """The most stressed of the teeth in contact."""
+    found = [root.greatest(side, loads) for loads in root_loads(contacts, gear)]
+    return max(found, key=lambda stress: abs(stress.stress))
+
+
+def root_loads(contacts: tuple[PairContact, ...], gear: int) -> list[list[tuple[int, float, float]]]:
+    """For each tooth in contact the loads as that tooth sees them: teeth away, roll length (mm), force (N per mm).
+
+    On the wheel the teeth follow each other the other way round.
+    """
+    sense = (1, -1)[gear]
+    loads = [(sense * contact.pair.tooth, contact.centre(gear), contact.force) for contact in contacts]
+    return [[(tooth - own, length, force) for tooth, length, force in loads] for own, *_ in loads]
+
+
+def _contacts(model: FlexiblePair, solution: ContactSolution) -> tuple[PairContact, ...]:
+    total = solution.forces.sum()
+    return tuple(
+        PairContact(pair, pressures, float(force), float(force / total), model.modulus, _edge_distance(model, pair))
+        for pair, pressures, force in zip(solution.pairs, solution.pressures, solution.forces, strict=True)
+        if force > 0
+    )
+
+
+def _edge_distance(model: FlexiblePair, pair: ContactPair) -> float:
+    """How far (mm along the tangent) the nearest end of an involute is from the contact; negative beyond it."""
+    line = model.line
+    return min(
+        line.pinion.along_tangent(pair.pinion, line.pinion.last),
+        -line.pinion.along_tangent(pair.pinion, line.pinion.first),
+        line.wheel.along_tangent(pair.wheel, line.wheel.last),
+        -line.wheel.along_tangent(pair.wheel, line.wheel.first),
+    )

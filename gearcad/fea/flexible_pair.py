@@ -1,0 +1,169 @@
+"""Two flexible gears in mesh: the model that is loaded at any position and torque."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.errors import GeometryError, ParameterError, format_number, require_number, require_whole
+from gearcad.fea.contact import ContactSolution, solve_contact
+from gearcad.fea.elasticity import Plane, PlaneElasticity
+from gearcad.fea.flank import FlankCompliance, flank_compliance
+from gearcad.fea.mesh_positions import MeshLine, contact_pairs, mesh_line
+from gearcad.fea.ring import Cuts, Ring, assemble
+from gearcad.geometry import Gear, GearPair
+from gearcad.material import Material
+from gearcad.meshing import MeshSizes, mesh_sector
+
+__all__ = ["BodyModel", "FlexiblePair", "flexible_pair"]
+
+Floats = NDArray[np.float64]
+
+_RIM = 4.0
+"""Depth of the body below the root circle, in normal modules, where no bore is given."""
+
+_CELLS = 66
+_FIRST_CELLS = 24
+_WINDOW = 3.0
+"""Cells in the window of contact - fewer to find out how wide it is - and its half width in Hertz half widths."""
+
+_LEAST_SHARE = 0.03
+"""Share of the load for which the window of a pair is wide enough, however little it carries."""
+
+_SOFT = 4000.0
+"""A stiffness (N/mm per mm of width) that no pair of teeth falls below: bounds how far a tip corner can get."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BodyModel:
+    """The part of each gear that is flexible: all teeth, or `teeth` of them (odd) between cuts; held on an inner circle.
+
+    `inner_diameters` (mm) None stands for the bore, or 4 m_n below the root circle where there is none. Raises ParameterError.
+    """
+
+    teeth: int | None = None
+    cuts: Cuts = Cuts.FIXED
+    inner_diameters: tuple[float | None, float | None] = (None, None)
+
+    def __post_init__(self) -> None:
+        if self.teeth is None:
+            return
+        require_whole("teeth", self.teeth, at_least=3, at_most=999)
+        if self.teeth % 2 == 0:
+            raise ParameterError("teeth", self.teeth, "must be odd: the loaded tooth stands in the middle")
+
+    def describe(self, gear: Gear, inner_diameter: float | None) -> str:
+        """The body in words."""
+        inner = f"held on diameter {format_number(round(inner_radius(gear, inner_diameter) * 2, 4))} mm"
+        if self.teeth is None or self.teeth >= gear.teeth:
+            return f"full ring, {inner}"
+        return f"{self.teeth} teeth with {self.cuts.value} cuts, {inner}"
+
+
+def inner_radius(gear: Gear, inner_diameter: float | None) -> float:
+    """Where the body is held (mm)."""
+    root = gear.root_diameter / 2
+    if inner_diameter is not None:
+        require_number("inner_diameter", inner_diameter, "mm", above=0)
+        if inner_diameter / 2 > root - 0.1 * gear.normal_module:
+            most = gear.root_diameter - 0.2 * gear.normal_module
+            raise GeometryError("inner_diameter", inner_diameter, f"must be at most {most:.6g} mm, below the root circle", "mm")
+        return inner_diameter / 2
+    return gear.body.bore / 2 if gear.body.bore else max(root - _RIM * gear.normal_module, 0.3 * root)
+
+
+@dataclass(frozen=True)
+class FlexiblePair:
+    """The bodies of pinion and wheel, factorised and solved for loads on the flank; any position and torque is quick."""
+
+    pair: GearPair
+    line: MeshLine
+    pinion: FlankCompliance
+    wheel: FlankCompliance
+
+    @property
+    def modulus(self) -> float:
+        """Reduced modulus of the contact (MPa): 1/E* = 1/E'_1 + 1/E'_2."""
+        return 1 / (1 / self.pinion.elasticity.modulus + 1 / self.wheel.elasticity.modulus)
+
+    @property
+    def width(self) -> float:
+        """Common face width (mm), on which all of the load is."""
+        return self.pair.common_width.width
+
+    @property
+    def base_radius(self) -> float:
+        """The pinion's (mm)."""
+        return self.pair.pinion.base_diameter / 2
+
+    def force(self, torque: float) -> float:
+        """Normal force in the transverse section (N per mm of common width) at a torque on the pinion (N m)."""
+        return abs(torque) * 1000 / self.base_radius / self.width
+
+    def roll_length(self, roll_angle: float) -> float:
+        """Place of the middle pair's contact on the line of action (mm from T1) at a roll angle of the pinion (deg)."""
+        return self.pair.path_of_contact.C + math.radians(roll_angle) * self.base_radius
+
+    def roll_angles(self, count: int) -> Floats:
+        """Roll angles (deg) over one base pitch, as many before the pitch point as after it."""
+        pitch = 360 / self.pair.pinion.teeth
+        return (np.arange(count) + 0.5) / count * pitch - pitch / 2
+
+    def solve(self, roll_angle: float, torque: float, *, single: bool = False) -> ContactSolution:
+        """The contact at a roll angle (deg) and torque (N m); `single` lets no other pair of teeth touch.
+
+        Raises SolverError, and GeometryError where nothing can touch.
+        """
+        force = self.force(torque)
+        # The first solution tells what each pair carries, and so how wide its contact is.
+        carried = self._solve(roll_angle, force, lambda _tooth: force, single, _FIRST_CELLS)
+        shares = {pair.tooth: share for pair, share in zip(carried.pairs, carried.forces, strict=True)}
+        return self._solve(roll_angle, force, lambda tooth: max(shares.get(tooth, 0.0), _LEAST_SHARE * force), single, _CELLS)
+
+    def _solve(
+        self, roll_angle: float, force: float, carried: Callable[[int], float], single: bool, cells: int
+    ) -> ContactSolution:
+        """The contact, with windows for what each pair of teeth is thought to carry (N per mm)."""
+
+        def span(tooth: int, radius: float) -> float:
+            return _WINDOW * math.sqrt(4 * carried(tooth) * radius / (math.pi * self.modulus))
+
+        least_width = max(self.pinion.resolution, self.wheel.resolution)
+        pairs = contact_pairs(self.line, self.roll_length(roll_angle), span, cells, force / _SOFT, least_width)
+        if single:
+            pairs = tuple(pair for pair in pairs if pair.tooth == 0)
+        if not pairs:
+            raise GeometryError("roll_angle", roll_angle, "must be one at which teeth can touch", "deg")
+        return solve_contact(pairs, self.pinion, self.wheel, force)
+
+
+def flexible_pair(
+    pair: GearPair,
+    material: Material,
+    *,
+    plane: Plane = Plane.STRAIN,
+    body: BodyModel | None = None,
+    sizes: MeshSizes | None = None,
+    solve: Callable[[Gear, Ring, PlaneElasticity], FlankCompliance] = flank_compliance,
+) -> FlexiblePair:
+    """Mesh, assemble, factorise and `solve` both gears. Raises SolverError, ParameterError and GeometryError."""
+    elasticity, body, sizes = PlaneElasticity(material, plane), body or BodyModel(), sizes or MeshSizes()
+    # As many neighbours as can touch at once, with one more place for a corner that touches early or late.
+    neighbours = max(1, math.floor(pair.transverse_contact_ratio + 0.2))
+    bodies = []
+    for owner, gear, inner in zip(("pinion", "wheel"), (pair.pinion, pair.wheel), body.inner_diameters, strict=True):
+        try:
+            radius = inner_radius(gear, inner)
+        except (ParameterError, GeometryError) as error:
+            raise error.within(owner) from error
+        held = body.teeth if body.teeth is not None and body.teeth < gear.teeth else None
+        if held is not None:
+            held = max(held, 2 * neighbours + 1)
+        fine, coarse = mesh_sector(gear, radius, sizes), mesh_sector(gear, radius, sizes.coarse())
+        ring = assemble(fine, coarse, gear.teeth, min(neighbours, (gear.teeth - 1) // 2), elasticity, held, body.cuts)
+        bodies.append(solve(gear, ring, elasticity))
+    return FlexiblePair(pair, mesh_line(pair), *bodies)

@@ -1,0 +1,111 @@
+"""A quadratic triangle mesh of one tooth sector. gmsh fills the outline; the outline itself is exact."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.errors import SolverError
+from gearcad.geometry import Gear
+from gearcad.meshing.outline import MeshSizes, Side, Stretch, sector_outline
+
+__all__ = ["MeshSizes", "SectorMesh", "mesh_sector"]
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_EDGES = ((0, 1), (1, 2), (2, 0))
+"""Vertices of the three edges of a triangle, in the order of its mid-side nodes."""
+
+
+@dataclass(frozen=True)
+class SectorMesh:
+    """Quadratic triangles of tooth 0, centred on +x, and its share of the body.
+
+    `points` (n, 2) in mm, vertices first; `triangles` (m, 6), three vertices and the nodes between 0-1, 1-2, 2-0,
+    counter-clockwise; `sides` gives the nodes of each side in order along the outline: end, middle, end, middle ... end.
+    """
+
+    points: Floats
+    triangles: Indices
+    sides: Mapping[Side, Indices]
+
+    @property
+    def ahead(self) -> Indices:
+        """Nodes of the cut at plus half a pitch, from the root inwards."""
+        return self.sides[Side.AHEAD]
+
+    @property
+    def behind(self) -> Indices:
+        """Nodes of the cut at minus half a pitch, from the root inwards: the k-th meets the k-th of `ahead`."""
+        return self.sides[Side.BEHIND][::-1]
+
+
+def mesh_sector(gear: Gear, inner_radius: float, sizes: MeshSizes | None = None) -> SectorMesh:
+    """Mesh tooth 0 of the gear's transverse section down to `inner_radius` (mm). Raises SolverError if gmsh fails."""
+    outline = sector_outline(gear, inner_radius, sizes or MeshSizes())
+    corners = np.concatenate([stretch.ends[:-1] for stretch in outline])
+    points, triangles = _triangulate(corners)
+    return _quadratic(points, triangles, outline)
+
+
+def _triangulate(outline: Floats) -> tuple[Floats, Indices]:
+    """Fill a polygon with triangles without adding to its corners, which come first among the points."""
+    import gmsh
+
+    count = len(outline)
+    gmsh.initialize(interruptible=False)  # the other way works in the main thread only
+    try:
+        gmsh.option.set_number("General.Terminal", 0)
+        gmsh.option.set_number("Mesh.MeshSizeFromPoints", 0)
+        gmsh.option.set_number("Mesh.MeshSizeExtendFromBoundary", 1)
+        gmsh.option.set_number("Mesh.Algorithm", 6)
+        for number, (x, y) in enumerate(outline, 1):
+            gmsh.model.geo.add_point(x, y, 0, tag=number)
+        for number in range(1, count + 1):
+            gmsh.model.geo.add_line(number, number % count + 1, tag=number)
+            gmsh.model.geo.mesh.set_transfinite_curve(number, 2)
+        surface = gmsh.model.geo.add_plane_surface([gmsh.model.geo.add_curve_loop(list(range(1, count + 1)))])
+        gmsh.model.geo.synchronize()
+        gmsh.model.mesh.generate(2)
+        tags, coordinates, _ = gmsh.model.mesh.get_nodes()
+        corners = [int(gmsh.model.mesh.get_nodes(0, number)[0][0]) for number in range(1, count + 1)]
+        _, _, nodes = gmsh.model.mesh.get_elements(2, surface)
+    except Exception as error:
+        raise SolverError(f"gmsh could not mesh the section: {error}") from error
+    finally:
+        gmsh.finalize()
+    inside = [int(tag) for tag in tags if int(tag) not in set(corners)]
+    order = np.array([*corners, *inside])
+    place = np.full(int(tags.max()) + 1, -1)
+    place[order] = np.arange(len(order))
+    row = np.empty(int(tags.max()) + 1, int)
+    row[tags.astype(int)] = np.arange(len(tags))
+    return coordinates.reshape(-1, 3)[row[order], :2], place[nodes[0].astype(int)].reshape(-1, 3)
+
+
+def _quadratic(points: Floats, triangles: Indices, outline: list[Stretch]) -> SectorMesh:
+    """Add mid-side nodes: on the exact curve along the outline, half-way elsewhere."""
+    x, y = (points[triangles][:, :, axis] for axis in (0, 1))
+    area = (x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (x[:, 2] - x[:, 0]) * (y[:, 1] - y[:, 0])
+    triangles = np.where(area[:, None] < 0, triangles[:, ::-1], triangles)
+    pairs = np.sort(triangles[:, _EDGES].reshape(-1, 2), axis=1)
+    edges, which = np.unique(pairs, axis=0, return_inverse=True)
+    middles = points[edges].mean(axis=1)
+    number = {(int(a), int(b)): index for index, (a, b) in enumerate(edges)}
+    sides: dict[Side, Indices] = {}
+    count, start = sum(len(stretch.mids) for stretch in outline), 0
+    for stretch in outline:
+        ends = (start + np.arange(len(stretch.ends))) % count
+        start += len(stretch.mids)
+        between = np.array([number[min(a, b), max(a, b)] for a, b in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)])
+        middles[between] = stretch.mids
+        chain = np.empty(len(ends) + len(between), int)
+        chain[::2], chain[1::2] = ends, len(points) + between
+        # The tip comes in two halves, one after the other.
+        sides[stretch.side] = np.r_[sides[stretch.side], chain[1:]] if stretch.side in sides else chain
+    nodes = np.c_[triangles, len(points) + which.reshape(-1, 3)]
+    return SectorMesh(np.r_[points, middles], nodes, sides)

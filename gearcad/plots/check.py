@@ -1,0 +1,129 @@
+"""Pictures of a check over the mesh: pressure and load share along the path of contact, stiffness, error and root stress."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.check.run import CheckResult
+from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, draw_limit, legend_above, prepared
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from gearcad.fea.cycle import PairContact
+
+__all__ = ["plot_contact_pressure", "plot_load_share", "plot_mesh_stiffness", "plot_root_stress", "plot_transmission_error"]
+
+Floats = NDArray[np.float64]
+
+_PATH = "place on the line of action, from T$_1$, in mm"
+_ROLL = "roll angle of the pinion in °, 0 at the pitch point"
+
+
+def plot_contact_pressure(result: CheckResult, ax: Axes | None = None) -> Axes:
+    """Peak pressure of every pair of teeth along the path of contact, beside Hertz's under the load that the pair carries.
+
+    Near the ends of the flanks there is no line: there the pressure is that of an edge. Contact of a corner is marked below.
+    """
+    axes = prepared(ax, _PATH, "peak pressure in MPa")
+    contacts = _along_path(result)
+    lengths = np.array([contact.pair.pinion for contact in contacts])
+    inside = np.array([contact.interior for contact in contacts])
+    corner = np.array([contact.edge_distance < 0 for contact in contacts])
+    for name, words, style in (
+        ("hertz_pressure", "Hertz, under the load carried", {"color": SERIES[1], "linewidth": 3.5, "alpha": 0.55}),
+        ("peak_pressure", "finite elements", {"color": SERIES[0], "linewidth": 1.3}),
+    ):
+        values = np.array([getattr(contact, name) for contact in contacts])
+        axes.plot(lengths, np.where(inside, values, np.nan), label=words, **style)
+    axes.set_ylim(0, 1.12 * max(contact.peak_pressure for contact in contacts if contact.interior) if inside.any() else None)
+    edge = ~inside & ~corner
+    for places, words, marker in ((edge, "near an edge", "|"), (corner, "a corner touches", "x")):
+        if places.any():
+            height = np.zeros(places.sum())
+            across = axes.get_xaxis_transform()
+            axes.plot(lengths[places], height + 0.03, marker, color=DARK, markersize=5, transform=across, label=words)
+    draw_limit(axes, result.material.contact_limit)
+    _mark_path(axes, result)
+    legend_above(axes, 3)
+    return axes
+
+
+def plot_load_share(result: CheckResult, ax: Axes | None = None) -> Axes:
+    """Part of the load that a pair of teeth carries along the path of contact, contact of corners beyond it included."""
+    axes = prepared(ax, _PATH, "share of the load")
+    contacts = _along_path(result)
+    lengths = np.array([contact.pair.pinion for contact in contacts])
+    shares = np.array([contact.share for contact in contacts])
+    corner = np.array([contact.edge_distance < 0 for contact in contacts])
+    axes.plot(lengths, shares, color=SERIES[0], label="finite elements")
+    if corner.any():
+        axes.plot(lengths[corner], shares[corner], "x", color=DARK, markersize=5, label="a corner touches")
+    axes.set_ylim(0, 1.05)
+    _mark_path(axes, result)
+    legend_above(axes, 2)
+    return axes
+
+
+def plot_mesh_stiffness(result: CheckResult, ax: Axes | None = None) -> Axes:
+    """Mesh stiffness over one base pitch, its mean and the greatest of a single pair, beside c_gamma and c' of ISO 6336-1."""
+    axes = prepared(ax, _ROLL, "stiffness in N/(mm µm)")
+    summary, standard = result.summary, result.rating.stiffness
+    axes.plot(result.cycle.values("roll_angle"), result.cycle.values("stiffness"), color=SERIES[0], label="mesh stiffness")
+    for value, words, colour, style in (
+        (summary.mesh_stiffness_mean, "its mean", SERIES[0], "--"),
+        (standard.mesh_alpha, r"$c_{\gamma\alpha}$, ISO 6336-1", SERIES[1], "--"),
+        (summary.single_stiffness, "one pair alone, greatest", SERIES[0], ":"),
+        (standard.single, "$c'$, ISO 6336-1", SERIES[1], ":"),
+    ):
+        axes.axhline(value, color=colour, linestyle=style, linewidth=1.4, label=f"{words}: {value:.2f}")
+    axes.set_ylim(bottom=0)
+    legend_above(axes, 2)
+    return axes
+
+
+def plot_transmission_error(result: CheckResult, ax: Axes | None = None) -> Axes:
+    """How far the wheel lags under load over one base pitch, and how much of it each gear is."""
+    axes = prepared(ax, _ROLL, "along the line of action in µm")
+    angles, error = result.cycle.values("roll_angle"), result.cycle.values("transmission_error")
+    axes.plot(angles, error, color=DARK, label="transmission error")
+    parts = 1000 * result.cycle.values("approach_parts")
+    for (gear, colour, _), part in zip(GEARS, parts.T, strict=True):
+        axes.plot(angles, part, color=colour, linestyle="--", linewidth=1.2, label=f"part of the {gear}")
+    axes.set_ylim(bottom=0)
+    legend_above(axes, 3)
+    return axes
+
+
+def plot_root_stress(result: CheckResult, ax: Axes | None = None) -> Axes:
+    """Greatest tension and compression of both fillets over one base pitch, beside the root stress of ISO 6336-3."""
+    axes = prepared(ax, _ROLL, "root stress in MPa")
+    angles = result.cycle.values("roll_angle")
+    standard = r"$\sigma_{F0}$" if result.load.application_factor == 1 else r"$\sigma_{F0} K_A$"
+    for gear, (words, colour, _) in enumerate(GEARS):
+        for name, style in (("tension", "-"), ("compression", "--")):
+            stresses = [getattr(position, name)[gear].stress for position in result.cycle.positions]
+            axes.plot(angles, stresses, color=colour, linestyle=style, label=f"{words}, {name}")
+        reference = result.rating.root_stresses[gear]
+        axes.axhline(reference, color=colour, linestyle=":", linewidth=1.4, label=f"{words}, {standard} = {reference:.0f} MPa")
+    draw_limit(axes, result.material.root_limit)
+    axes.axhline(0, color=MARKED, linewidth=0.8)
+    legend_above(axes, 3)
+    return axes
+
+
+def _along_path(result: CheckResult) -> list[PairContact]:
+    """All contacts of the cycle in the order in which one pair of teeth goes through them."""
+    contacts = [contact for position in result.cycle.positions for contact in position.contacts]
+    return sorted(contacts, key=lambda contact: contact.pair.pinion)
+
+
+def _mark_path(axes: Axes, result: CheckResult) -> None:
+    """The points A to E of the path of contact, by name."""
+    across = axes.get_xaxis_transform()
+    for name, place in result.pair.path_of_contact._asdict().items():
+        axes.axvline(place, color=MARKED, linewidth=0.9, zorder=0.5)
+        axes.text(place, 0.985, f" {name}", transform=across, ha="left", va="top", fontsize=9, color=DARK)

@@ -1,0 +1,65 @@
+"""The paper of the pictures of a check: size, colours, axes, and the words that several pictures share."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["DARK", "GEARS", "MARKED", "SERIES", "draw_limit", "legend_above", "new_figure", "prepared", "short"]
+
+GEARS = (("pinion", "#0072b2", "o"), ("wheel", "#d55e00", "s"))
+"""Name, colour and marker of the gears. Colours are those of Okabe and Ito, which the colour-blind can tell apart."""
+
+SERIES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#333333")
+DARK = "#333333"
+MARKED = "#999999"
+"""Colour of lines that only mark a place."""
+
+_INCHES = (6.6, 3.7)
+
+
+def new_figure() -> Figure:
+    """An empty figure as wide as the text of a report."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=_INCHES, layout="constrained")
+
+
+def prepared(ax: Axes | None, x: str, y: str) -> Axes:
+    """Axes with labels and grid; those of a new figure if none are given."""
+    axes = new_figure().subplots() if ax is None else ax
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    axes.ticklabel_format(useOffset=False)
+    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)
+    return axes
+
+
+def legend_above(axes: Axes, columns: int) -> None:
+    """A legend over the axes, where it hides nothing."""
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, frameon=False, fontsize=9, borderaxespad=0.2)
+
+
+def draw_limit(axes: Axes, limit: float | tuple[float, float] | None) -> None:
+    """The limit of a material, or the range in which it lies, with room above; nothing where there is none."""
+    if limit is None:
+        return
+    lowest, highest = limit if isinstance(limit, tuple) else (limit, limit)
+    axes.axhline(lowest, color=DARK, linestyle="-.", linewidth=1.2, label=f"limit, {short(lowest)} MPa")
+    if highest > lowest:
+        axes.axhspan(lowest, highest, color=MARKED, alpha=0.25, label=f"range of the limit, up to {short(highest)} MPa")
+    axes.set_ylim(top=max(axes.get_ylim()[1], 1.08 * highest))
+
+
+def short(value: float) -> str:
+    """A number with four digits that count, thousands apart, and no exponent where it can do without."""
+    if not 1e-4 <= abs(value) < 1e9:
+        return f"{value:.4g}"
+    places = 3 - math.floor(math.log10(abs(value)))
+    return f"{round(value, places):,.{max(places, 0)}f}".replace(",", "\u202f")

@@ -1,0 +1,31 @@
+"""Analytic ratings of a gear pair: Hertz's line contact, and ISO 6336:2006 or DIN 3990:1987, Method B. Pure functions."""
+
+from gearcad.rating.editions import Edition
+from gearcad.rating.hertz import LineContact, Peak, Stresses, reduced_modulus, reduced_radius
+from gearcad.rating.iso6336_1 import MeshStiffness, gear_blank_factor
+from gearcad.rating.iso6336_2 import FlankRating
+from gearcad.rating.iso6336_3 import RootRating, RootSection
+from gearcad.rating.mesh_contact import base_normal_force, contact_at, pitch_point_contact
+from gearcad.rating.rate import Rating, rate
+from gearcad.rating.virtual import LoadPoint, VirtualGear
+
+__all__ = [
+    "Edition",
+    "FlankRating",
+    "LineContact",
+    "LoadPoint",
+    "MeshStiffness",
+    "Peak",
+    "Rating",
+    "RootRating",
+    "RootSection",
+    "Stresses",
+    "VirtualGear",
+    "base_normal_force",
+    "contact_at",
+    "gear_blank_factor",
+    "pitch_point_contact",
+    "rate",
+    "reduced_modulus",
+    "reduced_radius",
+]

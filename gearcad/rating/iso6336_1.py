@@ -1,0 +1,184 @@
+"""Tooth and mesh stiffness by ISO 6336-1:2006, clause 9, Method B (the same in DIN 3990-1:1987).
+
+Stiffness per face width in N/(mm·µm), flexibility in mm·µm/N, helix and pressure angles in degrees. Gear 1 is the one with
+fewer teeth; equations are those of ISO 6336-1:2006.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from gearcad.geometry import Gear, GearPair
+from gearcad.material import Material
+
+__all__ = [
+    "MeshStiffness",
+    "basic_rack_factor",
+    "gear_blank_factor",
+    "low_load_factor",
+    "material_factor",
+    "mesh_stiffness",
+    "mesh_stiffness_alpha",
+    "mesh_stiffness_beta",
+    "single_stiffness",
+    "stiffness_warnings",
+    "theoretical_stiffness",
+    "tooth_flexibility",
+]
+
+CORRECTION_FACTOR = 0.8
+"""C_M (83): what measured stiffness keeps of the theoretical one."""
+
+STEEL_MODULUS = 206000.0
+"""E_St (MPa), the Young's modulus behind the series for q'."""
+
+STEEL = (190000.0, 216000.0)
+"""Young's moduli (MPa) of what engineers call steel: the standard's steel/steel pairing, whose stiffness is not converted."""
+
+LOW_LOAD = 100.0
+"""Specific load F_t K_A/b (N/mm) below which the stiffness falls with the load."""
+
+HIGH_LOAD = 1600.0
+"""Greatest specific load (N/mm) that Method B was confirmed for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshStiffness:
+    """Factors and stiffnesses of clause 9. `single`, `mesh_alpha` and `mesh_beta` are c', c_gamma_alpha and c_gamma_beta.
+
+    They hold for a specific load of 100 N/mm and more; `low_load_factor` times as much belongs to the load of the rating.
+    """
+
+    flexibility: float
+    theoretical: float
+    blank_factor: float
+    rack_factor: float
+    material_factor: float
+    low_load_factor: float
+    single: float
+    mesh_alpha: float
+    mesh_beta: float
+
+    def to_dict(self) -> dict[str, float]:
+        """Values under their symbols; those for the load itself end in `_lowload` (equal where the load is not low)."""
+        return {
+            "q_prime": self.flexibility,
+            "c_th": self.theoretical,
+            "C_M": CORRECTION_FACTOR,
+            "C_R": self.blank_factor,
+            "C_B": self.rack_factor,
+            "xi": self.material_factor,
+            "c_prime": self.single,
+            "c_gamma_alpha": self.mesh_alpha,
+            "c_gamma_beta": self.mesh_beta,
+            "low_load_factor": self.low_load_factor,
+            "c_prime_lowload": self.single * self.low_load_factor,
+            "c_gamma_alpha_lowload": self.mesh_alpha * self.low_load_factor,
+            "c_gamma_beta_lowload": self.mesh_beta * self.low_load_factor,
+        }
+
+
+def tooth_flexibility(virtual_teeth: tuple[float, float], profile_shifts: tuple[float, float]) -> float:
+    """q' (82): least flexibility of a pair of teeth, by the series of table 9. Gear 1, with fewer teeth, comes first."""
+    (z_n1, z_n2), (x_1, x_2) = virtual_teeth, profile_shifts
+    return (
+        0.04723
+        + 0.15551 / z_n1
+        + 0.25791 / z_n2
+        - 0.00635 * x_1
+        - 0.11654 * x_1 / z_n1
+        - 0.00193 * x_2
+        - 0.24188 * x_2 / z_n2
+        + 0.00529 * x_1**2
+        + 0.00182 * x_2**2
+    )
+
+
+def theoretical_stiffness(flexibility: float) -> float:
+    """c'_th = 1/q' (81)."""
+    return 1 / flexibility
+
+
+def gear_blank_factor(web_thickness: float = 1.0, rim_thickness: float = 1.0) -> float:
+    """C_R (84), (85): 1 for solid discs, else 1 + ln(b_s/b)/(5 e^(s_R/(5 m_n))).
+
+    `web_thickness` b_s/b in face widths and `rim_thickness` s_R/m_n in normal modules; the standard takes b_s/b within
+    0.2 ... 1.2 and s_R/m_n at least 1, and values beyond as these limits.
+    """
+    web, rim = min(max(web_thickness, 0.2), 1.2), max(rim_thickness, 1.0)
+    return 1 + math.log(web) / (5 * math.exp(rim / 5))
+
+
+def basic_rack_factor(dedendum: float, pressure_angle: float) -> float:
+    """C_B (86) = (1 + 0.5 (1.2 - h_fP/m_n)) (1 - 0.02 (20 - alpha_n)); `dedendum` in normal modules."""
+    return (1 + 0.5 * (1.2 - dedendum)) * (1 - 0.02 * (20 - pressure_angle))
+
+
+def material_factor(youngs_modulus: float) -> float:
+    """xi = E/E_St (88), (89) of a pair made of one material; 1 for steels (190 ... 216 GPa), which (80) was made for."""
+    return 1.0 if STEEL[0] <= youngs_modulus <= STEEL[1] else youngs_modulus / STEEL_MODULUS
+
+
+def low_load_factor(specific_load: float) -> float:
+    """((F_t K_A/b)/100)^0.25 (90) below 100 N/mm, else 1; `specific_load` F_t K_A/b in N/mm."""
+    return math.pow(min(specific_load / LOW_LOAD, 1.0), 0.25)
+
+
+def single_stiffness(theoretical: float, blank_factor: float, rack_factor: float, helix_angle: float) -> float:
+    """c' = c'_th C_M C_R C_B cos beta (80)."""
+    return theoretical * CORRECTION_FACTOR * blank_factor * rack_factor * math.cos(math.radians(helix_angle))
+
+
+def mesh_stiffness_alpha(single: float, transverse_contact_ratio: float) -> float:
+    """c_gamma_alpha = c' (0.75 epsilon_alpha + 0.25) (91)."""
+    return single * (0.75 * transverse_contact_ratio + 0.25)
+
+
+def mesh_stiffness_beta(mesh_alpha: float) -> float:
+    """c_gamma_beta = 0.85 c_gamma_alpha (92)."""
+    return 0.85 * mesh_alpha
+
+
+def mesh_stiffness(pair: GearPair, material: Material, specific_load: float, blank_factor: float = 1.0) -> MeshStiffness:
+    """Stiffness of a pair at a specific load F_t K_A/b (N/mm); `blank_factor` C_R is 1 for solid discs."""
+    first, second = _by_teeth(pair)
+    q = tooth_flexibility((first.virtual_teeth, second.virtual_teeth), (first.profile_shift, second.profile_shift))
+    rack = sum(basic_rack_factor(gear.dedendum, gear.rack.pressure_angle) for gear in (first, second)) / 2  # (87)
+    xi = material_factor(material.youngs_modulus)
+    single = xi * single_stiffness(theoretical_stiffness(q), blank_factor, rack, pair.pinion.helix_angle)
+    alpha = mesh_stiffness_alpha(single, pair.transverse_contact_ratio)
+    return MeshStiffness(
+        flexibility=q,
+        theoretical=theoretical_stiffness(q),
+        blank_factor=blank_factor,
+        rack_factor=rack,
+        material_factor=xi,
+        low_load_factor=low_load_factor(specific_load),
+        single=single,
+        mesh_alpha=alpha,
+        mesh_beta=mesh_stiffness_beta(alpha),
+    )
+
+
+def stiffness_warnings(pair: GearPair, specific_load: float) -> list[str]:
+    """Where the pair or its load leaves the range that clause 9 states for its formulas."""
+    found = []
+    first, second = _by_teeth(pair)
+    if first.profile_shift < second.profile_shift:
+        found.append(f"c': q' is stated for x_1 >= x_2, here {first.profile_shift:g} and {second.profile_shift:g}")
+    if not -0.5 <= pair.profile_shift_sum <= 2.0:
+        found.append(f"c': q' is stated for x_1 + x_2 from -0.5 to 2, here {pair.profile_shift_sum:.6g}")
+    if specific_load > HIGH_LOAD:
+        found.append(f"c': confirmed up to a specific load of {HIGH_LOAD:g} N/mm, here {specific_load:.0f} N/mm")
+    if pair.transverse_contact_ratio < 1.2:
+        found.append(
+            f"c_gamma: stated from a contact ratio of 1.2, here {pair.transverse_contact_ratio:.4f}: up to 10 % too high"
+        )
+    return found
+
+
+def _by_teeth(pair: GearPair) -> tuple[Gear, Gear]:
+    """Gear 1 and gear 2 of the standard: fewer teeth first, with equal teeth the larger profile shift first."""
+    gears = sorted((pair.pinion, pair.wheel), key=lambda gear: (gear.teeth, -gear.profile_shift))
+    return gears[0], gears[1]

@@ -1,0 +1,58 @@
+"""Where two gears touch: the line contact of their flanks at a place on the line of action."""
+
+from __future__ import annotations
+
+import math
+
+from gearcad.errors import GeometryError
+from gearcad.geometry import GearPair, contact_line_length
+from gearcad.geometry.limits import at_most
+from gearcad.material import Material
+from gearcad.rating.hertz import LineContact, reduced_modulus, reduced_radius
+
+__all__ = ["base_normal_force", "contact_at", "pitch_point_contact"]
+
+
+def base_normal_force(pair: GearPair, torque: float) -> float:
+    """F_bn = F_bt/cos beta_b with F_bt = |T_1|/r_b1: what all flanks carry together (N), for `torque` on the pinion (N·m)."""
+    transverse = 2000 * abs(torque) / pair.pinion.base_diameter
+    return transverse / math.cos(math.radians(pair.pinion.base_helix_angle))
+
+
+def contact_at(
+    pair: GearPair, material: Material, *, distance: float, force: float, length: float | None = None
+) -> LineContact:
+    """Contact of one pair of teeth at `distance` from T1 on the line of action (mm, transverse section).
+
+    `force` is what this pair of teeth carries, normal to the flanks (N), `length` the line that it spreads over evenly (mm;
+    None: a line across the common face width, b/cos beta_b). The radii of curvature are those of the normal section,
+    distance/cos beta_b and (T1T2 - distance)/cos beta_b. Raises GeometryError for a place that is not between T1 and T2.
+    """
+    whole = pair.centre_distance * math.sin(math.radians(pair.working_transverse_pressure_angle))
+    if not 0 < distance < whole:
+        permitted = f"must be above 0 and below {at_most(whole)} mm, between the base tangent points T1 and T2"
+        raise GeometryError("distance", distance, permitted, "mm")
+    lean = math.cos(math.radians(pair.pinion.base_helix_angle))
+    if length is None:
+        length = pair.common_width.width / lean
+    return LineContact(
+        load_per_width=force / length,
+        radius=reduced_radius((distance / lean, (whole - distance) / lean)),
+        modulus=reduced_modulus((material.youngs_modulus,) * 2, (material.poisson_ratio,) * 2),
+        poisson_ratio=material.poisson_ratio,
+    )
+
+
+def pitch_point_contact(pair: GearPair, material: Material, torque: float) -> LineContact:
+    """Contact at the pitch point of the middle plane under `torque` on the pinion (N·m).
+
+    The force is spread evenly over all lines of contact at that roll angle: over the common face width of a spur pair
+    that carries on one tooth there.
+    """
+    return contact_at(
+        pair,
+        material,
+        distance=pair.path_of_contact.C,
+        force=base_normal_force(pair, torque),
+        length=contact_line_length(pair, 0.0),
+    )

@@ -1,0 +1,143 @@
+"""rate: Hertz, flank stress, root stress and mesh stiffness of a pair under a load."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from gearcad.errors import GeometryError, ParameterError, as_choice, require_whole
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.material import Material
+from gearcad.rating.editions import Edition
+from gearcad.rating.hertz import LineContact
+from gearcad.rating.iso6336_1 import MeshStiffness, mesh_stiffness, stiffness_warnings
+from gearcad.rating.iso6336_2 import FlankRating, flank_rating, flank_warnings
+from gearcad.rating.iso6336_3 import RootRating, root_rating, root_warnings
+from gearcad.rating.mesh_contact import base_normal_force, pitch_point_contact
+
+__all__ = ["Rating", "rate"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rating:
+    """All of ISO 6336, Method B, that geometry, material and torque decide. Forces in N, stresses in MPa, widths in mm.
+
+    sigma_H0, sigma_F0 and the Hertz contact at the pitch point are nominal: of the torque itself, without load factors.
+    sigma_H and sigma_F include the application factor K_A, and take K_v, K_Hbeta, K_Halpha, K_Fbeta and K_Falpha as 1.
+    """
+
+    edition: Edition
+    tangential_force: float
+    normal_force: float
+    application_factor: float
+    specific_load: float
+    stiffness: MeshStiffness
+    flank: FlankRating
+    pinion: RootRating
+    wheel: RootRating
+    pitch_point: LineContact
+    warnings: tuple[str, ...]
+
+    @property
+    def contact_stresses(self) -> tuple[float, float]:
+        """sigma_H of pinion and wheel (MPa): Z_B or Z_D times sigma_H0 sqrt(K_A) (ISO 6336-2, clause 5)."""
+        stress = self.flank.nominal_stress * math.sqrt(self.application_factor)
+        return self.flank.pinion_contact_factor * stress, self.flank.wheel_contact_factor * stress
+
+    @property
+    def root_stresses(self) -> tuple[float, float]:
+        """sigma_F of pinion and wheel (MPa): sigma_F0 K_A (ISO 6336-3, clause 5)."""
+        factor = self.application_factor
+        return self.pinion.nominal_stress * factor, self.wheel.nominal_stress * factor
+
+    def to_dict(self) -> dict[str, Any]:
+        """Values under their symbols, those of one gear under "pinion" and "wheel"; `gearcad.symbols.RATING` has the words."""
+        contact = self.pitch_point
+        gears = zip((self.pinion, self.wheel), self.contact_stresses, self.root_stresses, strict=True)
+        pinion, wheel = ({**root.to_dict(), "sigma_H": flank, "sigma_F": bending} for root, flank, bending in gears)
+        return {
+            "edition": self.edition.value,
+            "F_t": self.tangential_force,
+            "F_bn": self.normal_force,
+            "K_A": self.application_factor,
+            "w_t": self.specific_load,
+            **self.stiffness.to_dict(),
+            **self.flank.to_dict(),
+            "rho_C": contact.radius,
+            "p_0": contact.peak_pressure,
+            "b_H": contact.half_width,
+            "pinion": pinion,
+            "wheel": wheel,
+            "warnings": list(self.warnings),
+        }
+
+
+def rate(
+    pair: GearPair,
+    material: Material,
+    load: Load,
+    *,
+    edition: Edition = Edition.ISO_2006,
+    blank_factor: float = 1.0,
+    accuracy_grade: int | None = None,
+) -> Rating:
+    """Rate a pair of gears, both of one material, by Method B of the `edition`.
+
+    F_t is that of the torque at the reference circles. Contact stress and stiffness hold for the common face width.
+    `blank_factor` C_R is 1 for solid discs, else see `gear_blank_factor`; `accuracy_grade` (ISO 1328, 0 ... 12) matters
+    for deep teeth only, see `deep_tooth_factor`. Raises ParameterError without a torque, GeometryError for a pair whose
+    contact the standard does not describe.
+    """
+    edition = as_choice("edition", edition, Edition)
+    if accuracy_grade is not None:
+        require_whole("accuracy_grade", accuracy_grade, at_least=0, at_most=12)
+    _check(pair, load)
+    force = 2000 * abs(load.torque) / pair.pinion.reference_diameter
+    specific = force * load.application_factor / pair.common_width.width
+    warnings = [*_general_warnings(pair), *stiffness_warnings(pair, specific), *flank_warnings(pair)]
+    roots = []
+    for owner, gear in (("pinion", pair.pinion), ("wheel", pair.wheel)):
+        try:
+            roots.append(root_rating(pair, gear, force, edition, accuracy_grade))
+        except GeometryError as error:
+            raise error.within(owner) from None
+        warnings += root_warnings(pair, gear, roots[-1], owner)
+    return Rating(
+        edition=edition,
+        tangential_force=force,
+        normal_force=base_normal_force(pair, load.torque),
+        application_factor=load.application_factor,
+        specific_load=specific,
+        stiffness=mesh_stiffness(pair, material, specific, blank_factor),
+        flank=flank_rating(pair, material, force, edition),
+        pinion=roots[0],
+        wheel=roots[1],
+        pitch_point=pitch_point_contact(pair, material, load.torque),
+        warnings=tuple(warnings),
+    )
+
+
+def _check(pair: GearPair, load: Load) -> None:
+    if load.torque == 0:
+        raise ParameterError("torque", load.torque, "must not be 0 N·m: a rating needs a load", "N·m")
+    ratio = pair.transverse_contact_ratio
+    if not 1 <= ratio < 3:
+        meaning = "nothing touches for part of every pitch" if ratio < 1 else "Method B knows no deeper teeth"
+        raise GeometryError("transverse_contact_ratio", ratio, f"must be at least 1 and below 3 for a rating: {meaning}")
+
+
+def _general_warnings(pair: GearPair) -> list[str]:
+    """The scope of the whole standard (ISO 6336-1, clause 1), and a contact ratio that the fillets do not let it have."""
+    found = []
+    if not 15 <= (angle := pair.pinion.rack.pressure_angle) <= 25:
+        found.append(f"ISO 6336 is confirmed for pressure angles from 15 to 25 deg, here {angle:g} deg")
+    if (helix := abs(pair.pinion.helix_angle)) > 30:
+        found.append(f"ISO 6336 is confirmed for helix angles up to 30 deg, here {helix:g} deg")
+    usable, whole = pair.usable_contact_ratio, pair.transverse_contact_ratio
+    if usable < whole - 1e-9:
+        found.append(
+            f"contact ratio: the tips reach {whole:.4f}, which the rating uses, but the fillets leave {usable:.4f} of involute"
+        )
+    return found

@@ -1,0 +1,80 @@
+"""Inputs and rating as rows of tables: words, symbol, values, unit, source."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from gearcad import symbols
+from gearcad.check.run import CheckResult
+from gearcad.plots.paper import short
+
+__all__ = ["Row", "gear_rows", "load_rows", "pair_rows", "rating_rows"]
+
+_GEAR = (
+    "teeth normal_module helix_angle profile_shift tip_alteration tooth_thinning face_width rack.pressure_angle rack.addendum"
+    " rack.dedendum rack.root_radius reference_diameter base_diameter tip_diameter root_diameter form_diameter body.bore"
+)
+_PAIR = (
+    "centre_distance working_transverse_pressure_angle profile_shift_sum transverse_contact_ratio common_width.width"
+    " circumferential_backlash"
+)
+
+
+class Row(NamedTuple):
+    """One line of a table; `values` are those of pinion and wheel, or one for both."""
+
+    words: str
+    symbol: str
+    values: tuple[str, ...]
+    unit: str
+    source: str
+
+
+def gear_rows(result: CheckResult) -> list[Row]:
+    """What describes the gears."""
+    gears = [_flat(gear.to_dict()) for gear in (result.pair.pinion, result.pair.wheel)]
+    return [_row(symbols.GEAR[key], *(gear.get(key) for gear in gears)) for key in _GEAR.split()]
+
+
+def pair_rows(result: CheckResult) -> list[Row]:
+    """What describes the pair."""
+    values = _flat(result.pair.to_dict())
+    return [_row(symbols.PAIR[key], values[key]) for key in _PAIR.split()]
+
+
+def load_rows(result: CheckResult) -> list[Row]:
+    """Material and load."""
+    rows = [(symbols.MATERIAL[key], value) for key, value in vars(result.material).items()]
+    rows += [(symbols.LOAD[key], value) for key, value in vars(result.load).items()]
+    return [_row(symbol, value) for symbol, value in rows if value is not None]
+
+
+def rating_rows(result: CheckResult) -> list[Row]:
+    """The rating by symbols: values of the pair, then those of each gear."""
+    values = result.rating.to_dict()
+    rows = [_row(symbol, values[key]) for key, symbol in symbols.RATING.items()]
+    gears = (values["pinion"], values["wheel"])
+    return rows + [_row(symbol, *(gear[key] for gear in gears)) for key, symbol in symbols.GEAR_RATING.items()]
+
+
+def _row(symbol: symbols.Symbol, *values: Any) -> Row:
+    unit = {"deg": "°"}.get(symbol.unit, symbol.unit)
+    return Row(symbol.words, symbol.symbol, tuple(_text(value) for value in values), unit, symbol.source)
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, tuple | list):
+        return " to ".join(_text(each) for each in value)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return "-" if value is None else str(value)
+    # Dimensions keep their digits; what is computed keeps six.
+    return f"{value:.6g}" if math.isfinite(value) and abs(value) < 1e6 else short(value)
+
+
+def _flat(document: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in document.items():
+        found |= _flat(value, f"{prefix}{key}.") if isinstance(value, Mapping) else {prefix + key: value}
+    return found

@@ -1,0 +1,253 @@
+"""The mesh of a tooth sector: exactly on the profile, fit to be joined to its neighbours, well shaped, and exported whole."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import meshio
+import numpy as np
+import pytest
+
+from gearcad import BasicRack, Body, Gear, GearPair
+from gearcad.errors import ParameterError
+from gearcad.meshing import MeshSizes, SectorMesh, mesh_sector
+from gearcad.meshing.export import MESH_SUFFIXES, ring_mesh, sector_mesh, write_mesh
+from gearcad.meshing.outline import Side
+from gearcad.meshing.quality import mesh_quality
+
+ROUNDING = 1e-9
+"""mm per mm of module: what 16 digits leave of a mesh."""
+
+LEAST_ANGLE = 18.0
+"""Degrees; triangles below 15 begin to spoil the matrix, and a curved outline cannot do much better than 20."""
+
+GEARS = {
+    "z8 undercut": Gear(teeth=8, normal_module=1.0, face_width=10),
+    "z13 undercut": Gear(teeth=13, normal_module=2.0, face_width=10),
+    "z18": Gear(teeth=18, normal_module=1.5, face_width=10, profile_shift=0.3422),
+    "z161": Gear(teeth=161, normal_module=1.5, face_width=10),
+    "z300": Gear(teeth=300, normal_module=1.0, face_width=10),
+    "full radius": Gear(teeth=24, normal_module=1.0, face_width=10, rack=BasicRack(root_radius="full")),
+    "tip chamfer": Gear(teeth=24, normal_module=1.0, face_width=10, body=Body(tip_chamfer=0.1)),
+    "helical": Gear(teeth=13, normal_module=2.5, face_width=18, helix_angle=28, profile_shift=0.107),
+    "small": Gear(teeth=30, normal_module=0.1, face_width=1),
+    "large": Gear(teeth=30, normal_module=20.0, face_width=200),
+}
+DEPTHS = (0.05, 0.5, 4.0)
+"""Rim below the root in modules: nearly none, thin, and the usual one."""
+
+Z18 = GEARS["z18"]
+
+
+def inner_radius(gear: Gear, depth: float) -> float:
+    """Radius (mm) of the inner circle `depth` modules below the root."""
+    return max(gear.root_diameter / 2 - depth * gear.normal_module, 0.3 * gear.root_diameter / 2)
+
+
+@pytest.fixture(scope="module")
+def mesh() -> SectorMesh:
+    return mesh_sector(Z18, inner_radius(Z18, 4))
+
+
+@pytest.mark.parametrize("depth", DEPTHS)
+@pytest.mark.parametrize("name", GEARS)
+def test_any_gear_meshes_well(name: str, depth: float) -> None:
+    gear = GEARS[name]
+    mesh = mesh_sector(gear, inner_radius(gear, depth))
+    quality = mesh_quality(mesh.points, mesh.triangles)
+    assert quality.least_angle > LEAST_ANGLE
+    assert quality.mean_gamma > 0.94
+    assert quality.least_jacobian > 0.75
+
+
+@pytest.mark.parametrize("name", GEARS)
+def test_a_coarse_mesh_is_not_folded_and_fits_the_fine_one(name: str) -> None:
+    gear = GEARS[name]
+    fine, coarse = (mesh_sector(gear, inner_radius(gear, 4), sizes) for sizes in (MeshSizes(), MeshSizes().coarse()))
+    assert mesh_quality(coarse.points, coarse.triangles).least_jacobian > 0.2
+    assert len(coarse.triangles) < 0.6 * len(fine.triangles)
+    assert np.abs(coarse.points[coarse.ahead] - fine.points[fine.ahead]).max() < ROUNDING * gear.normal_module
+
+
+@pytest.mark.parametrize("name", GEARS)
+def test_sides_lie_on_the_profile(name: str) -> None:
+    gear = GEARS[name]
+    mesh = mesh_sector(gear, inner_radius(gear, 4))
+    for left, right, kinds in ((Side.LEFT_FLANK, Side.RIGHT_FLANK, "flank"), (Side.LEFT_FILLET, Side.RIGHT_FILLET, "fillet")):
+        for side, sign in ((left, 1), (right, -1)):
+            points = mesh.points[mesh.sides[side]]
+            radius = np.hypot(*points.T)
+            expected = np.radians(gear.profile.half_angle(radius))
+            angle = sign * np.arctan2(points[:, 1], points[:, 0])
+            # At the deepest point of the trochoid a radius says little about the angle.
+            steep = radius > gear.root_diameter / 2 * (1 + 1e-6)
+            assert np.abs(angle - expected)[steep].max() * radius.max() < ROUNDING * gear.normal_module, kinds
+
+
+def test_ends_of_the_flank_are_those_of_the_gear(mesh: SectorMesh) -> None:
+    radius = np.hypot(*mesh.points[mesh.sides[Side.LEFT_FLANK]].T)
+    assert radius.max() == pytest.approx(Z18.tip_diameter / 2, abs=ROUNDING)
+    assert radius.min() == pytest.approx(Z18.form_diameter / 2, abs=ROUNDING)
+
+
+def test_tip_root_and_hub_are_round(mesh: SectorMesh) -> None:
+    for side, radius in (
+        (Side.TIP, Z18.tip_diameter / 2),
+        (Side.LEFT_ROOT, Z18.root_diameter / 2),
+        (Side.RIGHT_ROOT, Z18.root_diameter / 2),
+        (Side.INNER, inner_radius(Z18, 4)),
+    ):
+        assert np.hypot(*mesh.points[mesh.sides[side]].T) == pytest.approx(radius, abs=ROUNDING)
+
+
+def test_cuts_fit(mesh: SectorMesh) -> None:
+    pitch = 2 * math.pi / Z18.teeth
+    turn = np.array([[math.cos(pitch), math.sin(pitch)], [-math.sin(pitch), math.cos(pitch)]])
+    assert np.abs(mesh.points[mesh.behind] @ turn - mesh.points[mesh.ahead]).max() < ROUNDING
+    assert np.diff(np.hypot(*mesh.points[mesh.ahead].T)).max() < 0, "from the root inwards"
+
+
+def test_sides_join_into_one_outline_around_the_section(mesh: SectorMesh) -> None:
+    chains = [mesh.sides[side] for side in Side]
+    assert all(one[-1] == other[0] for one, other in pairwise([*chains, chains[0]]))
+    outline = np.concatenate([chain[:-1] for chain in chains])
+    assert len(set(outline.tolist())) == len(outline)
+    # Area from the outline by Simpson's rule, exact for quadratic edges, against that of the elements.
+    first, middle, last = mesh.points[outline[::2]], mesh.points[outline[1::2]], mesh.points[np.roll(outline, -2)[::2]]
+
+    def cross(a: Any, b: Any) -> Any:
+        return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+
+    by_outline = (4 * cross(first, middle) + 4 * cross(middle, last) - cross(first, last)).sum() / 6
+    assert by_outline == pytest.approx(element_area(mesh.points, mesh.triangles), rel=1e-12)
+
+
+def element_area(points: Any, triangles: Any) -> float:
+    """Area (mm^2) of quadratic triangles: each straight one, and two thirds of what its mid-side nodes bulge."""
+    a, b, c, *mids = (points[triangles[:, k]] for k in range(6))
+    corners = (a, b, c)
+
+    def cross(u: Any, v: Any) -> Any:
+        return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+
+    area = cross(b - a, c - a) / 2
+    for k, middle in enumerate(mids):
+        start, end = corners[k], corners[(k + 1) % 3]
+        area = area + 2 / 3 * cross(middle - start, end - start)
+    return float(area.sum())
+
+
+def test_sizes_are_kept(mesh: SectorMesh) -> None:
+    def edges(side: Side) -> Any:
+        return np.linalg.norm(np.diff(mesh.points[mesh.sides[side][::2]], axis=0), axis=1) / Z18.normal_module
+
+    sizes = MeshSizes()
+    assert edges(Side.LEFT_FLANK).max() < sizes.flank * 1.1
+    assert edges(Side.LEFT_FLANK).min() == pytest.approx(sizes.corner, rel=0.3)
+    assert edges(Side.LEFT_FILLET).max() == pytest.approx(sizes.fillet, rel=0.1)
+    assert edges(Side.AHEAD).max() < sizes.rim
+
+
+def test_refined_sizes_halve_the_edges() -> None:
+    counts = [
+        len(mesh_sector(Z18, inner_radius(Z18, 4), MeshSizes().refined(factor)).sides[Side.LEFT_FILLET]) for factor in (1, 2)
+    ]
+    assert (counts[1] - 1) / (counts[0] - 1) == pytest.approx(2, rel=0.1)
+
+
+def test_meshes_scale_with_the_module() -> None:
+    """No length of any other unit hides in the mesh."""
+    small, large = (
+        mesh_sector(gear, inner_radius(gear, 4))
+        for gear in (Gear(teeth=30, normal_module=m, face_width=10) for m in (0.125, 16.0))
+    )
+    for side in Side:
+        assert np.abs(small.points[small.sides[side]] * 128 - large.points[large.sides[side]]).max() < 1e-9
+
+
+@pytest.mark.parametrize("name", [each.name for each in MeshSizes.__dataclass_fields__.values()])
+def test_sizes_must_be_positive(name: str) -> None:
+    with pytest.raises(ParameterError, match=name):
+        replace(MeshSizes(), **{name: 0.0})
+
+
+def test_quality_of_known_triangles() -> None:
+    height = math.sqrt(3) / 2
+    points = np.array([[0, 0], [1, 0], [0.5, height], [0.5, 0], [0.75, height / 2], [0.25, height / 2]])
+    triangle = np.arange(6)[None]
+    even = mesh_quality(points, triangle)
+    assert (even.least_angle, even.least_gamma, even.least_jacobian) == pytest.approx((60, 1, 1))
+    right = mesh_quality(np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]]), triangle)
+    assert right.least_angle == pytest.approx(45)
+    assert right.least_gamma == pytest.approx(2 * (math.sqrt(2) - 1))
+    # A mid-side node half the height inwards: the edge leaves its ends along the other two edges.
+    bent = points.copy()
+    bent[3, 1] = height / 2
+    assert mesh_quality(bent, triangle).least_jacobian == pytest.approx(0, abs=1e-12)
+
+
+def test_a_ring_is_closed() -> None:
+    gear = Gear(teeth=11, normal_module=2.0, face_width=10, profile_shift=0.4)
+    mesh = mesh_sector(gear, 4.0, MeshSizes().coarse())
+    ring = ring_mesh(mesh, gear.teeth)
+    assert len(ring.points) == gear.teeth * (len(mesh.points) - len(mesh.ahead))
+    assert element_area(ring.points, ring.triangles) == pytest.approx(gear.teeth * element_area(mesh.points, mesh.triangles))
+    assert set(np.unique(ring.triangles)) == set(range(len(ring.points)))
+    edges = np.sort(ring.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2))
+    _, times = np.unique(edges, axis=0, return_counts=True)
+    outside = sum((len(mesh.sides[side]) - 1) // 2 for side in Side if side not in (Side.AHEAD, Side.BEHIND))
+    assert (times == 1).sum() == gear.teeth * outside
+    assert np.hypot(*ring.points[ring.sets["hub"]].T) == pytest.approx(4.0)
+
+
+@pytest.mark.parametrize("whole", [False, True], ids=["sector", "ring"])
+@pytest.mark.parametrize("suffix", MESH_SUFFIXES)
+def test_files_come_back(suffix: str, whole: bool, tmp_path: Path) -> None:
+    mesh = mesh_sector(Z18, inner_radius(Z18, 4), MeshSizes().coarse())
+    written = ring_mesh(mesh, Z18.teeth) if whole else sector_mesh(mesh)
+    write_mesh(written, tmp_path / f"gear{suffix}")
+    read = meshio.read(tmp_path / f"gear{suffix}", file_format="gmsh" if suffix == ".msh" else None)
+    assert np.abs(read.points[:, :2] - written.points).max() < 1e-14
+    assert [block.type for block in read.cells] == ["triangle6"]
+    assert np.array_equal(read.cells[0].data, written.triangles)
+    for name, nodes in written.sets.items():
+        found = read.point_sets[name] if suffix == ".inp" else np.flatnonzero(read.point_data[name])
+        assert np.array_equal(np.sort(found), np.sort(nodes))
+
+
+@pytest.mark.parametrize(("plane_strain", "element"), [(True, "CPE6"), (False, "CPS6")])
+def test_abaqus_elements_say_the_plane_state(plane_strain: bool, element: str, tmp_path: Path) -> None:
+    mesh = sector_mesh(mesh_sector(Z18, inner_radius(Z18, 4), MeshSizes().coarse()))
+    write_mesh(mesh, tmp_path / "gear.inp", plane_strain=plane_strain)
+    keywords = [line for line in (tmp_path / "gear.inp").read_text().splitlines() if line.startswith("*")]
+    assert keywords == [
+        "*HEADING",
+        "*NODE",
+        f"*ELEMENT, TYPE={element}",
+        "*ELSET, ELSET=body",
+        "*NSET, NSET=hub",
+        "*NSET, NSET=flank",
+    ]
+
+
+def test_another_suffix_is_refused(tmp_path: Path) -> None:
+    mesh = sector_mesh(mesh_sector(Z18, inner_radius(Z18, 4), MeshSizes().coarse()))
+    with pytest.raises(ParameterError, match=r"\.vtu"):
+        write_mesh(mesh, tmp_path / "gear.stl")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_pair_at_any_shift_meshes() -> None:
+    """Thin tips and fat roots, as they come out of split shifts."""
+    for shift in (-0.3, 0.0, 0.6):
+        pair = GearPair(
+            pinion=Gear(teeth=20, normal_module=1.0, face_width=10, profile_shift=shift),
+            wheel=Gear(teeth=35, normal_module=1.0, face_width=10, profile_shift=-shift),
+        )
+        for gear in (pair.pinion, pair.wheel):
+            mesh = mesh_sector(gear, inner_radius(gear, 4))
+            assert mesh_quality(mesh.points, mesh.triangles).least_angle > LEAST_ANGLE

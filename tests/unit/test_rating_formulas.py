@@ -1,0 +1,147 @@
+"""Identities and limits of the ratings, and the factors of stiffness and flank one by one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+from support.ratings import STEEL, numbers, sample_pair, shortened, swapped
+
+from gearcad import ISO53_D, Body, Gear, GearPair, Load
+from gearcad.rating import Edition, gear_blank_factor, rate
+from gearcad.rating.iso6336_1 import basic_rack_factor, low_load_factor, material_factor, tooth_flexibility
+from gearcad.rating.iso6336_2 import contact_factor, contact_ratio_factor, helix_angle_factor, single_contact_curvature
+
+EXACT = 1e-12
+"""Relative: the same quantity by two formulas."""
+
+LOAD = Load(torque=350.0)
+
+
+@pytest.mark.parametrize("helix", [0.0, 15.0, 28.0])
+def test_contact_stress_is_hertz_at_the_pitch_point(helix: float) -> None:
+    """Z_H Z_E sqrt(...) is the peak pressure of one line b/cos beta_b long; Z_eps and Z_beta are all that is added."""
+    pair = sample_pair(helix)
+    rating = rate(pair, STEEL, LOAD)
+    contact, lean = rating.pitch_point, math.cos(math.radians(pair.pinion.base_helix_angle))
+    alone = replace(contact, load_per_width=rating.normal_force / (28 / lean)).peak_pressure
+    flank = rating.flank
+    assert flank.nominal_stress == pytest.approx(alone * flank.contact_ratio_factor * flank.helix_angle_factor, rel=EXACT)
+
+
+def test_single_contact_factors_are_ratios_of_curvature() -> None:
+    """M_1 and M_2 follow from the radii of curvature at C, B and D."""
+    pair = sample_pair(0.0, body=Body(tip_chamfer=0.2))
+    whole = pair.centre_distance * math.sin(math.radians(pair.working_transverse_pressure_angle))
+    radius = {name: place * (whole - place) for name, place in pair.path_of_contact._asdict().items()}
+    expected = [math.sqrt(radius["C"] / radius[name]) for name in ("B", "D")]
+    assert single_contact_curvature(pair) == pytest.approx(expected, rel=EXACT)
+    assert rate(pair, STEEL, LOAD).flank.pinion_contact_factor == pytest.approx(expected[0], rel=EXACT)
+    assert expected[0] > 1 > expected[1]
+    assert rate(pair, STEEL, LOAD).flank.wheel_contact_factor == 1
+
+
+def test_torque_elasticity_and_application_factor() -> None:
+    pair = sample_pair()
+    one = rate(pair, STEEL, LOAD)
+    other = rate(pair, replace(STEEL, youngs_modulus=51500.0), Load(torque=-700.0, application_factor=1.5))
+    assert other.flank.nominal_stress / one.flank.nominal_stress == pytest.approx(math.sqrt(2 / 4), rel=EXACT)
+    assert other.pinion.nominal_stress / one.pinion.nominal_stress == pytest.approx(2, rel=EXACT)
+    assert other.pitch_point.half_width / one.pitch_point.half_width == pytest.approx(math.sqrt(8), rel=EXACT)
+    assert other.stiffness.mesh_alpha / one.stiffness.mesh_alpha == pytest.approx(1 / 4, rel=EXACT)
+    assert other.root_stresses == pytest.approx([1.5 * gear.nominal_stress for gear in (other.pinion, other.wheel)], rel=EXACT)
+    stress = other.flank.nominal_stress * math.sqrt(1.5)
+    assert other.contact_stresses == pytest.approx([stress * other.flank.pinion_contact_factor, stress], rel=EXACT)
+    assert other.specific_load == pytest.approx(1.5 * 2 * one.specific_load, rel=EXACT)
+
+
+@pytest.mark.parametrize("helix", [0.0, 15.0])
+def test_exchanged_gears(helix: float) -> None:
+    """The wheel may drive: the same forces rate the same, with the gears' own values exchanged."""
+    pair = replace(sample_pair(helix), axial_offset=1.5)
+    ahead = rate(pair, STEEL, LOAD).to_dict()
+    back = rate(swapped(pair), STEEL, Load(torque=350 * pair.gear_ratio)).to_dict()
+    back["pinion"], back["wheel"], back["Z_B"], back["Z_D"] = back["wheel"], back["pinion"], back["Z_D"], back["Z_B"]
+    assert numbers(back) == pytest.approx(numbers(ahead), rel=1e-11)
+
+
+def test_equal_gears_are_rated_equally() -> None:
+    gear = Gear(teeth=25, normal_module=2.0, face_width=20.0, profile_shift=0.2)
+    rating = rate(shortened(GearPair(pinion=gear, wheel=gear)), STEEL, LOAD)
+    assert rating.pinion == rating.wheel
+    assert rating.flank.pinion_contact_factor == pytest.approx(rating.flank.wheel_contact_factor, rel=EXACT)
+    # With equal teeth but unequal shifts the order of the gears must not matter either.
+    other = replace(gear, profile_shift=-0.1)
+    stiffness = [rate(GearPair(pinion=a, wheel=b), STEEL, LOAD).stiffness for a, b in ((gear, other), (other, gear))]
+    assert stiffness[0] == stiffness[1]
+
+
+def test_spur_is_the_limit_of_helical() -> None:
+    spur, nearly = (numbers(rate(sample_pair(helix), STEEL, LOAD).to_dict()) for helix in (0.0, 1e-6))
+    for name in ("p_0", "b_H"):  # the lines of contact of a spur pair jump where those of a helical pair run in
+        spur.pop(name), nearly.pop(name)
+    assert nearly == pytest.approx(spur, rel=1e-6)
+
+
+# ---------------------------------------------------------------------- the factors one by one
+
+
+def test_flexibility_is_the_series_of_the_standard() -> None:
+    """Every coefficient of table 9 by itself: differences of q' in one variable at a time."""
+    infinite = (1e300, 1e300)
+    assert tooth_flexibility(infinite, (0.0, 0.0)) == pytest.approx(0.04723, rel=EXACT)
+    found = [
+        tooth_flexibility((1.0, 1e300), (0.0, 0.0)) - 0.04723,
+        tooth_flexibility((1e300, 1.0), (0.0, 0.0)) - 0.04723,
+        (tooth_flexibility(infinite, (1.0, 0.0)) - tooth_flexibility(infinite, (-1.0, 0.0))) / 2,
+        tooth_flexibility((1.0, 1e300), (1.0, 0.0)) - tooth_flexibility(infinite, (1.0, 0.0)) - 0.15551,
+        (tooth_flexibility(infinite, (0.0, 1.0)) - tooth_flexibility(infinite, (0.0, -1.0))) / 2,
+        tooth_flexibility((1e300, 1.0), (0.0, 1.0)) - tooth_flexibility(infinite, (0.0, 1.0)) - 0.25791,
+        (tooth_flexibility(infinite, (1.0, 0.0)) + tooth_flexibility(infinite, (-1.0, 0.0))) / 2 - 0.04723,
+        (tooth_flexibility(infinite, (0.0, 1.0)) + tooth_flexibility(infinite, (0.0, -1.0))) / 2 - 0.04723,
+    ]
+    table = [0.15551, 0.25791, -0.00635, -0.11654, -0.00193, -0.24188, 0.00529, 0.00182]
+    assert found == pytest.approx(table, abs=1e-14)
+
+
+def test_rack_factor() -> None:
+    assert [basic_rack_factor(depth, 20.0) for depth in (1.2, 1.25, 1.4)] == pytest.approx([1, 0.975, 0.9], rel=EXACT)
+    assert basic_rack_factor(1.0, 25.0) == pytest.approx(1.1 * 1.1, rel=EXACT)
+    plain = sample_pair(0.0)
+    mixed = replace(plain, wheel=replace(plain.wheel, rack=ISO53_D))
+    assert rate(mixed, STEEL, LOAD).stiffness.rack_factor == pytest.approx((0.975 + 0.9) / 2, rel=EXACT)
+
+
+def test_blank_factor() -> None:
+    assert gear_blank_factor() == gear_blank_factor(1.0, 7.0) == 1
+    assert gear_blank_factor(0.3, 3.0) == pytest.approx(1 + math.log(0.3) / (5 * math.exp(0.6)), rel=EXACT)
+    assert gear_blank_factor(0.1, 0.5) == gear_blank_factor(0.2, 1.0)
+    assert gear_blank_factor(2.0, 2.0) == gear_blank_factor(1.2, 2.0)
+    solid, webbed = (rate(sample_pair(), STEEL, LOAD, blank_factor=factor).stiffness for factor in (1.0, 0.8))
+    assert webbed.mesh_beta / solid.mesh_beta == pytest.approx(0.8, rel=EXACT)
+
+
+def test_low_load_and_material() -> None:
+    assert [low_load_factor(load) for load in (1600.0, 100.0)] == [1, 1]
+    assert low_load_factor(6.25) == pytest.approx(0.5, rel=EXACT)
+    assert [material_factor(modulus) for modulus in (190e3, 205e3, 216e3)] == [1, 1, 1]
+    assert material_factor(70e3) == pytest.approx(70 / 206, rel=EXACT)
+    light = rate(sample_pair(), STEEL, Load(torque=1.0, application_factor=2.0))
+    values = light.to_dict()
+    factor = (2 * light.tangential_force / 28 / 100) ** 0.25
+    assert values["low_load_factor"] == pytest.approx(factor, rel=EXACT)
+    for name in ("c_prime", "c_gamma_alpha", "c_gamma_beta"):
+        assert values[f"{name}_lowload"] == pytest.approx(values[name] * factor, rel=EXACT)
+
+
+def test_flank_factors() -> None:
+    assert contact_ratio_factor(1.6, 0.0) == pytest.approx(math.sqrt(0.8), rel=EXACT)
+    assert contact_ratio_factor(1.6, 0.5) == pytest.approx(math.sqrt(0.4 + 0.5 / 1.6), rel=EXACT)
+    assert contact_ratio_factor(1.6, 1.7) == pytest.approx(math.sqrt(1 / 1.6), rel=EXACT)
+    assert [contact_factor(1.1, overlap) for overlap in (0.0, 0.4, 1.0, 2.0)] == pytest.approx([1.1, 1.06, 1, 1], rel=EXACT)
+    assert contact_factor(0.9, 0.0) == 1
+    for helix in (-25.0, 25.0):
+        one, other = (helix_angle_factor(helix, edition) for edition in Edition)
+        assert one * other == pytest.approx(1, rel=EXACT)
+        assert one == pytest.approx(1 / math.sqrt(math.cos(math.radians(25))), rel=EXACT)
