@@ -13,10 +13,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from gearcad.batch.manifest import Manifest, Part, inputs_hash, publish, read_manifest
-from gearcad.batch.steps import Wanted, make_parts, part_of
+from gearcad.batch.steps import Step, Wanted, make_parts, part_of
 from gearcad.errors import GearcadError, OutputError, SpecError
 from gearcad.output import unwritable
 from gearcad.spec.table import Row
@@ -27,8 +27,8 @@ _HOPELESS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.ENOENT)
 """Errors of the target that every other row would meet too."""
 
 
-_WARNING = ("gear", "pinion", "wheel", "pair")
-"""Parts of data.json that have warnings."""
+_WARNING = ("gear", "pinion", "wheel", "pair", "check")
+"""What has warnings in its document."""
 
 
 class Status(Enum):
@@ -76,8 +76,8 @@ def make_row(task: Task) -> Record:
     try:
         _require_workspace(task)
         folder = task.folder / task.row.name
-        made, parts = _update(task, folder)
-        document = json.loads((folder / "data.json").read_text(encoding="utf-8"))
+        updates = [_update(task, folder, stage) for stage in task.wanted.stages]
+        document = _document(task, folder)
     except GearcadError as error:
         stop = isinstance(error, OutputError) and getattr(error.__cause__, "errno", None) in _HOPELESS
         # An error of the table says where it is; of a full disk or the like it does not matter.
@@ -90,9 +90,9 @@ def make_row(task: Task) -> Record:
     return Record(
         number=number,
         status=Status.OK,
-        warnings=tuple(f"{part}: {text}" for part in document if part in _WARNING for text in document[part]["warnings"]),
-        seconds=_since(began) if made else None,
-        files=tuple(file for part in parts for file in part.files),
+        warnings=tuple(f"{part}: {text}" for part in _WARNING for text in document.get(part, {}).get("warnings", ())),
+        seconds=_since(began) if any(update.made for update in updates) else None,
+        files=tuple(file for update in updates for part in update.parts for file in part.files),
         values=dict(_flat(document)),
     )
 
@@ -107,11 +107,31 @@ def _since(began: float) -> float:
     return round(time.perf_counter() - began, 4)
 
 
-def _update(task: Task, folder: Path) -> tuple[bool, list[Part]]:
-    """Whether anything was made now, and the row's parts, all of which are there now."""
+def _document(task: Task, folder: Path) -> dict[str, Any]:
+    """What data.json says, and the figures of check.json."""
+    document: dict[str, Any] = json.loads((folder / "data.json").read_text(encoding="utf-8"))
+    if Step.CHECK in task.wanted.steps:
+        check = json.loads((folder / "check.json").read_text(encoding="utf-8"))
+        document["check"] = {
+            "passed": check["passed"],
+            **check["summary"],
+            "rating": check["rating"],
+            "warnings": check["warnings"],
+        }
+    return document
+
+
+class _Update(NamedTuple):
+    """Whether anything was made now, and the parts of a stage, all of which are there now."""
+
+    made: bool
+    parts: list[Part]
+
+
+def _update(task: Task, folder: Path, wanted: dict[str, dict[str, Any]]) -> _Update:
+    """Make what is missing of the parts of one stage."""
     row = task.row
     inputs = inputs_hash({"name": row.name} | row.values)
-    wanted = task.wanted.parts
     before = read_manifest(folder)
     kept = _kept(before, inputs, folder)
     missing = [name for name, options in wanted.items() if task.fresh or name not in kept or kept[name].options != options]
@@ -122,7 +142,7 @@ def _update(task: Task, folder: Path) -> tuple[bool, list[Part]]:
             made = _parts_in(staging, wanted)
             publish(staging, folder, Manifest(inputs, kept | made), before)
         kept |= made
-    return bool(missing), [kept[name] for name in wanted]
+    return _Update(bool(missing), [kept[name] for name in wanted])
 
 
 @contextmanager

@@ -36,12 +36,16 @@ Progress = Callable[[str, int, int, int | None], None]
 
 @dataclass(frozen=True, kw_only=True)
 class Summary:
-    """How a run ended: its files, rows by status, one line for each failed row, and why it stopped early if it did."""
+    """How a run ended: its files, rows by status, one line for each failed row, and why it stopped early if it did.
+
+    `short` of the rows that are ok have a check with a gate that is not passed.
+    """
 
     results: tuple[Path, ...]
     ok: int
     failed: int
     not_run: int
+    short: int
     errors: tuple[str, ...]
     stopped: str = ""
 
@@ -152,9 +156,10 @@ class _Run:
     def summary(self, results: list[Path]) -> Summary:
         """What to tell the user."""
         states = dict.fromkeys(Status, 0)
-        errors = []
+        errors, short = [], 0
         for _, record in self.journal.results():
             states[record.status] += 1
+            short += record.values.get("check.passed") is False
             if record.error:
                 errors.append(record.error)
         return Summary(
@@ -162,6 +167,7 @@ class _Run:
             ok=states[Status.OK],
             failed=states[Status.FAILED],
             not_run=states[Status.NOT_RUN],
+            short=short,
             errors=tuple(errors),
             stopped=self.stopped,
         )

@@ -8,15 +8,17 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
+from gearcad.assess import assess
 from gearcad.build import DEFAULT_FORMATS, Format, build
+from gearcad.check.document import check_document
 from gearcad.errors import ParameterError, require_number
 from gearcad.output import json_text
 from gearcad.spec import Design
 
 __all__ = ["DATA", "Step", "Wanted", "make_parts"]
 
-DATA = "data"
-"""The part that is `data.json`; the other parts are the formats, under their suffixes."""
+DATA, CHECK = "data", "check"
+"""The parts that are `data.json` and `check.json`; the other parts are the formats, under their suffixes."""
 
 _FACETED = (Format.STL, Format.THREE_MF, Format.GLB)
 
@@ -26,6 +28,7 @@ class Step(Enum):
 
     DATA = "data"
     BUILD = "build"
+    CHECK = "check"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,18 +48,24 @@ class Wanted:
         require_number("chord_error", self.chord_error, "mm", above=0)
 
     @property
-    def parts(self) -> dict[str, dict[str, Any]]:
-        """Every part of a row and the options it depends on. Data is always one: the table of results needs it."""
+    def stages(self) -> tuple[dict[str, dict[str, Any]], ...]:
+        """Parts of a row and the options they depend on, by stage: one that fails leaves the stages before it.
+
+        Data is always a part: the table of results needs it.
+        """
         parts: dict[str, dict[str, Any]] = {DATA: {}}
         for kind in self.formats if Step.BUILD in self.steps else ():
             parts[kind.value] = {"chord_error": self.chord_error} if kind in _FACETED else {}
         if Format.STEP.value in parts:
             parts[Format.STEP.value] = {"bracket": self.bracket}
-        return parts
+        return (parts, {CHECK: {}}) if Step.CHECK in self.steps else (parts,)
 
 
 def make_parts(design: Design, parts: Iterable[str], wanted: Wanted, folder: Path) -> None:
-    """Make the named parts in an empty folder."""
+    """Make the named parts of one stage in an empty folder."""
+    if CHECK in parts:
+        (folder / "check.json").write_text(json_text(check_document(assess(design))), encoding="utf-8")
+        return
     formats = [Format(part) for part in parts if part != DATA]
     if formats:
         bracket = wanted.bracket and Format.STEP in formats and design.pair is not None
@@ -67,4 +76,4 @@ def make_parts(design: Design, parts: Iterable[str], wanted: Wanted, folder: Pat
 
 def part_of(file: str) -> str:
     """The part to which a file belongs."""
-    return DATA if file == "data.json" else file.rpartition(".")[2]
+    return {"data.json": DATA, "check.json": CHECK}.get(file, file.rpartition(".")[2])

@@ -33,28 +33,21 @@ def check(spec: Path, output: Path | None, model: str, as_json: bool, quiet: boo
 
     Writes check.json and report.html. Exit status 1 if a gate is not passed; [check] in SPEC sets body, torques and bands.
     """
+    from gearcad.assess import assess
     from gearcad.check.document import check_document
-    from gearcad.check.run import check_pair
     from gearcad.material import Material
     from gearcad.output import json_text, staged_files
     from gearcad.rating import rate
     from gearcad.report import write_report
     from gearcad.spec import read_spec
 
-    design = read_spec(spec)
-    if design.pair is None:
-        raise ParameterError("kind", design.kind.value, "must be a pair: a single gear has nothing to press against")
-    if design.load is None:
-        raise ParameterError(
-            "load.torque", None, "must be given in [load], in N·m on the pinion: without it there is no stress"
-        )
     if model == "3d":
         raise ParameterError("model", model, "must be 2d: the solid model is not there yet")
-    material = design.material or Material()
-    if design.pair.pinion.helix_angle and not as_json:
-        _print_rating(design, rate(design.pair, material, design.load))
+    design = read_spec(spec)
+    if design.pair is not None and design.load is not None and design.pair.pinion.helix_angle and not as_json:
+        _print_rating(design, rate(design.pair, design.material or Material(), design.load))
     with file_progress(shown=not quiet) as progress:
-        result = check_pair(design.pair, material, design.load, design.check, progress)
+        result = assess(design, progress)
     document = check_document(result)
     folder = output if output is not None else Path("output") / design.name
     with staged_files(folder) as staging:

@@ -22,7 +22,7 @@ __all__ = ["batch"]
 @click.argument("table", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/TABLE]")
 @click.option("-j", "--jobs", type=int, metavar="N", help="Processes at work.  [default: the cores]")
-@click.option("--do", "steps", default="build", show_default=True, help="Comma-separated list of data, build.")
+@click.option("--do", "steps", default="build", show_default=True, help="Comma-separated list of data, build, check.")
 @click.option(
     "--format", "formats", default="step,stl", show_default=True, help="Comma-separated list of step, stl, 3mf, glb, dxf, csv."
 )
@@ -88,7 +88,7 @@ def _report(summary: Summary, seconds: float, *, as_json: bool, quiet: bool) -> 
 
     results = [str(path) for path in summary.results]
     if as_json:
-        counts = {"ok": summary.ok, "failed": summary.failed, "not_run": summary.not_run}
+        counts = {"ok": summary.ok, "failed": summary.failed, "not_run": summary.not_run, "short": summary.short}
         document = {
             "kind": "batch",
             "gearcad": gearcad.__version__,
@@ -103,5 +103,6 @@ def _report(summary: Summary, seconds: float, *, as_json: bool, quiet: bool) -> 
         click.echo(f"Error: {line}", err=True)
     if not quiet:
         rest = f", {summary.not_run} not run" if summary.not_run else ""
+        rest += f", {summary.short} checks not passed" if summary.short else ""
         rate = (summary.ok + summary.failed) / seconds
         click.echo(f"{summary.ok} rows ok, {summary.failed} failed{rest} in {seconds:.1f} s ({rate:.3g} rows/s)", err=True)

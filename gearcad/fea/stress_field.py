@@ -148,7 +148,7 @@ def _strips(body: FlankCompliance, contact: PairContact, gear: int, points: Floa
     """Stresses (..., 3) - xx, yy, xy - at points of the tooth's frame (mm) by the pressures of its contact."""
     cells = contact.pair.cells
     touch = (contact.pair.pinion, contact.pair.wheel)[gear]
-    inward = body.flank.inward(touch)
+    inward = body.flank.inward(np.array(touch))
     up = np.array([-inward[1], inward[0]])  # along the flank, towards the tip
     away = points - involute_point(body.flank.gear, touch)
     places = (1, -1)[gear] * cells.place

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.check.run import CheckResult
-from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, draw_limit, legend_above, prepared
+from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, legend_above, prepared
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,12 +33,12 @@ def plot_contact_pressure(result: CheckResult, ax: Axes | None = None) -> Axes:
     lengths = np.array([contact.pair.pinion for contact in contacts])
     inside = np.array([contact.interior for contact in contacts])
     corner = np.array([contact.edge_distance < 0 for contact in contacts])
-    for name, words, style in (
-        ("hertz_pressure", "Hertz, under the load carried", {"color": SERIES[1], "linewidth": 3.5, "alpha": 0.55}),
-        ("peak_pressure", "finite elements", {"color": SERIES[0], "linewidth": 1.3}),
+    for name, words, colour, width in (
+        ("hertz_pressure", "Hertz, under the load carried", PALE, 3.5),
+        ("peak_pressure", "finite elements", SERIES[0], 1.3),
     ):
         values = np.array([getattr(contact, name) for contact in contacts])
-        axes.plot(lengths, np.where(inside, values, np.nan), label=words, **style)
+        axes.plot(lengths, np.where(inside, values, np.nan), color=colour, linewidth=width, label=words)
     axes.set_ylim(0, 1.12 * max(contact.peak_pressure for contact in contacts if contact.interior) if inside.any() else None)
     edge = ~inside & ~corner
     for places, words, marker in ((edge, "near an edge", "|"), (corner, "a corner touches", "x")):

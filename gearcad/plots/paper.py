@@ -9,13 +9,16 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["DARK", "GEARS", "MARKED", "SERIES", "draw_limit", "legend_above", "new_figure", "prepared", "short"]
+__all__ = ["DARK", "GEARS", "MARKED", "PALE", "SERIES", "draw_limit", "legend_above", "new_figure", "prepared", "short"]
 
 GEARS = (("pinion", "#0072b2", "o"), ("wheel", "#d55e00", "s"))
 """Name, colour and marker of the gears. Colours are those of Okabe and Ito, which the colour-blind can tell apart."""
 
 SERIES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#333333")
 DARK = "#333333"
+PALE = "#eaa873"
+"""A broad line under another one."""
+
 MARKED = "#999999"
 """Colour of lines that only mark a place."""
 
@@ -58,8 +61,12 @@ def draw_limit(axes: Axes, limit: float | tuple[float, float] | None) -> None:
 
 
 def short(value: float) -> str:
-    """A number with four digits that count, thousands apart, and no exponent where it can do without."""
+    """A number with four digits that count, or as many as it has; thousands apart, no exponent where it can do without."""
     if not 1e-4 <= abs(value) < 1e9:
         return f"{value:.4g}"
     places = 3 - math.floor(math.log10(abs(value)))
-    return f"{round(value, places):,.{max(places, 0)}f}".replace(",", "\u202f")
+    text = f"{round(value, places):.{max(places, 0)}f}"
+    if "." in text and math.isclose(float(text), value, rel_tol=1e-12):
+        text = text.rstrip("0").rstrip(".")
+    whole, point, rest = text.partition(".")
+    return f"{int(whole):,}".replace(",", "\u202f") + point + rest if abs(value) >= 10000 else text

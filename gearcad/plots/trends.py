@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.check.run import CheckResult
-from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, prepared, short
+from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, legend_above, prepared, short
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,7 +27,7 @@ def plot_sweep_pressure(result: CheckResult, ax: Axes | None = None) -> Axes:
     torques, pressures = _swept(result, "contact_pressure")
     fine = np.linspace(0, torques[-1], 100)
     words = "as the square root of the torque"
-    axes.plot(fine, pressures[-1] * np.sqrt(fine / torques[-1]), color=SERIES[1], linewidth=3, alpha=0.55, label=words)
+    axes.plot(fine, pressures[-1] * np.sqrt(fine / torques[-1]), color=PALE, linewidth=3.5, label=words)
     axes.plot(torques, pressures, "o", color=SERIES[0], label="finite elements")
     axes.set_ylim(bottom=0)
     axes.set_xlim(left=0)

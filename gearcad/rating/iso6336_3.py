@@ -236,7 +236,7 @@ def root_warnings(pair: GearPair, gear: Gear, rating: RootRating, owner: str) ->
     if not 1 <= rating.section.notch_parameter < 8:
         found.append(f"{owner} root: Y_S is stated for q_s from 1 to 8, here {rating.section.notch_parameter:.3g}")
     if (rim := rim_thickness_ratio(gear)) < 1.2:
-        said = "is below 0.5, which the standard asks to avoid" if rim <= 0.5 else "weakens the root (below 1.2)"
+        said = "is at most 0.5, which the standard asks to avoid" if rim <= 0.5 else "weakens the root (below 1.2)"
         found.append(f"{owner} rim: {rim:.3g} tooth heights under the root {said}; Y_B = {rating.rim_thickness_factor:.4g}")
     if (ratio := _virtual_contact_ratio(pair)) >= 2:
         found.append(f"{owner} root: Y_F assumes that one pair of teeth carries alone, but eps_alphan is {ratio:.4f}")

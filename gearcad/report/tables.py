@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from gearcad import symbols
 from gearcad.check.run import CheckResult
-from gearcad.plots.paper import short
 
 __all__ = ["Row", "gear_rows", "load_rows", "pair_rows", "rating_rows"]
 
@@ -20,6 +18,9 @@ _PAIR = (
     "centre_distance working_transverse_pressure_angle profile_shift_sum transverse_contact_ratio common_width.width"
     " circumferential_backlash"
 )
+
+_ROUNDING = 1e-9
+"""Below this a length or number is rounding."""
 
 
 class Row(NamedTuple):
@@ -54,7 +55,7 @@ def load_rows(result: CheckResult) -> list[Row]:
 def rating_rows(result: CheckResult) -> list[Row]:
     """The rating by symbols: values of the pair, then those of each gear."""
     values = result.rating.to_dict()
-    rows = [_row(symbol, values[key]) for key, symbol in symbols.RATING.items()]
+    rows = [_row(symbol, values[key]) for key, symbol in symbols.RATING.items() if key != "edition"]
     gears = (values["pinion"], values["wheel"])
     return rows + [_row(symbol, *(gear[key] for gear in gears)) for key, symbol in symbols.GEAR_RATING.items()]
 
@@ -69,8 +70,7 @@ def _text(value: Any) -> str:
         return " to ".join(_text(each) for each in value)
     if isinstance(value, bool) or not isinstance(value, int | float):
         return "-" if value is None else str(value)
-    # Dimensions keep their digits; what is computed keeps six.
-    return f"{value:.6g}" if math.isfinite(value) and abs(value) < 1e6 else short(value)
+    return f"{value:.6g}" if abs(value) > _ROUNDING else "0"
 
 
 def _flat(document: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gearcad import __version__
 from gearcad.check.comparison import Comparison, Role
@@ -12,6 +13,9 @@ from gearcad.plots.paper import short
 from gearcad.report.figures import make_figures
 from gearcad.report.reasons import root_reasons, stiffness_reasons
 from gearcad.report.tables import gear_rows, load_rows, pair_rows, rating_rows
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
 
 __all__ = ["report_html", "write_report"]
 
@@ -26,9 +30,16 @@ def report_html(result: CheckResult, design_name: str) -> str:
     from jinja2 import Environment, StrictUndefined
 
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=StrictUndefined)
-    environment.filters["short"] = short
+    environment.filters |= {"short": short, "indexed": _indexed}
     template = environment.from_string(_template().read_text(encoding="utf-8"))
     return template.render(name=design_name, version=__version__, result=result, **_sections(result))
+
+
+def _indexed(text: str) -> Markup:
+    """Symbols with their indices lowered: Y_F, F_t K_A/b."""
+    from markupsafe import Markup, escape
+
+    return Markup(re.sub(r"_([^\s*/,;)]+)", r"<sub>\1</sub>", str(escape(text))))
 
 
 def _template() -> Path:
@@ -63,18 +74,16 @@ def _sections(result: CheckResult) -> dict[str, Any]:
 
 def _row(comparison: Comparison) -> dict[str, str]:
     """A comparison as the tables have it; the verdict is a word, not only a colour."""
-    gate, limit = comparison.role is Role.GATE, comparison.tolerance is None
+    gate = comparison.role is Role.GATE
     word = ("passed" if gate else "in the band") if comparison.passed else ("NOT PASSED" if gate else "outside the band")
-    permitted = "at most the reference" if comparison.tolerance is None else f"± {100 * comparison.tolerance:g} %"
+    ratio = 100 * comparison.computed / comparison.reference
     return {
         "quantity": comparison.quantity,
         "computed": short(comparison.computed),
         "reference": short(comparison.reference),
         "unit": comparison.unit,
-        "permitted": permitted,
-        "deviation": f"{100 * comparison.computed / comparison.reference:.1f} % of it"
-        if limit
-        else f"{100 * comparison.deviation:+.2f} %",
+        "permitted": "at most" if comparison.tolerance is None else f"± {100 * comparison.tolerance:g} %",
+        "deviation": f"{ratio:.1f} % of it" if comparison.tolerance is None else f"{round(ratio - 100, 2) + 0.0:+.2f} %",
         "word": word,
         "style": "good" if comparison.passed else "bad" if gate else "aside",
         "source": comparison.source,

@@ -250,28 +250,34 @@ DEADLY = {
     "segfault-1": "killed its process (SIGSEGV)",
     "exit-1": "ended its process (exit status 3)",
     "kill-1": "killed its process (SIGKILL, perhaps for want of memory)",
-    "hang-1": "was stopped at its time limit of 2 s",
 }
 
 
 def test_row_that_takes_its_worker_with_it_costs_that_row_only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(run_module, "make_row", jobs.make_row_or_die)
-    names = ["a", "segfault-1", "b", "exit-1", "c", "kill-1", "hang-1", "d", "e"]
+    names = ["a", "segfault-1", "b", "exit-1", "c", "kill-1", "d", "e"]
     lines = ("name,teeth,normal_module,face_width", *(f"{name},{20 + n},1,5" for n, name in enumerate(names)))
-    summary = make(tmp_path, lines, time_limit=2.0)
+    summary = make(tmp_path, lines)
     results = read_results(tmp_path / "out")
     place = f"{tmp_path / 'table.csv'} row "
     expected = {name: f"{place}{2 + n} ({name}): {DEADLY[name]}" if name in DEADLY else "" for n, name in enumerate(names)}
     assert {line["name"]: line["error"] for line in results} == expected
     assert [line["status"] for line in results] == ["failed" if name in DEADLY else "ok" for name in names]
-    assert (summary.ok, summary.failed, summary.not_run) == (5, 4, 0)
+    assert (summary.ok, summary.failed, summary.not_run) == (5, 3, 0)
     assert list(summary.errors) == list(filter(None, expected.values()))
     assert sorted(path.name for path in (tmp_path / "out").iterdir() if path.is_dir()) == ["a", "b", "c", "d", "e"]
     monkeypatch.undo()
     again = make(tmp_path, lines)
-    assert (again.ok, again.failed) == (9, 0)
+    assert (again.ok, again.failed) == (8, 0)
     made = [line["name"] for line in read_results(tmp_path / "out") if line["seconds"]]
     assert made == list(DEADLY)
+
+
+def test_row_without_end_is_stopped_at_its_time_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(run_module, "make_row", jobs.make_row_or_die)
+    table = write_table(tmp_path / "table.csv", ("name,teeth,normal_module,face_width", "a,20,1,5", "hang-1,20,1,5"))
+    summary = run_table(table, tmp_path / "out", DATA, jobs=1, time_limit=5.0)  # far more than the first row takes
+    assert (summary.ok, summary.errors) == (1, (f"{table} row 3 (hang-1): was stopped at its time limit of 5 s",))
 
 
 def test_want_of_memory_fails_the_row(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,7 +13,7 @@ from gearcad import Gear, Material
 from gearcad.fea.brute import nodal_compliance
 from gearcad.fea.elasticity import Plane, PlaneElasticity
 from gearcad.fea.flamant import edge_displacement, flamant_displacement, flamant_traction
-from gearcad.fea.flank import FlankCompliance, flank_compliance, flank_of, involute_point
+from gearcad.fea.flank import FlankCompliance, flank_compliance, involute_point
 from gearcad.fea.ring import Cuts, assemble
 from gearcad.fea.root import Fillets
 from gearcad.meshing import MeshSizes, mesh_sector
@@ -135,7 +135,7 @@ def test_response_is_symmetric(solved: FlankCompliance) -> None:
     lengths = np.linspace(solved.loads[0], solved.loads[-1], 30)[1:-2]
     own = solved.response(0)(lengths, lengths)
     scale = np.abs(own).max()
-    assert np.abs(own - own.T).max() < 1e-3 * scale
+    assert np.abs(own - own.T).max() < 6e-4 * scale
     ahead, behind = (solved.response(tooth)(lengths, lengths) for tooth in (1, -1))
     assert np.abs(ahead - behind.T).max() < 1e-3 * np.abs(ahead).max()
 
@@ -170,8 +170,8 @@ def test_another_constant_of_the_logarithm_changes_nothing() -> None:
     # The edge's part is taken off at d in mm: its logarithm shifts the regular part by a constant.
     shift = 2 * math.log(200) / (math.pi * small.elasticity.modulus)
     whole = small.response(0)(lengths, lengths)
-    assert large.response(0)(200 * lengths, 200 * lengths) + shift == pytest.approx(whole, rel=1e-6)
-    assert large.response(1)(200 * lengths, 200 * lengths) == pytest.approx(small.response(1)(lengths, lengths), rel=1e-6)
+    assert large.response(0)(200 * lengths, 200 * lengths) - shift == pytest.approx(whole, rel=1e-5)
+    assert large.response(1)(200 * lengths, 200 * lengths) == pytest.approx(small.response(1)(lengths, lengths), rel=1e-5)
 
 
 # The root
@@ -183,7 +183,7 @@ def test_tension_below_the_load_and_compression_behind(solved: FlankCompliance) 
     load = [(0, float(solved.loads[-4]), 100.0)]
     tension, compression = fillets.greatest(Side.LEFT_FILLET, load), fillets.greatest(Side.RIGHT_FILLET, load)
     assert 1.05 < -compression.stress / tension.stress < 1.5
-    assert 25 < tension.tangent_angle < 60
+    assert 20 <= tension.tangent_angle < 60
     gear = solved.flank.gear
     assert gear.root_diameter / 2 <= tension.radius < gear.form_diameter / 2
 
@@ -194,13 +194,16 @@ def test_loads_on_two_teeth_superpose(solved: FlankCompliance) -> None:
     both = fillets.stresses(Side.LEFT_FILLET, loads)
     alone = sum(fillets.stresses(Side.LEFT_FILLET, [load]) for load in loads)
     assert both == pytest.approx(alone, rel=1e-12)
-    far = fillets.stresses(Side.LEFT_FILLET, loads[1:])
-    assert 0 < np.abs(far).max() < 0.25 * np.abs(both).max()
+    far, own = (fillets.stresses(Side.LEFT_FILLET, [(tooth, *loads[1][1:])]) for tooth in (1, 0))
+    assert 0.05 < np.abs(far).max() / np.abs(own).max() < 0.5
 
 
 def test_fillet_angles_run_from_the_flank_to_the_root(solved: FlankCompliance) -> None:
     for side in (Side.LEFT_FILLET, Side.RIGHT_FILLET):
         radii, angles = Fillets(solved).places(side)
         inwards = np.argsort(-radii)
-        assert angles.max() > 80
-        assert np.all(np.diff(angles[inwards]) > -1e-6)
+        # Where a tooth is undercut the fillet leans the other way at first.
+        upright = int(np.argmin(angles[inwards]))
+        assert np.all(np.diff(angles[inwards][: upright + 1]) < 0)
+        assert np.all(np.diff(angles[inwards][upright:]) > 0)
+        assert angles.min() < 30 < 60 < angles.max()

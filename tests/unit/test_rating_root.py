@@ -141,9 +141,8 @@ def test_refuses_teeth_without_a_section() -> None:
 
 
 def test_root_factors() -> None:
-    assert [helix_angle_factor(*given) for given in ((0, 0.0), (-24, 0.5), (45, 3.0))] == pytest.approx(
-        [1, 0.9, 0.75], rel=EXACT
-    )
+    helical = [helix_angle_factor(*given) for given in ((0, 0.0), (-24, 0.5), (45, 3.0))]
+    assert helical == pytest.approx([1, 0.9, 0.75], rel=EXACT)
     iso, din = Edition
     # The branches meet at 1.2, 2.05 and 2.5 as far as the standard's rounded numbers do.
     rims = [rim_thickness_factor(ratio, iso) for ratio in (5.0, 1.2, 1.2 - 1e-12, 0.8)]

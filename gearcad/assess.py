@@ -1,0 +1,22 @@
+"""Assess: the structural check of what a spec describes."""
+
+from __future__ import annotations
+
+from gearcad.check.run import CheckResult, Progress, check_pair
+from gearcad.errors import ParameterError
+from gearcad.material import Material
+from gearcad.spec.design import Design
+
+__all__ = ["assess"]
+
+
+def assess(design: Design, progress: Progress | None = None) -> CheckResult:
+    """Check the design's pair under its load, with the options of its [check].
+
+    Raises ParameterError for a design without pair or load, and what `check_pair` raises.
+    """
+    if design.pair is None:
+        raise ParameterError("kind", design.kind.value, "must be a pair: a single gear has nothing to press against")
+    if design.load is None:
+        raise ParameterError("load.torque", None, "must be given, in N·m on the pinion: without it there is no stress")
+    return check_pair(design.pair, design.material or Material(), design.load, design.check, progress)

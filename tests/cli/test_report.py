@@ -1,0 +1,122 @@
+"""The report of a check: complete, well-formed, self-contained, the same bytes every time, and deaf to nasty names."""
+
+import base64
+import re
+from dataclasses import replace
+
+import lxml.etree
+import lxml.html
+import pytest
+from support.checks import NASTY_NAME, small_check
+
+from gearcad.check.comparison import Role
+from gearcad.plots.paper import short
+from gearcad.report import report_html, write_report
+from gearcad.report.reasons import root_at_single_contact
+
+_PICTURES = 12
+
+
+@pytest.fixture(scope="module")
+def text():
+    return report_html(small_check(), NASTY_NAME)
+
+
+@pytest.fixture(scope="module")
+def document(text):
+    return lxml.html.document_fromstring(text)
+
+
+def test_is_well_formed(text):
+    # XML is stricter than HTML: every tag is closed, every sign escaped, every id there once.
+    root = lxml.etree.fromstring(text.removeprefix("<!DOCTYPE html>").strip().encode())
+    assert root.tag == "html"
+    ids = root.xpath("//@id")
+    assert len(ids) == len(set(ids)) == _PICTURES
+
+
+def test_nasty_names_stay_text(document, text):
+    assert document.xpath("//script") == []
+    assert "<script" not in text and "<b>tags" not in text
+    assert NASTY_NAME in document.xpath("string(//h1)")
+    assert NASTY_NAME in document.xpath("string(//title)")
+    assert document.xpath("//li[text()='a warning with <b>tags</b>']")
+
+
+def test_holds_every_comparison_with_its_verdict_in_words(document):
+    rows = [[cell.text_content() for cell in row] for row in document.xpath("//tr[@class]")]
+    wanted = sorted(small_check().comparisons, key=lambda each: each.role is not Role.GATE)
+    assert [row[0] for row in rows] == [each.quantity for each in wanted]
+    for row, each in zip(rows, wanted, strict=True):
+        assert row[1:4] == [short(each.computed), short(each.reference), each.unit]
+        words = ("passed", "NOT PASSED") if each.role is Role.GATE else ("in the band", "outside the band")
+        assert row[6] == words[not each.passed]
+        assert row[7].startswith(each.source) and row[7].endswith(each.note)
+
+
+def test_verdict_comes_first_and_names_what_failed(document):
+    verdict = document.xpath("//div[contains(@class, 'verdict')]")[0]
+    assert verdict.get("class") == "verdict bad" and "NOT passed" in verdict.text_content()
+    failed = [each.quantity for each in small_check().comparisons if each.role is Role.GATE and not each.passed]
+    assert failed == ["contact pressure"]
+    assert verdict.xpath(".//ul")[0].text_content().strip().startswith("contact pressure: ")
+
+
+def test_passes_where_every_gate_does():
+    inside = tuple(each for each in small_check().comparisons if each.quantity != "contact pressure")
+    verdict = lxml.html.document_fromstring(report_html(replace(small_check(), comparisons=inside), "good")).xpath("//div")[0]
+    assert verdict.get("class") == "verdict good"
+    assert verdict.text_content().strip().startswith("Passed.")
+
+
+def test_needs_nothing_from_elsewhere(document, text):
+    assert document.xpath("//link | //iframe | //object | //embed | //a/@href") == []
+    addresses = document.xpath("//@src")
+    assert len(addresses) == _PICTURES
+    for address in addresses:
+        head, _, data = address.partition(";base64,")
+        content = base64.b64decode(data, validate=True)
+        if head == "data:image/svg+xml":
+            lxml.etree.fromstring(content)
+            assert not re.search(rb"(href|src)=\"(?!#)", content)
+        else:
+            assert head == "data:image/png" and content.startswith(b"\x89PNG")
+    assert "@import" not in text and "url(" not in text
+
+
+def test_same_result_same_bytes(tmp_path, text):
+    path = tmp_path / "report.html"
+    write_report(small_check(), NASTY_NAME, path)
+    assert path.read_bytes() == text.encode()
+    assert [file.name for file in tmp_path.iterdir()] == ["report.html"]
+
+
+def test_says_how_the_bodies_are_held(document):
+    for gear, body in small_check().bodies.items():
+        assert document.xpath(f"//tr[td[1]='{gear}' and td[2]='{body}']")
+
+
+def test_holds_the_rating_under_its_symbols(document):
+    rating = small_check().rating.to_dict()
+    (row,) = document.xpath("//tr[td[2]='YF' and td[2]/sub='F']")
+    assert [cell.text for cell in row][2:4] == [f"{rating[gear]['Y_F']:.6g}" for gear in ("pinion", "wheel")]
+    (row,) = document.xpath("//tr[td[2]='ZH']")
+    assert row[2].text == f"{rating['Z_H']:.6g}"
+
+
+def test_reasons_separate_sharing_width_and_fillet(document):
+    result = small_check()
+    pinion, wheel = (item.text_content() for item in document.xpath("//h3[text()='Root stress']/following-sibling::ul[1]/li"))
+    for gear, reason in enumerate((pinion, wheel)):
+        alone, found = root_at_single_contact(result, gear), result.summary.root_tension[gear]
+        assert f"finite elements have {short(alone)} MPa" in reason
+        assert f"sharing the load makes {100 * (found / alone - 1):+.1f} %" in reason
+    # Only the pinion is wider than the common width.
+    assert "ISO spreads the load over b = 16 mm of the pinion" in pinion
+    assert "ISO spreads" not in wheel
+
+
+def test_a_single_torque_shows_no_trend():
+    captions = report_html(replace(small_check(), sweep=small_check().sweep[:1]), "one")
+    assert "Only 302 N·m was asked for" in captions
+    assert "to the power" not in captions

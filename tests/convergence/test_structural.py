@@ -1,0 +1,159 @@
+"""Rates at which the finite elements and the cells converge, and the hybrid against brute force on the same bodies.
+
+The pair is that of the Alm thesis, z 18/161, m 1.5, 12.7 N·m on 10 mm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gearcad.fea.flexible_pair as flexible_pairs
+from gearcad import Gear, GearPair, Material
+from gearcad.check.summary import Summary, summarise
+from gearcad.fea.brute import nodal_compliance
+from gearcad.fea.cycle import Cycle, run_cycle
+from gearcad.fea.elasticity import PlaneElasticity
+from gearcad.fea.flank import flank_compliance
+from gearcad.fea.flexible_pair import BodyModel, flexible_pair
+from gearcad.fea.ring import Cuts, assemble
+from gearcad.meshing import MeshSizes, mesh_sector
+
+TORQUE = 12.7
+THREE_TEETH = BodyModel(teeth=3)
+SHORTENED = -0.0104
+
+
+def thesis_pair() -> GearPair:
+    return GearPair(
+        pinion=Gear(teeth=18, normal_module=1.5, face_width=10, profile_shift=0.3422, tip_alteration=SHORTENED),
+        wheel=Gear(teeth=161, normal_module=1.5, face_width=10, profile_shift=0.1682, tip_alteration=SHORTENED),
+        centre_distance=135.0,
+    )
+
+
+def cycle(
+    body: BodyModel, positions: int, sizes: MeshSizes | None = None, solve: Callable[..., Any] = flank_compliance
+) -> Cycle:
+    model = flexible_pair(thesis_pair(), Material(), body=body, sizes=sizes, solve=solve)
+    return run_cycle(model, TORQUE, positions)
+
+
+def summary(of: Cycle) -> Summary:
+    return summarise(of, 0.0)
+
+
+def brute_sizes(flank: float) -> MeshSizes:
+    """Flank edges in modules; all else as the hybrid has it."""
+    return replace(MeshSizes(), flank=flank, corner=min(flank, MeshSizes().corner))
+
+
+def assert_agree(hybrid: Cycle, brute: Cycle, *, stiffness: float, root: float, error: float) -> None:
+    """Mean stiffness, root stress of both gears on both sides, and the transmission error's range."""
+    one, other = summary(hybrid), summary(brute)
+    assert one.mesh_stiffness_mean == pytest.approx(other.mesh_stiffness_mean, rel=stiffness)
+    assert one.root_tension == pytest.approx(other.root_tension, rel=root)
+    assert one.root_compression == pytest.approx(other.root_compression, rel=2 * root)
+    assert one.transmission_error_peak_to_peak == pytest.approx(other.transmission_error_peak_to_peak, rel=error)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("body", [BodyModel(), THREE_TEETH], ids=["full rings", "3 teeth"])
+def test_hybrid_is_the_converged_brute_force(body: BodyModel) -> None:
+    """Flank edges of 8 um, a ninth of the half width: 0.1 % of stiffness, 0.5 % of root stress and of transmission error.
+
+    Position by position too, where no corner touches: there both depend on the mesh of the corner.
+    """
+    hybrid, brute = cycle(body, 24), cycle(body, 24, brute_sizes(0.0053), nodal_compliance)
+    assert_agree(hybrid, brute, stiffness=1.2e-3, root=5e-3, error=5e-3)
+    inside = [
+        [
+            (one.approach, one.tension[0].stress, one.tension[1].stress),
+            (other.approach, *(each.stress for each in other.tension)),
+        ]
+        for one, other in zip(hybrid.positions, brute.positions, strict=True)
+        if all(contact.interior for contact in one.contacts)
+    ]
+    assert len(inside) > 10
+    ours, theirs = np.array(inside).transpose(1, 0, 2)
+    assert ours[:, 0] == pytest.approx(theirs[:, 0], rel=1.5e-3)
+    assert ours[:, 1:] == pytest.approx(theirs[:, 1:], rel=3e-3)
+
+
+def test_hybrid_is_near_a_coarser_brute_force() -> None:
+    """Flank edges of 18 um, a quarter of the half width: its own error is 0.1 % of stiffness, 1 % of the range."""
+    assert_agree(
+        cycle(THREE_TEETH, 8),
+        cycle(THREE_TEETH, 8, brute_sizes(0.012), nodal_compliance),
+        stiffness=3e-3,
+        root=1e-2,
+        error=1.5e-2,
+    )
+
+
+# Orders of the finite elements
+
+
+@cache
+def refined(factor: float) -> tuple[float, float, float]:
+    found = summary(cycle(THREE_TEETH, 6, MeshSizes().refined(factor)))
+    return found.mesh_stiffness_mean, found.root_tension[0], found.root_tension[1]
+
+
+def test_default_mesh_is_within_its_error_of_a_very_fine_one() -> None:
+    """Against four times finer edges: 0.1 % of stiffness, 0.3 % of root stress."""
+    default, finest = refined(1.0), refined(4.0)
+    assert default[0] == pytest.approx(finest[0], rel=1e-3)
+    assert default[1:] == pytest.approx(finest[1:], rel=3e-3)
+
+
+def test_errors_fall_with_the_mesh() -> None:
+    """From twice as coarse to twice as fine: the root stress, of order 2, falls by far more than half."""
+    finest = np.array(refined(4.0))
+    errors = np.array([np.abs(np.array(refined(factor)) / finest - 1) for factor in (0.5, 1.0, 2.0)])
+    assert np.all(errors[2] < 0.5 * errors[0] + 1e-4)
+    assert errors.max() < 0.01
+
+
+def energy(sizes: MeshSizes) -> float:
+    """Compliance of a load in the middle of the flank of z 18 against a load at another place: smooth, nothing singular."""
+    gear = thesis_pair().pinion
+    radius = gear.root_diameter / 2 - 4 * gear.normal_module
+    steel = PlaneElasticity(Material())
+    fine = mesh_sector(gear, radius, sizes)
+    ring = assemble(fine, fine, gear.teeth, 1, steel, 3, Cuts.FIXED)
+    body = flank_compliance(gear, ring, steel)
+    place = np.array([0.5 * (body.loads[0] + body.loads[-1])])
+    return float(body.response(1)(place, place)[0, 0])
+
+
+def test_order_of_a_compliance() -> None:
+    """One tooth's flank under a load on the next, all edges halved twice: the order that quadratic elements have, less what
+    the corners of cuts and hub leave of it. Reference: eight times finer than the first."""
+    edges = MeshSizes(flank=0.4, corner=0.2, fillet=0.3, outline=0.5, cut=0.4, rim=1.5)
+    values = np.array([energy(edges.refined(factor)) for factor in (1, 2, 4, 8)])
+    errors = np.abs(values[:3] / values[3] - 1)
+    orders = np.log2(errors[:-1] / errors[1:])
+    assert errors[2] < 1e-3
+    assert orders.mean() > 1.3
+
+
+# Cells of contact
+
+
+def test_cells_of_contact(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Twice and four times as many cells change the approach by less than a ten thousandth."""
+    model = flexible_pair(thesis_pair(), Material(), body=THREE_TEETH)
+    angles = model.roll_angles(5)
+    approaches = []
+    for cells in (33, 66, 132, 264):
+        monkeypatch.setattr(flexible_pairs, "_CELLS", cells)
+        approaches.append([model.solve(float(angle), TORQUE).approach for angle in angles])
+    errors = np.abs(np.array(approaches[:3]) / approaches[3] - 1).max(axis=1)
+    assert errors[1] < 2e-4
+    assert np.log2(errors[0] / errors[2]) / 2 > 0.8

@@ -1,0 +1,188 @@
+"""The structural check against trials of another program, against laws of similarity, and against itself mirrored.
+
+The trials: z 18/161, m 1.5, b 10, 12.7 N·m, an earlier program of the same method, coarser, with sectors for bodies.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gearcad import BasicRack, Body, Gear, GearPair, Material
+from gearcad.check.summary import Summary, summarise
+from gearcad.fea.cycle import Cycle, run_cycle
+from gearcad.fea.elasticity import Plane
+from gearcad.fea.flexible_pair import BodyModel, flexible_pair
+from gearcad.fea.ring import Cuts
+
+TORQUE = 12.7
+TRIAL = 0.015
+"""The trial's own mesh error; any other body differs by more."""
+
+SAME = 2e-4
+"""What another triangulation of the same section changes."""
+
+SHORTENED = -0.0104
+
+
+def thesis_pair() -> GearPair:
+    """The first stage of the Alm thesis, tips shortened as the centre distance asks."""
+    return GearPair(
+        pinion=Gear(teeth=18, normal_module=1.5, face_width=10, profile_shift=0.3422, tip_alteration=SHORTENED),
+        wheel=Gear(teeth=161, normal_module=1.5, face_width=10, profile_shift=0.1682, tip_alteration=SHORTENED),
+        centre_distance=135.0,
+    )
+
+
+def clamped(pair: GearPair, depth: float) -> BodyModel:
+    """Full rings held `depth` modules below the root."""
+    inner = [gear.root_diameter - 2 * depth * gear.normal_module for gear in (pair.pinion, pair.wheel)]
+    return BodyModel(inner_diameters=(inner[0], inner[1]))
+
+
+@cache
+def cycle(body: BodyModel | None = None, plane: Plane = Plane.STRAIN, positions: int = 30) -> Cycle:
+    return run_cycle(flexible_pair(thesis_pair(), Material(), plane=plane, body=body), TORQUE, positions)
+
+
+def summary(of: Cycle) -> Summary:
+    return summarise(of, 0.0)
+
+
+def test_full_rings() -> None:
+    """224.8 N/um over b = 10, and root stresses of 150.9 and 157.6 MPa."""
+    found = summary(cycle())
+    assert 10 * found.mesh_stiffness_mean == pytest.approx(224.8, rel=TRIAL)
+    assert found.root_tension == pytest.approx((150.9, 157.6), rel=TRIAL)
+
+
+@pytest.mark.parametrize(
+    ("teeth", "cuts", "change"),
+    [
+        (3, Cuts.FREE, -0.37),
+        (3, Cuts.FIXED, 0.19),
+        (3, Cuts.SLIDING, 0.19),
+        (5, Cuts.FREE, -0.13),
+        (5, Cuts.FIXED, 0.09),
+    ],
+)
+def test_what_the_body_does_to_the_stiffness(teeth: int, cuts: Cuts, change: float) -> None:
+    """The trial's table, in per cent of the full rings; root stresses stay within 2 per cent."""
+    whole, part = summary(cycle()), summary(cycle(BodyModel(teeth=teeth, cuts=cuts)))
+    assert part.mesh_stiffness_mean / whole.mesh_stiffness_mean - 1 == pytest.approx(change, abs=0.015)
+    assert part.root_tension == pytest.approx(whole.root_tension, rel=0.025)
+
+
+@pytest.mark.parametrize(
+    ("plane", "mean", "largest", "smallest"), [(Plane.STRAIN, 323, 377, 226), (Plane.STRESS, 300, 351, 210)]
+)
+def test_bodies_clamped_below_the_root(plane: Plane, mean: float, largest: float, smallest: float) -> None:
+    """Alm's bodies: 323/377/226 N/um in plane strain, 300/351/210 in plane stress: mean, largest, and of a single pair.
+
+    The last is the smallest of the cycle, next to the pitch point; the stiffest place of a pair alone has 233 and 216.
+    """
+    body = clamped(thesis_pair(), 0.8)
+    values = 10 * cycle(body, plane, 60).values("stiffness")
+    assert values.mean() == pytest.approx(mean, rel=TRIAL)
+    assert values.max() == pytest.approx(largest, rel=TRIAL)
+    assert values.min() == pytest.approx(smallest, rel=TRIAL)
+
+
+# Laws that hold whatever the numbers are
+
+
+def small_pair(**changes: Any) -> GearPair:
+    shape: dict[str, Any] = {"normal_module": 2.0, "face_width": 10.0, **changes}
+    return GearPair(pinion=Gear(teeth=17, profile_shift=0.2, **shape), wheel=Gear(teeth=29, profile_shift=-0.1, **shape))
+
+
+def figures(pair: GearPair, torque: float, material: Material | None = None, sense: int = 1) -> Any:
+    """Stiffness, root stresses, pressure and half width at the pitch point: what must not depend on who is who."""
+    model = flexible_pair(pair, material or Material(), body=BodyModel(teeth=5))
+    found = summary(run_cycle(model, torque, 12))
+    return np.array(
+        [
+            found.mesh_stiffness_mean,
+            found.mesh_stiffness_max,
+            found.transmission_error_peak_to_peak,
+            found.contact_pressure_pitch_point,
+            found.half_width_pitch_point,
+            *found.root_tension[::sense],
+            *found.root_compression[::sense],
+        ]
+    )
+
+
+def test_either_gear_may_be_the_pinion() -> None:
+    pair = small_pair()
+    torque = 100.0
+    other = GearPair(pinion=pair.wheel, wheel=pair.pinion)
+    exchanged = torque * pair.wheel.teeth / pair.pinion.teeth
+    assert figures(other, exchanged, sense=-1) == pytest.approx(figures(pair, torque), rel=SAME)
+
+
+def test_size_does_not_matter() -> None:
+    """All lengths by 10 and the torque by 1000: the same stresses, the same stiffness per width, ten times the width."""
+    small, large = figures(small_pair(), 100.0), figures(small_pair(normal_module=20.0, face_width=100.0), 100_000.0)
+    small[[2, 4]] *= 10
+    assert large == pytest.approx(small, rel=SAME)
+
+
+def test_width_only_divides_the_load() -> None:
+    assert figures(small_pair(face_width=40.0), 400.0) == pytest.approx(figures(small_pair(), 100.0), rel=1e-9)
+
+
+def test_twice_the_modulus_under_twice_the_torque() -> None:
+    """Contact is not linear, but this is a law: twice the stresses, the same deformations, so twice the stiffness."""
+    soft, hard = figures(small_pair(), 100.0), figures(small_pair(), 200.0, Material(youngs_modulus=412_000))
+    soft[[0, 1, 3, 5, 6, 7, 8]] *= 2
+    assert hard == pytest.approx(soft, rel=1e-6)
+
+
+def test_stiffness_grows_with_the_torque_by_hertz_logarithm_only() -> None:
+    """Inside the single pair's stretch: the approach over the force falls by (2/(pi E*)) ln sqrt(2) per doubling."""
+    model = flexible_pair(small_pair(), Material(), body=BodyModel(teeth=5))
+    path = model.pair.path_of_contact
+    angle = float(np.degrees(((path.B + path.D) / 2 - path.C) / model.base_radius))
+    flexibility = [model.solve(angle, torque, single=True).approach / model.force(torque) for torque in (50.0, 100.0, 200.0)]
+    expected = -np.log(2) / (np.pi * model.modulus)
+    assert np.diff(flexibility) == pytest.approx([expected] * 2, rel=0.02)
+
+
+def test_contact_is_that_of_two_cylinders_inside() -> None:
+    """Every interior contact of the cycle, both figures: well inside the gates of 1 %."""
+    contacts = [contact for _, contact in cycle().interior_contacts]
+    assert len(contacts) > 30
+    pressure = np.array([contact.peak_pressure / contact.hertz_pressure for contact in contacts])
+    width = np.array([contact.half_width / contact.hertz_half_width for contact in contacts])
+    assert pressure == pytest.approx(1, abs=0.005)
+    assert width == pytest.approx(1, abs=0.006)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"normal_module": 0.1, "face_width": 1.0},
+        {"helix_angle": 28.0},
+        {"rack": BasicRack(root_radius="full")},
+        {"body": Body(tip_chamfer=0.1)},
+        {"body": Body(bore=24.0)},
+        {"body": Body(bore=3.0)},
+    ],
+    ids=["small", "helical section", "full radius", "tip chamfer", "thin rim", "small bore"],
+)
+def test_any_pair_carries_its_torque(changes: dict[str, Any]) -> None:
+    shape = {key: value for key, value in changes.items() if key != "helix_angle"}
+    pair = small_pair(**shape)
+    if helix := changes.get("helix_angle"):
+        pair = GearPair(pinion=replace(pair.pinion, helix_angle=helix), wheel=replace(pair.wheel, helix_angle=-helix))
+    torque = 100.0 * (pair.pinion.normal_module / 2) ** 2 * pair.pinion.face_width / 10
+    model = flexible_pair(pair, Material())
+    for gear, body in enumerate((model.pinion, model.wheel)):
+        for position in run_cycle(model, torque, 6).positions:
+            reaction = sum(body.hub_torque(contact.centre(gear)) * contact.force for contact in position.contacts)
+            assert reaction == pytest.approx(model.force(torque) * body.flank.base_radius, rel=1e-3)

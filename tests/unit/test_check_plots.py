@@ -1,0 +1,234 @@
+"""Pictures of a check draw what its numbers are; the stress field is that of the elements and of the pressures."""
+
+import math
+
+import numpy as np
+import pytest
+from support.checks import small_check
+
+from gearcad.fea.stress_field import contact_frame, tooth_field
+from gearcad.meshing.outline import Side
+from gearcad.plots.check import (
+    plot_contact_pressure,
+    plot_load_share,
+    plot_mesh_stiffness,
+    plot_root_stress,
+    plot_transmission_error,
+)
+from gearcad.plots.paper import new_figure, short
+from gearcad.plots.stresses import (
+    depth_stresses,
+    hertz_contact,
+    plot_contact_zone,
+    plot_depth_profile,
+    plot_fillets,
+    plot_stress_field,
+    worst_fields,
+)
+from gearcad.plots.trends import plot_convergence, plot_sweep_pressure, plot_sweep_stiffness
+
+_ALL = (
+    plot_contact_pressure,
+    plot_load_share,
+    plot_mesh_stiffness,
+    plot_transmission_error,
+    plot_root_stress,
+    plot_stress_field,
+    plot_contact_zone,
+    plot_fillets,
+    plot_depth_profile,
+    plot_sweep_pressure,
+    plot_sweep_stiffness,
+    plot_convergence,
+)
+
+_UNIAXIAL = math.sqrt(1 - 0.3 + 0.3**2)
+"""Von Mises stress of a free surface in plane strain, over its only stress in the plane, for nu = 0.3."""
+
+_FILLET = 0.01
+"""The field averages at nodes what `Fillets` takes at points between them: 0.5 % on this mesh, half of that on a finer one."""
+
+_PRESSURE_CELLS = 0.005
+"""Cells of constant pressure against an ellipse: 0.2 % in the pressure; a wrong sign or axis changes a stress by tens of %."""
+
+
+def line(axes, label):
+    """Data of the line whose label begins like that."""
+    (found,) = [each for each in axes.lines if str(each.get_label()).startswith(label)]
+    return np.asarray(found.get_xdata(), float), np.asarray(found.get_ydata(), float)
+
+
+@pytest.mark.parametrize("draw", _ALL)
+def test_given_axes_are_used_and_axes_say_their_unit(draw):
+    axes = new_figure().subplots()
+    assert draw(small_check(), axes) is axes
+    for label in (axes.get_xlabel(), axes.get_ylabel()):
+        assert any(
+            label.endswith(unit) for unit in (" mm", " MPa", " °", " µm", "µm)", " %", " N·m", "load", "pitch point", ")")
+        )
+
+
+def test_pressure_is_drawn_inside_the_flanks_only():
+    axes = plot_contact_pressure(small_check())
+    places, pressures = line(axes, "finite elements")
+    inside = {contact.pair.pinion: contact for _, contact in small_check().cycle.interior_contacts}
+    assert set(inside) <= set(places[~np.isnan(pressures)])
+    every = {c.pair.pinion: c for position in small_check().cycle.positions for c in position.contacts}
+    assert list(places) == sorted(every)
+    for place, pressure, hertz in zip(places, pressures, line(axes, "Hertz")[1], strict=True):
+        contact = every[place]
+        if contact.interior:
+            assert (pressure, hertz) == (contact.peak_pressure, contact.hertz_pressure)
+        else:
+            assert math.isnan(pressure) and math.isnan(hertz)
+    corners = [place for place, contact in every.items() if contact.edge_distance < 0]
+    assert sorted(corners) == list(line(axes, "a corner touches")[0]) and corners
+
+
+def test_share_of_every_contact():
+    places, shares = line(plot_load_share(small_check()), "finite elements")
+    every = {c.pair.pinion: c.share for position in small_check().cycle.positions for c in position.contacts}
+    assert dict(zip(places, shares, strict=True)) == every
+
+
+def test_path_is_marked_where_it_is():
+    axes = plot_load_share(small_check())
+    path = small_check().pair.path_of_contact._asdict()
+    assert {text.get_text().strip(): text.get_position()[0] for text in axes.texts} == path
+
+
+def test_stiffness_and_its_references():
+    result, axes = small_check(), plot_mesh_stiffness(small_check())
+    angles, stiffness = line(axes, "mesh stiffness")
+    assert list(angles) == [position.roll_angle for position in result.cycle.positions]
+    assert list(stiffness) == [position.stiffness for position in result.cycle.positions]
+    for label, value in (
+        ("its mean", result.summary.mesh_stiffness_mean),
+        (r"$c_{\gamma", result.rating.stiffness.mesh_alpha),
+        ("one pair", result.summary.single_stiffness),
+        ("$c'$", result.rating.stiffness.single),
+    ):
+        assert set(line(axes, label)[1]) == {value}
+
+
+def test_transmission_error_and_its_parts():
+    result, axes = small_check(), plot_transmission_error(small_check())
+    assert list(line(axes, "transmission")[1]) == [1000 * position.approach for position in result.cycle.positions]
+    for gear, name in enumerate(("pinion", "wheel")):
+        wanted = [1000 * position.approach_parts[gear] for position in result.cycle.positions]
+        assert list(line(axes, f"part of the {name}")[1]) == wanted
+
+
+def test_root_stress_of_both_gears():
+    result, axes = small_check(), plot_root_stress(small_check())
+    for gear, name in enumerate(("pinion", "wheel")):
+        for kind in ("tension", "compression"):
+            wanted = [getattr(position, kind)[gear].stress for position in result.cycle.positions]
+            assert list(line(axes, f"{name}, {kind}")[1]) == wanted
+        assert set(line(axes, rf"{name}, $\sigma")[1]) == {result.rating.root_stresses[gear]}
+    assert set(line(axes, "limit")[1]) == {430.0}
+
+
+def test_fillets_peak_where_the_check_says():
+    axes = plot_fillets(small_check())
+    for gear, name in enumerate(("pinion", "wheel")):
+        angles, stresses = line(axes, f"{name}, tension")
+        (angle,), (stress,) = line(axes, f"{name}, greatest")
+        assert stress == small_check().summary.root_tension[gear] == stresses.max()
+        assert angle == angles[np.argmax(stresses)]
+
+
+def test_depth_profile_is_hertz_below_an_ellipse_of_pressure():
+    result = small_check()
+    _, contact = result.cycle.worst_contact
+    depth = contact.hertz_half_width * np.array([0.05, 0.3, 0.7, 1.5, 4.0])
+    found, hertz = depth_stresses(result, contact, depth), hertz_contact(result, contact).stresses(depth)
+    for name in ("sigma_x", "sigma_y", "sigma_z", "largest_shear", "von_mises"):
+        wanted = getattr(hertz, name)
+        assert getattr(found, name) == pytest.approx(wanted, abs=_PRESSURE_CELLS * contact.hertz_pressure)
+    drawn = line(plot_depth_profile(result), "von Mises")
+    assert drawn[1] == pytest.approx(depth_stresses(result, contact, drawn[0]).von_mises)
+
+
+def test_sweep_is_drawn_in_the_order_of_torques():
+    torques, pressures = line(plot_sweep_pressure(small_check()), "finite elements")
+    assert (list(torques), list(pressures)) == ([75.5, 302.0], [850.0, 1700.0])
+    fine, root = line(plot_sweep_pressure(small_check()), "as the square root")
+    assert np.interp(75.5, fine, root) == pytest.approx(850.0, rel=1e-3)  # 1700 sqrt(1/4), between points
+    axes = plot_sweep_stiffness(small_check())
+    assert line(axes, "mesh")[1] == pytest.approx([100 * 14.5 / 15.2, 100])
+    assert line(axes, r"$M/\varphi$, wheel")[1] == pytest.approx([100 * 9.2 / 9.8, 100])
+
+
+def test_convergence_is_told_from_the_finest_mesh():
+    factors, difference = line(plot_convergence(small_check()), "root tension, pinion")
+    assert list(factors) == [0.5, 1.0, 2.0]
+    assert difference == pytest.approx([100 * (380 / 372 - 1), 100 * (374 / 372 - 1), 0])
+
+
+# ---------------------------------------------------------------------- the field
+
+
+@pytest.mark.parametrize("gear", [0, 1])
+def test_field_has_the_stress_of_the_fillets(gear):
+    cycle = small_check().cycle
+    position = cycle.worst_position(gear)
+    body, tooth = (cycle.model.pinion, cycle.model.wheel)[gear], max(position.contacts, key=lambda each: each.force).pair.tooth
+    field = tooth_field(cycle, position, gear, tooth)
+    stresses = {tuple(point): stress for point, stress in zip(field.points.round(9), field.von_mises, strict=True)}
+    mesh, start = body.ring.sector.mesh, 0
+    for side, nodes in mesh.sides.items():
+        part = field.outline[start : start + len(nodes)]
+        if side in (Side.LEFT_FILLET, Side.RIGHT_FILLET):
+            found = max(stresses[tuple(point)] for point in part.round(9))
+            wanted = (position.tension if side is Side.LEFT_FILLET else position.compression)[gear].stress
+            assert found == pytest.approx(_UNIAXIAL * abs(wanted), rel=_FILLET)
+        start += len(nodes)
+
+
+def test_flanks_touch_where_the_contact_is():
+    cycle = small_check().cycle
+    position, contact = cycle.worst_contact
+    centre, frame = contact_frame(cycle, contact)
+    assert frame.T @ frame == pytest.approx(np.eye(2), abs=1e-12)
+    for gear, side in ((0, -1), (1, 1)):
+        field = tooth_field(cycle, position, gear, contact.pair.tooth)
+        away = (field.points - centre) @ frame
+        close = np.abs(away[:, 0]) < contact.hertz_half_width
+        # Both bodies end at the tangent, but for the curvature over a half width, and lie on their own side of it.
+        sag = contact.hertz_half_width**2 / contact.pair.radius
+        assert abs((side * away[close, 1]).min()) < sag
+        assert (side * away[:, 1])[np.abs(away[:, 0]) < 1.0].min() > -sag
+
+
+def test_field_resolves_the_contact():
+    result = small_check()
+    _, contact = result.cycle.worst_contact
+    alone = result.summary.von_mises
+    for gear, fields in enumerate(np.array_split(np.array(worst_fields(result), dtype=object), 2)):
+        middle = fields[1]
+        deepest = middle.points[np.argmax(middle.von_mises)]
+        centre, frame = contact_frame(result.cycle, contact)
+        across, into = (deepest - centre) @ frame
+        assert (1, -1)[gear] * into < 0  # the pinion lies before the tangent, the wheel behind
+        assert abs(into) == pytest.approx(0.7 * contact.half_width, rel=0.2)  # Hertz: 0.704 a
+        assert abs(across) < 0.3 * contact.half_width
+        # The tooth adds some tension along the flank: 6 % of von Mises here, and the same on a finer mesh within 0.5 %.
+        assert middle.von_mises.max() == pytest.approx(1.06 * alone, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (12.7, "12.7"),
+        (0.034316, "0.03432"),
+        (558796.0, "558\u202f800"),
+        (1.0, "1"),
+        (30.200000000000003, "30.2"),
+        (0, "0"),
+        (-181.52, "-181.5"),
+        (9999.96, "10000"),
+    ],
+)
+def test_short_numbers(value, text):
+    assert short(value) == text

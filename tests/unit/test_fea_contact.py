@@ -1,0 +1,334 @@
+"""The contact of two flanks: two cylinders against Hertz, the complementarity, gaps, and which teeth can touch."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.optimize import nnls
+
+from gearcad import BasicRack, Gear, GearPair, Material
+from gearcad.errors import GeometryError, ParameterError
+from gearcad.fea.contact import Cells, ContactPair, complementary, compliance_matrix, solve_contact
+from gearcad.fea.elasticity import Plane, PlaneElasticity
+from gearcad.fea.flexible_pair import BodyModel, FlexiblePair, flexible_pair
+from gearcad.fea.mesh_positions import contact_pairs, mesh_line
+from gearcad.fea.subsurface import greatest_von_mises, strip_stresses
+from gearcad.rating import LineContact, reduced_modulus
+
+STEEL = Material()
+
+HERTZ = 0.005
+"""Cells of a ninth of the half width, as the product uses them, are this close to Hertz."""
+
+
+@dataclass(frozen=True)
+class HalfPlane:
+    """A body that is nothing but the straight edge: what contact.py wants of one, with no smooth rest."""
+
+    elasticity: PlaneElasticity
+    neighbours: int = 1
+    edge_taken_off: bool = True
+
+    def response(self, tooth: int) -> Any:
+        return lambda x, y: np.zeros((len(x), len(y)))
+
+
+def cylinders(radius: float, half_width: float, count: int, *, shift: float = 0.0, tooth: int = 0) -> ContactPair:
+    """Two cylinders of reduced radius `radius` (mm) under cells over three half widths; `shift` (mm) off the middle."""
+    width = 6 * half_width / count
+    place = (np.arange(count) - (count - 1) / 2) * width + shift
+    cells = Cells(place, width, 2 * radius + place, 2 * radius - place, place**2 / 2 / radius + width**2 / 24 / radius)
+    return ContactPair(tooth, 2 * radius, 2 * radius, cells)
+
+
+def hertz(force: float, radius: float, bodies: tuple[HalfPlane, HalfPlane]) -> LineContact:
+    materials = [body.elasticity.material for body in bodies]
+    modulus = reduced_modulus(
+        (materials[0].youngs_modulus, materials[1].youngs_modulus), (materials[0].poisson_ratio, materials[1].poisson_ratio)
+    )
+    return LineContact(load_per_width=force, radius=radius, modulus=modulus)
+
+
+TWO_BODIES = (
+    HalfPlane(PlaneElasticity(STEEL)),
+    HalfPlane(PlaneElasticity(Material(youngs_modulus=70e3, poisson_ratio=0.34))),
+)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.37])
+@pytest.mark.parametrize(("force", "radius"), [(100.0, 5.0), (1500.0, 12.0), (0.5, 0.2)])
+def test_two_cylinders(force: float, radius: float, shift: float) -> None:
+    """Pressure everywhere, its peak, and where it ends; steel on aluminium, the window centred or not."""
+    expected = hertz(force, radius, TWO_BODIES)
+    pair = cylinders(radius, expected.half_width, 66, shift=shift * expected.half_width)
+    solution = solve_contact((pair,), *TWO_BODIES, force)
+    (pressure,), cells = solution.pressures, pair.cells
+    assert pressure.sum() * cells.width == pytest.approx(force, rel=1e-12)
+    assert pressure.max() == pytest.approx(expected.peak_pressure, rel=HERTZ)
+    inside = np.abs(cells.place) < expected.half_width - cells.width
+    assert np.abs(pressure - expected.pressure(cells.place))[inside].max() < 2 * HERTZ * expected.peak_pressure
+    assert np.all(pressure[np.abs(cells.place) > expected.half_width + cells.width] == 0)
+    middle = pressure > 0.5 * pressure.max()
+    slope, top = np.polyfit(cells.place[middle] ** 2, pressure[middle] ** 2, 1)
+    assert math.sqrt(-top / slope) == pytest.approx(expected.half_width, rel=HERTZ)
+
+
+def test_cylinders_converge_with_the_cells() -> None:
+    """Pressures at fixed cell middles: the error falls with the square of their width, or faster than the first power."""
+    expected = hertz(100.0, 5.0, TWO_BODIES)
+    errors = []
+    for count in (33, 99, 297):
+        pair = cylinders(5.0, expected.half_width, count)
+        (pressure,) = solve_contact((pair,), *TWO_BODIES, 100.0).pressures
+        inside = np.abs(pair.cells.place) < 0.8 * expected.half_width
+        errors.append(np.abs(pressure - expected.pressure(pair.cells.place))[inside].max() / expected.peak_pressure)
+    orders = -np.diff(np.log(errors)) / math.log(3)
+    assert orders.min() > 1.0
+    assert errors[-1] < 1e-3
+
+
+def test_approach_of_cylinders() -> None:
+    """Of the middle of the contact against points that Flamant's logarithm makes 1 mm deep.
+
+    u(0) - u(1 mm) by Hertz's pressure: F/(pi E*) (2 ln(2/a) + 1) without the constants of the edge (Johnson 5.56).
+    """
+    force, radius = 100.0, 5.0
+    expected = hertz(force, radius, TWO_BODIES)
+    pair = cylinders(radius, expected.half_width, 132)
+    solution = solve_contact((pair,), *TWO_BODIES, force)
+    constants = sum((1 + body.elasticity.ratio) / (math.pi * body.elasticity.modulus) for body in TWO_BODIES)
+    by_hertz = force * ((2 * math.log(2 / expected.half_width) + 1) / (math.pi * expected.modulus) - constants)
+    assert solution.approach == pytest.approx(by_hertz, rel=1e-3)
+
+
+def test_shares_of_the_approach_follow_the_moduli() -> None:
+    soft = HalfPlane(PlaneElasticity(Material(youngs_modulus=70e3)))
+    hard = HalfPlane(PlaneElasticity(Material(youngs_modulus=210e3)))
+    first, second = solve_contact((cylinders(5.0, 0.05, 66),), soft, hard, 60.0).parts
+    assert first / second == pytest.approx(3, rel=1e-9)
+
+
+def test_two_pairs_of_teeth_that_do_not_feel_each_other_share_alike() -> None:
+    force, radius = 100.0, 5.0
+    half = hertz(force / 2, radius, TWO_BODIES)
+    pairs = tuple(cylinders(radius, half.half_width, 66, tooth=tooth) for tooth in (0, 1))
+    solution = solve_contact(pairs, *TWO_BODIES, force)
+    assert solution.forces == pytest.approx([50, 50], rel=1e-9)
+    assert [pressure.max() for pressure in solution.pressures] == pytest.approx([half.peak_pressure] * 2, rel=HERTZ)
+
+
+def test_a_tooth_that_is_far_away_carries_nothing() -> None:
+    one, other = cylinders(5.0, 0.05, 66), cylinders(5.0, 0.05, 66, tooth=1)
+    far = ContactPair(
+        1, 10, 10, Cells(other.cells.place, other.cells.width, other.cells.pinion, other.cells.wheel, other.cells.gap + 1)
+    )
+    assert solve_contact((one, far), *TWO_BODIES, 50.0).forces == pytest.approx([50, 0], abs=1e-12)
+
+
+def test_teeth_beyond_the_neighbours_do_not_feel_each_other() -> None:
+    pairs = tuple(cylinders(5.0, 0.05, 8, tooth=tooth) for tooth in (-1, 1))
+    matrix = compliance_matrix(pairs, TWO_BODIES[0], 0)  # type: ignore[arg-type]
+    assert np.all(matrix[:8, 8:] == 0)
+
+
+# Complementarity
+
+
+def enumerated(matrix: Any, gap: Any, width: Any, force: float) -> tuple[Any, float]:
+    """The one active set, of all there are, whose solution is right."""
+    n = len(gap)
+    for size in range(1, n + 1):
+        for rows in itertools.combinations(range(n), size):
+            chosen = list(rows)
+            system = np.block(
+                [[matrix[np.ix_(chosen, chosen)], -width[chosen][:, None]], [width[chosen][None], np.zeros((1, 1))]]
+            )
+            solved = np.linalg.solve(system, np.r_[-gap[chosen], force])
+            pressure = np.zeros(n)
+            pressure[chosen] = solved[:-1]
+            if pressure.min() >= 0 and (matrix @ pressure + gap - solved[-1] * width).min() > -1e-10:
+                return pressure, float(solved[-1])
+    raise AssertionError("no active set is right")
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_problems_against_all_active_sets(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    n = 8
+    half = random.normal(size=(n, n))
+    matrix, gap, width = half @ half.T + 0.1 * np.eye(n), random.uniform(0, 2, n), random.uniform(0.5, 2, n)
+    force = float(random.uniform(0.1, 5))
+    pressure, approach = complementary(matrix, gap, width, force)
+    expected, expected_approach = enumerated(matrix, gap, width, force)
+    assert pressure == pytest.approx(expected, abs=1e-9)
+    assert approach == pytest.approx(expected_approach, abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_larger_problems_against_least_squares(seed: int) -> None:
+    """The pressures minimise p C p/2 + g p for the approach found: non-negative least squares of the root of C."""
+    random = np.random.default_rng(100 + seed)
+    n = 60
+    place = np.sort(random.uniform(-3, 3, n))
+    matrix = np.exp(-np.abs(place[:, None] - place)) + 0.05 * np.eye(n)
+    gap, width = place**2 * random.uniform(0.5, 1.5, n), random.uniform(0.5, 1.5, n)
+    pressure, approach = complementary(matrix, gap, width, 3.0)
+    opening = matrix @ pressure + gap - approach * width
+    assert width @ pressure == pytest.approx(3.0, rel=1e-12)
+    assert pressure.min() >= 0
+    assert opening.min() > -1e-10
+    assert np.abs(pressure * opening).max() < 1e-10
+    root = np.linalg.cholesky(matrix)
+    expected, _ = nnls(root.T, np.linalg.solve(root, approach * width - gap))
+    assert pressure == pytest.approx(expected, abs=1e-7)
+
+
+# Gaps and positions
+
+PAIR = GearPair(
+    pinion=Gear(teeth=18, normal_module=1.5, face_width=10, profile_shift=0.3422),
+    wheel=Gear(teeth=41, normal_module=1.5, face_width=10, profile_shift=-0.12),
+)
+
+
+def involute(base: float, start: float, lengths: Any) -> Any:
+    """Points of an involute that begins on the base circle at the angle `start`, unrolled counter-clockwise."""
+    angle = start + lengths / base
+    return np.stack([base * np.cos(angle) + lengths * np.sin(angle), base * np.sin(angle) - lengths * np.cos(angle)], -1)
+
+
+@pytest.mark.parametrize("part", [0.0, 0.3, 0.8, 1.0])
+def test_gap_is_the_distance_of_two_involutes(part: float) -> None:
+    """Both flanks drawn in a plane whose x axis is the line of action; what lies between them at each place on the tangent."""
+    line, path = mesh_line(PAIR), PAIR.path_of_contact
+    length = path.A + 0.02 + part * (path.E - path.A - 0.04)
+    (pair,) = [found for found in contact_pairs(line, length, lambda _tooth, _radius: 0.3, 60, 0.01) if found.tooth == 0]
+    gaps = np.zeros(len(pair.cells.place))
+    for gear, contact, lengths, sense in (
+        (PAIR.pinion, length, pair.cells.pinion, 1),
+        (PAIR.wheel, line.whole - length, pair.cells.wheel, -1),
+    ):
+        base = gear.base_diameter / 2
+        # Base circle about the origin, unrolled so that the contact's normal is the vertical x = base.
+        points = involute(base, -contact / base, lengths)
+        assert points[:, 0] - base == pytest.approx(sense * pair.cells.place, abs=1e-9)
+        gaps += points[:, 1] + contact
+    mean = pair.cells.width**2 / 24 / pair.radius
+    assert pair.cells.gap == pytest.approx(gaps + mean, abs=1e-9)
+
+
+def test_radius_is_that_of_euler_and_savary() -> None:
+    (pair,) = [
+        found
+        for found in contact_pairs(mesh_line(PAIR), PAIR.path_of_contact.C, lambda _tooth, _radius: 0.1, 66, 0.01)
+        if found.tooth == 0
+    ]
+    first, second = (
+        diameter / 2 * math.sin(math.radians(PAIR.working_transverse_pressure_angle))
+        for diameter in PAIR.working_pitch_diameters
+    )
+    assert pair.radius == pytest.approx(first * second / (first + second), rel=1e-9)
+
+
+def test_pairs_follow_each_other_by_the_base_pitch_and_end_with_the_path() -> None:
+    line, path = mesh_line(PAIR), PAIR.path_of_contact
+    for length in np.linspace(path.A - 4 * line.pitch, path.E + 4.1 * line.pitch, 97) + 0.001:
+        found = contact_pairs(line, float(length), lambda _tooth, _radius: 0.05, 66, 0.0)
+        expected = [tooth for tooth in range(-9, 10) if path.A < length + tooth * line.pitch < path.E]
+        assert [pair.tooth for pair in found] == expected
+        for pair in found:
+            assert pair.pinion == pytest.approx(length + pair.tooth * line.pitch)
+            assert pair.pinion + pair.wheel == pytest.approx(line.whole)
+
+
+def test_corners_beyond_the_path_count_up_to_the_gap() -> None:
+    """Beyond A and E the corner lies off the line of action, where two flanks are s^2/(2 rho) apart, to first order."""
+    line, path = mesh_line(PAIR), PAIR.path_of_contact
+    beyond = 0.1
+    for length, tip in ((path.E + beyond, line.pinion), (path.A - beyond, line.wheel)):
+        (pair,) = [each for each in contact_pairs(line, length, lambda *_: 0.05, 66, 0.05) if each.tooth == 0]
+        contact = pair.pinion if tip is line.pinion else pair.wheel
+        back = -tip.along_tangent(contact, tip.last)
+        assert back == pytest.approx(beyond * contact / tip.base_radius, rel=0.1)
+        assert np.abs(pair.cells.place).min() == pytest.approx(back, abs=pair.cells.width)
+        assert pair.cells.gap.min() == pytest.approx(back**2 / 2 / pair.radius, rel=0.15)
+        nearer = contact_pairs(line, length, lambda *_: 0.05, 66, 0.5 * float(pair.cells.gap.min()))
+        assert all(each.tooth != 0 for each in nearer)
+
+
+def test_cells_are_not_narrower_than_asked() -> None:
+    line, length = mesh_line(PAIR), PAIR.path_of_contact.C
+    (fine,) = [each for each in contact_pairs(line, length, lambda *_: 0.3, 60, 0.01) if each.tooth == 0]
+    (coarse,) = [each for each in contact_pairs(line, length, lambda *_: 0.3, 60, 0.01, 0.03) if each.tooth == 0]
+    assert (fine.cells.width, coarse.cells.width) == pytest.approx((0.01, 0.03))
+
+
+# Below the surface
+
+
+def test_strips_give_the_closed_forms_below_hertz_pressure() -> None:
+    expected = LineContact(load_per_width=100, radius=5, modulus=113_187)
+    a, p0 = expected.half_width, expected.peak_pressure
+    count = 2000
+    width = 2 * a / count
+    places = -a + width * (np.arange(count) + 0.5)
+    depth = a * np.array([0.05, 0.3, 0.70429, 0.78615, 2.0, 6.0])
+    across, down, shear = strip_stresses(np.zeros(6), depth, places, width, expected.pressure(places))
+    exact = expected.stresses(depth)
+    assert across == pytest.approx(exact.sigma_x, rel=2e-4)
+    assert down == pytest.approx(exact.sigma_z, rel=2e-4)
+    assert np.abs(shear).max() < 1e-9 * p0
+    assert (across - down)[3] / 2 == pytest.approx(0.30028 * p0, rel=2e-4)
+    mises, at = greatest_von_mises(places, width, expected.pressure(places), a, PlaneElasticity(STEEL))
+    assert mises == pytest.approx(0.55752 * p0, rel=5e-4)
+    assert at == pytest.approx(0.70429 * a, abs=0.025 * a)  # a lattice of 0.025 a
+
+
+def test_strips_in_equilibrium() -> None:
+    """Tractions on any level below carry the load, and no stress is left on the surface beside it."""
+    x = np.linspace(-400, 400, 800_001)
+    _, down, shear = strip_stresses(x, np.full_like(x, 0.7), np.array([0.1]), 0.4, np.array([250.0]))
+    assert np.trapezoid(down, x) == pytest.approx(-100, rel=1e-4)
+    assert np.trapezoid(shear, x) == pytest.approx(0, abs=1e-6)
+    _, beside, along = strip_stresses(np.array([1.0]), np.array([1e-12]), np.array([0.1]), 0.4, np.array([250.0]))
+    assert (abs(beside[0]), abs(along[0])) == pytest.approx((0, 0), abs=1e-6)
+
+
+def test_plane_stress_has_no_stress_along_the_tooth() -> None:
+    places, width = np.linspace(-0.95, 0.95, 20), 0.1
+    pressure = 1000 * np.sqrt(1 - places**2)
+    strain, stress = (greatest_von_mises(places, width, pressure, 1.0, PlaneElasticity(STEEL, plane))[0] for plane in Plane)
+    # At the surface both principal stresses are -p0 and the third is 0: von Mises p0 in plane stress.
+    assert stress == pytest.approx(1000, rel=0.05)
+    assert strain == pytest.approx(557.5, rel=0.01)
+
+
+# The pair
+
+
+def teeth_in_contact(model: FlexiblePair, torque: float) -> set[int]:
+    return {sum(model.solve(float(angle), torque).forces > 0) for angle in model.roll_angles(24)}
+
+
+def test_a_contact_ratio_above_two_loads_three_pairs() -> None:
+    rack = BasicRack(addendum=1.3, dedendum=1.55, root_radius=0.25)
+    gear = Gear(teeth=60, normal_module=1.0, face_width=10, rack=rack)
+    pair = GearPair(pinion=gear, wheel=gear)
+    assert 2.2 < pair.transverse_contact_ratio < 2.5
+    model = flexible_pair(pair, STEEL, body=BodyModel(teeth=7))
+    assert model.pinion.neighbours == 2
+    assert teeth_in_contact(model, 50.0) == {2, 3}
+
+
+def test_bodies_must_be_odd_and_hold_on_below_the_root() -> None:
+    for teeth in (2, 4, 1):
+        with pytest.raises(ParameterError, match="teeth"):
+            BodyModel(teeth=teeth)
+    body = BodyModel(teeth=3, inner_diameters=(None, PAIR.wheel.root_diameter))
+    with pytest.raises(GeometryError, match=r"wheel\.inner_diameter"):
+        flexible_pair(PAIR, STEEL, body=body)
