@@ -7,10 +7,9 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from gearcad.check.options import CheckOptions
-from gearcad.check.summary import summarise
+from gearcad.check.summary import figures
 from gearcad.fea.cycle import run_cycle
-from gearcad.fea.flexible_pair import flexible_pair
-from gearcad.geometry import GearPair
+from gearcad.fea.flexible_pair import FlexiblePair, flexible_pair
 from gearcad.material import Material
 from gearcad.meshing import MeshSizes
 
@@ -40,14 +39,18 @@ class Convergence:
         return asdict(self)
 
 
-def study_convergence(pair: GearPair, material: Material, options: CheckOptions, torque: float) -> tuple[Convergence, ...]:
-    """Mean mesh stiffness and root tension of both gears on three meshes, each twice as fine as the one before."""
+def study_convergence(
+    middle: FlexiblePair, material: Material, options: CheckOptions, torque: float
+) -> tuple[Convergence, ...]:
+    """Mean mesh stiffness and root tension of both gears on the mesh of `middle`, one half as fine and one twice as fine."""
     found: dict[str, list[float]] = {"mean mesh stiffness": [], "root tension, pinion": [], "root tension, wheel": []}
     for factor in _FACTORS:
         sizes = MeshSizes().refined(factor)
-        model = flexible_pair(pair, material, plane=options.plane_state, body=options.body, sizes=sizes)
-        summary = summarise(run_cycle(model, torque, _POSITIONS), math.nan)
-        for values, value in zip(found.values(), (summary.mesh_stiffness_mean, *summary.root_tension), strict=True):
+        model = middle
+        if factor != 1:
+            model = flexible_pair(middle.pair, material, plane=options.plane_state, body=options.body, sizes=sizes)
+        few = figures(run_cycle(model, torque, _POSITIONS))
+        for values, value in zip(found.values(), (few.mesh_stiffness, *few.root_tension), strict=True):
             values.append(value)
     return tuple(_estimate(quantity, tuple(values)) for quantity, values in found.items())
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -14,7 +13,7 @@ from gearcad.check.comparison import Comparison
 from gearcad.check.convergence import Convergence, study_convergence
 from gearcad.check.judge import compare
 from gearcad.check.options import CheckOptions
-from gearcad.check.summary import Summary, summarise
+from gearcad.check.summary import Summary, figures, summarise
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.fea.cycle import Cycle, run_cycle, single_stiffness
 from gearcad.fea.flexible_pair import FlexiblePair, flexible_pair
@@ -101,7 +100,7 @@ def check_pair(
     cycle = run_cycle(model, torque, options.positions)
     summary = summarise(cycle, single_stiffness(model, torque))
     tell("convergence")
-    convergence = study_convergence(pair, material, options, torque)
+    convergence = study_convergence(model, material, options, torque)
     tell("torque sweep")
     sweep = tuple(_sweep_point(model, each) for each in options.torques or tuple(part * abs(torque) for part in _SWEEP))
     tell("rating")
@@ -140,13 +139,13 @@ def _require_meshing(pair: GearPair, torque: float) -> None:
 
 def _sweep_point(model: FlexiblePair, torque: float) -> SweepPoint:
     cycle = run_cycle(model, torque, _SWEEP_POSITIONS)
-    summary = summarise(cycle, math.nan)
+    few = figures(cycle)
     turns = np.array([position.approach_parts for position in cycle.positions]).mean(axis=0)
     # A gear whose flank gives way by u along the line of action turns by u/r_b under the torque F r_b.
     radii = np.array([model.pair.pinion.base_diameter, model.pair.wheel.base_diameter]) / 2
     force = model.force(torque) * model.width
     first, second = (force * radii**2 / turns / 1000).tolist()
-    return SweepPoint(torque, summary.mesh_stiffness_mean, summary.contact_pressure, summary.root_tension, (first, second))
+    return SweepPoint(torque, few.mesh_stiffness, few.contact_pressure, few.root_tension, (first, second))
 
 
 def _warnings(cycle: Cycle, summary: Summary, options: CheckOptions) -> tuple[str, ...]:

@@ -7,18 +7,20 @@ from typing import TYPE_CHECKING
 
 import click
 
+from gearcad.check.comparison import Role
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.progress import file_progress
 from gearcad.errors import ParameterError
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from gearcad.check.run import CheckResult
     from gearcad.rating import Rating
     from gearcad.spec.design import Design
 
 __all__ = ["check"]
+
+_WIDE = 130
+"""Console width from which the column of sources fits."""
 
 
 @click.command(short_help="Check the strength of SPEC's pair by finite elements.")
@@ -62,34 +64,35 @@ def check(spec: Path, output: Path | None, model: str, as_json: bool, quiet: boo
         click.get_current_context().exit(1)
 
 
-def _console() -> Console:
-    from rich.console import Console
-
-    return Console(highlight=False)
-
-
 def _print_verdict(design: Design, result: CheckResult) -> None:
-    """The comparisons, gates first, and the verdict."""
-    from rich.table import Table
+    """The comparisons, gates first, the warnings and the verdict."""
+    from rich.console import Console
     from rich.text import Text
 
-    console = _console()
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for heading in ("", "quantity", "computed", "reference", "unit", "deviation", "permitted", "source"):
-        table.add_column(heading, justify="right" if heading in ("computed", "reference", "deviation", "permitted") else "left")
+    console = Console(highlight=False)
+    wide = console.width >= _WIDE
+    heading = _line("", "quantity", "computed", "reference", "unit", "deviation", "permitted", "source" if wide else "")
+    lines = [(heading, "bold")]
     for each in result.comparisons:
-        gate = each.role.value == "gate"
+        gate = each.role is Role.GATE
         word = ("ok" if each.passed else "FAILED") if gate else ("in band" if each.passed else "OUTSIDE")
-        style = "green" if each.passed else "bold red" if gate else "yellow"
+        style = "" if each.passed else "bold red" if gate else "yellow"
         permitted = "at most" if each.tolerance is None else f"±{100 * each.tolerance:g} %"
-        figures = (f"{each.computed:.4g}", f"{each.reference:.4g}", each.unit, f"{100 * each.deviation:+.2f} %", permitted)
-        table.add_row(Text(word, style=style), each.quantity, *figures, each.source.split(":")[0])
-    console.print(table, soft_wrap=True)
-    for warning in result.warnings:
-        console.print(Text(f"Warning: {warning}", style="yellow"), soft_wrap=True)
+        figures = (f"{each.computed:.5g}", f"{each.reference:.5g}", each.unit, f"{100 * each.deviation:+.2f} %", permitted)
+        lines.append((_line(word, each.quantity, *figures, each.source.split(":")[0] if wide else ""), style))
+    lines += [(f"Warning: {warning}", "yellow") for warning in result.warnings]
     torque = result.load.torque * result.load.application_factor
-    verdict = f"{design.name} at {torque:g} N·m: " + ("passed" if result.passed else "NOT passed")
-    console.print(Text(verdict, style="bold green" if result.passed else "bold red"), soft_wrap=True)
+    verdict = "passed" if result.passed else "NOT passed"
+    lines.append((f"{design.name} at {torque:g} N·m: {verdict}", "bold green" if result.passed else "bold red"))
+    for text, style in lines:
+        # Soft wrap: a narrow window may break a line, but never cut a number.
+        console.print(Text(text, style=style), soft_wrap=True)
+
+
+def _line(
+    word: str, quantity: str, computed: str, reference: str, unit: str, deviation: str, permitted: str, source: str
+) -> str:
+    return f"{word:<8}{quantity:<43}{computed:>10}{reference:>10} {unit:<10}{deviation:>9} {permitted:>9}  {source}".rstrip()
 
 
 def _print_rating(design: Design, rating: Rating) -> None:

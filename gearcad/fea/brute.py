@@ -34,8 +34,8 @@ class NodalCompliance(FlankCompliance):
 
     @property
     def resolution(self) -> float:
-        """Two edges of the flank (mm): in narrower cells pressures would swing."""
-        return 2 * float(np.diff(self.flank.arc(self.loads)).max())
+        """An edge of the flank (mm): narrower cells would tell nothing more, and their pressures would swing."""
+        return float(np.diff(self.flank.arc(self.loads)).max())
 
     def response(self, tooth: int) -> Compliance:
         """Normal displacement of a flank by a load on tooth 0, linear between vertices."""
@@ -64,8 +64,8 @@ def nodal_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> Nod
     forces = np.zeros((2 * len(mesh.points), weights.shape[1]))
     forces[2 * flank.nodes], forces[2 * flank.nodes + 1] = inward[:, :1] * weights, inward[:, 1:] * weights
     displacements, torques = ring.solve(forces)
-    none = np.zeros((2 * len(mesh.points), 1))
-    return NodalCompliance(flank, ring, elasticity, flank.lengths[::2], displacements, none, torques, weights)
+    nothing = np.zeros_like(forces)
+    return NodalCompliance(flank, ring, elasticity, flank.lengths[::2], displacements, nothing, torques, weights)
 
 
 def _hats(arc: Floats) -> Floats:

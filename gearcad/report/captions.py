@@ -44,14 +44,14 @@ def stress_field(result: CheckResult) -> str:
 def contact_zone(result: CheckResult, fields: list[ToothField]) -> str:
     """Caption of the zone of contact."""
     most = max(float(field.von_mises.max()) for field in fields)
-    alone = result.summary.von_mises
+    alone = result.summary.von_mises_half_plane
     _, contact = result.cycle.worst_contact
     return (
         f"The same contact, {short(2 * contact.half_width)} mm wide. The finite elements carry the smooth part of the field; "
         "that of the pressures is added in closed form, as on a half-plane along the flank's tangent, so that nothing of the "
         f"contact rests on the size of an element. The greatest von Mises stress here is {short(most)} MPa; a half-plane "
         "under the same "
-        f"pressures alone has {short(alone)} MPa at a depth of {short(result.summary.von_mises_depth)} mm. The difference of "
+        f"pressures alone has {short(alone)} MPa. The difference of "
         f"{100 * (most / alone - 1):+.1f} % is the stress of the tooth itself."
     )
 
@@ -88,7 +88,7 @@ def depth_profile(result: CheckResult) -> str:
         "stress, "
         f"{short(peak.value)} MPa, {short(peak.depth)} mm deep, and the greatest shear, {short(shear.value)} MPa, "
         f"{short(shear.depth)} mm "
-        f"deep; under the pressures found the greatest von Mises stress is {short(result.summary.von_mises)} MPa at "
+        f"deep; in the teeth the greatest von Mises stress is {short(result.summary.von_mises)} MPa at "
         f"{short(result.summary.von_mises_depth)} mm."
     )
 

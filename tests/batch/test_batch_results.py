@@ -318,7 +318,7 @@ def test_options_are_checked_first(tmp_path: Path) -> None:
         with pytest.raises(ParameterError) as caught:
             run_table(write_table(tmp_path / "table.csv", GEARS), tmp_path / "out", DATA, **({"jobs": 1} | options))
         assert str(caught.value).startswith(message)
-    with pytest.raises(ParameterError, match=r"^do = '': must be one or more of data, build$"):
+    with pytest.raises(ParameterError, match=r"^do = '': must be one or more of data, build"):
         replace(DATA, steps=())
     with pytest.raises(ParameterError, match=r"^format = '': must be one or more of step, stl, 3mf, glb, dxf, csv$"):
         Wanted(formats=())

@@ -77,7 +77,9 @@ def test_new_refuses_to_overwrite_unless_forced() -> None:
 
 def test_new_refuses_what_it_does_not_have() -> None:
     result = run("new", "bevel", status=2)
-    assert result.stderr == "Error: kind = 'bevel': must be one of alm-18-161, gears, pairs, spur, volvo-13-44 (or gear, pair)\n"
+    assert (
+        result.stderr == "Error: kind = 'bevel': must be one of alm-18-161, gears, pairs, spur, volvo-13-44 (or gear, pair)\n"
+    )
 
 
 @pytest.mark.parametrize("output", ["blocked/x.toml", "folder"])

@@ -8,14 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 
 import gearcad.fea.flexible_pair as flexible_pairs
 from gearcad import Gear, GearPair, Material
-from gearcad.check.summary import Summary, summarise
 from gearcad.fea.brute import nodal_compliance
 from gearcad.fea.cycle import Cycle, run_cycle
 from gearcad.fea.elasticity import PlaneElasticity
@@ -44,8 +43,24 @@ def cycle(
     return run_cycle(model, TORQUE, positions)
 
 
-def summary(of: Cycle) -> Summary:
-    return summarise(of, 0.0)
+class Figures(NamedTuple):
+    """Mean stiffness (N/(mm um)), greatest root tension and compression of both gears (MPa), range of the approach (mm)."""
+
+    stiffness: float
+    tension: tuple[float, float]
+    compression: tuple[float, float]
+    error: float
+
+
+def figures(of: Cycle) -> Figures:
+    tension = [max(position.tension[gear].stress for position in of.positions) for gear in (0, 1)]
+    compression = [min(position.compression[gear].stress for position in of.positions) for gear in (0, 1)]
+    return Figures(
+        float(of.values("stiffness").mean()),
+        (tension[0], tension[1]),
+        (compression[0], compression[1]),
+        float(np.ptp(of.values("approach"))),
+    )
 
 
 def brute_sizes(flank: float) -> MeshSizes:
@@ -55,11 +70,11 @@ def brute_sizes(flank: float) -> MeshSizes:
 
 def assert_agree(hybrid: Cycle, brute: Cycle, *, stiffness: float, root: float, error: float) -> None:
     """Mean stiffness, root stress of both gears on both sides, and the transmission error's range."""
-    one, other = summary(hybrid), summary(brute)
-    assert one.mesh_stiffness_mean == pytest.approx(other.mesh_stiffness_mean, rel=stiffness)
-    assert one.root_tension == pytest.approx(other.root_tension, rel=root)
-    assert one.root_compression == pytest.approx(other.root_compression, rel=2 * root)
-    assert one.transmission_error_peak_to_peak == pytest.approx(other.transmission_error_peak_to_peak, rel=error)
+    one, other = figures(hybrid), figures(brute)
+    assert one.stiffness == pytest.approx(other.stiffness, rel=stiffness)
+    assert one.tension == pytest.approx(other.tension, rel=root)
+    assert one.compression == pytest.approx(other.compression, rel=2 * root)
+    assert one.error == pytest.approx(other.error, rel=error)
 
 
 @pytest.mark.long
@@ -70,7 +85,7 @@ def test_hybrid_is_the_converged_brute_force(body: BodyModel) -> None:
     Position by position too, where no corner touches: there both depend on the mesh of the corner.
     """
     hybrid, brute = cycle(body, 24), cycle(body, 24, brute_sizes(0.0053), nodal_compliance)
-    assert_agree(hybrid, brute, stiffness=1.2e-3, root=5e-3, error=5e-3)
+    assert_agree(hybrid, brute, stiffness=1e-3, root=5e-3, error=5e-3)
     inside = [
         [
             (one.approach, one.tension[0].stress, one.tension[1].stress),
@@ -86,7 +101,7 @@ def test_hybrid_is_the_converged_brute_force(body: BodyModel) -> None:
 
 
 def test_hybrid_is_near_a_coarser_brute_force() -> None:
-    """Flank edges of 18 um, a quarter of the half width: its own error is 0.1 % of stiffness, 1 % of the range."""
+    """Flank edges of 18 um, a quarter of the half width: it is itself 0.2 % off in stiffness, 0.5 % in the range."""
     assert_agree(
         cycle(THREE_TEETH, 8),
         cycle(THREE_TEETH, 8, brute_sizes(0.012), nodal_compliance),
@@ -101,59 +116,59 @@ def test_hybrid_is_near_a_coarser_brute_force() -> None:
 
 @cache
 def refined(factor: float) -> tuple[float, float, float]:
-    found = summary(cycle(THREE_TEETH, 6, MeshSizes().refined(factor)))
-    return found.mesh_stiffness_mean, found.root_tension[0], found.root_tension[1]
+    found = figures(cycle(THREE_TEETH, 6, MeshSizes().refined(factor)))
+    return found.stiffness, *found.tension
 
 
 def test_default_mesh_is_within_its_error_of_a_very_fine_one() -> None:
-    """Against four times finer edges: 0.1 % of stiffness, 0.3 % of root stress."""
-    default, finest = refined(1.0), refined(4.0)
-    assert default[0] == pytest.approx(finest[0], rel=1e-3)
-    assert default[1:] == pytest.approx(finest[1:], rel=3e-3)
+    """Against four times finer edges: 0.05 % of stiffness, 0.3 % of root stress; twice as coarse, three times that."""
+    coarse, default, finest = (np.array(refined(factor)) for factor in (0.5, 1.0, 4.0))
+    assert np.abs(default / finest - 1) == pytest.approx(0, abs=3e-3)
+    assert default[0] == pytest.approx(finest[0], rel=5e-4)
+    assert np.abs(coarse / finest - 1) == pytest.approx(0, abs=9e-3)
 
 
-def test_errors_fall_with_the_mesh() -> None:
-    """From twice as coarse to twice as fine: the root stress, of order 2, falls by far more than half."""
-    finest = np.array(refined(4.0))
-    errors = np.array([np.abs(np.array(refined(factor)) / finest - 1) for factor in (0.5, 1.0, 2.0)])
-    assert np.all(errors[2] < 0.5 * errors[0] + 1e-4)
-    assert errors.max() < 0.01
+def test_stiffness_converges() -> None:
+    """Four times finer edges leave less than a third of the error, which is 0.04 % on the coarsest mesh."""
+    finest = refined(4.0)[0]
+    errors = [abs(refined(factor)[0] / finest - 1) for factor in (0.5, 2.0)]
+    assert errors[1] < errors[0] / 3
+    assert errors[0] < 1e-3
 
 
-def energy(sizes: MeshSizes) -> float:
-    """Compliance of a load in the middle of the flank of z 18 against a load at another place: smooth, nothing singular."""
+def across(sizes: MeshSizes) -> float:
+    """How one flank of z 18 moves under a load in the middle of the next: nothing is taken off, nothing singular is near."""
     gear = thesis_pair().pinion
     radius = gear.root_diameter / 2 - 4 * gear.normal_module
     steel = PlaneElasticity(Material())
     fine = mesh_sector(gear, radius, sizes)
-    ring = assemble(fine, fine, gear.teeth, 1, steel, 3, Cuts.FIXED)
-    body = flank_compliance(gear, ring, steel)
-    place = np.array([0.5 * (body.loads[0] + body.loads[-1])])
+    body = flank_compliance(gear, assemble(fine, fine, gear.teeth, 1, steel, 3, Cuts.FIXED), steel)
+    place = np.array([6.2])
     return float(body.response(1)(place, place)[0, 0])
 
 
 def test_order_of_a_compliance() -> None:
-    """One tooth's flank under a load on the next, all edges halved twice: the order that quadratic elements have, less what
-    the corners of cuts and hub leave of it. Reference: eight times finer than the first."""
+    """Edges halved twice, against eight times finer ones: order 2.3 on average, 2 expected.
+
+    Quadratic elements have order 4 where the solution is smooth; the clamped corners of cuts and hub leave about 2.
+    """
     edges = MeshSizes(flank=0.4, corner=0.2, fillet=0.3, outline=0.5, cut=0.4, rim=1.5)
-    values = np.array([energy(edges.refined(factor)) for factor in (1, 2, 4, 8)])
+    values = np.array([across(edges.refined(factor)) for factor in (1, 2, 4, 8)])
     errors = np.abs(values[:3] / values[3] - 1)
-    orders = np.log2(errors[:-1] / errors[1:])
-    assert errors[2] < 1e-3
-    assert orders.mean() > 1.3
+    assert np.log2(errors[0] / errors[2]) / 2 > 1.8
+    assert errors[2] < 5e-4
 
 
 # Cells of contact
 
 
 def test_cells_of_contact(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Twice and four times as many cells change the approach by less than a ten thousandth."""
+    """The approach where no corner touches: half the width leaves about a quarter of the error, 0.006 % with the default."""
     model = flexible_pair(thesis_pair(), Material(), body=THREE_TEETH)
-    angles = model.roll_angles(5)
     approaches = []
     for cells in (33, 66, 132, 264):
         monkeypatch.setattr(flexible_pairs, "_CELLS", cells)
-        approaches.append([model.solve(float(angle), TORQUE).approach for angle in angles])
+        approaches.append([model.solve(angle, TORQUE).approach for angle in (-8.0, 2.0, 4.0)])
     errors = np.abs(np.array(approaches[:3]) / approaches[3] - 1).max(axis=1)
-    assert errors[1] < 2e-4
-    assert np.log2(errors[0] / errors[2]) / 2 > 0.8
+    assert errors[1] < 1e-4
+    assert np.log2(errors[0] / errors[2]) / 2 > 1.2

@@ -1,0 +1,159 @@
+"""`gearcad check` as a user meets it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from gearcad.cli import main
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+
+SPUR = """
+[pair]
+normal_module = 2.0
+face_width = 20.0
+tooth_thinning = 0.05
+[pinion]
+teeth = 20
+body.bore = 12.0
+[wheel]
+teeth = 30
+body.bore = 20.0
+[load]
+torque = 50.0
+[check]
+positions = 12
+torques = [25.0, 50.0]
+"""
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(main, list(arguments))
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def spec(text: str) -> str:
+    Path("pair.toml").write_text(text, encoding="utf-8")
+    return "pair.toml"
+
+
+def test_check_prints_the_verdict_and_writes_both_files(here: Path) -> None:
+    result = run("check", spec(SPUR))
+    assert result.exit_code == 0, result.output
+    assert "pair at 50 N·m: passed" in result.stdout
+    assert result.stdout.splitlines()[-2:] == ["output/pair/check.json", "output/pair/report.html"]
+    assert sorted(path.name for path in (here / "output/pair").iterdir()) == ["check.json", "report.html"]
+    document = json.loads((here / "output/pair/check.json").read_text(encoding="utf-8"))
+    assert document["kind"] == "check"
+    assert document["passed"] is True
+    assert [point["torque"] for point in document["torque_sweep"]] == [25.0, 50.0]
+    assert len(document["mesh_cycle"]["roll_angle"]) == document["positions"] == 12
+    cycle, summary = document["mesh_cycle"], document["summary"]
+    assert summary["mesh_stiffness_mean"] == pytest.approx(sum(cycle["mesh_stiffness"]) / 12)
+    assert summary["root_tension_pinion"] == max(cycle["root_stress_pinion"])
+    assert all(sum(shares) == pytest.approx(1, abs=1e-9) for shares in cycle["load_share"])
+    # Both torques are in equilibrium: 50 N·m on the pinion is 75 on the wheel.
+    reactions = {each["quantity"]: each["computed"] for each in document["comparisons"] if "reaction" in each["quantity"]}
+    assert reactions["torque reaction of the pinion"] == pytest.approx(50, rel=0.005)
+    assert reactions["torque reaction of the wheel"] == pytest.approx(75, rel=0.005)
+
+
+def test_limits_that_are_passed_over_are_exit_status_1_and_json_is_one_document(here: Path) -> None:
+    limits = "[material]\nname = 'tin'\ncontact_limit = [500, 900]\nroot_limit = 900\nyield_strength = 2000\n"
+    result = run("check", spec(SPUR + limits), "--quiet", "--json")
+    assert (result.exit_code, result.stderr) == (1, "")
+    document = json.loads(result.stdout)
+    assert document["passed"] is False
+    verdict = {
+        each["quantity"]: (each["passed"], each["reference"])
+        for each in document["comparisons"]
+        if each["source"] == "limit of tin"
+    }
+    assert verdict == {
+        "contact pressure": (False, 500.0),  # the lower end of the range counts
+        "root stress, pinion": (True, 900.0),
+        "root stress, wheel": (True, 900.0),
+        "von Mises stress below the flank": (True, 2000.0),
+    }
+
+
+def test_helical_pair_gets_its_rating_and_no_half_report(here: Path) -> None:
+    result = run("check", str(TEMPLATES / "volvo-13-44.toml"), "--quiet")
+    assert result.exit_code == 2
+    assert "sigma_F0" in result.stdout or "σ_F0" in result.stdout
+    assert result.stderr == (
+        "Error: pair.helix_angle = 28 deg: needs --model 3d, which is not there yet: "
+        "the lines of contact of helical teeth run across the flank\n"
+    )
+    assert list(here.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            SPUR.replace("[load]\ntorque = 50.0", ""),
+            "load.torque = None: must be given, in N·m on the pinion: without it there is no stress",
+        ),
+        (
+            SPUR.replace("torque = 50.0", "torque = 0"),
+            "load.torque = 0 N·m: must not be 0: without torque there is nothing to check",
+        ),
+        (
+            SPUR.replace("positions = 12", "body_teeth = 4"),
+            "pair.toml line 15: check.body_teeth = 4: must be odd (the loaded tooth stands in the middle), or 0",
+        ),
+        (
+            SPUR.replace("positions = 12", "positions = 5"),
+            "pair.toml line 15: check.positions = 5: must be a whole number from 12 to 1000",
+        ),
+        (
+            SPUR.replace("positions = 12", 'plane = "flat"'),
+            'pair.toml line 15: check.plane = \'flat\': must be "strain" or "stress"',
+        ),
+        (
+            SPUR.replace("positions = 12", "postions = 12"),
+            "pair.toml line 15: check.postions: unknown key; did you mean positions?",
+        ),
+        (
+            SPUR.replace("positions = 12", "pinion_inner_diameter = 36"),
+            "pinion.inner_diameter = 36 mm: must be at most 34.6 mm, below the root circle",
+        ),
+        (
+            "[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 20.0\n",
+            "kind = 'gear': must be a pair: a single gear has nothing to press against",
+        ),
+    ],
+)
+def test_what_cannot_be_checked_is_one_line(here: Path, text: str, message: str) -> None:
+    result = run("check", spec(text), "--quiet")
+    assert (result.exit_code, result.stderr) == (2, f"Error: {message}\n")
+    assert not Path("output").exists()
+
+
+def test_absurd_load_and_thin_rim_are_warnings_with_their_numbers(here: Path) -> None:
+    text = SPUR.replace("torque = 50.0", "torque = 50000.0")
+    result = run("check", spec(text.replace("positions = 12", "positions = 12\npinion_inner_diameter = 32")), "--quiet")
+    assert "of the modulus: linear elasticity means little there" in result.stdout
+    assert "the pinion's rim below the root (1.5 mm) is thinner than its teeth are high" in result.stdout
+
+
+def test_solver_failure_leaves_nothing_half_written(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import gmsh
+
+    def fail(_dimension: int) -> None:
+        raise RuntimeError("no mesh today")
+
+    monkeypatch.setattr(gmsh.model.mesh, "generate", fail)
+    result = run("check", spec(SPUR), "--quiet")
+    assert (result.exit_code, result.stderr) == (1, "Error: gmsh could not mesh the section: no mesh today\n")
+    assert not Path("output").exists()
