@@ -19,4 +19,8 @@ def assess(design: Design, progress: Progress | None = None) -> CheckResult:
         raise ParameterError("kind", design.kind.value, "must be a pair: a single gear has nothing to press against")
     if design.load is None:
         raise ParameterError("load.torque", None, "must be given, in N·m on the pinion: without it there is no stress")
-    return check_pair(design.pair, design.material or Material(), design.load, design.check, progress)
+    from threadpoolctl import threadpool_limits
+
+    # The dense systems are small: threads cost more than they bring, the more so where rows of a table share the cores.
+    with threadpool_limits(1):
+        return check_pair(design.pair, design.material or Material(), design.load, design.check, progress)

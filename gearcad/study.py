@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from gearcad.errors import ParameterError, format_number, require_whole
 from gearcad.output import staged_files
-from gearcad.spec.cells import CellReader, Layout, guarded_text
+from gearcad.spec.cells import CellReader, Layout, guarded_text, list_text
 from gearcad.spec.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES, DesignKind
 from gearcad.spec.keys import KEYS, explain_unknown_column
 from gearcad.spec.reader import Cell, spec_values
@@ -211,6 +211,8 @@ def check_table(path: Path) -> TableCheck:
 
 def _cell_text(value: Cell) -> str:
     """A cell of the table."""
+    if isinstance(value, tuple):
+        return list_text(value)
     return guarded_text(value) if isinstance(value, str) else repr(value)
 
 
@@ -258,7 +260,7 @@ def _kind_of(key: str) -> type[Cell]:
 def _ends(text: str, key: str, values: str, *, counted: bool) -> tuple[float, float, str]:
     """The two ends of a span, and the text of the count ("" where there must be none)."""
     parts = [part.strip() for part in values.split(":")]
-    ends = [value for part in parts[:2] if not isinstance(value := _value(key, part), str)]
+    ends = [value for part in parts[:2] if isinstance(value := _value(key, part), int | float)]
     if len(ends) < 2 or len(parts) != (3 if counted else 2):
         permitted = (
             "must be FIRST:LAST:COUNT in numbers" if counted else "must be FIRST:LAST in numbers; --n says how many rows"

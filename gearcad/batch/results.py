@@ -11,7 +11,7 @@ from typing import Any, Protocol
 
 from gearcad.batch.row import Record
 from gearcad.output import staged_files
-from gearcad.spec.cells import guarded_text
+from gearcad.spec.cells import guarded_text, list_text
 from gearcad.spec.table import Row
 
 __all__ = ["RESULTS", "Results", "write_results"]
@@ -55,7 +55,8 @@ def _groups(row: Row, record: Record) -> tuple[dict[str, Any], ...]:
         "seconds": record.seconds,
     }
     files = {f"files.{file}": f"{row.name}/{file}" for file in record.files}
-    inputs = {key: record.values.get(key, row.values.get(key)) for key in row.columns if key not in ("", "name")}
+    given = {key: list_text(value) if isinstance(value, tuple) else value for key, value in row.values.items()}
+    inputs = {key: record.values.get(key, given.get(key)) for key in row.columns if key not in ("", "name")}
     derived = {key: value for key, value in record.values.items() if key not in inputs}
     return states, files, inputs, derived
 

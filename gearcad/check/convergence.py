@@ -13,13 +13,15 @@ from gearcad.fea.flexible_pair import FlexiblePair, flexible_pair
 from gearcad.material import Material
 from gearcad.meshing import MeshSizes
 
-__all__ = ["Convergence", "study_convergence"]
+__all__ = ["LEAST_ORDER", "Convergence", "study_convergence"]
 
 _FACTORS = (0.5, 1.0, 2.0)
 """Refinement of the three meshes; the check itself is the middle one."""
 
 _POSITIONS = 12
-_LEAST_ORDER = 1.0
+LEAST_ORDER = 1.0
+"""Order below which the changes from mesh to mesh are taken for noise."""
+
 _SAFETY = 1.25
 """Factor on the change to the finest mesh where the changes are too small or too uneven to show an order (Roache)."""
 
@@ -60,6 +62,6 @@ def _estimate(quantity: str, values: tuple[float, ...]) -> Convergence:
     first, second = coarse - middle, middle - fine
     ratio = first / second if second else math.inf
     order = math.log2(ratio) if 0 < ratio < math.inf else None
-    if order is None or order < _LEAST_ORDER:
+    if order is None or order < LEAST_ORDER:
         return Convergence(quantity, values, _FACTORS, order, _SAFETY * abs(second / fine))
     return Convergence(quantity, values, _FACTORS, order, abs(second / fine) * 2**order / (2**order - 1))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from gearcad.check.comparison import Comparison, Role, against, at_most
-from gearcad.check.convergence import Convergence
+from gearcad.check.convergence import LEAST_ORDER, Convergence
 from gearcad.check.options import CheckOptions
 from gearcad.check.summary import Summary
 from gearcad.fea.cycle import Cycle, PairContact
@@ -74,7 +74,8 @@ def _reactions(cycle: Cycle) -> Iterator[Comparison]:
 
 def _errors(convergence: tuple[Convergence, ...]) -> Iterator[Comparison]:
     for each in convergence:
-        order = "no clear order" if each.order is None else f"observed order {each.order:.1f}"
+        small = "the changes are too small to show an order"
+        order = small if each.order is None or each.order < LEAST_ORDER else f"observed order {each.order:.1f}"
         yield at_most(
             f"discretisation error, {each.quantity}",
             100 * each.error,

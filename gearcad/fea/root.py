@@ -19,8 +19,8 @@ _GAUSS = 1 / np.sqrt(3)
 """Place of the two points of an edge at which strains of quadratic elements are most accurate."""
 
 
-_LEAST_ANGLE = 20.0
-"""Tangent angle (deg) from which on the fillet counts as the root."""
+_LEAST_ANGLE = 12.0
+"""Tangent angle (deg) from which on the fillet counts as the root; it is negative where undercut draws the tooth in."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Fillets:
             where = np.einsum("qa,eac->eqc", _SHAPE, points[edges]).reshape(-1, 2)
             along = np.einsum("qa,eac->eqc", _SLOPE, points[edges]).reshape(-1, 2)
             metric = np.hypot(*along.T)
-            angle = np.degrees(np.arctan2(np.abs(along[:, 1]), np.abs(along[:, 0])))
+            angle = np.degrees(np.arctan2(along[:, 1], np.abs(along[:, 0])))
             found[side] = (np.hypot(*where.T), angle, along / metric[:, None], metric)
         return found
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from enum import Enum
 from typing import NamedTuple
 
 from gearcad.errors import ParameterError
-from gearcad.spec.keys import COLUMNS
+from gearcad.spec.keys import COLUMNS, LISTS
 from gearcad.spec.reader import WHOLE_FIELDS, Cell
 
-__all__ = ["CellReader", "Layout", "RawCell", "Unreadable", "guarded_text", "is_blank", "is_comment", "plain_text"]
+__all__ = ["CellReader", "Layout", "RawCell", "Unreadable", "guarded_text", "is_blank", "is_comment", "list_text", "plain_text"]
 
 
 class Layout(Enum):
@@ -67,6 +67,11 @@ def plain_text(cell: RawCell) -> str:
     return str(int(cell)) if abs(cell) <= _MOST_EXACT and float(cell).is_integer() else repr(cell)
 
 
+def list_text(numbers: Iterable[float]) -> str:
+    """Several numbers as one cell, which CellReader reads."""
+    return " ".join(map(repr, numbers))
+
+
 def guarded_text(text: str) -> str:
     """The text as a cell that no spreadsheet runs as a formula; `plain_text` takes the apostrophe off again."""
     return f"'{text}" if _GUARDED.match(f"'{text}") else text
@@ -113,7 +118,12 @@ class CellReader:
             raise ParameterError(key, text, "is an error of the spreadsheet; mend the formula and save again")
         if key in _TEXTS:
             return text
-        return self._number_or_text(key, text, row) if isinstance(cell, str) else _checked(key, text, cell)
+        if not isinstance(cell, str):
+            return _checked(key, text, cell)
+        if key not in LISTS or len(text.split()) < 2:
+            return self._number_or_text(key, text, row)
+        numbers = tuple(number for item in text.split() if isinstance(number := self._number_or_text(key, item, row), float))
+        return numbers if len(numbers) == len(text.split()) else text
 
     def _number_or_text(self, key: str, text: str, row: int) -> Cell:
         plain = text.replace(_MINUS_SIGN, "-")

@@ -14,6 +14,7 @@ from gearcad.material import Material
 __all__ = [
     "COLUMNS",
     "KEYS",
+    "LISTS",
     "SHARED",
     "explain_unknown_column",
     "explain_unknown_key",
@@ -39,8 +40,10 @@ KEYS = {
 }
 """Permitted keys of each table, flattened with dots. `rack` alone is the name of a rack."""
 
-_NO_COLUMN = (("gear", "name"), ("pair", "name"), ("check", "torques"))
-"""A cell holds one value, not a list."""
+LISTS = ("material.contact_limit", "material.root_limit", "check.torques")
+"""Keys that may hold several numbers; in a cell there is space between them."""
+
+_NO_COLUMN = (("gear", "name"), ("pair", "name"))
 
 COLUMNS = {table: tuple(field for field in fields if (table, field) not in _NO_COLUMN) for table, fields in KEYS.items()}
 """The same for the columns of a design table, where the design's own name has a column `name`."""

@@ -28,7 +28,7 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.spec.auto import AUTO, resolve_profile_shifts, resolve_tip_alterations
 from gearcad.spec.design import Design, DesignKind, require_plain_name
-from gearcad.spec.keys import KEYS, SHARED, explain_unknown_key, explain_unknown_table
+from gearcad.spec.keys import KEYS, LISTS, SHARED, explain_unknown_key, explain_unknown_table
 from gearcad.spec.lines import explain_syntax, find_lines, nearest_line
 
 __all__ = ["Cell", "design_from_tables", "read_spec", "spec_values"]
@@ -42,7 +42,7 @@ WHOLE_FIELDS = ("teeth", "body_teeth", "positions")
 
 _MOST_WHOLE = 10**15
 
-Cell = int | float | str
+Cell = int | float | str | tuple[float, ...]
 """What a spec and a cell of a design table can both hold."""
 
 Simple = TypeVar("Simple", Material, Load, CheckOptions)
@@ -76,7 +76,9 @@ def spec_values(path: Path | str) -> tuple[DesignKind, str, dict[str, Cell]]:
     name = spec.name(kind.value, Path(path).stem)
     values = {key: given.value for key, given in spec.values.items() if key != f"{kind.value}.name"}
     for key, value in values.items():
-        if isinstance(value, bool) or not isinstance(value, int | float | str):
+        if key in LISTS and isinstance(value, list) and all(type(item) in (int, float) for item in value):
+            values[key] = tuple(float(item) for item in value)
+        elif isinstance(value, bool) or not isinstance(value, int | float | str):
             raise SpecError(f"{where(key)}: {key} = {format_number(value)}: must be a number or a text")
     return kind, name, values
 

@@ -1,22 +1,17 @@
 """A second run makes what is missing or changed, and nothing else; what it finds there is believed only if it is whole."""
 
 import json
-import os
 import shutil
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 from support import jobs
-from support.batches import GEARS, PAIRS, lies, read_results, snapshot, times, write_table
+from support.batches import GEARS, PAIRS, lies, made_now, read_results, snapshot, times, write_table
 
-import gearcad
 from gearcad.batch import Step, Summary, Wanted, run_table
 from gearcad.batch import run as run_module
-from gearcad.batch.manifest import inputs_hash
 from gearcad.build import Format
 
 POINTS = Wanted(formats=(Format.CSV,))
@@ -29,11 +24,6 @@ def make(folder: Path, lines: tuple[str, ...] = GEARS, wanted: Wanted = POINTS, 
     return summary
 
 
-def made_now(folder: Path) -> list[str]:
-    """Names of the rows that the last run has worked on: the others have no seconds."""
-    return [line["name"] for line in read_results(folder / "out") if line["seconds"]]
-
-
 def files_of(folder: Path, name: str) -> set[str]:
     return {path.name for path in (folder / "out" / name).iterdir()}
 
@@ -42,7 +32,7 @@ def files_of(folder: Path, name: str) -> set[str]:
 def first_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("first")
     assert make(folder).ok == 3
-    assert made_now(folder) == ["spur", "left", "right"]
+    assert made_now(folder / "out") == ["spur", "left", "right"]
     return folder
 
 
@@ -56,7 +46,7 @@ def test_second_run_makes_nothing_and_tells_the_same(made: Path) -> None:
     before, files = snapshot(made / "out"), times(made / "out")
     summary = make(made)
     assert (summary.ok, summary.failed, summary.not_run) == (3, 0, 0)
-    assert made_now(made) == []
+    assert made_now(made / "out") == []
     assert (snapshot(made / "out"), times(made / "out")) == (before, files)
 
 
@@ -75,7 +65,7 @@ def test_changed_row_is_made_again_and_no_other(change: str, made: Path) -> None
     assert lines != GEARS
     make(made, lines)
     name = old.partition(",")[0]
-    assert made_now(made) == [name]
+    assert made_now(made / "out") == [name]
     assert {path.partition("/")[0] for path, when in times(made / "out").items() if files[path] != when} == {name}
     fresh = made / "fresh"
     fresh.mkdir()
@@ -88,7 +78,7 @@ def test_columns_and_rows_may_change_places(made: Path) -> None:
     turned = tuple(",".join(reversed(line.split(","))) for line in (GEARS[0], *reversed(GEARS[1:])))
     assert turned[0].split(",") == heading[::-1]
     make(made, turned)
-    assert made_now(made) == []
+    assert made_now(made / "out") == []
     assert [line["name"] for line in read_results(made / "out")] == ["right", "left", "spur"]
 
 
@@ -100,7 +90,7 @@ def test_files_of_a_row_that_is_now_another_thing_vanish(tmp_path: Path) -> None
     assert files_of(tmp_path, "x") == {"data.json", "manifest.json", "pinion.csv", "wheel.csv"}
     make(tmp_path, (heading, "x,25,1,2,,,,,", "y,20,1,2,,,,,"))
     assert files_of(tmp_path, "x") == {"data.json", "manifest.json", "gear.csv"}
-    assert made_now(tmp_path) == ["x"]
+    assert made_now(tmp_path / "out") == ["x"]
 
 
 def test_row_taken_out_of_the_table_keeps_its_folder(made: Path) -> None:
@@ -113,7 +103,7 @@ def test_folder_with_another_name_is_not_taken_for_the_row(made: Path) -> None:
     """The name stands in the files too."""
     (made / "out" / "spur").rename(made / "out" / "other")
     make(made, (GEARS[0], GEARS[1].replace("spur", "other")))
-    assert made_now(made) == ["other"]
+    assert made_now(made / "out") == ["other"]
     assert json.loads((made / "out" / "other" / "data.json").read_text())["name"] == "other"
 
 
@@ -139,7 +129,7 @@ def test_damaged_file_is_made_again(tmp_path: Path) -> None:
     for name, (file, how) in zip(names, damages, strict=True):
         DAMAGES[how](tmp_path / "out" / name / file)
     make(tmp_path, lines)
-    assert made_now(tmp_path) == names
+    assert made_now(tmp_path / "out") == names
     assert snapshot(tmp_path / "out") == before
 
 
@@ -160,86 +150,6 @@ def test_users_own_files_survive_every_kind_of_run(made: Path) -> None:
         make(made, lines, wanted, fresh=fresh)
         assert {name: (made / "out" / "left" / name).read_text() for name in own} == own
     assert (made / "out" / "README").read_text() == "about these gears"
-
-
-def _edited(**changes: Any) -> Callable[[dict[str, Any]], str]:
-    return lambda document: json.dumps(document | changes)
-
-
-def _listing(file: Any, size: Any = 5, *, unfinished: bool = False) -> Callable[[dict[str, Any]], str]:
-    """A manifest that lists a file as finished; with `unfinished` as one to be removed, and of other inputs."""
-
-    def edit(document: dict[str, Any]) -> str:
-        if unfinished:
-            return json.dumps(document | {"inputs": "other", "unfinished": [file]})
-        document["parts"]["csv"]["files"] = {file: size}
-        return json.dumps(document)
-
-    return edit
-
-
-LIES: dict[str, Callable[[dict[str, Any]], str | bytes]] = {
-    "binary": lambda _: os.urandom(1000),
-    "utf-16": lambda document: json.dumps(document).encode("utf-16"),
-    "a list": lambda _: "[]",
-    "deep": lambda _: "[" * 100_000,
-    "no parts": lambda document: json.dumps({"inputs": document["inputs"]}),
-    "parts are a list": _edited(parts=["csv"]),
-    "parts are null": _edited(parts=None),
-    "options are a number": _edited(parts={"csv": {"options": 5, "files": {}}}),
-    "files are a text": _edited(parts={"csv": {"options": {}, "files": "gear.csv"}}),
-    "unfinished is a number": _edited(unfinished=5),
-    "unfinished holds a list": _edited(unfinished=[["gear.csv"]]),
-    "infinite size": _listing("gear.csv", float("inf")),
-    "size is a text": _listing("gear.csv", "many"),
-    "another size": _listing("gear.csv", 12),
-    "other inputs": _edited(inputs="x"),
-    **{
-        f"lists {file[:8]!a}": _listing(file)
-        for file in ("../../x", "/etc/hostname", "..", ".", "", "a\0b", "\ud800", "x" * 999)
-    },
-    **{
-        f"gave up {file[:8]!a}": _listing(file, unfinished=True)
-        for file in (
-            "../../precious",
-            "..",
-            ".",
-            "",
-            "a\0b",
-            "\ud800",
-            "x" * 999,
-            "notes",
-            "sub",
-            "manifest.json",
-            "a/b",
-            "a\\b",
-        )
-    },
-}
-
-
-def test_manifest_that_cannot_be_believed_does_no_harm(tmp_path: Path) -> None:
-    """Each lie in a row of its own, beside files and folders of the user."""
-    rows = {f"row {number}": lie for number, lie in enumerate(LIES)}
-    lines = (GEARS[0], *(f"{name},{12 + n % 9},1,2," for n, name in enumerate(rows)))
-    make(tmp_path, lines)
-    before = snapshot(tmp_path / "out")
-    own = [tmp_path / "precious", *(tmp_path / "out" / name / file for name in rows for file in ("notes", "sub/x"))]
-    for path in own:
-        path.parent.mkdir(exist_ok=True)
-        path.write_text("kept")
-    for name, lie in rows.items():
-        manifest = tmp_path / "out" / name / "manifest.json"
-        told = LIES[lie](json.loads(manifest.read_text()))
-        manifest.write_bytes(told if isinstance(told, bytes) else told.encode("utf-8", "surrogatepass"))
-    assert make(tmp_path, lines).errors == ()
-    assert [lie for name, lie in rows.items() if name not in made_now(tmp_path)] == []
-    assert [path for path in own if path.read_text() != "kept"] == []
-    after = snapshot(tmp_path / "out")
-    assert {name: content for name, content in after.items() if name in before} == before
-    assert {name for name in after if name not in before} == {
-        f"{name}/{own}" for name in rows for own in ("notes", "sub", "sub/x")
-    }
 
 
 def test_row_that_was_damaged_and_fails_is_told(made: Path) -> None:
@@ -266,7 +176,7 @@ def test_another_format_is_added_and_nothing_else_is_touched(made: Path) -> None
     assert {path: times(made / "out")[path] for path in points} == points
     assert "files.gear.csv" not in read_results(made / "out")[0]
     make(made, wanted=Wanted(formats=(Format.DXF, Format.CSV)))
-    assert made_now(made) == []
+    assert made_now(made / "out") == []
     assert {key for key in read_results(made / "out")[0] if key.startswith("files.")} == {
         "files.data.json", "files.gear.dxf", "files.gear.csv",
     }  # fmt: skip
@@ -277,7 +187,7 @@ def test_chord_error_makes_the_facets_again_and_nothing_else(tmp_path: Path) -> 
     make(tmp_path, GEARS[:3], Wanted(formats=both))
     before, old = snapshot(tmp_path / "out"), times(tmp_path / "out")
     make(tmp_path, GEARS[:3], Wanted(formats=both, chord_error=0.02))
-    assert made_now(tmp_path) == ["spur", "left"]
+    assert made_now(tmp_path / "out") == ["spur", "left"]
     new = times(tmp_path / "out")
     again = {path.partition("/")[2] for path in old if old[path] != new[path]}
     assert again == {"gear.stl", "data.json", "manifest.json"}  # the data come with every build
@@ -306,22 +216,22 @@ def test_bracket_of_a_single_gear_is_no_matter(tmp_path: Path) -> None:
 def test_fresh_makes_all_again_with_the_same_bytes(made: Path) -> None:
     before, old = snapshot(made / "out"), times(made / "out")
     make(made, fresh=True)
-    assert made_now(made) == ["spur", "left", "right"]
+    assert made_now(made / "out") == ["spur", "left", "right"]
     assert snapshot(made / "out") == before
     assert [path for path, when in times(made / "out").items() if when == old[path]] == []
 
 
 def test_data_alone_keeps_the_solids_of_the_same_inputs_and_removes_those_of_others(made: Path) -> None:
     make(made, wanted=DATA)
-    assert made_now(made) == []
+    assert made_now(made / "out") == []
     assert files_of(made, "left") == {"data.json", "gear.csv", "manifest.json"}
     assert "files.gear.csv" not in read_results(made / "out")[0]
     make(made, (*GEARS[:2], "left,18,1,3,-15", GEARS[3]), DATA)
-    assert made_now(made) == ["left"]
+    assert made_now(made / "out") == ["left"]
     assert files_of(made, "left") == {"data.json", "manifest.json"}
     assert files_of(made, "spur") == {"data.json", "gear.csv", "manifest.json"}
     make(made, wanted=POINTS)
-    assert made_now(made) == ["left"]
+    assert made_now(made / "out") == ["left"]
 
 
 # ---------------------------------------------------------------------- another gearcad
@@ -331,35 +241,10 @@ def test_another_gearcad_makes_all_again(made: Path, monkeypatch: pytest.MonkeyP
     before = snapshot(made / "out")
     monkeypatch.setattr(run_module, "make_row", jobs.make_row_of_another_gearcad)
     make(made)
-    assert made_now(made) == ["spur", "left", "right"]
+    assert made_now(made / "out") == ["spur", "left", "right"]
     make(made)
-    assert made_now(made) == []
+    assert made_now(made / "out") == []
     monkeypatch.undo()
     make(made)
-    assert made_now(made) == ["spur", "left", "right"]
+    assert made_now(made / "out") == ["spur", "left", "right"]
     assert snapshot(made / "out") == before
-
-
-def test_hash_is_of_the_inputs_whatever_their_order() -> None:
-    assert inputs_hash({"name": "a", "gear.teeth": 20}) == inputs_hash({"gear.teeth": 20, "name": "a"})
-    others = [{"name": "a", "gear.teeth": 21}, {"name": "b", "gear.teeth": 20}, {"name": "a", "wheel.teeth": 20}, {"name": "a"}]
-    assert len({inputs_hash(inputs) for inputs in others} | {inputs_hash({"name": "a", "gear.teeth": 20})}) == 5
-
-
-@pytest.mark.parametrize("change", ["__init__.py", "spec/keys.py", "solids/new.py"])
-def test_hash_is_of_the_source_too(change: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A checkout changes under one version."""
-    monkeypatch.chdir(tmp_path)  # Python looks for packages here first
-    ignored = shutil.ignore_patterns("__pycache__")
-    copy = Path(shutil.copytree(Path(gearcad.__file__).parent, tmp_path / "gearcad", ignore=ignored))
-
-    def hash_there() -> str:
-        code = "from gearcad.batch.manifest import inputs_hash; print(inputs_hash({}))"
-        environment = os.environ | {"PYTHONPATH": str(tmp_path), "PYTHONDONTWRITEBYTECODE": "1"}
-        return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment).stdout
-
-    before = hash_there()
-    assert before.strip() == inputs_hash({})
-    with (copy / change).open("a") as file:
-        file.write("# another comment\n")
-    assert hash_there() != before

@@ -75,6 +75,7 @@ def test_json_is_one_document() -> None:
         "ok": 1,
         "failed": 2,
         "not_run": 0,
+        "short": 0,
         "errors": BAD_LINES,
     }
 

