@@ -50,7 +50,10 @@ def study_convergence(
         sizes = MeshSizes().refined(factor)
         model = middle
         if factor != 1:
-            model = flexible_pair(middle.pair, material, plane=options.plane_state, body=options.body, sizes=sizes)
+            reliefs = options.reliefs(middle.pair.pinion.normal_module)
+            model = flexible_pair(
+                middle.pair, material, plane=options.plane_state, body=options.body, sizes=sizes, reliefs=reliefs
+            )
         few = figures(run_cycle(model, torque, _POSITIONS))
         for values, value in zip(found.values(), (few.mesh_stiffness, *few.root_tension), strict=True):
             values.append(value)

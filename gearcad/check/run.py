@@ -96,7 +96,8 @@ def check_pair(
     _require_meshing(pair, torque)
     tell = _teller(progress)
     tell("mesh cycle")
-    model = flexible_pair(pair, material, plane=options.plane_state, body=options.body)
+    reliefs = options.reliefs(pair.pinion.normal_module)
+    model = flexible_pair(pair, material, plane=options.plane_state, body=options.body, reliefs=reliefs)
     cycle = run_cycle(model, torque, options.positions)
     summary = summarise(cycle, single_stiffness(model, torque))
     tell("convergence")
@@ -159,6 +160,8 @@ def _warnings(cycle: Cycle, summary: Summary, options: CheckOptions) -> tuple[st
             f"a tip corner touches at {summary.corner_positions} of {len(cycle.positions)} positions: its pressure depends on "
             "the mesh and is left out; tip relief would avoid it"
         )
+    if options.pinion_tip_relief or options.wheel_tip_relief:
+        found.append("the tip relief is in this analysis only: data and solids do not have it")
     inner_diameters = options.body.inner_diameters
     for place, (name, gear) in enumerate((("pinion", pair.pinion), ("wheel", pair.wheel))):
         hub = (cycle.model.pinion, cycle.model.wheel)[place].hub_radius

@@ -36,6 +36,7 @@ class PairContact:
     share: float
     modulus: float
     edge_distance: float
+    even_distance: float
 
     @property
     def peak_pressure(self) -> float:
@@ -54,8 +55,8 @@ class PairContact:
 
     @property
     def interior(self) -> bool:
-        """True where the ends of both flanks are some half widths away."""
-        return self.edge_distance > _INTERIOR * self.hertz_half_width
+        """True where the ends of both flanks, and their reliefs, are some half widths away."""
+        return self.even_distance > _INTERIOR * self.hertz_half_width
 
     @cached_property
     def half_width(self) -> float:
@@ -181,18 +182,27 @@ def root_loads(contacts: tuple[PairContact, ...], gear: int) -> list[list[tuple[
 def _contacts(model: FlexiblePair, solution: ContactSolution) -> tuple[PairContact, ...]:
     total = solution.forces.sum()
     return tuple(
-        PairContact(pair, pressures, float(force), float(force / total), model.modulus, _edge_distance(model, pair))
+        PairContact(
+            pair,
+            pressures,
+            float(force),
+            float(force / total),
+            model.modulus,
+            _distance(model, pair, even=False),
+            _distance(model, pair, even=True),
+        )
         for pair, pressures, force in zip(solution.pairs, solution.pressures, solution.forces, strict=True)
         if force > 0
     )
 
 
-def _edge_distance(model: FlexiblePair, pair: ContactPair) -> float:
-    """How far (mm along the tangent) the nearest end of an involute is from the contact; negative beyond it."""
+def _distance(model: FlexiblePair, pair: ContactPair, *, even: bool) -> float:
+    """How far (mm along the tangent) the nearest end of an involute - or of its even part - is; negative beyond it."""
     line = model.line
+    lasts = [flank.last_even if even else flank.last for flank in (line.pinion, line.wheel)]
     return min(
-        line.pinion.along_tangent(pair.pinion, line.pinion.last),
+        line.pinion.along_tangent(pair.pinion, lasts[0]),
         -line.pinion.along_tangent(pair.pinion, line.pinion.first),
-        line.wheel.along_tangent(pair.wheel, line.wheel.last),
+        line.wheel.along_tangent(pair.wheel, lasts[1]),
         -line.wheel.along_tangent(pair.wheel, line.wheel.first),
     )

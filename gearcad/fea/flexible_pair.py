@@ -13,7 +13,7 @@ from gearcad.errors import GeometryError, ParameterError, format_number, require
 from gearcad.fea.contact import ContactSolution, solve_contact
 from gearcad.fea.elasticity import Plane, PlaneElasticity
 from gearcad.fea.flank import FlankCompliance, flank_compliance
-from gearcad.fea.mesh_positions import MeshLine, contact_pairs, mesh_line
+from gearcad.fea.mesh_positions import MeshLine, TipRelief, contact_pairs, mesh_line
 from gearcad.fea.ring import Cuts, Ring, assemble
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material
@@ -148,6 +148,7 @@ def flexible_pair(
     plane: Plane = Plane.STRAIN,
     body: BodyModel | None = None,
     sizes: MeshSizes | None = None,
+    reliefs: tuple[TipRelief, TipRelief] = (TipRelief(), TipRelief()),
     solve: Callable[[Gear, Ring, PlaneElasticity], FlankCompliance] = flank_compliance,
 ) -> FlexiblePair:
     """Mesh, assemble, factorise and `solve` both gears. Raises SolverError, ParameterError and GeometryError."""
@@ -166,4 +167,4 @@ def flexible_pair(
         fine, coarse = mesh_sector(gear, radius, sizes), mesh_sector(gear, radius, sizes.coarse())
         ring = assemble(fine, coarse, gear.teeth, min(neighbours, (gear.teeth - 1) // 2), elasticity, held, body.cuts)
         bodies.append(solve(gear, ring, elasticity))
-    return FlexiblePair(pair, mesh_line(pair), *bodies)
+    return FlexiblePair(pair, mesh_line(pair, reliefs), *bodies)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gearcad.fea.contact import Cells, ContactPair
 from gearcad.geometry import Gear, GearPair
 
-__all__ = ["MeshLine", "contact_pairs", "mesh_line"]
+__all__ = ["MeshLine", "TipRelief", "contact_pairs", "mesh_line"]
 
 Floats = NDArray[np.float64]
 
@@ -25,12 +25,33 @@ _FEWEST = 6
 
 
 @dataclass(frozen=True)
+class TipRelief:
+    """Linear tip relief: `amount` (um) at the tip, nothing `length` (mm along the line of action) below it."""
+
+    amount: float = 0.0
+    length: float = 0.0
+
+
+@dataclass(frozen=True)
 class _Flank:
-    """Ends of the involute of a gear as roll lengths (mm), and its base radius."""
+    """Ends of the involute of a gear as roll lengths (mm), its base radius, and its relief."""
 
     base_radius: float
     first: float
     last: float
+    relief: TipRelief
+
+    @property
+    def last_even(self) -> float:
+        """Roll length (mm) where the relief begins."""
+        return self.last - self.relief.length if self.relief.amount else self.last
+
+    def relieved(self, lengths: Floats) -> Floats:
+        """How far the flank is taken back at roll lengths (mm)."""
+        if not self.relief.amount:
+            return np.zeros_like(lengths)
+        depth: Floats = self.relief.amount / 1000 * np.maximum(lengths - self.last_even, 0) / self.relief.length
+        return depth
 
     def along_tangent(self, contact: float, length: float) -> float:
         """Where the flank's point at roll length `length` lies along the common tangent, if it touches at `contact` (mm)."""
@@ -48,13 +69,13 @@ class _Flank:
         return length, contact - (length * np.cos(turn) - base * np.sin(turn))
 
 
-def _flank(gear: Gear) -> _Flank:
+def _flank(gear: Gear, relief: TipRelief) -> _Flank:
     base = gear.base_diameter
 
     def length(diameter: float) -> float:
         return math.sqrt(max((diameter - base) * (diameter + base), 0.0)) / 2
 
-    return _Flank(base / 2, length(gear.form_diameter), length(gear.tip_form_diameter))
+    return _Flank(base / 2, length(gear.form_diameter), length(gear.tip_form_diameter), relief)
 
 
 @dataclass(frozen=True)
@@ -68,12 +89,11 @@ class MeshLine:
     module: float
 
 
-def mesh_line(pair: GearPair) -> MeshLine:
-    """The line of action of a pair in the transverse section."""
+def mesh_line(pair: GearPair, reliefs: tuple[TipRelief, TipRelief] = (TipRelief(), TipRelief())) -> MeshLine:
+    """The line of action of a pair in the transverse section, its flanks relieved."""
     whole = pair.centre_distance * math.sin(math.radians(pair.working_transverse_pressure_angle))
-    return MeshLine(
-        whole, pair.pinion.transverse_base_pitch, _flank(pair.pinion), _flank(pair.wheel), pair.pinion.normal_module
-    )
+    pinion, wheel = _flank(pair.pinion, reliefs[0]), _flank(pair.wheel, reliefs[1])
+    return MeshLine(whole, pair.pinion.transverse_base_pitch, pinion, wheel, pair.pinion.normal_module)
 
 
 def contact_pairs(
@@ -127,5 +147,5 @@ def _contact_pair(
     lengths, behind = one.facing(pinion_length, place)
     wheel_lengths, wheel_behind = other.facing(wheel_length, -place)
     # The mean gap over a cell is that of its middle and what the curvature adds.
-    gap = behind + wheel_behind + width**2 / 24 / radius
+    gap = behind + wheel_behind + width**2 / 24 / radius + one.relieved(lengths) + other.relieved(wheel_lengths)
     return ContactPair(tooth, pinion_length, wheel_length, Cells(place, width, lengths, wheel_lengths, gap))

@@ -16,7 +16,7 @@ from gearcad.errors import GeometryError, ParameterError
 from gearcad.fea.contact import Cells, ContactPair, complementary, compliance_matrix, solve_contact
 from gearcad.fea.elasticity import Plane, PlaneElasticity
 from gearcad.fea.flexible_pair import BodyModel, FlexiblePair, flexible_pair
-from gearcad.fea.mesh_positions import contact_pairs, mesh_line
+from gearcad.fea.mesh_positions import TipRelief, contact_pairs, mesh_line
 from gearcad.fea.subsurface import greatest_von_mises, strip_stresses
 from gearcad.rating import LineContact, reduced_modulus
 
@@ -332,3 +332,18 @@ def test_bodies_must_be_odd_and_hold_on_below_the_root() -> None:
     body = BodyModel(teeth=3, inner_diameters=(None, PAIR.wheel.root_diameter))
     with pytest.raises(GeometryError, match=r"wheel\.inner_diameter"):
         flexible_pair(PAIR, STEEL, body=body)
+
+
+def test_tip_relief_is_added_to_the_gap():
+    """Nothing is taken off below its start, all of it at the tip, and the gap grows by just that."""
+    relief = TipRelief(amount=20.0, length=1.2)
+    line = mesh_line(PAIR, (relief, TipRelief()))
+    plain = mesh_line(PAIR)
+    lengths = np.array([line.pinion.last - 2.0, line.pinion.last_even, line.pinion.last - 0.6, line.pinion.last])
+    assert line.pinion.relieved(lengths) == pytest.approx([0, 0, 0.010, 0.020], abs=1e-12)
+    assert not line.wheel.relieved(lengths).any()
+    place = PAIR.path_of_contact.E - 0.1
+    (near,) = [pair for pair in contact_pairs(line, place, lambda *_: 0.1, 40, 0.01) if pair.tooth == 0]
+    (bare,) = [pair for pair in contact_pairs(plain, place, lambda *_: 0.1, 40, 0.01) if pair.tooth == 0]
+    added = near.cells.gap - bare.cells.gap
+    assert added == pytest.approx((near.cells.pinion - (line.pinion.last - 1.2)) / 1.2 * 0.020, rel=1e-9)
