@@ -67,10 +67,6 @@ class Journal:
             for number, row, record in self._execute("SELECT number, row, record FROM rows ORDER BY number"):
                 yield pickle.loads(row), pickle.loads(record) if record else Record(number=number, status=Status.NOT_RUN)
 
-    def count(self) -> int:
-        """Rows of the table."""
-        return int(self._execute("SELECT count(*) FROM rows").fetchone()[0])
-
     def _execute(self, statement: str, values: tuple[Any, ...] = ()) -> sqlite3.Cursor:
         with _writable():
             return self._database.execute(statement, values)

@@ -6,6 +6,8 @@ from dataclasses import asdict
 from typing import Any
 
 from gearcad.check.run import CheckResult
+from gearcad.fea.flank import FlankCompliance
+from gearcad.meshing.quality import mesh_quality
 
 __all__ = ["check_document"]
 
@@ -19,6 +21,7 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "material": asdict(result.material),
         "options": asdict(result.options),
         "body": result.bodies,
+        "mesh": {"pinion": _mesh(result.cycle.model.pinion), "wheel": _mesh(result.cycle.model.wheel)},
         "positions": len(result.cycle.positions),
         "mesh_cycle": _cycle(result),
         "summary": result.summary.to_dict(),
@@ -29,6 +32,12 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "warnings": list(result.warnings),
         "passed": result.passed,
     }
+
+
+def _mesh(body: FlankCompliance) -> dict[str, Any]:
+    """Size and quality of the mesh of one tooth sector."""
+    mesh = body.ring.sector.mesh
+    return {"nodes": len(mesh.points), **asdict(mesh_quality(mesh.points, mesh.triangles))}
 
 
 def _cycle(result: CheckResult) -> dict[str, Any]:

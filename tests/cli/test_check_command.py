@@ -57,6 +57,9 @@ def test_check_prints_the_verdict_and_writes_both_files(here: Path) -> None:
     assert document["passed"] is True
     assert [point["torque"] for point in document["torque_sweep"]] == [25.0, 50.0]
     assert len(document["mesh_cycle"]["roll_angle"]) == document["positions"] == 12
+    for mesh in document["mesh"].values():
+        assert mesh["least_angle"] > 20  # degrees
+        assert mesh["least_jacobian"] > 0.7
     cycle, summary = document["mesh_cycle"], document["summary"]
     assert summary["mesh_stiffness_mean"] == pytest.approx(sum(cycle["mesh_stiffness"]) / 12)
     assert summary["root_tension_pinion"] == max(cycle["root_stress_pinion"])
