@@ -5,6 +5,7 @@ from gearcad.geometry.contact import ContactLineLengths, PathOfContact, contact_
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.inspection import chordal_thickness, over_balls, over_pins, span_contact_diameter, span_measurement
 from gearcad.geometry.involute import inverse_involute, involute
+from gearcad.geometry.modification import FlankForm, FlankModification, ReliefShape
 from gearcad.geometry.pair import CommonWidth, GearPair
 from gearcad.geometry.pose import MeshPose, mesh_pose
 from gearcad.geometry.profile import ToothProfile
@@ -27,11 +28,14 @@ __all__ = [
     "Body",
     "CommonWidth",
     "ContactLineLengths",
+    "FlankForm",
+    "FlankModification",
     "Gear",
     "GearPair",
     "HubSide",
     "MeshPose",
     "PathOfContact",
+    "ReliefShape",
     "ShiftSplit",
     "ToothProfile",
     "chordal_thickness",

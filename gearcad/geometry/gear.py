@@ -11,6 +11,7 @@ from gearcad.errors import InputError, plain_numbers, require_number
 from gearcad.geometry import feasibility, inspection
 from gearcad.geometry.body import Body
 from gearcad.geometry.derived import Derived
+from gearcad.geometry.modification import FlankForm, FlankModification
 from gearcad.geometry.profile import ToothProfile, base_half_angle
 from gearcad.geometry.rack import ISO53_A, BasicRack
 from gearcad.geometry.trochoid import ToolTip
@@ -36,6 +37,7 @@ class Gear:
     normal module; `tooth_thinning` is the reduction of the normal tooth thickness (mm). `tip_diameter` and
     `root_diameter` may be given, else they are derived, and read as numbers either way (see `Derived`): a given tip
     circle wins over k, a given root circle prescribes the depth of the tool, which then follows from the gear.
+    `modification` of the flanks leaves all of that as it is: diameters and thicknesses are those of the exact involute.
     Raises ParameterError for one value out of range, GeometryError for a combination that makes no gear.
     """
 
@@ -49,6 +51,7 @@ class Gear:
     tooth_thinning: float = 0.0
     rack: BasicRack = field(default=ISO53_A)
     body: Body = field(default=Body())
+    modification: FlankModification = field(default=FlankModification())
     tip_diameter: float = Derived("nan")
     root_diameter: float = Derived("nan")
 
@@ -67,6 +70,11 @@ class Gear:
         except InputError as error:
             raise error.within("body") if error.parameter == "tip_chamfer" else error from None
         feasibility.check_body(self)
+        try:
+            form = self.flank_form
+            self.modification.check_lengths(form.last - form.first, self.face_width)
+        except InputError as error:
+            raise error.within("modification") from None
 
     # ------------------------------------------------------------------ what the standard derives
 
@@ -131,6 +139,11 @@ class Gear:
     def form_diameter(self) -> float:
         """Root form circle d_Ff, where the involute begins."""
         return self.profile.form_diameter
+
+    @cached_property
+    def flank_form(self) -> FlankForm:
+        """The modified flanks: how far they are taken back from the exact involute, and where."""
+        return FlankForm.of(self)
 
     @property
     def undercut(self) -> bool:
@@ -276,10 +289,11 @@ class Gear:
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
-        inputs = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("rack", "body")}
+        inputs = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("rack", "body", "modification")}
         rack = {f.name: getattr(self.rack, f.name) for f in fields(self.rack)}
         body = {f.name: getattr(self.body, f.name) for f in fields(self.body)} | {"hub_side": self.body.hub_side.value}
+        modification = self.modification.to_dict()
         derived = {name: getattr(self, name) for name in _DERIVED}
         if math.isinf(self.lead):
             derived["lead"] = None
-        return {**inputs, "rack": rack, "body": body, **derived, "warnings": list(self.warnings)}
+        return {**inputs, "rack": rack, "body": body, "modification": modification, **derived, "warnings": list(self.warnings)}

@@ -1,0 +1,194 @@
+"""Flank modifications (ISO 21771): how far a flank is taken back from the exact involute helicoid.
+
+A depth is measured in the transverse section along the base tangent, the normal of the involute: every point of the modified
+flank on the radius r lies that far from the involute, so the flank is turned about the axis by depth/r_b at that radius.
+Fillet, tip chamfer and the ends of the lands turn with the flank's own ends.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from enum import Enum
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_number
+from gearcad.geometry.limits import at_most
+
+if TYPE_CHECKING:
+    from gearcad.geometry.gear import Gear
+
+__all__ = ["FlankForm", "FlankModification", "ReliefShape"]
+
+Floats = NDArray[np.float64]
+
+_LARGEST = 1000.0
+"""Largest amount (um)."""
+
+
+class ReliefShape(Enum):
+    """How a relief grows from its start: in proportion to the distance, or to its square."""
+
+    LINEAR = "linear"
+    PARABOLIC = "parabolic"
+
+    def grown(self, share: Floats) -> Floats:
+        """0 before the start, 1 at the end."""
+        inside: Floats = np.maximum(share, 0.0)
+        return inside if self is ReliefShape.LINEAR else inside**2
+
+
+@dataclass(frozen=True, kw_only=True)
+class FlankModification:
+    """Modifications of both flanks of every tooth. Amounts in um, positive takes material off; lengths in mm. ISO 21771.
+
+    `tip_relief` C_alpha_a at the tip form circle, nothing `tip_relief_length` of roll below it; `root_relief` C_alpha_f the
+    same from the root form circle up. `profile_crowning` C_alpha at both ends of the profile, a parabola with nothing in its
+    middle; `pressure_angle_modification` C_H_alpha at the tip in proportion to the roll from the root form circle, positive
+    for a larger pressure angle. `lead_crowning` C_beta at both ends of the face, nothing in its middle; `end_relief` C_beta_I,
+    C_beta_II at both ends, nothing `end_relief_length` along the axis inside. `helix_angle_modification` C_H_beta over the
+    face width: the sections turn about the middle one, positive for a steeper helix (right hand on a spur gear).
+    `twist` S_alpha is the change of the profile slope from z = 0 to the other end.
+    Raises ParameterError for one value, GeometryError from `Gear` for lengths that do not fit its flank.
+    """
+
+    tip_relief: float = 0.0
+    tip_relief_length: float = 0.0
+    tip_relief_shape: ReliefShape = ReliefShape.LINEAR
+    root_relief: float = 0.0
+    root_relief_length: float = 0.0
+    root_relief_shape: ReliefShape = ReliefShape.LINEAR
+    profile_crowning: float = 0.0
+    pressure_angle_modification: float = 0.0
+    lead_crowning: float = 0.0
+    end_relief: float = 0.0
+    end_relief_length: float = 0.0
+    end_relief_shape: ReliefShape = ReliefShape.LINEAR
+    helix_angle_modification: float = 0.0
+    twist: float = 0.0
+
+    def __post_init__(self) -> None:
+        plain_numbers(self)
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if each.name.endswith("_shape"):
+                object.__setattr__(self, each.name, as_choice(each.name, value, ReliefShape))
+            elif each.name.endswith("_length"):
+                require_number(each.name, value, "mm", at_least=0)
+            else:
+                least = 0.0 if each.name.endswith("_relief") else -_LARGEST
+                require_number(each.name, value, "µm", at_least=least, at_most=_LARGEST)
+        for name in ("tip_relief", "root_relief", "end_relief"):
+            if getattr(self, name) and not getattr(self, f"{name}_length"):
+                raise ParameterError(f"{name}_length", 0, f"must be above 0 mm for a {name} of {getattr(self, name):g} µm", "mm")
+
+    @property
+    def present(self) -> bool:
+        """True if any amount is not 0."""
+        return self.on_profile or self.along_face
+
+    @property
+    def on_profile(self) -> bool:
+        """True if the depth depends on the place on the profile."""
+        return any((self.tip_relief, self.root_relief, self.profile_crowning, self.pressure_angle_modification, self.twist))
+
+    @property
+    def along_face(self) -> bool:
+        """True if the depth depends on the place along the face width."""
+        return any((self.lead_crowning, self.end_relief, self.helix_angle_modification, self.twist))
+
+    def to_dict(self) -> dict[str, Any]:
+        """All fields, shapes as words."""
+        values = {each.name: getattr(self, each.name) for each in fields(self)}
+        return {name: value.value if isinstance(value, ReliefShape) else value for name, value in values.items()}
+
+    def check_lengths(self, roll: float, face_width: float) -> None:
+        """Raise GeometryError for lengths that do not fit a flank of that length of roll and width (mm)."""
+        for name, most, words in (
+            ("tip_relief_length", roll, "length of roll of the flank"),
+            ("root_relief_length", roll, "length of roll of the flank"),
+            ("end_relief_length", face_width / 2, "half face width"),
+        ):
+            if getattr(self, name) > most:
+                raise GeometryError(name, getattr(self, name), f"must be at most {at_most(most)} mm, the {words}", "mm")
+
+
+@dataclass(frozen=True)
+class FlankForm:
+    """The modified flanks of a gear: roll lengths from `first` to `last` and heights from 0 to `width`, all in mm.
+
+    `hand` is 1 for a right-hand helix and spur gears, -1 for a left-hand one.
+    """
+
+    modification: FlankModification
+    first: float
+    last: float
+    width: float
+    base_radius: float
+    hand: int
+
+    @classmethod
+    def of(cls, gear: Gear) -> FlankForm:
+        """That of a gear."""
+
+        def roll(diameter: float) -> float:
+            return float(np.sqrt(max((diameter - gear.base_diameter) * (diameter + gear.base_diameter), 0.0))) / 2
+
+        first, last = roll(gear.form_diameter), roll(gear.tip_form_diameter)
+        hand = -1 if gear.helix_angle < 0 else 1
+        return cls(gear.modification, first, last, gear.face_width, gear.base_diameter / 2, hand)
+
+    def depth(self, lengths: ArrayLike, heights: ArrayLike, *, left: bool = True) -> Floats:
+        """How far (mm) the left or right flank is taken back at roll lengths and heights z (mm), broadcast together.
+
+        Beyond the ends of the flank it is what it is at the end.
+        """
+        of = self.modification
+        roll, z = np.clip(lengths, self.first, self.last), np.clip(heights, 0.0, self.width)
+        up, along = (roll - self.first) / (self.last - self.first), z / self.width
+        amount = np.zeros(np.broadcast_shapes(np.shape(roll), np.shape(z)))
+        if of.tip_relief:
+            amount += of.tip_relief * of.tip_relief_shape.grown(1 - (self.last - roll) / of.tip_relief_length)
+        if of.root_relief:
+            amount += of.root_relief * of.root_relief_shape.grown(1 - (roll - self.first) / of.root_relief_length)
+        if of.end_relief:
+            to_end = np.minimum(z, self.width - z)
+            amount += of.end_relief * of.end_relief_shape.grown(1 - to_end / of.end_relief_length)
+        amount += of.profile_crowning * (2 * up - 1) ** 2 + of.pressure_angle_modification * up
+        amount += of.lead_crowning * (2 * along - 1) ** 2 + of.twist * (along - 0.5) * (up - 0.5)
+        amount += of.helix_angle_modification * (along - 0.5) * self.hand * (-1 if left else 1)
+        return amount / 1000
+
+    def turn(self, lengths: ArrayLike, heights: ArrayLike, *, left: bool = True) -> Floats:
+        """Angle (rad), counter-clockwise, by which the flank's point at a roll length and height is turned: depth/r_b.
+
+        Taking material off turns the left flank clockwise and the right one counter-clockwise.
+        """
+        return self.depth(lengths, heights, left=left) / self.base_radius * (-1 if left else 1)
+
+    @property
+    def roll_breaks(self) -> tuple[float, ...]:
+        """Roll lengths (mm) inside the flank where the depth is not smooth: the starts of the reliefs."""
+        of, found = self.modification, []
+        if of.tip_relief:
+            found.append(self.last - of.tip_relief_length)
+        if of.root_relief:
+            found.append(self.first + of.root_relief_length)
+        return _inside(found, self.first, self.last)
+
+    @property
+    def height_breaks(self) -> tuple[float, ...]:
+        """Heights z (mm) inside the face width where the depth is not smooth: the starts of the end reliefs."""
+        of = self.modification
+        found = [of.end_relief_length, self.width - of.end_relief_length] if of.end_relief else []
+        return _inside(found, 0.0, self.width)
+
+
+def _inside(places: list[float], first: float, last: float) -> tuple[float, ...]:
+    """The places between both ends, in order; those that are one but for rounding count once."""
+    slack = 1e-9 * (last - first)
+    ordered = sorted(place for place in places if first + slack < place < last - slack)
+    return tuple(ordered[:1]) + tuple(after for before, after in pairwise(ordered) if after - before > slack)
