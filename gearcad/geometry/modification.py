@@ -83,7 +83,7 @@ class FlankModification:
                 require_number(each.name, value, "µm", at_least=least, at_most=_LARGEST)
         for name in ("tip_relief", "root_relief", "end_relief"):
             if getattr(self, name) and not getattr(self, f"{name}_length"):
-                raise ParameterError(f"{name}_length", 0, f"must be above 0 mm for a {name} of {getattr(self, name):g} µm", "mm")
+                raise ParameterError(f"{name}_length", 0, f"must be above 0 mm for a {name} above 0 µm", "mm")
 
     @property
     def present(self) -> bool:
