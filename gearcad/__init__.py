@@ -24,6 +24,7 @@ from gearcad.geometry import (
 )
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.mounting import Mounting
 
 __all__ = [
     "ISO53_A",
@@ -40,6 +41,7 @@ __all__ = [
     "HubSide",
     "Load",
     "Material",
+    "Mounting",
     "ParameterError",
     "ReliefShape",
     "ShiftSplit",

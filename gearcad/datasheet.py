@@ -21,6 +21,7 @@ _GEAR_BLOCKS = {
     "Diameters": "tip_diameter tip_form_diameter reference_diameter base_diameter form_diameter root_diameter undercut",
     "Tooth thickness": "normal_tooth_thickness transverse_tooth_thickness tip_thickness",
     "Inspection": "span_teeth span_measurement span_contact_diameter ball_diameter over_balls over_pins pin_axial_shift",
+    "Flank modifications": " ".join(key for key in symbols.GEAR if key.startswith("modification.")),
     "Body": "body.bore body.keyway_width body.keyway_depth body.hub_diameter body.hub_length body.hub_side body.rim_diameter"
     " body.end_chamfer body.end_chamfer_angle body.tip_chamfer",
 }
@@ -58,7 +59,7 @@ class _Line(NamedTuple):
 
 
 def print_datasheet(design: Design, console: Console) -> None:
-    """Print the sheet: a column per gear, then the pair, material and load, then the warnings."""
+    """Print the sheet: a column per gear, then the pair, material, load and mounting, then the warnings."""
     from rich.text import Text
 
     for line in _lines(design, with_source=console.width >= _WIDE):
@@ -68,7 +69,7 @@ def print_datasheet(design: Design, console: Console) -> None:
 
 def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
     document = design.to_dict()
-    gears = {name: _flat(document[name]) for name in design.gears}
+    gears = {name: _flat(document[name] | {"modification": gear.modification.in_use}) for name, gear in design.gears.items()}
     pair = _flat(document.get("pair", {}))
     yield _Line(f"{design.name}: {_title(design)}", "bold")
     yield _Line("lengths in mm, angles in degrees" + (", clauses of ISO 21771:2007" if with_source else ""), "dim")
@@ -81,8 +82,9 @@ def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
         yield from _block(title, [row for row in rows if set(row[1]) != {_ABSENT}], with_source)
     for title, keys in _PAIR_BLOCKS.items() if pair else ():
         yield from _block(title, [(symbols.PAIR[key], [_value(pair[key])]) for key in keys.split()], with_source)
-    for block, table in (("material", symbols.MATERIAL), ("load", symbols.LOAD)):
-        given = {key: value for key, value in document.get(block, {}).items() if value is not None}
+    for block, table in (("material", symbols.MATERIAL), ("load", symbols.LOAD), ("mounting", symbols.MOUNTING)):
+        absent = (None, 0) if block == "mounting" else (None,)
+        given = {key: value for key, value in document.get(block, {}).items() if value not in absent}
         yield from _block(block.capitalize(), [(table[key], [_given(value)]) for key, value in given.items()], with_source)
     yield from _warnings(design)
 
@@ -129,9 +131,9 @@ def _flat(document: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _shown(values: Mapping[str, Any], key: str) -> str:
-    """The value, or a dash for a feature of the body that is not there."""
+    """The value, or a dash for a feature of the body or a modification that is not there."""
     owner = _BELONGS_TO.get(key, key)
-    return _ABSENT if owner.startswith("body.") and not values[owner] else _value(values[key])
+    return _ABSENT if owner.startswith("body.") and not values[owner] else _value(values.get(key))
 
 
 def _value(value: Any) -> str:

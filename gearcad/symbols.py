@@ -1,15 +1,15 @@
 """The one table from field name to symbol, unit, source and words: data sheet, CSV headers and drawings read it.
 
-Keys are those of `Gear.to_dict()`, `GearPair.to_dict()`, `Material`, `Load` and `Rating.to_dict()`, nested ones joined by a
-dot (`rack.root_radius`, `path_of_contact.A`); GEAR_RATING holds those under a rating's "pinion" and "wheel". Clauses are
-those of ISO 21771:2007 unless another standard is named; an empty source means that the quantity is our own.
+Keys are those of `Gear.to_dict()`, `GearPair.to_dict()`, `Material`, `Load`, `Mounting` and `Rating.to_dict()`, nested ones
+joined by a dot (`rack.root_radius`, `path_of_contact.A`); GEAR_RATING holds those under a rating's "pinion" and "wheel".
+Clauses are those of ISO 21771:2007 unless another standard is named; an empty source means that the quantity is our own.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["GEAR", "GEAR_RATING", "LOAD", "MATERIAL", "PAIR", "RATING", "Symbol"]
+__all__ = ["GEAR", "GEAR_RATING", "LOAD", "MATERIAL", "MOUNTING", "PAIR", "RATING", "Symbol"]
 
 
 class Symbol(NamedTuple):
@@ -44,6 +44,20 @@ GEAR = {
     "body.end_chamfer": Symbol("", "mm", "", "end chamfer, axial length"),
     "body.end_chamfer_angle": Symbol("", "deg", "", "end chamfer, angle to the axis"),
     "body.tip_chamfer": Symbol("h_K", "mm", "6.1", "tip chamfer, radial height"),
+    "modification.tip_relief": Symbol("C_αa", "µm", "6.2", "tip relief"),
+    "modification.tip_relief_length": Symbol("L_Cαa", "mm", "6.2", "tip relief, length of roll"),
+    "modification.tip_relief_shape": Symbol("", "", "6.2", "tip relief, shape"),
+    "modification.root_relief": Symbol("C_αf", "µm", "6.2", "root relief"),
+    "modification.root_relief_length": Symbol("L_Cαf", "mm", "6.2", "root relief, length of roll"),
+    "modification.root_relief_shape": Symbol("", "", "6.2", "root relief, shape"),
+    "modification.profile_crowning": Symbol("C_α", "µm", "6.2", "profile crowning"),
+    "modification.pressure_angle_modification": Symbol("C_Hα", "µm", "6.2", "pressure angle modification"),
+    "modification.lead_crowning": Symbol("C_β", "µm", "6.3", "lead crowning"),
+    "modification.end_relief": Symbol("C_βI", "µm", "6.3", "end relief at both ends"),
+    "modification.end_relief_length": Symbol("L_CβI", "mm", "6.3", "end relief, length along the axis"),
+    "modification.end_relief_shape": Symbol("", "", "6.3", "end relief, shape"),
+    "modification.helix_angle_modification": Symbol("C_Hβ", "µm", "6.3", "helix angle modification"),
+    "modification.twist": Symbol("S_α", "µm", "6.4", "twist of the flank"),
     "transverse_module": Symbol("m_t", "mm", "4.2", "transverse module"),
     "transverse_pressure_angle": Symbol("α_t", "deg", "4.3", "transverse pressure angle"),
     "base_helix_angle": Symbol("β_b", "deg", "4.3", "base helix angle"),
@@ -114,6 +128,14 @@ LOAD = {
     "torque": Symbol("T_1", "N·m", "ISO 6336-1", "torque on the pinion"),
     "speed": Symbol("n_1", "rpm", "ISO 6336-1", "speed of the pinion"),
     "application_factor": Symbol("K_A", "", "ISO 6336-1", "application factor"),
+}
+
+MOUNTING = {
+    "misalignment": Symbol("F_βx", "µm", "ISO 6336-1", "misalignment in the plane of action"),
+    "misalignment_across": Symbol("", "µm", "", "misalignment across that plane"),
+    "pinion_pitch_error": Symbol("f_p1", "µm", "ISO 1328-1", "pitch error of a tooth of the pinion"),
+    "wheel_pitch_error": Symbol("f_p2", "µm", "ISO 1328-1", "pitch error of a tooth of the wheel"),
+    "centre_distance_change": Symbol("Δa", "mm", "", "change of the centre distance"),
 }
 
 RATING = {

@@ -12,6 +12,7 @@ from gearcad.errors import GeometryError, ParameterError, require_name, require_
 from gearcad.geometry.body import Body
 from gearcad.geometry.derived import Derived
 from gearcad.geometry.limits import at_least, at_most
+from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.rack import BasicRack
 
 if TYPE_CHECKING:
@@ -44,9 +45,9 @@ def check_numbers(gear: Gear) -> None:
     require_number("profile_shift", gear.profile_shift, at_least=-5, at_most=5)
     require_number("tip_alteration", gear.tip_alteration, at_least=-5, at_most=5)
     require_number("tooth_thinning", gear.tooth_thinning, "mm", at_least=0)
-    for name, kind in (("rack", BasicRack), ("body", Body)):
-        if not isinstance(getattr(gear, name), kind):
-            raise ParameterError(name, getattr(gear, name), f"must be a {kind.__name__}")
+    for part, kind in (("rack", BasicRack), ("body", Body), ("modification", FlankModification)):
+        if not isinstance(getattr(gear, part), kind):
+            raise ParameterError(part, getattr(gear, part), f"must be a {kind.__name__}")
     if gear.face_width < 0.01 * gear.normal_module:
         least = at_least(0.01 * gear.normal_module)
         raise GeometryError("face_width", gear.face_width, f"must be at least {least} mm (0.01 m_n)", "mm")

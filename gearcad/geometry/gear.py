@@ -11,7 +11,7 @@ from gearcad.errors import InputError, plain_numbers, require_number
 from gearcad.geometry import feasibility, inspection
 from gearcad.geometry.body import Body
 from gearcad.geometry.derived import Derived
-from gearcad.geometry.modification import FlankForm, FlankModification
+from gearcad.geometry.modification import FlankForm, FlankModification, check_flanks
 from gearcad.geometry.profile import ToothProfile, base_half_angle
 from gearcad.geometry.rack import ISO53_A, BasicRack
 from gearcad.geometry.trochoid import ToolTip
@@ -71,8 +71,7 @@ class Gear:
             raise error.within("body") if error.parameter == "tip_chamfer" else error from None
         feasibility.check_body(self)
         try:
-            form = self.flank_form
-            self.modification.check_lengths(form.last - form.first, self.face_width)
+            check_flanks(self)
         except InputError as error:
             raise error.within("modification") from None
 

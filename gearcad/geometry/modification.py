@@ -15,18 +15,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_number
+from gearcad.errors import GeometryError, as_choice, plain_numbers, require_number
 from gearcad.geometry.limits import at_most
 
 if TYPE_CHECKING:
     from gearcad.geometry.gear import Gear
 
-__all__ = ["FlankForm", "FlankModification", "ReliefShape"]
+__all__ = ["FlankForm", "FlankModification", "ReliefShape", "check_flanks"]
 
 Floats = NDArray[np.float64]
 
+_RELIEFS = ("tip_relief", "root_relief", "end_relief")
+
 _LARGEST = 1000.0
 """Largest amount (um)."""
+
+_LEAST_LAND = 1e-3
+"""Least width (mm) of what modifications leave of a tip land."""
+
+_ROUNDING = 1e-9
+"""Overlap (mm) in a root that comes to a point which is rounding."""
 
 
 class ReliefShape(Enum):
@@ -52,7 +60,7 @@ class FlankModification:
     C_beta_II at both ends, nothing `end_relief_length` along the axis inside. `helix_angle_modification` C_H_beta over the
     face width: the sections turn about the middle one, positive for a steeper helix (right hand on a spur gear).
     `twist` S_alpha is the change of the profile slope from z = 0 to the other end.
-    Raises ParameterError for one value, GeometryError from `Gear` for lengths that do not fit its flank.
+    Raises ParameterError for one value, GeometryError for a relief without a length, and from `Gear` for what does not fit it.
     """
 
     tip_relief: float = 0.0
@@ -81,9 +89,9 @@ class FlankModification:
             else:
                 least = 0.0 if each.name.endswith("_relief") else -_LARGEST
                 require_number(each.name, value, "µm", at_least=least, at_most=_LARGEST)
-        for name in ("tip_relief", "root_relief", "end_relief"):
+        for name in _RELIEFS:
             if getattr(self, name) and not getattr(self, f"{name}_length"):
-                raise ParameterError(f"{name}_length", 0, f"must be above 0 mm for a {name} above 0 µm", "mm")
+                raise GeometryError(f"{name}_length", 0, f"must be above 0 mm for a {name} above 0 µm", "mm")
 
     @property
     def present(self) -> bool:
@@ -104,6 +112,12 @@ class FlankModification:
         """All fields, shapes as words."""
         values = {each.name: getattr(self, each.name) for each in fields(self)}
         return {name: value.value if isinstance(value, ReliefShape) else value for name, value in values.items()}
+
+    @property
+    def in_use(self) -> dict[str, Any]:
+        """The fields that do something, shapes as words: amounts that are not 0, and what belongs to them."""
+        idle = [name for name in _RELIEFS if not getattr(self, name)]
+        return {name: value for name, value in self.to_dict().items() if value and not name.startswith(tuple(idle))}
 
     def check_lengths(self, roll: float, face_width: float) -> None:
         """Raise GeometryError for lengths that do not fit a flank of that length of roll and width (mm)."""
@@ -185,6 +199,33 @@ class FlankForm:
         of = self.modification
         found = [of.end_relief_length, self.width - of.end_relief_length] if of.end_relief else []
         return _inside(found, 0.0, self.width)
+
+
+def check_flanks(gear: Gear) -> None:
+    """Raise GeometryError for modifications that do not fit a gear: lengths beyond its flanks, no tip or no space left."""
+    form, amounts = gear.flank_form, gear.modification
+    amounts.check_lengths(form.last - form.first, gear.face_width)
+    if not amounts.present:
+        return
+    largest = max(
+        (name for name in amounts.in_use if not name.endswith(("_length", "_shape"))),
+        key=lambda name: abs(getattr(amounts, name)),
+    )
+    heights = np.unique([*np.linspace(0, gear.face_width, 33), *form.height_breaks])
+    tip, root = gear.tip_diameter / 2, gear.root_diameter / 2
+    land = 2 * tip * np.radians(gear.profile.half_angle(tip))
+    space = 2 * root * (np.pi / gear.teeth - np.radians(gear.profile.half_angle(root)))
+    # What turns one flank towards the other; a change of the helix turns both alike.
+    taken_at_tip, taken_at_root = (
+        (form.depth(end, heights) + form.depth(end, heights, left=False)) / form.base_radius for end in (form.last, form.first)
+    )
+    for words, room, least in (
+        ("tip land", land - tip * taken_at_tip.max(), _LEAST_LAND),
+        ("root of the space", space + root * taken_at_root.min(), -_ROUNDING),
+    ):
+        if room < least:
+            permitted = f"must be smaller: all modifications together leave {room:.4f} mm of the {words}"
+            raise GeometryError(largest, getattr(amounts, largest), permitted, "µm")
 
 
 def _inside(places: list[float], first: float, last: float) -> tuple[float, ...]:

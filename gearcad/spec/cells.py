@@ -34,7 +34,15 @@ class Unreadable(NamedTuple):
 RawCell = str | int | float | Unreadable | None
 """A cell as the file holds it; a text file has texts only."""
 
-_TEXT_FIELDS = ("name", "rack", "body.hub_side", "profile_shift_split", "plane", "cuts")
+_TEXT_FIELDS = (
+    "name",
+    "rack",
+    "body.hub_side",
+    *(f"modification.{relief}_shape" for relief in ("tip_relief", "root_relief", "end_relief")),
+    "profile_shift_split",
+    "plane",
+    "cuts",
+)
 _TEXTS = frozenset(f"{table}.{field}" for table, fields in COLUMNS.items() for field in fields if field in _TEXT_FIELDS) | {
     "name"
 }

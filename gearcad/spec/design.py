@@ -1,4 +1,4 @@
-"""Design: what one spec describes - a gear or a pair with its name, material and load - ready to be computed."""
+"""Design: what one spec describes - a gear or a pair with its name, material, load and mounting - ready to be computed."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from gearcad.errors import ParameterError
 from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.mounting import Mounting
 
 __all__ = ["Design", "DesignKind", "require_plain_name"]
 
@@ -43,6 +44,7 @@ class Design:
     pair: GearPair | None = None
     material: Material | None = None
     load: Load | None = None
+    mounting: Mounting | None = None
     check: CheckOptions | None = None
 
     def __post_init__(self) -> None:
@@ -80,6 +82,8 @@ class Design:
             document["material"] = asdict(self.material)
         if self.load is not None:
             document["load"] = asdict(self.load)
+        if self.mounting is not None:
+            document["mounting"] = asdict(self.mounting)
         if self.check is not None:
             document["check"] = asdict(self.check)
         return document

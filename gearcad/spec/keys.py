@@ -7,14 +7,16 @@ from dataclasses import fields
 
 from gearcad import symbols
 from gearcad.check.options import CheckOptions
-from gearcad.geometry import BasicRack, Body, Gear
+from gearcad.geometry import BasicRack, Body, FlankModification, Gear
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.mounting import Mounting
 
 __all__ = [
     "COLUMNS",
     "KEYS",
     "LISTS",
+    "PARTS",
     "SHARED",
     "explain_unknown_column",
     "explain_unknown_key",
@@ -22,11 +24,16 @@ __all__ = [
     "nearest_table",
 ]
 
+PARTS = ("rack", "body", "modification")
+"""Fields of a gear that have fields of their own."""
+
 _RACK = ("rack", *(f"rack.{field.name}" for field in fields(BasicRack)))
 _BODY = tuple(f"body.{field.name}" for field in fields(Body))
-_GEAR = (*(field.name for field in fields(Gear) if field.name not in ("rack", "body")), *_RACK, *_BODY)
+_MODIFICATION = tuple(f"modification.{field.name}" for field in fields(FlankModification))
+_PARTS = (*_RACK, *_BODY, *_MODIFICATION)
+_GEAR = (*(field.name for field in fields(Gear) if field.name not in PARTS), *_PARTS)
 
-SHARED = ("normal_module", "helix_angle", "face_width", "tip_alteration", "tooth_thinning", *_RACK, *_BODY)
+SHARED = ("normal_module", "helix_angle", "face_width", "tip_alteration", "tooth_thinning", *_PARTS)
 """Keys of a gear that may stand in [pair] for both; the helix angle there is the pinion's."""
 
 KEYS = {
@@ -36,12 +43,20 @@ KEYS = {
     "wheel": _GEAR,
     "material": tuple(field.name for field in fields(Material)),
     "load": tuple(field.name for field in fields(Load)),
+    "mounting": tuple(field.name for field in fields(Mounting)),
     "check": tuple(field.name for field in fields(CheckOptions)),
 }
 """Permitted keys of each table, flattened with dots. `rack` alone is the name of a rack."""
 
 LISTS = ("material.contact_limit", "material.root_limit", "check.torques")
 """Keys that may hold several numbers; in a cell there is space between them."""
+
+_MOVED = {
+    "check.pinion_tip_relief": "write pinion.modification.tip_relief and pinion.modification.tip_relief_length (mm)",
+    "check.wheel_tip_relief": "write wheel.modification.tip_relief and wheel.modification.tip_relief_length (mm)",
+    "check.tip_relief_length": "write modification.tip_relief_length of pair, pinion or wheel, in mm and not in modules",
+}
+"""Where keys of earlier specs went."""
 
 _NO_COLUMN = (("gear", "name"), ("pair", "name"))
 
@@ -58,6 +73,8 @@ def explain_unknown_table(table: str) -> str:
 
 def explain_unknown_key(table: str, key: str) -> str:
     """The end of the message about a key that `table` does not have: where it belongs, or the nearest one."""
+    if (moved := _MOVED.get(f"{table}.{key}")) is not None:
+        return f"is no key any more: {moved}"
     homes = [f"[{name}]" for name, keys in KEYS.items() if key in keys and name != "gear"]
     if homes and table != "gear":
         return f"unknown key here; it belongs in {' or '.join(homes)}"
@@ -69,7 +86,7 @@ def explain_unknown_key(table: str, key: str) -> str:
 
 def _nearest(key: str, known: tuple[str, ...]) -> str | None:
     """The known key whose symbol, last word or spelling is nearest."""
-    entries = symbols.GEAR | symbols.PAIR | symbols.MATERIAL | symbols.LOAD
+    entries = symbols.GEAR | symbols.PAIR | symbols.MATERIAL | symbols.LOAD | symbols.MOUNTING
     by_symbol = {entries[name].symbol: name for name in known if name in entries and entries[name].symbol}
     by_tail = {name.rpartition(".")[2]: name for name in reversed(known)}
     if key in by_symbol:
@@ -90,6 +107,8 @@ def explain_unknown_column(heading: str, main: str) -> str:
     """The end of the message about a heading of a design table that is no key; bare keys are those of the table `main`."""
     if heading.lower() == "name":
         return "unknown column; did you mean name?"
+    if (moved := _MOVED.get(heading)) is not None:
+        return f"is no column any more: {moved}"
     first, dot, rest = heading.partition(".")
     table = nearest_table(first) if dot else None
     owner, field = (table, rest) if table else (main, heading)

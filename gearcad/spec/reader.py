@@ -23,12 +23,13 @@ from gearcad.errors import (
     format_number,
     require_number,
 )
-from gearcad.geometry import NAMED_RACKS, BasicRack, Body, Gear, GearPair, ShiftSplit
+from gearcad.geometry import NAMED_RACKS, BasicRack, Body, FlankModification, Gear, GearPair, ShiftSplit
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.mounting import Mounting
 from gearcad.spec.auto import AUTO, resolve_profile_shifts, resolve_tip_alterations
 from gearcad.spec.design import Design, DesignKind, require_plain_name
-from gearcad.spec.keys import KEYS, LISTS, SHARED, explain_unknown_key, explain_unknown_table
+from gearcad.spec.keys import KEYS, LISTS, PARTS, SHARED, explain_unknown_key, explain_unknown_table
 from gearcad.spec.lines import explain_syntax, find_lines, nearest_line
 
 __all__ = ["Cell", "design_from_tables", "read_spec", "spec_values"]
@@ -45,7 +46,7 @@ _MOST_WHOLE = 10**15
 Cell = int | float | str | tuple[float, ...]
 """What a spec and a cell of a design table can both hold."""
 
-Simple = TypeVar("Simple", Material, Load, CheckOptions)
+Simple = TypeVar("Simple", Material, Load, Mounting, CheckOptions)
 
 
 class _Given(NamedTuple):
@@ -118,13 +119,14 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
     spec = _Spec(_flatten(tables, where), where)
     material = spec.simple("material", Material) if "material" in tables else None
     load = spec.simple("load", Load) if "load" in tables else None
+    mounting = spec.simple("mounting", Mounting) if "mounting" in tables else None
     check = spec.simple("check", CheckOptions) if "check" in tables else None
     main = kind.value
     name = spec.name(main, default_name)
     gear = spec.gear(name) if kind is DesignKind.GEAR else None
     pair = spec.pair(name) if kind is DesignKind.PAIR else None
     with spec.blame(main):
-        return Design(kind=kind, name=name, gear=gear, pair=pair, material=material, load=load, check=check)
+        return Design(kind=kind, name=name, gear=gear, pair=pair, material=material, load=load, mounting=mounting, check=check)
 
 
 def _kind(tables: Mapping[str, Any], where: Where) -> DesignKind:
@@ -165,9 +167,9 @@ def _flatten(tables: Mapping[str, Any], where: Where) -> dict[str, _Given]:
 
 
 def _entries(content: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
-    """Keys and values of one table, those of `rack` and `body` joined to them with a dot."""
+    """Keys and values of one table, those of `rack`, `body` and `modification` joined to them with a dot."""
     for field, value in content.items():
-        if field in ("rack", "body") and isinstance(value, Mapping):
+        if field in PARTS and isinstance(value, Mapping):
             yield from ((f"{field}.{inner}", item) for inner, item in value.items())
         else:
             yield field, value
@@ -242,7 +244,7 @@ class _Spec:
         return {key.partition(".")[2]: given.value for key, given in self.values.items() if key.startswith(owner + ".")}
 
     def simple(self, owner: str, kind: type[Simple]) -> Simple:
-        """A Material, a Load or the options of a check."""
+        """A Material, a Load, a Mounting or the options of a check."""
         values = self.fields_of(owner)
         with self.blame(owner):
             if not isinstance(values.get("name", ""), str):
@@ -309,7 +311,7 @@ class _Spec:
     def _gear_inputs(self, owner: str) -> dict[str, Any]:
         """Keyword arguments of Gear; "auto" not yet resolved, what is missing as None for Gear to complain about."""
         given = self.fields_of(owner)
-        parts: dict[str, dict[str, Any]] = {"rack": {}, "body": {}}
+        parts: dict[str, dict[str, Any]] = {part: {} for part in PARTS}
         inputs: dict[str, Any] = dict.fromkeys(("teeth", "normal_module", "face_width"))
         for key, value in given.items():
             part, _, field = key.partition(".")
@@ -324,10 +326,11 @@ class _Spec:
             if error.parameter == "rack":
                 raise
             raise error.within("rack") from error
-        try:
-            inputs["body"] = Body(**parts["body"])
-        except InputError as error:
-            raise error.within("body") from error
+        for part, kind in (("body", Body), ("modification", FlankModification)):
+            try:
+                inputs[part] = kind(**parts[part])
+            except InputError as error:
+                raise error.within(part) from error
         return inputs
 
     def _resolve_auto(self, inputs: dict[str, dict[str, Any]], distance: float | None, split: ShiftSplit | None) -> None:

@@ -1,0 +1,56 @@
+"""Mounting: how the gears of a pair stand to each other in the machine, unlike in the drawing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from gearcad.errors import GeometryError, InputError, format_number, plain_numbers, require_number
+from gearcad.geometry import GearPair
+
+__all__ = ["Mounting"]
+
+_LARGEST = 1000.0
+"""Largest deviation (µm)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mounting:
+    """Deviations of a pair in its housing and of its teeth; all 0 is the drawing. Deviations in µm, lengths in mm.
+
+    The wheel's axis is turned about the middle of the common face width: `misalignment` is how far its sections move along
+    the line of action from one end of the common face width to the other, positive if the wheel's flanks recede from the
+    pinion's towards larger z, so that the gap grows; `misalignment_across` how far they move square to the plane of action,
+    positive away from the pinion's axis. `pinion_pitch_error` and `wheel_pitch_error` are those of one tooth each, which
+    meet in the middle pair: along the base tangent, positive if the flank stands proud. `centre_distance_change` is added
+    to the centre distance. Raises ParameterError.
+    """
+
+    misalignment: float = 0.0
+    misalignment_across: float = 0.0
+    pinion_pitch_error: float = 0.0
+    wheel_pitch_error: float = 0.0
+    centre_distance_change: float = 0.0
+
+    def __post_init__(self) -> None:
+        plain_numbers(self)
+        for name in ("misalignment", "misalignment_across", "pinion_pitch_error", "wheel_pitch_error"):
+            require_number(name, getattr(self, name), "µm", at_least=-_LARGEST, at_most=_LARGEST)
+        require_number("centre_distance_change", self.centre_distance_change, "mm")
+
+    @property
+    def pitch_error(self) -> float:
+        """How far (µm) the flanks of the middle pair of teeth stand proud, both together."""
+        return self.pinion_pitch_error + self.wheel_pitch_error
+
+    def mounted(self, pair: GearPair) -> GearPair:
+        """The pair at the centre distance of this mounting. Raises GeometryError where the gears no longer mesh there."""
+        change = self.centre_distance_change
+        if not change:
+            return pair
+        distance = pair.centre_distance + change
+        try:
+            return replace(pair, centre_distance=distance)
+        except InputError as error:
+            at_fault = "" if error.parameter == "centre_distance" else f"{error.parameter} "
+            permitted = f"makes a centre distance of {format_number(distance)} mm, but {at_fault}{error.permitted}"
+            raise GeometryError("centre_distance_change", change, permitted, "mm").within("mounting") from error
