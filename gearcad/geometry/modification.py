@@ -122,12 +122,12 @@ class FlankModification:
     def check_lengths(self, roll: float, face_width: float) -> None:
         """Raise GeometryError for lengths that do not fit a flank of that length of roll and width (mm)."""
         for name, most, words in (
-            ("tip_relief_length", roll, "length of roll of the flank"),
-            ("root_relief_length", roll, "length of roll of the flank"),
-            ("end_relief_length", face_width / 2, "half face width"),
+            ("tip_relief_length", roll, "the length of roll of the flank"),
+            ("root_relief_length", roll, "the length of roll of the flank"),
+            ("end_relief_length", face_width / 2, "half the face width"),
         ):
             if getattr(self, name) > most:
-                raise GeometryError(name, getattr(self, name), f"must be at most {at_most(most)} mm, the {words}", "mm")
+                raise GeometryError(name, getattr(self, name), f"must be at most {at_most(most)} mm, {words}", "mm")
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from gearcad import Gear, GearPair, Load, Material, symbols
+from gearcad import Gear, GearPair, Load, Material, Mounting, symbols
 
 
 def _keys(document: dict[str, Any]) -> set[str]:
@@ -26,12 +26,15 @@ def test_every_field_of_a_pair_has_a_symbol_and_every_symbol_a_field() -> None:
     assert _keys(GearPair(pinion=gear, wheel=gear).to_dict()) == set(symbols.PAIR)
 
 
-@pytest.mark.parametrize(("made", "table"), [(Material(), symbols.MATERIAL), (Load(torque=1.0), symbols.LOAD)])
-def test_inputs_of_later_stages_have_symbols(made: Material | Load, table: dict[str, symbols.Symbol]) -> None:
+@pytest.mark.parametrize(
+    ("made", "table"),
+    [(Material(), symbols.MATERIAL), (Load(torque=1.0), symbols.LOAD), (Mounting(), symbols.MOUNTING)],
+)
+def test_inputs_of_later_stages_have_symbols(made: Material | Load | Mounting, table: dict[str, symbols.Symbol]) -> None:
     assert set(asdict(made)) == {field.name for field in fields(made)} == set(table)
 
 
-@pytest.mark.parametrize("table", [symbols.GEAR, symbols.PAIR, symbols.MATERIAL, symbols.LOAD])
+@pytest.mark.parametrize("table", [symbols.GEAR, symbols.PAIR, symbols.MATERIAL, symbols.LOAD, symbols.MOUNTING])
 def test_words_tell_the_rows_of_a_sheet_apart(table: dict[str, symbols.Symbol]) -> None:
     words = [symbol.words for symbol in table.values()]
     assert len(set(words)) == len(words)
