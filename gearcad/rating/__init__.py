@@ -1,6 +1,7 @@
 """Analytic ratings of a gear pair: Hertz's line contact, and ISO 6336:2006 or DIN 3990:1987, Method B. Pure functions."""
 
 from gearcad.rating.editions import Edition
+from gearcad.rating.face_load import RunningIn, face_load_factor, root_face_load_factor, running_in_allowance, width_to_height
 from gearcad.rating.hertz import LineContact, Peak, Stresses, reduced_modulus, reduced_radius
 from gearcad.rating.iso6336_1 import MeshStiffness, gear_blank_factor
 from gearcad.rating.iso6336_2 import FlankRating
@@ -19,13 +20,18 @@ __all__ = [
     "Rating",
     "RootRating",
     "RootSection",
+    "RunningIn",
     "Stresses",
     "VirtualGear",
     "base_normal_force",
     "contact_at",
+    "face_load_factor",
     "gear_blank_factor",
     "pitch_point_contact",
     "rate",
     "reduced_modulus",
     "reduced_radius",
+    "root_face_load_factor",
+    "running_in_allowance",
+    "width_to_height",
 ]
