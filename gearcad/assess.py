@@ -11,7 +11,7 @@ __all__ = ["assess"]
 
 
 def assess(design: Design, progress: Progress | None = None) -> CheckResult:
-    """Check the design's pair under its load, with the options of its [check].
+    """Check the design's pair as mounted, under its load, with the options of its [check].
 
     Raises ParameterError for a design without pair or load, and what `check_pair` raises.
     """
@@ -23,4 +23,5 @@ def assess(design: Design, progress: Progress | None = None) -> CheckResult:
 
     # The dense systems are small: threads cost more than they bring, the more so where rows of a table share the cores.
     with threadpool_limits(1):
-        return check_pair(design.pair, design.material or Material(), design.load, design.check, progress)
+        material = design.material or Material()
+        return check_pair(design.pair, material, design.load, design.check, progress, design.mounting)

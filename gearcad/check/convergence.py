@@ -50,9 +50,9 @@ def study_convergence(
         sizes = MeshSizes().refined(factor)
         model = middle
         if factor != 1:
-            reliefs = options.reliefs(middle.pair.pinion.normal_module)
+            error = 1000 * middle.line.proud
             model = flexible_pair(
-                middle.pair, material, plane=options.plane_state, body=options.body, sizes=sizes, reliefs=reliefs
+                middle.pair, material, plane=options.plane_state, body=options.body, sizes=sizes, pitch_error=error
             )
         few = figures(run_cycle(model, torque, _POSITIONS))
         for values, value in zip(found.values(), (few.mesh_stiffness, *few.root_tension), strict=True):

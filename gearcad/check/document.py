@@ -18,6 +18,7 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "kind": "check",
         "model": "2d",
         "load": asdict(result.load),
+        "mounting": asdict(result.mounting),
         "material": asdict(result.material),
         "options": asdict(result.options),
         "body": result.bodies,

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from gearcad.errors import ParameterError, as_choice, plain_numbers, require_number, require_whole
+from gearcad.fea.ring import Cuts
 from gearcad.fea.elasticity import Plane
 from gearcad.fea.flexible_pair import BodyModel
-from gearcad.fea.mesh_positions import TipRelief
-from gearcad.fea.ring import Cuts
 
 __all__ = ["CheckOptions"]
 
@@ -21,10 +20,8 @@ class CheckOptions:
 
     `plane` is "strain" (wide gears) or "stress"; `positions` over one base pitch; `body_teeth` of each body, 0 for the full
     ring, and what holds its `cuts`: "fixed", "sliding" or "free". `pinion_inner_diameter`, `wheel_inner_diameter` (mm):
-    where the bodies are held, instead of the bore or 4 m_n below the root circle. `pinion_tip_relief`, `wheel_tip_relief`
-    (µm): linear reliefs, `tip_relief_length` normal modules long on the line of action; the solids do not have them.
-    `torques` (N·m on the pinion) of the sweep, () for five up to the load's. `root_band` and `stiffness_band` (%): how far
-    the FE may be from ISO 6336.
+    where the bodies are held, instead of the bore or 4 m_n below the root circle. `torques` (N·m on the pinion) of the
+    sweep, () for five up to the load's. `root_band` and `stiffness_band` (%): how far the FE may be from ISO 6336.
     """
 
     plane: str = "strain"
@@ -33,9 +30,6 @@ class CheckOptions:
     cuts: str = "fixed"
     pinion_inner_diameter: float | None = None
     wheel_inner_diameter: float | None = None
-    pinion_tip_relief: float = 0.0
-    wheel_tip_relief: float = 0.0
-    tip_relief_length: float = 0.6
     torques: tuple[float, ...] = ()
     root_band: float = 25.0
     stiffness_band: float = 25.0
@@ -53,9 +47,6 @@ class CheckOptions:
         for name in ("pinion_inner_diameter", "wheel_inner_diameter"):
             if getattr(self, name) is not None:
                 require_number(name, getattr(self, name), "mm", above=0)
-        for name in ("pinion_tip_relief", "wheel_tip_relief"):
-            require_number(name, getattr(self, name), "µm", at_least=0, at_most=1000)
-        require_number("tip_relief_length", self.tip_relief_length, above=0, at_most=5)
         torques = self.torques if isinstance(self.torques, list | tuple) else (self.torques,)
         for torque in torques:
             require_number("torques", torque, "N·m", above=0)
@@ -67,11 +58,6 @@ class CheckOptions:
     def plane_state(self) -> Plane:
         """The plane state as the FE wants it."""
         return _PLANES[self.plane]
-
-    def reliefs(self, normal_module: float) -> tuple[TipRelief, TipRelief]:
-        """The reliefs as the FE wants them."""
-        length = self.tip_relief_length * normal_module
-        return TipRelief(self.pinion_tip_relief, length), TipRelief(self.wheel_tip_relief, length)
 
     @property
     def body(self) -> BodyModel:

@@ -20,6 +20,7 @@ from gearcad.fea.flexible_pair import FlexiblePair, flexible_pair
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.mounting import Mounting
 from gearcad.rating import Rating, rate
 
 __all__ = ["CheckResult", "Progress", "SweepPoint", "check_pair"]
@@ -55,11 +56,12 @@ class SweepPoint:
 
 @dataclass(frozen=True, kw_only=True)
 class CheckResult:
-    """Everything the check found out."""
+    """Everything the check found out; `pair` is as mounted."""
 
     pair: GearPair
     material: Material
     load: Load
+    mounting: Mounting
     options: CheckOptions
     cycle: Cycle
     summary: Summary
@@ -85,19 +87,24 @@ class CheckResult:
 
 
 def check_pair(
-    pair: GearPair, material: Material, load: Load, options: CheckOptions | None = None, progress: Progress | None = None
+    pair: GearPair,
+    material: Material,
+    load: Load,
+    options: CheckOptions | None = None,
+    progress: Progress | None = None,
+    mounting: Mounting | None = None,
 ) -> CheckResult:
-    """Check a pair under a load, in its transverse section.
+    """Check a pair under a load, in the transverse section through the middle of its common face width.
 
     Raises ParameterError and GeometryError for input that cannot be checked, SolverError where a solver fails.
     """
-    options = options or CheckOptions()
+    options, mounting = options or CheckOptions(), mounting or Mounting()
+    pair = mounting.mounted(pair)
     torque = load.torque * load.application_factor
     _require_meshing(pair, torque)
     tell = _teller(progress)
     tell("mesh cycle")
-    reliefs = options.reliefs(pair.pinion.normal_module)
-    model = flexible_pair(pair, material, plane=options.plane_state, body=options.body, reliefs=reliefs)
+    model = flexible_pair(pair, material, plane=options.plane_state, body=options.body, pitch_error=mounting.pitch_error)
     cycle = run_cycle(model, torque, options.positions)
     summary = summarise(cycle, single_stiffness(model, torque))
     tell("convergence")
@@ -111,6 +118,7 @@ def check_pair(
         pair=pair,
         material=material,
         load=load,
+        mounting=mounting,
         options=options,
         cycle=cycle,
         summary=summary,
@@ -118,7 +126,7 @@ def check_pair(
         convergence=convergence,
         rating=rating,
         comparisons=comparisons,
-        warnings=_warnings(cycle, summary, options),
+        warnings=_warnings(cycle, summary, options, mounting),
     )
 
 
@@ -149,8 +157,9 @@ def _sweep_point(model: FlexiblePair, torque: float) -> SweepPoint:
     return SweepPoint(torque, few.mesh_stiffness, few.contact_pressure, few.root_tension, (first, second))
 
 
-def _warnings(cycle: Cycle, summary: Summary, options: CheckOptions) -> tuple[str, ...]:
+def _warnings(cycle: Cycle, summary: Summary, options: CheckOptions, mounting: Mounting) -> tuple[str, ...]:
     pair = cycle.model.pair
+    gears = (("pinion", pair.pinion), ("wheel", pair.wheel))
     found = list(pair.warnings)
     strain = summary.contact_pressure / cycle.model.modulus
     if strain > 0.03:
@@ -160,10 +169,12 @@ def _warnings(cycle: Cycle, summary: Summary, options: CheckOptions) -> tuple[st
             f"a tip corner touches at {summary.corner_positions} of {len(cycle.positions)} positions: its pressure depends on "
             "the mesh and is left out; tip relief would avoid it"
         )
-    if options.pinion_tip_relief or options.wheel_tip_relief:
-        found.append("the tip relief is in this analysis only: data and solids do not have it")
+    left_out = [f"the {name}'s modifications along the face width" for name, gear in gears if gear.modification.along_face]
+    left_out += ["the misalignment"] if mounting.misalignment or mounting.misalignment_across else []
+    if left_out:
+        found.append(f"the plane model leaves out {' and '.join(left_out)}; --model 3d has them")
     inner_diameters = options.body.inner_diameters
-    for place, (name, gear) in enumerate((("pinion", pair.pinion), ("wheel", pair.wheel))):
+    for place, (name, gear) in enumerate(gears):
         hub = (cycle.model.pinion, cycle.model.wheel)[place].hub_radius
         rim = gear.root_diameter / 2 - hub
         if rim < (gear.tip_diameter - gear.root_diameter) / 2:

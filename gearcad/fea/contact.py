@@ -5,6 +5,7 @@ Everything is per mm of face width, in the transverse section.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,17 +40,22 @@ class Cells:
 
 @dataclass(frozen=True)
 class ContactPair:
-    """A pair of flanks: tooth `tooth` of the pinion (0 is the middle one), its contact at roll length `pinion` (mm)."""
+    """A pair of flanks: tooth `tooth` of the pinion (0 is the middle one), its contact at roll length `pinion` (mm).
+
+    `added_curvature` (1/mm) is what modified flanks have more than the two involutes, where they come nearest.
+    """
 
     tooth: int
     pinion: float
     wheel: float
     cells: Cells
+    added_curvature: float = 0.0
 
     @property
     def radius(self) -> float:
-        """Reduced radius of curvature (mm)."""
-        return self.pinion * self.wheel / (self.pinion + self.wheel)
+        """Reduced radius of curvature (mm); infinite where one flank is hollower than the other is round."""
+        curvature = (self.pinion + self.wheel) / (self.pinion * self.wheel) + self.added_curvature
+        return 1 / curvature if curvature > 0 else math.inf
 
 
 @dataclass(frozen=True)

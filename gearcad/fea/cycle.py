@@ -55,7 +55,7 @@ class PairContact:
 
     @property
     def interior(self) -> bool:
-        """True where the ends of both flanks, and their reliefs, are some half widths away."""
+        """True where the ends of both flanks, and their tip and root reliefs, are some half widths away."""
         return self.even_distance > _INTERIOR * self.hertz_half_width
 
     @cached_property
@@ -77,11 +77,15 @@ class PairContact:
 
 @dataclass(frozen=True)
 class Position:
-    """One position of the mesh: contacts, approach and each gear's part of it (mm), and the root stresses of both gears."""
+    """One position of the mesh: contacts, approach and each gear's part of it (mm), and the root stresses of both gears.
+
+    `rigid_approach` (mm) is what of the approach needs no load: until teeth touch whose flanks are modified or out of place.
+    """
 
     roll_angle: float
     approach: float
     approach_parts: tuple[float, float]
+    rigid_approach: float
     force: float
     contacts: tuple[PairContact, ...]
     tension: tuple[FilletStress, FilletStress]
@@ -89,8 +93,8 @@ class Position:
 
     @property
     def stiffness(self) -> float:
-        """N/(mm um): normal force over approach, per mm of common face width."""
-        return self.force / (self.approach * 1000)
+        """N/(mm um): normal force over the approach under load, per mm of common face width."""
+        return self.force / ((self.approach - self.rigid_approach) * 1000)
 
     @property
     def transmission_error(self) -> float:
@@ -150,7 +154,10 @@ def single_stiffness(model: FlexiblePair, torque: float, count: int = 25) -> flo
     path = model.pair.path_of_contact
     lengths = np.linspace(path.A, path.E, count + 2)[1:-1]
     angles = np.degrees((lengths - path.C) / model.base_radius)
-    return max(model.force(torque) / (model.solve(float(angle), torque, single=True).approach * 1000) for angle in angles)
+    approaches = [
+        model.solve(angle, torque, single=True).approach - model.rigid_approach(angle, single=True) for angle in angles.tolist()
+    ]
+    return model.force(torque) / (min(approaches) * 1000)
 
 
 def _position(model: FlexiblePair, roots: tuple[Fillets, Fillets], angle: float, torque: float) -> Position:
@@ -160,7 +167,16 @@ def _position(model: FlexiblePair, roots: tuple[Fillets, Fillets], angle: float,
         tuple(_greatest(root, side, contacts, gear) for gear, root in enumerate(roots))
         for side in (Side.LEFT_FILLET, Side.RIGHT_FILLET)
     )
-    return Position(angle, solution.approach, solution.parts, model.force(torque), contacts, tension, compression)  # type: ignore[arg-type]
+    return Position(
+        angle,
+        solution.approach,
+        solution.parts,
+        model.rigid_approach(angle),
+        model.force(torque),
+        contacts,
+        tension,  # type: ignore[arg-type]
+        compression,  # type: ignore[arg-type]
+    )
 
 
 def _greatest(root: Fillets, side: Side, contacts: tuple[PairContact, ...], gear: int) -> FilletStress:
@@ -198,11 +214,8 @@ def _contacts(model: FlexiblePair, solution: ContactSolution) -> tuple[PairConta
 
 def _distance(model: FlexiblePair, pair: ContactPair, *, even: bool) -> float:
     """How far (mm along the tangent) the nearest end of an involute - or of its even part - is; negative beyond it."""
-    line = model.line
-    lasts = [flank.last_even if even else flank.last for flank in (line.pinion, line.wheel)]
-    return min(
-        line.pinion.along_tangent(pair.pinion, lasts[0]),
-        -line.pinion.along_tangent(pair.pinion, line.pinion.first),
-        line.wheel.along_tangent(pair.wheel, lasts[1]),
-        -line.wheel.along_tangent(pair.wheel, line.wheel.first),
-    )
+    distances: list[float] = []
+    for flank, contact in ((model.line.pinion, pair.pinion), (model.line.wheel, pair.wheel)):
+        first, last = flank.even if even else (flank.first, flank.last)
+        distances += (flank.along_tangent(contact, last), -flank.along_tangent(contact, first))
+    return min(distances)

@@ -13,7 +13,7 @@ from gearcad.errors import GeometryError, ParameterError, format_number, require
 from gearcad.fea.contact import ContactSolution, solve_contact
 from gearcad.fea.elasticity import Plane, PlaneElasticity
 from gearcad.fea.flank import FlankCompliance, flank_compliance
-from gearcad.fea.mesh_positions import MeshLine, TipRelief, contact_pairs, mesh_line
+from gearcad.fea.mesh_positions import MeshLine, contact_pairs, mesh_line, rigid_approach
 from gearcad.fea.ring import Cuts, Ring, assemble
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material
@@ -113,6 +113,10 @@ class FlexiblePair:
         pitch = 360 / self.pair.pinion.teeth
         return (np.arange(count) + 0.5) / count * pitch - pitch / 2
 
+    def rigid_approach(self, roll_angle: float, *, single: bool = False) -> float:
+        """How far (mm) the gears would approach at a roll angle (deg) before the first pair of teeth touches, unloaded."""
+        return rigid_approach(self.line, self.roll_length(roll_angle), single=single)
+
     def solve(self, roll_angle: float, torque: float, *, single: bool = False) -> ContactSolution:
         """The contact at a roll angle (deg) and torque (N m); `single` lets no other pair of teeth touch.
 
@@ -133,7 +137,8 @@ class FlexiblePair:
             return _WINDOW * math.sqrt(4 * carried(tooth) * radius / (math.pi * self.modulus))
 
         least_width = max(self.pinion.resolution, self.wheel.resolution)
-        pairs = contact_pairs(self.line, self.roll_length(roll_angle), span, cells, force / _SOFT, least_width)
+        farthest = self.rigid_approach(roll_angle, single=single) + force / _SOFT
+        pairs = contact_pairs(self.line, self.roll_length(roll_angle), span, cells, farthest, least_width)
         if single:
             pairs = tuple(pair for pair in pairs if pair.tooth == 0)
         if not pairs:
@@ -148,10 +153,13 @@ def flexible_pair(
     plane: Plane = Plane.STRAIN,
     body: BodyModel | None = None,
     sizes: MeshSizes | None = None,
-    reliefs: tuple[TipRelief, TipRelief] = (TipRelief(), TipRelief()),
+    pitch_error: float = 0.0,
     solve: Callable[[Gear, Ring, PlaneElasticity], FlankCompliance] = flank_compliance,
 ) -> FlexiblePair:
-    """Mesh, assemble, factorise and `solve` both gears. Raises SolverError, ParameterError and GeometryError."""
+    """Mesh, assemble, factorise and `solve` both gears. Raises SolverError, ParameterError and GeometryError.
+
+    The pair is taken as it is mounted; `pitch_error` (um) is how far the flanks of its middle pair of teeth stand proud.
+    """
     elasticity, body, sizes = PlaneElasticity(material, plane), body or BodyModel(), sizes or MeshSizes()
     # As many neighbours as can touch at once, with one more place for a corner that touches early or late.
     neighbours = max(1, math.floor(pair.transverse_contact_ratio + 0.2))
@@ -167,4 +175,4 @@ def flexible_pair(
         fine, coarse = mesh_sector(gear, radius, sizes), mesh_sector(gear, radius, sizes.coarse())
         ring = assemble(fine, coarse, gear.teeth, min(neighbours, (gear.teeth - 1) // 2), elasticity, held, body.cuts)
         bodies.append(solve(gear, ring, elasticity))
-    return FlexiblePair(pair, mesh_line(pair, reliefs), *bodies)
+    return FlexiblePair(pair, mesh_line(pair, pitch_error), *bodies)

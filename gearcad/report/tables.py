@@ -35,8 +35,10 @@ class Row(NamedTuple):
 
 def gear_rows(result: CheckResult) -> list[Row]:
     """What describes the gears."""
-    gears = [_flat(gear.to_dict()) for gear in (result.pair.pinion, result.pair.wheel)]
-    return [_row(symbols.GEAR[key], *(gear.get(key) for gear in gears)) for key in _GEAR.split()]
+    gears = (result.pair.pinion, result.pair.wheel)
+    values = [_flat(gear.to_dict() | {"modification": gear.modification.in_use}) for gear in gears]
+    present = [key for key in symbols.GEAR if key.startswith("modification.") and any(key in gear for gear in values)]
+    return [_row(symbols.GEAR[key], *(gear.get(key) for gear in values)) for key in (*_GEAR.split(), *present)]
 
 
 def pair_rows(result: CheckResult) -> list[Row]:
@@ -46,9 +48,10 @@ def pair_rows(result: CheckResult) -> list[Row]:
 
 
 def load_rows(result: CheckResult) -> list[Row]:
-    """Material and load."""
+    """Material and load, and the mounting where it is not that of the drawing."""
     rows = [(symbols.MATERIAL[key], value) for key, value in vars(result.material).items()]
     rows += [(symbols.LOAD[key], value) for key, value in vars(result.load).items()]
+    rows += [(symbols.MOUNTING[key], value) for key, value in vars(result.mounting).items() if value]
     return [_row(symbol, value) for symbol, value in rows if value is not None]
 
 

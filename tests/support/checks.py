@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from gearcad import Body, Gear, GearPair, Load, Material
+from gearcad import Body, Gear, GearPair, Load, Material, Mounting
 from gearcad.check.convergence import Convergence
 from gearcad.check.judge import compare
 from gearcad.check.options import CheckOptions
@@ -48,6 +48,7 @@ def small_check() -> CheckResult:
         pair=pair,
         material=material,
         load=load,
+        mounting=Mounting(),
         options=options,
         cycle=cycle,
         summary=summary,

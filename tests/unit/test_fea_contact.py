@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.optimize import nnls
 
-from gearcad import BasicRack, Gear, GearPair, Material
+from gearcad import BasicRack, FlankModification, Gear, GearPair, Material, ReliefShape
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.fea.contact import Cells, ContactPair, complementary, compliance_matrix, solve_contact
+from gearcad.fea.cycle import run_cycle, single_stiffness
 from gearcad.fea.elasticity import Plane, PlaneElasticity
 from gearcad.fea.flexible_pair import BodyModel, FlexiblePair, flexible_pair
-from gearcad.fea.mesh_positions import TipRelief, contact_pairs, mesh_line
+from gearcad.fea.mesh_positions import MeshLine, contact_pairs, mesh_line, rigid_approach
 from gearcad.fea.subsurface import greatest_von_mises, strip_stresses
 from gearcad.rating import LineContact, reduced_modulus
 
@@ -334,16 +335,140 @@ def test_bodies_must_be_odd_and_hold_on_below_the_root() -> None:
         flexible_pair(PAIR, STEEL, body=body)
 
 
-def test_tip_relief_is_added_to_the_gap():
+# Modified flanks
+
+
+def modified(pinion: FlankModification | None = None, wheel: FlankModification | None = None) -> GearPair:
+    """The pair with modifications."""
+    none = FlankModification()
+    return replace(
+        PAIR,
+        pinion=replace(PAIR.pinion, modification=pinion or none),
+        wheel=replace(PAIR.wheel, modification=wheel or none),
+    )
+
+
+def middle(line: MeshLine, length: float, reach: float = 0.1) -> ContactPair:
+    """The middle pair of flanks, in contact at a roll length of the pinion."""
+    (found,) = [each for each in contact_pairs(line, length, lambda *_: reach, 40, 0.05) if each.tooth == 0]
+    return found
+
+
+RELIEF = FlankModification(tip_relief=20.0, tip_relief_length=1.2)
+
+
+def test_tip_relief_is_added_to_the_gap() -> None:
     """Nothing is taken off below its start, all of it at the tip, and the gap grows by just that."""
-    relief = TipRelief(amount=20.0, length=1.2)
-    line = mesh_line(PAIR, (relief, TipRelief()))
-    plain = mesh_line(PAIR)
-    lengths = np.array([line.pinion.last - 2.0, line.pinion.last_even, line.pinion.last - 0.6, line.pinion.last])
-    assert line.pinion.relieved(lengths) == pytest.approx([0, 0, 0.010, 0.020], abs=1e-12)
-    assert not line.wheel.relieved(lengths).any()
-    place = PAIR.path_of_contact.E - 0.1
-    (near,) = [pair for pair in contact_pairs(line, place, lambda *_: 0.1, 40, 0.01) if pair.tooth == 0]
-    (bare,) = [pair for pair in contact_pairs(plain, place, lambda *_: 0.1, 40, 0.01) if pair.tooth == 0]
-    added = near.cells.gap - bare.cells.gap
-    assert added == pytest.approx((near.cells.pinion - (line.pinion.last - 1.2)) / 1.2 * 0.020, rel=1e-9)
+    line = mesh_line(modified(RELIEF))
+    assert line.pinion.even == pytest.approx((line.pinion.first, line.pinion.last - 1.2))
+    lengths = np.array([line.pinion.last - 2.0, line.pinion.last - 1.2, line.pinion.last - 0.6, line.pinion.last])
+    assert line.pinion.depth(lengths) == pytest.approx([0, 0, 0.010, 0.020], abs=1e-12)
+    assert not line.wheel.depth(lengths).any()
+    near = middle(line, PAIR.path_of_contact.E - 0.1)
+    bare = near.cells.gap - (near.cells.pinion - (line.pinion.last - 1.2)) / 1.2 * 0.020
+    # The same places on exact flanks: s^2/(2 rho) and its next term, from the flanks themselves.
+    behind = line.pinion.facing(near.pinion, near.cells.place)[1] + line.wheel.facing(near.wheel, -near.cells.place)[1]
+    radius = near.pinion * near.wheel / (near.pinion + near.wheel)
+    assert bare == pytest.approx(behind + near.cells.width**2 / 24 / radius, abs=1e-12)
+    assert not line.pinion.depth(middle(line, PAIR.path_of_contact.C).cells.pinion).any()
+
+
+def test_window_follows_the_place_where_relieved_flanks_come_nearest() -> None:
+    """On a relief that grows by c per mm of place, two flanks of reduced radius rho come nearest at -c rho."""
+    line = mesh_line(modified(RELIEF))
+    found = middle(line, PAIR.path_of_contact.E - 0.3, 0.05)
+    slope = 0.020 / 1.2 * line.pinion.base_radius / found.pinion
+    radius = found.pinion * found.wheel / (found.pinion + found.wheel)
+    assert found.cells.place.mean() == pytest.approx(-slope * radius, rel=0.05)
+    assert 0 < found.cells.gap.argmin() < len(found.cells.gap) - 1
+
+
+def test_the_gap_is_that_of_the_middle_of_the_common_face_width() -> None:
+    """Crowning of a wheel moved along the axis: its own height counts."""
+    crowned = replace(modified(wheel=FlankModification(lead_crowning=16.0)), axial_offset=2.5)
+    line = mesh_line(crowned)
+    # The common width is 7.5 mm, its middle 6.25 mm from the pinion's end at z = 0 and 3.75 mm from the wheel's.
+    assert (line.pinion.height, line.wheel.height) == (6.25, 3.75)
+    assert line.wheel.depth(np.array([3.0])) == pytest.approx(0.016 * 0.25**2)
+
+
+def test_pitch_error_moves_the_middle_pair_only() -> None:
+    line, plain = mesh_line(PAIR, 8.0), mesh_line(PAIR)
+    length = PAIR.path_of_contact.B - 0.02
+    for tooth, added in ((0, -0.008), (1, 0.0)):
+        gaps = [
+            next(each for each in contact_pairs(of, length, lambda *_: 0.1, 40, 0.05) if each.tooth == tooth).cells.gap.min()
+            for of in (line, plain)
+        ]
+        assert gaps[0] - gaps[1] == pytest.approx(added, abs=2e-6)
+
+
+@pytest.mark.parametrize(
+    ("modification", "error", "expected"),
+    [
+        (FlankModification(), 8.0, -0.008),
+        (FlankModification(), -8.0, 0.0),
+        (FlankModification(tip_relief=20.0, tip_relief_length=1.2), 0.0, 0.0),
+        (FlankModification(lead_crowning=20.0), 0.0, 0.0),
+    ],
+)
+def test_rigid_gears_approach_until_the_first_flanks_touch(
+    modification: FlankModification, error: float, expected: float
+) -> None:
+    """Where two pairs are in contact, the better of the two decides; crowning leaves the middle of the face as it is."""
+    line = mesh_line(modified(modification), error)
+    assert rigid_approach(line, PAIR.path_of_contact.A + 0.2) == pytest.approx(expected, abs=2e-6)
+
+
+def test_rigid_gears_with_another_pressure_angle_run_ahead_evenly() -> None:
+    """One pair alone: what is taken off there, less what the contact gains by moving along the slope."""
+    line, path = mesh_line(modified(FlankModification(pressure_angle_modification=30.0))), PAIR.path_of_contact
+    whole = line.pinion.last - line.pinion.first
+    for length in (path.B + 0.1, path.C, path.D - 0.1):
+        slope = 0.030 / whole * line.pinion.base_radius / length
+        radius = length * (line.whole - length) / line.whole
+        expected = 0.030 * (length - line.pinion.first) / whole - slope**2 * radius / 2
+        assert rigid_approach(line, length, single=True) == pytest.approx(expected, abs=2e-5)
+        # The tips of the pair before and the pair behind have less taken off, or more.
+        assert rigid_approach(line, length) <= rigid_approach(line, length, single=True)
+
+
+SMALL = BodyModel(teeth=3)
+"""Three teeth are enough where stiffness itself does not matter."""
+
+
+@pytest.mark.parametrize(
+    "modification",
+    [
+        FlankModification(profile_crowning=12.0),
+        FlankModification(profile_crowning=-3.0),
+        FlankModification(pressure_angle_modification=20.0),
+        FlankModification(tip_relief=15.0, tip_relief_length=0.9, root_relief=10.0, root_relief_length=0.5),
+        FlankModification(tip_relief=15.0, tip_relief_length=0.9, tip_relief_shape=ReliefShape.PARABOLIC),
+    ],
+)
+def test_modified_flanks_press_as_cylinders_of_their_own_curvature(modification: FlankModification) -> None:
+    """Crowning makes the flanks rounder by per cents; Hertz's pressure at the nearest place is still found within 1 %."""
+    cycle = run_cycle(flexible_pair(modified(modification), STEEL, body=SMALL), 30.0, 12)
+    contacts = [contact for _, contact in cycle.interior_contacts]
+    assert len(contacts) >= 6
+    for contact in contacts:
+        assert contact.peak_pressure == pytest.approx(contact.hertz_pressure, rel=0.01)
+
+
+def test_flanks_too_hollow_to_touch_inside_have_no_reduced_radius() -> None:
+    pair = ContactPair(0, 5.0, 20.0, middle(mesh_line(PAIR), PAIR.path_of_contact.C).cells, added_curvature=-0.3)
+    assert pair.radius == math.inf
+    assert replace(pair, added_curvature=-0.2).radius == pytest.approx(20.0)
+
+
+def test_a_gap_that_all_flanks_have_costs_no_stiffness() -> None:
+    """Lead crowning in a plane model, seen off its middle: the same teeth, 4 um later."""
+    plain, late = (
+        flexible_pair(replace(modified(wheel=of), axial_offset=2.5), STEEL, body=SMALL)
+        for of in (FlankModification(), FlankModification(lead_crowning=64.0))
+    )
+    one, other = run_cycle(plain, 30.0, 4), run_cycle(late, 30.0, 4)
+    assert other.values("stiffness") == pytest.approx(one.values("stiffness"), rel=2e-4)
+    assert other.values("transmission_error") == pytest.approx(one.values("transmission_error") + 4.0, rel=1e-3)
+    assert single_stiffness(late, 30.0, 3) == pytest.approx(single_stiffness(plain, 30.0, 3), rel=2e-4)
