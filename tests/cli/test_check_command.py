@@ -150,6 +150,35 @@ def test_absurd_load_and_thin_rim_are_warnings_with_their_numbers(here: Path) ->
     assert "the pinion's rim below the root (1.5 mm) is thinner than its teeth are high" in result.stdout
 
 
+def test_modified_and_misaligned_gears_are_checked_as_far_as_a_plane_goes(here: Path) -> None:
+    """Reliefs and pitch errors count; what depends on z is named and left out; the report lists all of it."""
+    changes = "pinion_pitch_error = 4\ncentre_distance_change = 0.05\nmisalignment = 10\n"
+    crowned = "modification.tip_relief = 15\nmodification.tip_relief_length = 1\nmodification.lead_crowning = 5\n[wheel]"
+    text = SPUR.replace("[wheel]", crowned) + f"[mounting]\n{changes}"
+    result = run("check", spec(text), "--quiet")
+    assert result.exit_code == 0, result.output
+    left_out = "the plane model leaves out the pinion's modifications along the face width and the misalignment"
+    assert f"Warning: {left_out}; --model 3d has them" in result.stdout
+    document = json.loads((here / "output/pair/check.json").read_text(encoding="utf-8"))
+    report = (here / "output/pair/report.html").read_text(encoding="utf-8")
+    assert document["mounting"]["pinion_pitch_error"] == 4.0
+    # The middle pair stands proud: unloaded it would be 4 um ahead, and loaded it is still less behind than without.
+    plain = run("check", spec(SPUR), "--quiet", "--json")
+    errors = [max(each["mesh_cycle"]["transmission_error"]) for each in (document, json.loads(plain.stdout))]
+    assert errors[0] < errors[1]
+    for shown in ("tip relief, length of roll", "lead crowning", "change of the centre distance", "50.05"):
+        assert shown in report
+    assert "root relief" not in report
+
+
+def test_a_centre_distance_that_parts_the_teeth_is_refused(here: Path) -> None:
+    result = run("check", spec(SPUR + "[mounting]\ncentre_distance_change = 5\n"), "--quiet")
+    assert result.exit_code == 2
+    assert result.stderr.startswith(
+        "Error: mounting.centre_distance_change = 5 mm: makes a centre distance of 55 mm, but must be below "
+    )
+
+
 def test_solver_failure_leaves_nothing_half_written(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     import gmsh
 

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import io
+import re
+import tomllib
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +17,7 @@ from gearcad.datasheet import print_datasheet
 from gearcad.spec import design_from_tables, open_table, read_spec
 from gearcad.spec.design import Design
 from gearcad.spec.reader import spec_values
+from gearcad.spec.starters import starter_text
 from gearcad.study import plan_study, write_study
 
 SPEC = """\
@@ -173,3 +177,18 @@ def test_the_data_sheet_shows_what_there_is(spec: Path) -> None:
     assert lines["twist of the flank"] == ["S_α", "µm", "-", "-3.0000"]
     assert lines["misalignment in the plane of action"] == ["F_βx", "µm", "12"]
     assert not {"root relief", "end relief, shape", "misalignment across that plane"} & set(lines)
+
+
+@pytest.mark.parametrize("name", ["volvo-13-44", "fzg-c", "alm-18-161", "spur"])
+def test_what_the_starters_offer_is_permitted(name: str) -> None:
+    """Their commented lines of modifications and mounting, with the # taken away."""
+    _, text = starter_text(name)
+    offered = re.compile(
+        r"^# (?=modification\.|\[mounting\]|misalignment|pinion_pitch|wheel_pitch|centre_distance_change)", re.M
+    )
+    tables = tomllib.loads(offered.sub("", text))
+    design = design_from_tables(tables, where=str, default_name=name)
+    for gear in design.gears.values():
+        assert {"tip_relief", "lead_crowning"} <= set(gear.modification.in_use)
+    assert (design.mounting is None) == (name == "spur")
+    assert design.mounting is None or len(tables["mounting"]) == len(fields(Mounting))
