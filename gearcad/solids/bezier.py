@@ -12,7 +12,7 @@ from math import comb
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["MOST_DEGREE", "bernstein", "fit", "interpolate"]
+__all__ = ["MOST_DEGREE", "bernstein", "fit", "interpolate", "interpolate_surface"]
 
 Floats = NDArray[np.float64]
 
@@ -46,9 +46,22 @@ def _check(degree: int) -> tuple[Floats, Floats]:
 
 def interpolate(function: Callable[[Floats], Floats], degree: int) -> Floats:
     """Poles (degree + 1, k) of the Bezier that interpolates `function` ((n,) in [0, 1] -> (n, k)), ends exact."""
-    nodes, to_poles = _nodes(degree)
-    values = function(nodes)
-    poles: Floats = to_poles @ values
+    return _through(function(_nodes(degree)[0]))
+
+
+def interpolate_surface(function: Callable[[Floats, Floats], Floats], degrees: tuple[int, int]) -> Floats:
+    """Poles (n + 1, m + 1, k) of the Bezier surface of degrees n and m that interpolates `function` ((n,), (m,) -> (n, m, k)).
+
+    An edge depends on the values there alone, so neighbours have its poles in common.
+    """
+    values = function(*(_nodes(degree)[0] for degree in degrees))
+    return np.swapaxes(_through(np.swapaxes(_through(values), 0, 1)), 0, 1)
+
+
+def _through(values: Floats) -> Floats:
+    """Poles (n + 1, ...) of the Bezier through the values at the nodes of degree n, ends exact."""
+    to_poles = _nodes(len(values) - 1)[1]
+    poles: Floats = (to_poles @ values.reshape(len(values), -1)).reshape(values.shape)
     poles[0], poles[-1] = values[0], values[-1]
     return poles
 

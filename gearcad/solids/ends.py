@@ -43,6 +43,10 @@ class End:
             return np.full(radius.shape, self.z)
         return np.asarray(self.z + self.inward * np.maximum(radius - self.edge_radius, 0.0) / self.tangent)
 
+    def radius(self, z: float) -> float:
+        """Radius (mm) of the cone at a height z (mm)."""
+        return self.edge_radius + abs(z - self.z) * self.tangent
+
 
 def gear_ends(gear: Gear, junctions: Iterable[float]) -> tuple[End, End]:
     """Lower and upper end of a gear; a chamfer's small radius snaps to the radii (mm) where pieces of the outline meet."""

@@ -57,8 +57,8 @@ def bezier_curve_2d(poles: Floats, first: float = 0.0, last: float = 1.0) -> Any
     return Geom2d_BSplineCurve(array, *_knots(len(poles) - 1, first, last), len(poles) - 1)
 
 
-def bezier_surface(poles: Floats, width: float) -> Any:
-    """Geom_BSplineSurface of one span with poles (n + 1, m + 1, 3), parameters u in 0 ... 1 and v in 0 ... width."""
+def bezier_surface(poles: Floats, low: float, high: float) -> Any:
+    """Geom_BSplineSurface of one span with poles (n + 1, m + 1, 3), parameters u in 0 ... 1 and v in low ... high."""
     from OCP.Geom import Geom_BSplineSurface
     from OCP.gp import gp_Pnt
     from OCP.TColgp import TColgp_Array2OfPnt
@@ -68,7 +68,7 @@ def bezier_surface(poles: Floats, width: float) -> Any:
     for i, row in enumerate(poles.tolist(), 1):
         for j, point in enumerate(row, 1):
             array.SetValue(i, j, gp_Pnt(*point))
-    along, across = _knots(rows - 1, 0.0, 1.0), _knots(columns - 1, 0.0, width)
+    along, across = _knots(rows - 1, 0.0, 1.0), _knots(columns - 1, low, high)
     return Geom_BSplineSurface(array, along[0], across[0], along[1], across[1], rows - 1, columns - 1)
 
 

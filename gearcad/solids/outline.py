@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -11,7 +12,9 @@ from numpy.typing import NDArray
 
 from gearcad.geometry.curves import Curve, CurveKind, Land
 from gearcad.geometry.gear import Gear
+from gearcad.geometry.modification import FlankForm
 from gearcad.solids import bezier
+from gearcad.solids.turned import FlankCurve, flank_curves
 
 __all__ = ["Arc", "Piece", "Span", "accuracy_for", "parameter_at_radius", "tooth_outline"]
 
@@ -20,22 +23,36 @@ Floats = NDArray[np.float64]
 _SPLIT_DEGREE = 14
 """A curve that needs a higher degree is halved instead: cheaper to evaluate, and better conditioned."""
 
+_SAME = 1e-7
+"""Radii (mm) closer than this are the same for the kernel."""
+
 
 def accuracy_for(gear: Gear) -> float:
     """Largest deviation (mm) allowed to a fitted section: 1 nm, and less on gears so small that 0.1 ppm of volume shows."""
     return min(1e-6, 2e-7 * gear.normal_module)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Span:
-    """One Bezier piece of a flank: `poles` (n + 1, 2) in mm run counter-clockwise, u in [0, 1] along them."""
+    """One Bezier piece of a flank: `poles` (n + 1, 2) in mm run counter-clockwise, u in [0, 1] along them.
+
+    It is `curve` from the parameter `first` at u = 0 to `last` at u = 1, on the left or right flank.
+    """
 
     poles: Floats
+    curve: FlankCurve
+    first: float
+    last: float
+    left: bool
 
     def polar(self, u: Floats) -> tuple[Floats, Floats]:
         """Radius (mm) and polar angle (rad) at u (n,)."""
         x, y = (bezier.bernstein(len(self.poles) - 1, u) @ self.poles).T
         return np.hypot(x, y), np.arctan2(y, x)
+
+    def turn(self, form: FlankForm, u: Floats, z: Floats) -> Floats:
+        """Angle (rad) by which the modifications turn the point at u at height z (mm); u and z broadcast."""
+        return self.curve.turn(form, self.first + u * (self.last - self.first), z, left=self.left)
 
     @property
     def radii(self) -> tuple[float, float]:
@@ -60,20 +77,26 @@ class Arc:
 Piece = Span | Arc
 
 
-def tooth_outline(gear: Gear) -> tuple[Piece, ...]:
+def tooth_outline(gear: Gear, cuts: Sequence[float] = ()) -> tuple[Piece, ...]:
     """Pieces of tooth 0 (centred on +x) from its right root to the next tooth's: right flank, tip, left flank, root land.
 
-    Neighbouring pieces share their end points exactly.
+    Neighbouring pieces share their end points exactly. They are those of the exact profile, before any modification, but
+    end where its depth is not smooth, and at the radii `cuts` (mm).
     """
     curves = gear.profile.curves
     tolerance = accuracy_for(gear)
-    flank = [piece for curve in curves if not isinstance(curve, Land) for piece in _fitted(curve, 0.0, 1.0, tolerance)]
-    _join(flank)
+    flank = [
+        piece
+        for curve in flank_curves(gear)
+        for first, last in pairwise(_cut(curve.curve, cuts))
+        for piece in _fitted(curve, first, last, tolerance)
+    ]
+    _join([piece.poles for piece in flank])
     if curves[0].kind is not CurveKind.ROOT:
         middle = math.pi / gear.teeth
-        flank[0][0] = gear.root_diameter / 2 * np.array([math.cos(middle), math.sin(middle)])
-    right = [Span(poles * [1, -1]) for poles in flank]
-    left = [Span(poles[::-1]) for poles in reversed(flank)]
+        flank[0].poles[0] = gear.root_diameter / 2 * np.array([math.cos(middle), math.sin(middle)])
+    right = [replace(piece, poles=piece.poles * [1, -1], left=False) for piece in flank]
+    left = [replace(piece, poles=piece.poles[::-1], first=piece.last, last=piece.first) for piece in reversed(flank)]
     tip = right[-1].poles[-1]
     half = -math.atan2(tip[1], tip[0])
     pieces: list[Piece] = [*right, Arc(gear.tip_diameter / 2, -half, half), *left]
@@ -83,21 +106,29 @@ def tooth_outline(gear: Gear) -> tuple[Piece, ...]:
     return tuple(pieces)
 
 
-def _fitted(curve: Curve, first: float, last: float, tolerance: float) -> list[Floats]:
-    """Bezier poles of curve on [first, last], halved until the degree is moderate."""
+def _cut(curve: Curve, radii: Sequence[float]) -> list[float]:
+    """Parameters from 0 to 1, with those between where a curve crosses one of the radii (mm)."""
+    start, end = (float(curve.polar(s)[0]) for s in (0.0, 1.0))
+    inside = sorted({radius for radius in radii if start + _SAME < radius < end - _SAME})
+    return [0.0, *(_crossing(lambda s: float(curve.polar(s)[0]), radius, 0.0, 1.0) for radius in inside), 1.0]
+
+
+def _fitted(curve: FlankCurve, first: float, last: float, tolerance: float) -> list[Span]:
+    """Spans of a curve of the left flank on [first, last], root to tip, halved until the degree is moderate."""
+    exact = curve.curve
 
     def points(t: Floats) -> Floats:
-        return curve.points(first + t * (last - first))
+        return exact.points(first + t * (last - first))
 
     def deviation(values: Floats, t: Floats) -> Floats:
         s = first + t * (last - first)
-        off, heading = values - curve.points(s), curve.direction(s)
+        off, heading = values - exact.points(s), exact.direction(s)
         return np.asarray(np.abs(off[:, 1] * np.cos(heading) - off[:, 0] * np.sin(heading)))
 
-    least = 1 if curve.kind is CurveKind.CHAMFER else 2
+    least = 1 if exact.kind is CurveKind.CHAMFER else 2
     poles = bezier.fit(points, deviation, tolerance, least=least, most=_SPLIT_DEGREE)
     if poles is not None:
-        return [poles]
+        return [Span(poles, curve, first, last, left=True)]
     middle = (first + last) / 2
     return _fitted(curve, first, middle, tolerance) + _fitted(curve, middle, last, tolerance)
 
@@ -111,9 +142,14 @@ def _join(flank: list[Floats]) -> None:
 def parameter_at_radius(span: Span, radius: float) -> float:
     """u at which a span crosses `radius` (mm); the radius is monotone along every piece of a flank."""
     low, high = (0.0, 1.0) if span.radii[0] < span.radii[1] else (1.0, 0.0)
+    return _crossing(lambda u: float(span.polar(np.array([u]))[0][0]), radius, low, high)
+
+
+def _crossing(rising: Callable[[float], float], value: float, low: float, high: float) -> float:
+    """Where a function that rises from `low` to `high` has a value."""
     for _ in range(60):
         middle = 0.5 * (low + high)
-        if float(span.polar(np.array([middle]))[0][0]) < radius:
+        if rising(middle) < value:
             low = middle
         else:
             high = middle

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -10,9 +11,9 @@ from numpy.typing import NDArray
 
 from gearcad.geometry.gear import Gear
 from gearcad.solids.ends import End
-from gearcad.solids.kernel import Kernel, bezier_surface
+from gearcad.solids.kernel import Kernel, bezier_curve, bezier_surface
 from gearcad.solids.layout import Layout
-from gearcad.solids.outline import Arc
+from gearcad.solids.outline import Arc, Span
 
 __all__ = ["add_teeth"]
 
@@ -45,7 +46,8 @@ class _Ring:
         self.vertices = [self._vertices(which) for which in (0, 1)]
         self.drawn = [[layout.draw(end, s) for s in layout.segments[e][0]] for e, end in enumerate(layout.ends)]
         self.edges = [self._end_edges(which) for which in (0, 1)]
-        self.side_curves = [layout.side(k) for k in range(len(layout.pieces))]
+        self.columns = self._columns()
+        self.side_curves = [layout.sides(k) for k in range(len(layout.pieces))]
         self.side_edges = self._side_edges()
 
     def _around(self, points: Floats) -> Floats:
@@ -75,40 +77,99 @@ class _Ring:
             for place, vertices in zip(self.places, self.vertices[which], strict=True)
         ]
 
-    def _side_edges(self) -> list[list[Any]]:
-        """Edges along the teeth by tooth and junction."""
-        low, high = (end.height(self.layout.junctions[:, 0]).tolist() for end in self.layout.ends)
+    def _columns(self) -> list[list[list[Any]]]:
+        """Vertices along the teeth, upwards, by tooth and junction."""
+        layout = self.layout
+        columns = []
+        for k, rises in enumerate(layout.rises):
+            radius, angle = layout.junctions[k]
+            z = np.array([rise.high for rise in rises[:-1]])
+            angle = angle + layout.turn(k, z)
+            inner = self._around(np.stack([radius * np.cos(angle), radius * np.sin(angle), z], -1)).tolist()
+            columns.append([[self.kernel.vertex(point) for point in tooth] for tooth in inner])
+        lower, upper = self.vertices
+        return [[[lower[i][k], *inner[i], upper[i][k]] for k, inner in enumerate(columns)] for i in range(self.teeth)]
+
+    def _side_edges(self) -> list[list[list[Any]]]:
+        """Edges along the teeth, upwards, by tooth and junction."""
         return [
             [
-                self.kernel.edge(side.curve, lower[k], upper[k], low[k], high[k], place)
-                for k, side in enumerate(self.side_curves)
+                [
+                    self.kernel.edge(side.curve, *ends, rise.low, rise.high, place)
+                    for side, rise, ends in zip(sides, rises, pairwise(column), strict=True)
+                ]
+                for sides, rises, column in zip(self.side_curves, self.layout.rises, columns, strict=True)
             ]
-            for place, lower, upper in zip(self.places, *self.vertices, strict=True)
+            for place, columns in zip(self.places, self.columns, strict=True)
         ]
 
     def add_sides(self) -> None:
         """The faces of flanks, fillets, chamfers and lands."""
-        kernel = self.kernel
         for k, piece in enumerate(self.layout.pieces):
-            land = isinstance(piece, Arc)
             if isinstance(piece, Arc):
-                surface = kernel.cylinder(piece.radius)
+                self._add_land(k, piece)
             else:
-                surface = bezier_surface(self.layout.sweep(piece.poles), self.layout.width)
-            wraps, after = divmod(k + 1, len(self.layout.pieces))
-            left_curve = self.side_curves[k].after(land)
-            right_curve = self.side_curves[after].before(land, wraps * self.pitch)
-            chains = [[j for j, s in enumerate(segments) if s.piece == k] for segments, _ in self.layout.segments]
-            for i, place in enumerate(self.places):
-                left, right = self.side_edges[i][k], self.side_edges[(i + wraps) % self.teeth][after]
-                kernel.lay(left, surface, left_curve, place=place)
-                kernel.lay(right, surface, right_curve, place=place)
-                for which, chain in enumerate(chains):
-                    for j in chain:
-                        kernel.lay(self.edges[which][i][j], surface, self.drawn[which][j].on_face, place=place)
-                lower = [(self.edges[0][i][j], True) for j in chains[0]]
-                upper = [(self.edges[1][i][j], False) for j in reversed(chains[1])]
-                kernel.face(surface, [[*lower, (right, True), *upper, (left, False)]], place=place)
+                self._add_flank(k, piece)
+
+    def _add_land(self, k: int, piece: Arc) -> None:
+        """One face per tooth, over the whole width."""
+        kernel, surface = self.kernel, self.kernel.cylinder(piece.radius)
+        wraps, after = divmod(k + 1, len(self.layout.pieces))
+        left_curves = [side.on_cylinder(0.0) for side in self.side_curves[k]]
+        right_curves = [side.on_cylinder(wraps * self.pitch) for side in self.side_curves[after]]
+        for i, place in enumerate(self.places):
+            left, right = self.side_edges[i][k], self.side_edges[(i + wraps) % self.teeth][after]
+            for edge, curve in zip([*left, *right], [*left_curves, *right_curves], strict=True):
+                kernel.lay(edge, surface, curve, place=place)
+            lower, upper = (self._lay_end(which, i, k, surface) for which in (0, 1))
+            up, down = [(edge, True) for edge in right], [(edge, True) for edge in left]
+            kernel.face(surface, [[*lower, *up, *_backward(upper), *_backward(down)]], place=place)
+
+    def _add_flank(self, k: int, piece: Span) -> None:
+        """One face per tooth and stretch of the face width."""
+        kernel, heights, stretches = self.kernel, self.layout.sweep.heights, self.layout.stretches(k)
+        patches = self.layout.sweep.patches(piece)
+        wraps, after = divmod(k + 1, len(self.layout.pieces))
+        surfaces = {n: bezier_surface(patches[n], *heights[n : n + 2]) for n in stretches}
+        crossings = {n: bezier_curve(patches[n][:, 0]) for n in stretches[1:]}
+        on_left, on_right = kernel.line_2d(0, 0, 0, 1), kernel.line_2d(1, 0, 0, 1)
+        for i, place in enumerate(self.places):
+            follows = (i + wraps) % self.teeth
+            below: Edges = []
+            for n in stretches:
+                surface, above = surfaces[n], list[tuple[Any, bool]]()
+                left, right = self._rise(i, k, n), self._rise(follows, after, n)
+                for edges, curve in ((left, on_left), (right, on_right)):
+                    for edge, _ in edges:
+                        kernel.lay(edge, surface, curve, place=place)
+                if n == stretches[0]:
+                    below = self._lay_end(0, i, k, surface)
+                else:
+                    kernel.lay(below[0][0], surface, kernel.line_2d(0, heights[n], 1, 0), place=place)
+                if n == stretches[-1]:
+                    above = self._lay_end(1, i, k, surface)
+                else:
+                    ends = self._vertex(i, k, n + 1), self._vertex(follows, after, n + 1)
+                    above = [(kernel.edge(crossings[n + 1], *ends, 0.0, 1.0, place), True)]
+                    kernel.lay(above[0][0], surface, kernel.line_2d(0, heights[n + 1], 1, 0), place=place)
+                kernel.face(surface, [[*below, *right, *_backward(above), *_backward(left)]], place=place)
+                below = above
+
+    def _lay_end(self, which: int, i: int, k: int, surface: Any) -> Edges:
+        """The edges of an end on a piece of a tooth, laid on its surface."""
+        chain = [j for j, segment in enumerate(self.layout.segments[which][0]) if segment.piece == k]
+        for j in chain:
+            self.kernel.lay(self.edges[which][i][j], surface, self.drawn[which][j].on_face, place=self.places[i])
+        return [(self.edges[which][i][j], True) for j in chain]
+
+    def _rise(self, i: int, k: int, stretch: int) -> Edges:
+        """The edge at a junction of a tooth on a stretch of the face width; none where an end chamfer has taken it."""
+        edges = zip(self.layout.rises[k], self.side_edges[i][k], strict=True)
+        return [(edge, True) for rise, edge in edges if rise.stretch == stretch]
+
+    def _vertex(self, i: int, k: int, height: int) -> Any:
+        """The vertex at a junction of a tooth where a stretch begins or the one before ends."""
+        return self.columns[i][k][height - self.layout.rises[k][0].stretch]
 
     # -------------------------------------------------------------- ends
 
@@ -131,7 +192,7 @@ class _Ring:
         segments, stations = self.layout.segments[which]
         conic = [j for j, segment in enumerate(segments) if segment.on_cone]
         start, stop = segments[conic[0]].start, segments[conic[-1]].end
-        first, last = stations[[start, stop], 1] + self.layout.rate * end.z
+        first, last = stations[[start, stop], 1]
         loop: Edges = []
         for i, edges in enumerate(self.edges[which]):
             vertices = self.vertices[which][i]
@@ -142,8 +203,7 @@ class _Ring:
 
     def _cone_below_root(self, which: int, end: End, cone: Any) -> Edges:
         """One piece of cone per pitch, parted by generators from the start of each right flank; the plane is a disc."""
-        radius, angle = self.layout.junctions[0]
-        angle += self.layout.rate * float(end.height(radius))
+        angle = self.layout.segments[which][1][0, 1]
         foot = [end.edge_radius * math.cos(angle), end.edge_radius * math.sin(angle), end.z]
         feet = [self.kernel.vertex(tooth[0]) for tooth in self._around(np.array([foot])).tolist()]
         line, length = self.kernel.line(foot, self.layout.place(end, self.layout.segments[which][1][:1])[0])
