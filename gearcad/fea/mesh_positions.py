@@ -61,8 +61,11 @@ class _Flank:
         )
 
     def depth(self, lengths: Floats) -> Floats:
-        """How far (mm) the flank is taken back at roll lengths."""
-        return self.form.depth(lengths, self.height)
+        """How far (mm) along the line of action the flank lies behind the points of the involute at roll lengths.
+
+        What is there now has moved along the flank with its turn: it comes from as much nearer to the root as it lies behind.
+        """
+        return self.form.depth(lengths - self.form.depth(lengths, self.height), self.height)
 
     def along_tangent(self, contact: float, length: float) -> float:
         """Where the flank's point at roll length `length` lies along the common tangent, if it touches at `contact` (mm)."""

@@ -358,14 +358,19 @@ RELIEF = FlankModification(tip_relief=20.0, tip_relief_length=1.2)
 
 
 def test_tip_relief_is_added_to_the_gap() -> None:
-    """Nothing is taken off below its start, all of it at the tip, and the gap grows by just that."""
+    """Nothing is taken off below its start, all of it at the tip, and the gap grows by just that.
+
+    Of what has been taken back 20 um, the point that now lies at a place comes from 20 um of roll nearer to the root.
+    """
     line = mesh_line(modified(RELIEF))
     assert line.pinion.even == pytest.approx((line.pinion.first, line.pinion.last - 1.2))
     lengths = np.array([line.pinion.last - 2.0, line.pinion.last - 1.2, line.pinion.last - 0.6, line.pinion.last])
-    assert line.pinion.depth(lengths) == pytest.approx([0, 0, 0.010, 0.020], abs=1e-12)
+    assert line.pinion.form.depth(lengths, 5.0) == pytest.approx([0, 0, 0.010, 0.020], abs=1e-12)
+    slope = 0.020 / 1.2
+    assert line.pinion.depth(lengths) == pytest.approx([0, 0, 0.010 - slope * 0.010, 0.020 - slope * 0.020], abs=1e-12)
     assert not line.wheel.depth(lengths).any()
     near = middle(line, PAIR.path_of_contact.E - 0.1)
-    bare = near.cells.gap - (near.cells.pinion - (line.pinion.last - 1.2)) / 1.2 * 0.020
+    bare = near.cells.gap - slope * (1 - slope) * (near.cells.pinion - (line.pinion.last - 1.2))
     # The same places on exact flanks: s^2/(2 rho) and its next term, from the flanks themselves.
     behind = line.pinion.facing(near.pinion, near.cells.place)[1] + line.wheel.facing(near.wheel, -near.cells.place)[1]
     radius = near.pinion * near.wheel / (near.pinion + near.wheel)
@@ -425,9 +430,10 @@ def test_rigid_gears_with_another_pressure_angle_run_ahead_evenly() -> None:
     line, path = mesh_line(modified(FlankModification(pressure_angle_modification=30.0))), PAIR.path_of_contact
     whole = line.pinion.last - line.pinion.first
     for length in (path.B + 0.1, path.C, path.D - 0.1):
-        slope = 0.030 / whole * line.pinion.base_radius / length
+        share = 0.030 / whole
+        slope = share * line.pinion.base_radius / length
         radius = length * (line.whole - length) / line.whole
-        expected = 0.030 * (length - line.pinion.first) / whole - slope**2 * radius / 2
+        expected = share * (1 - share) * (length - line.pinion.first) - slope**2 * radius / 2
         assert rigid_approach(line, length, single=True) == pytest.approx(expected, abs=2e-5)
         # The tips of the pair before and the pair behind have less taken off, or more.
         assert rigid_approach(line, length) <= rigid_approach(line, length, single=True)
