@@ -36,6 +36,7 @@ def _find_symbol(key: str) -> tuple[str, symbols.Symbol] | None:
         "pair": symbols.GEAR | symbols.PAIR,
         "material": symbols.MATERIAL,
         "load": symbols.LOAD,
+        "mounting": symbols.MOUNTING,
     }
     known = tables.get(table, {})
     if field in known:
