@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from gearcad.errors import ParameterError, as_choice, plain_numbers, require_number, require_whole
-from gearcad.fea.ring import Cuts
+from gearcad.fea.chain import Cuts
 from gearcad.fea.elasticity import Plane
 from gearcad.fea.flexible_pair import BodyModel
 

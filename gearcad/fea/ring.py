@@ -7,7 +7,6 @@ and a cut that is held, belong to a rigid hub with one dof, its turn: the row of
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.errors import SolverError
+from gearcad.fea.chain import Chain, Cuts
 from gearcad.fea.elasticity import PlaneElasticity, stiffness_matrix
 from gearcad.meshing import SectorMesh
 from gearcad.meshing.outline import Side
@@ -23,54 +23,6 @@ __all__ = ["Cuts", "Ring", "assemble"]
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
-
-
-class Cuts(Enum):
-    """What holds the outer cuts of a body that is not a full ring."""
-
-    FIXED = "fixed"
-    SLIDING = "sliding"
-    FREE = "free"
-
-
-@dataclass(frozen=True)
-class Chain:
-    """Sectors in a row, condensed: symmetric matrix on [cut behind, cut ahead, turn of the hub] (N/mm, N, N mm per mm)."""
-
-    matrix: Floats
-
-    @property
-    def cut(self) -> int:
-        """Dofs of one cut."""
-        return (len(self.matrix) - 1) // 2
-
-    def followed_by(self, other: Chain) -> Chain:
-        """This chain and the other one ahead of it, the cut between them condensed."""
-        n = self.cut
-        both = np.zeros((3 * n + 1, 3 * n + 1))  # behind, ahead, turn, and last the cut between
-        first = np.r_[0:n, 2 * n + 1 : 3 * n + 1, 2 * n]
-        second = np.r_[2 * n + 1 : 3 * n + 1, n : 2 * n, 2 * n]
-        both[np.ix_(first, first)] += self.matrix
-        both[np.ix_(second, second)] += other.matrix
-        return Chain(_condensed(both, 2 * n + 1))
-
-    def repeated(self, times: int) -> Chain:
-        """So many of this chain in a row, by doubling."""
-        result, power = None, self
-        while times:
-            if times & 1:
-                result = power if result is None else result.followed_by(power)
-            times >>= 1
-            power = power.followed_by(power) if times else power
-        assert result is not None  # times is at least 1
-        return result
-
-
-def _condensed(matrix: Floats, keep: int) -> Floats:
-    """The symmetric matrix with the dofs from `keep` on free of load."""
-    inner = np.linalg.solve(matrix[keep:, keep:], matrix[keep:, :keep])
-    reduced: Floats = matrix[:keep, :keep] - matrix[:keep, keep:] @ inner
-    return (reduced + reduced.T) / 2
 
 
 @dataclass(frozen=True)
@@ -200,7 +152,7 @@ def assemble(
             joints = [(np.r_[ahead, behind], chain.repeated(rest).matrix)]
         else:
             side, radii = chain.repeated(rest // 2), np.hypot(*fine.points[fine.ahead[:-1]].T)
-            joints = [(ahead, _ended(side, cuts, radii, ahead=True)), (behind, _ended(side, cuts, radii, ahead=False))]
+            joints = [(ahead, side.ended(cuts, radii, ahead=True)), (behind, side.ended(cuts, radii, ahead=False))]
         for dofs, matrix in joints:
             blocks.append((np.repeat(dofs, len(dofs)), np.tile(dofs, len(dofs)), matrix[:-1, :-1].ravel()))
             np.add.at(hub, dofs, matrix[:-1, -1])
@@ -243,17 +195,3 @@ def _number(sector: Sector, held: NDArray[np.bool_], *, closed: bool) -> Indices
         row[new] = count + np.arange(len(new))
         count += len(new)
     return numbers
-
-
-def _ended(side: Chain, cuts: Cuts, radii: Floats, *, ahead: bool) -> Floats:
-    """The chain on one side of the sectors in full as a matrix on [the cut to them, turn of the hub], its far cut held."""
-    n = side.cut
-    near, far = (np.arange(n), np.arange(n, 2 * n)) if ahead else (np.arange(n, 2 * n), np.arange(n))
-    kept = {Cuts.FREE: far, Cuts.SLIDING: far[::2], Cuts.FIXED: far[:0]}[cuts]
-    motions = np.zeros((2 * n + 1, n + 1 + len(kept)))
-    motions[near, np.arange(n)] = 1
-    motions[-1, n] = 1
-    motions[kept, n + 1 + np.arange(len(kept))] = 1
-    if cuts is not Cuts.FREE:
-        motions[far[1::2], n] = radii
-    return _condensed(motions.T @ side.matrix @ motions, n + 1)

@@ -68,20 +68,28 @@ class MeshSizes:
 
 @dataclass(frozen=True)
 class Stretch:
-    """One stretch of the outline: its end nodes and mid-side nodes in order, (n + 1, 2) and (n, 2) in mm."""
+    """One stretch of the outline: `points` (4 n + 1, 2) in mm in order, exactly on it; an edge takes four steps."""
 
     side: Side
-    ends: Floats
-    mids: Floats
+    points: Floats
+
+    @property
+    def ends(self) -> Floats:
+        """Ends of the edges (n + 1, 2)."""
+        return self.points[::4]
+
+    @property
+    def mids(self) -> Floats:
+        """Middles of the edges (n, 2)."""
+        return self.points[2::4]
 
     def backwards(self, side: Side | None = None) -> Stretch:
         """The same stretch run through from its end."""
-        return Stretch(side or self.side, self.ends[::-1], self.mids[::-1])
+        return Stretch(side or self.side, self.points[::-1])
 
     def mirrored(self, side: Side) -> Stretch:
         """The mirror image about the x axis."""
-        flip = np.array([1.0, -1.0])
-        return Stretch(side, self.ends * flip, self.mids * flip)
+        return Stretch(side, self.points * np.array([1.0, -1.0]))
 
 
 def sector_outline(gear: Gear, inner_radius: float, sizes: MeshSizes) -> list[Stretch]:
@@ -142,15 +150,14 @@ def _half_tooth(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> list[Stretch]:
 
 
 def _graded(curve: Curve, size: Callable[[CurveKind, Floats, float], Floats]) -> Stretch:
-    """The curve with edges of the wanted lengths, its parameter halved for the mid-side nodes."""
+    """The curve with edges of the wanted lengths."""
     s = np.linspace(0.0, 1.0, _FINE)
     run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(curve.points(s), axis=0).T))]
     effort = 1 / size(curve.kind, run, float(run[-1]))
     count = np.r_[0.0, np.cumsum((effort[1:] + effort[:-1]) / 2 * np.diff(run))]
     edges = max(1, math.ceil(count[-1] - 1e-9))
-    nodes = np.interp(np.linspace(0.0, count[-1], 2 * edges + 1), count, s)
-    points = curve.points(nodes)
-    return Stretch(_SIDES[curve.kind], points[::2], points[1::2])
+    nodes = np.interp(np.linspace(0.0, count[-1], 4 * edges + 1), count, s)
+    return Stretch(_SIDES[curve.kind], curve.points(nodes))
 
 
 def _cut(outer: float, inner: float, angle: float, sizes: MeshSizes, module: float) -> Stretch:
@@ -161,14 +168,12 @@ def _cut(outer: float, inner: float, angle: float, sizes: MeshSizes, module: flo
     count = np.r_[0.0, np.cumsum((effort[1:] + effort[:-1]) / 2 * np.diff(run))]
     edges = max(2, math.ceil(count[-1]))
     ends = outer - np.interp(np.linspace(0.0, count[-1], edges + 1), count, run)
-    mids = (ends[1:] + ends[:-1]) / 2
-    direction = np.array([math.cos(angle), math.sin(angle)])
-    return Stretch(Side.AHEAD, ends[:, None] * direction, mids[:, None] * direction)
+    steps = np.interp(np.arange(4 * edges + 1) / 4, np.arange(edges + 1), ends)
+    return Stretch(Side.AHEAD, steps[:, None] * np.array([math.cos(angle), math.sin(angle)]))
 
 
 def _arc(radius: float, half_angle: float, size: float) -> Stretch:
     """The inner circle from plus to minus half a pitch."""
     edges = max(1, math.ceil(2 * half_angle * radius / size))
-    angles = np.linspace(half_angle, -half_angle, 2 * edges + 1)
-    points = radius * np.stack([np.cos(angles), np.sin(angles)], -1)
-    return Stretch(Side.INNER, points[::2], points[1::2])
+    angles = np.linspace(half_angle, -half_angle, 4 * edges + 1)
+    return Stretch(Side.INNER, radius * np.stack([np.cos(angles), np.sin(angles)], -1))

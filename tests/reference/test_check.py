@@ -17,7 +17,7 @@ from gearcad.check.summary import Summary, summarise
 from gearcad.fea.cycle import Cycle, run_cycle
 from gearcad.fea.elasticity import Plane
 from gearcad.fea.flexible_pair import BodyModel, flexible_pair
-from gearcad.fea.ring import Cuts
+from gearcad.fea.chain import Cuts
 
 TORQUE = 12.7
 TRIAL = 0.015

@@ -1,0 +1,144 @@
+"""Frictionless contact along lines: the load of every cell, and the approach of the gears.
+
+Across the line the pressure is Hertz's, an ellipse as wide as the load of its place makes it; along the line loads act on each
+other as on a half-space. c = 0.3033 a is the distance at which a point load moves the middle of the ellipse as the ellipse does
+(the mean of ln|x| over a semi-ellipse is ln(a/2) - 1/2).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.errors import SolverError
+from gearcad.fea.contact import complementary
+from gearcad.ltca.contact_lines import ContactLine
+from gearcad.ltca.flank import SolidCompliance
+
+__all__ = ["LineSolution", "Responses", "responses", "solve_lines"]
+
+Floats = NDArray[np.float64]
+
+_OWN = math.exp(-0.5) / 2
+"""c/a: 0.30327."""
+
+_LEAST = 1e-3
+"""Share of the mean load per length for which the ellipse of a cell is wide enough, however little it carries."""
+
+_ROUNDS = 40
+_SETTLED = 1e-6
+"""Rounds of fitting the ellipses to the loads, and the relative change at which they have settled."""
+
+
+@dataclass(frozen=True)
+class Responses:
+    """What one position needs of both bodies: `smooth` (2, n, n) normal displacements (mm/N) without the half-space's part.
+
+    `apart` (n, n) are the distances (mm) of cells on the same flank, infinite on different ones; `radii` (n,) reduced radii
+    of curvature (mm), `lengths` (n,) of the cells (mm); `modulus` E_r (MPa), 1/E_r = sum (1 - nu^2)/E.
+    """
+
+    lines: tuple[ContactLine, ...]
+    smooth: Floats
+    apart: Floats
+    radii: Floats
+    lengths: Floats
+    modulus: float
+
+    @property
+    def cells(self) -> int:
+        """Cells of all lines."""
+        return len(self.lengths)
+
+    def split(self, values: Floats) -> list[Floats]:
+        """Values of all cells (..., n) by line."""
+        return np.split(values, np.cumsum([len(line.across) for line in self.lines])[:-1], axis=-1)
+
+    def half_widths(self, forces: Floats) -> Floats:
+        """Hertz half widths (mm) for forces (N) of the cells: a = sqrt(4 F' R/(pi E_r))."""
+        return np.sqrt(4 * forces / self.lengths * self.radii / (math.pi * self.modulus))
+
+    def pressures(self, forces: Floats) -> Floats:
+        """Greatest pressures (MPa) across each cell: p_0 = sqrt(F' E_r/(pi R))."""
+        return np.sqrt(forces / self.lengths * self.modulus / (math.pi * self.radii))
+
+    def half_space(self, forces: Floats) -> Floats:
+        """Displacements (n, n) in mm/N of both half-spaces, the ellipses as wide as the forces make them."""
+        own = _OWN * self.half_widths(forces)
+        half = self.lengths / 2
+        finite = np.where(np.isfinite(self.apart), self.apart, 0.0)
+        kernel = (np.arcsinh((finite + half) / own) - np.arcsinh((finite - half) / own)) / self.lengths
+        return np.where(np.isfinite(self.apart), kernel, 0.0) / (math.pi * self.modulus)
+
+
+def responses(lines: tuple[ContactLine, ...], pinion: SolidCompliance, wheel: SolidCompliance) -> Responses:
+    """The responses of both bodies to loads on all cells of a position."""
+    smooth = np.stack([_smooth(lines, body, gear) for gear, body in enumerate((pinion, wheel))])
+    sizes = [len(line.across) for line in lines]
+    apart = np.full((sum(sizes), sum(sizes)), np.inf)
+    start = 0
+    for line, size in zip(lines, sizes, strict=True):
+        here = slice(start, start + size)
+        apart[here, here] = np.linalg.norm(line.points[:, None] - line.points, axis=-1)
+        start += size
+    helix = pinion.flank.helix
+    radii = np.concatenate([line.radii(helix) for line in lines])
+    modulus = 1 / sum((1 - body.material.poisson_ratio**2) / body.material.youngs_modulus for body in (pinion, wheel))
+    return Responses(lines, smooth, apart, radii, np.concatenate([line.lengths for line in lines]), modulus)
+
+
+def _smooth(lines: tuple[ContactLine, ...], body: SolidCompliance, gear: int) -> Floats:
+    places = [(line.pinion, line.wheel)[gear] for line in lines]
+    at, by = [body.at(place) for place in places], [body.by(place) for place in places]
+    blocks = []
+    for moved, row in zip(lines, at, strict=True):
+        blocks.append([])
+        for loaded, column in zip(lines, by, strict=True):
+            # Seen from the wheel the teeth follow each other the other way round.
+            response = body.moved.get((moved.tooth - loaded.tooth) * (1, -1)[gear])
+            block = np.zeros((len(row), len(column))) if response is None else row @ response @ column.T
+            if moved is loaded:
+                place = (moved.pinion, moved.wheel)[gear]
+                block += body.images.normal(place, place)
+            blocks[-1].append(block)
+    matrix = np.block(blocks)
+    result: Floats = (matrix + matrix.T) / 2
+    return result
+
+
+@dataclass(frozen=True)
+class LineSolution:
+    """Forces (n,) in N of the cells, the approach along the normal (mm), and the pinion's and the wheel's parts of it."""
+
+    responses: Responses
+    forces: Floats
+    approach: float
+    parts: tuple[float, float]
+
+    @property
+    def pressures(self) -> Floats:
+        """Greatest pressure (n,) in MPa across each cell."""
+        return self.responses.pressures(self.forces)
+
+
+def solve_lines(given: Responses, gap: Floats, force: float) -> LineSolution:
+    """Press the gears together with the normal force `force` (N); `gap` (n,) in mm. Raises SolverError."""
+    least = _LEAST * force / given.lengths.sum() * given.lengths
+    smooth = given.smooth.sum(axis=0)
+    forces = force * given.lengths / given.lengths.sum()
+    ones = np.ones(given.cells)
+    for _ in range(_ROUNDS):
+        kernel = given.half_space(np.maximum(forces, least))
+        found, approach = complementary(smooth + kernel, gap, ones, force)
+        change = np.abs(found - forces).max() / found.max()
+        forces = found
+        if change < _SETTLED:
+            break
+    else:
+        raise SolverError(f"the widths of the contact did not settle within {_ROUNDS} rounds")
+    contact = float(forces @ kernel @ forces)
+    parts = [float(forces @ matrix @ forces + contact / 2) / force for matrix in given.smooth]
+    return LineSolution(given, forces, approach, (parts[0], parts[1]))

@@ -1,0 +1,173 @@
+"""Two solid gears in mesh: bodies factorised once, then loaded at any position, with any torque, modification and mounting."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.errors import GeometryError, ParameterError
+from gearcad.fea.flexible_pair import BodyModel, inner_radius
+from gearcad.fea.mesh_positions import MeshLine, mesh_line
+from gearcad.geometry import Gear, GearPair
+from gearcad.ltca.body import assemble_body
+from gearcad.ltca.contact_lines import contact_lines, gaps
+from gearcad.ltca.flank import SolidCompliance, solid_compliance
+from gearcad.ltca.line_contact import LineSolution, Responses, responses, solve_lines
+from gearcad.ltca.swept import sweep
+from gearcad.material import Material
+from gearcad.meshing import MeshSizes
+from gearcad.meshing.quads import mesh_quads
+from gearcad.mounting import Mounting
+
+__all__ = ["SolidPair", "SolidSizes", "solid_pair"]
+
+Floats = NDArray[np.float64]
+
+_SOFT = 4000.0
+"""A stiffness (N/mm per mm of width) that no pair of teeth falls below: bounds how far a tip edge can get."""
+
+_STEP = 0.02
+"""Step (mm) of that bound, so that loads and modifications that differ little share their responses."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolidSizes:
+    """Mesh of the solid bodies: twice the edge lengths in the section, for the loaded tooth and the others, in normal modules;
+    mean thickness of the layers in normal modules.
+    """
+
+    loaded: MeshSizes = MeshSizes(flank=0.6, corner=0.25, fillet=0.24, outline=0.8, cut=1.0, rim=4.0, growth=0.6)
+    other: MeshSizes = MeshSizes(flank=1.6, corner=1.6, fillet=1.2, outline=1.6, cut=1.0, rim=4.0, growth=0.6)
+    layer: float = 0.9
+    fewest_layers: int = 6
+
+    def layers(self, gear: Gear) -> int:
+        """Layers of elements over the face width."""
+        return max(self.fewest_layers, round(gear.face_width / (self.layer * gear.normal_module)))
+
+    def refined(self, factor: float) -> SolidSizes:
+        """All edges shorter by `factor`."""
+        return SolidSizes(
+            loaded=self.loaded.refined(factor),
+            other=self.other.refined(factor),
+            layer=self.layer / factor,
+            fewest_layers=round(self.fewest_layers * factor),
+        )
+
+
+@dataclass(frozen=True)
+class SolidPair:
+    """The bodies of pinion and wheel, factorised and solved for loads on the flank.
+
+    Hands, modifications and mounting may be changed by `remade`: the bodies are those of the exact gears.
+    """
+
+    pair: GearPair
+    mounting: Mounting
+    line: MeshLine
+    pinion: SolidCompliance
+    wheel: SolidCompliance
+    cells: int = 60
+    known: dict[Any, Responses] = field(default_factory=dict, repr=False)
+
+    def remade(self, pair: GearPair, mounting: Mounting) -> SolidPair:
+        """The same bodies with other modifications of the flanks, or another mounting, of an otherwise equal pair."""
+        mounted = mounting.mounted(pair)
+        known = self.known if mounted.centre_distance == self.pair.centre_distance else {}
+        return replace(self, pair=mounted, mounting=mounting, line=mesh_line(mounted), known=known)
+
+    @property
+    def width(self) -> float:
+        """Common face width (mm), on which all of the load is."""
+        return self.pair.common_width.width
+
+    @property
+    def base_radius(self) -> float:
+        """The pinion's (mm)."""
+        return self.pair.pinion.base_diameter / 2
+
+    @property
+    def helix(self) -> float:
+        """Base helix angle of the pinion (rad), signed."""
+        return self.pinion.flank.helix
+
+    def force(self, torque: float) -> float:
+        """Normal force in the transverse section (N per mm of common width) at a torque on the pinion (N m)."""
+        return abs(torque) * 1000 / self.base_radius / self.width
+
+    def roll_length(self, roll_angle: float) -> float:
+        """Where the middle pair touches in the middle of the common width (mm from T1) at a roll angle of the pinion (deg)."""
+        return self.pair.path_of_contact.C + math.radians(roll_angle) * self.base_radius
+
+    def roll_angles(self, count: int) -> Floats:
+        """Roll angles (deg) over one base pitch, as many before the pitch point as after it."""
+        pitch = 360 / self.pair.pinion.teeth
+        return (np.arange(count) + 0.5) / count * pitch - pitch / 2
+
+    @cached_property
+    def _deviation(self) -> float:
+        """How far (mm) modifications and mounting can move a contact, at the most."""
+        depths = []
+        for gear in (self.pair.pinion, self.pair.wheel):
+            form = gear.flank_form
+            depths.append(np.ptp(form.depth(np.linspace(form.first, form.last, 25), np.linspace(0, form.width, 25)[:, None])))
+        return sum(depths) + (abs(self.mounting.misalignment) + abs(self.mounting.pitch_error)) / 1000
+
+    def responses(self, roll_angle: float, force: float, *, single: bool = False) -> Responses:
+        """What the contact at a roll angle (deg) needs of the bodies, for normal forces about `force` (N per mm).
+
+        Raises GeometryError where nothing can touch.
+        """
+        farthest = math.ceil((force / _SOFT + self._deviation) / _STEP) * _STEP
+        key = (round(roll_angle, 9), farthest, single)
+        if key not in self.known:
+            lines = contact_lines(self.pair, self.line, self.pinion.flank, self.roll_length(roll_angle), self.cells, farthest)
+            if single:
+                lines = tuple(line for line in lines if line.tooth == 0)
+            if not lines:
+                raise GeometryError("roll_angle", roll_angle, "must be one at which teeth can touch", "deg")
+            self.known[key] = responses(lines, self.pinion, self.wheel)
+        return self.known[key]
+
+    def solve(self, roll_angle: float, torque: float, *, single: bool = False) -> LineSolution:
+        """The contact at a roll angle (deg) and torque (N m); `single` lets no other pair of teeth touch.
+
+        Raises SolverError, and GeometryError where nothing can touch.
+        """
+        force = self.force(torque)
+        given = self.responses(roll_angle, force, single=single)
+        gap = gaps(given.lines, self.pair, self.mounting, self.helix)
+        return solve_lines(given, gap, force * self.width / math.cos(self.helix))
+
+
+def solid_pair(
+    pair: GearPair,
+    material: Material,
+    *,
+    body: BodyModel | None = None,
+    sizes: SolidSizes | None = None,
+    mounting: Mounting | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+) -> SolidPair:
+    """Mesh, condense, factorise and solve both gears. Raises SolverError, ParameterError and GeometryError."""
+    body, sizes, mounting = body or BodyModel(), sizes or SolidSizes(), mounting or Mounting()
+    neighbours = max(1, math.floor(pair.total_contact_ratio + 0.2))
+    bodies = []
+    for owner, gear, inner in zip(("pinion", "wheel"), (pair.pinion, pair.wheel), body.inner_diameters, strict=True):
+        progress(owner)
+        try:
+            radius = inner_radius(gear, inner)
+        except (ParameterError, GeometryError) as error:
+            raise error.within(owner) from error
+        held = body.teeth if body.teeth is not None and body.teeth < gear.teeth else None
+        fine, coarse = (sweep(gear, mesh_quads(gear, radius, each), sizes.layers(gear)) for each in (sizes.loaded, sizes.other))
+        solid = assemble_body(fine, coarse, gear.teeth, neighbours, material, held, body.cuts)
+        bodies.append(solid_compliance(gear, solid, material))
+    mounted = mounting.mounted(pair)
+    return SolidPair(mounted, mounting, mesh_line(mounted), *bodies)

@@ -1,0 +1,141 @@
+"""Stress of the fillet surfaces of a solid tooth, from the profile's foot to the flank and along the face width."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.ltca.flank import SolidCompliance
+from gearcad.meshing.outline import Side
+
+__all__ = ["FilletState", "SolidFillet"]
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_GAUSS = 0.5 / np.sqrt(3)
+"""Places, from the middle of a face, at which strains of quadratic elements are most accurate."""
+
+_LEAST_ANGLE = 12.0
+"""Tangent angle (deg) from which on the fillet counts as the root, as in the plane model."""
+
+
+class FilletState(NamedTuple):
+    """Principal stresses (MPa) at the points of a fillet (heights, along the profile), the greater and the lesser."""
+
+    greater: Floats
+    lesser: Floats
+
+
+@dataclass(frozen=True)
+class SolidFillet:
+    """The fillet under the loaded flank (LEFT_FILLET: tension) or behind it (RIGHT_FILLET), as responses of one body."""
+
+    body: SolidCompliance
+    side: Side
+
+    @property
+    def heights(self) -> Floats:
+        """z (n,) of the rows of points (mm)."""
+        return self._geometry[0]
+
+    @property
+    def radii(self) -> Floats:
+        """Radius (m,) of the points along the profile (mm)."""
+        return self._geometry[1]
+
+    @property
+    def tangent_angles(self) -> Floats:
+        """Angle (m,) between the profile's tangent and the middle of the tooth (deg)."""
+        return self._geometry[2]
+
+    @property
+    def is_root(self) -> NDArray[np.bool_]:
+        """Which points (m,) along the profile are the root: above, a contact near the start of the flank presses on them."""
+        return self.tangent_angles >= _LEAST_ANGLE
+
+    def state(self, loads: list[tuple[int, Floats]]) -> FilletState:
+        """Stresses on tooth 0 by loads: tooth, and force (N) at each unit load's place (see SolidCompliance.by)."""
+        along, axial, shear = sum(
+            (self._responses[-tooth] @ forces for tooth, forces in loads if -tooth in self._responses),
+            start=np.zeros((3, len(self.heights), len(self.radii))),
+        )
+        middle, radius = (along + axial) / 2, np.hypot((along - axial) / 2, shear)
+        return FilletState(middle + radius, middle - radius)
+
+    @cached_property
+    def _faces(self) -> Indices:
+        """Nodes (layers, edges, 8) of the fillet's faces: along the profile first, then up."""
+        mesh = self.body.body.sector.mesh
+        chain = mesh.side(self.side)
+        first, middle, second = chain[:-1:2], chain[1::2], chain[2::2]
+        rows = []
+        for layer in range(mesh.layers):
+            low, high = mesh.plane(layer), mesh.plane(layer + 1)
+            half = mesh.elements(mesh.section.quads[:1], layer)[0, 16] - mesh.section.quads[0, 0]
+            rows.append(
+                np.stack(
+                    [first + low, second + low, second + high, first + high]
+                    + [middle + low, second + half, middle + high, first + half],
+                    -1,
+                )
+            )
+        return np.stack(rows)
+
+    @cached_property
+    def _shape(self) -> tuple[Floats, Floats]:
+        """Shape functions (4, 8) and slopes (2, 4, 8) at the points of a face: lower row, upper row."""
+        from skfem import ElementQuadS2
+
+        element, low, high = ElementQuadS2(), 0.5 - _GAUSS, 0.5 + _GAUSS
+        places = np.array([[low, high, low, high], [low, low, high, high]])
+        found = [element.lbasis(places, k) for k in range(8)]
+        return np.stack([each[0] for each in found], -1), np.stack([each[1] for each in found], -1)
+
+    def _at_points(self, values: Floats) -> Floats:
+        """Values (layers, edges, 4 points, ...) as (heights, along the profile, ...)."""
+        layers, edges, _, *rest = values.shape
+        split = values.reshape(layers, edges, 2, 2, *rest)
+        return np.moveaxis(split, 2, 1).reshape(2 * layers, 2 * edges, *rest)
+
+    @cached_property
+    def _geometry(self) -> tuple[Floats, Floats, Floats]:
+        mesh = self.body.body.sector.mesh
+        values, slopes = self._shape
+        where = self._at_points(np.einsum("qa,leac->leqc", values, mesh.points[self._faces]))
+        along = np.einsum("qa,eac->eqc", slopes[0][:2], mesh.in_section[self._faces[0]]).reshape(-1, 2)
+        angles = np.degrees(np.arctan2(along[:, 1], np.abs(along[:, 0])))
+        return where[:, 0, 2], np.hypot(*np.moveaxis(where[0, :, :2], -1, 0)), angles
+
+    @cached_property
+    def _responses(self) -> dict[int, Floats]:
+        """Stresses (3, heights, along, loads) of tooth k: along the profile, across it, shear, by the unit loads on tooth 0."""
+        neighbours = self.body.neighbours
+        return {
+            tooth: self._stresses(self.body.displacements[neighbours + tooth]) for tooth in range(-neighbours, neighbours + 1)
+        }
+
+    def _stresses(self, displacements: Floats) -> Floats:
+        mesh, faces = self.body.body.sector.mesh, self._faces
+        _, slopes = self._shape
+        vectors = mesh.to_space(displacements.reshape(mesh.nodes, 3, -1))[faces]  # (layers, edges, 8, 3, loads)
+        bases = [np.einsum("qa,leac->leqc", slope, mesh.points[faces]) for slope in slopes]
+        moved = [np.einsum("qa,leacm->leqcm", slope, vectors) for slope in slopes]
+        first = bases[0] / np.linalg.norm(bases[0], axis=-1, keepdims=True)
+        lean = (bases[1] * first).sum(-1, keepdims=True)
+        upright = bases[1] - lean * first
+        height = np.linalg.norm(upright, axis=-1, keepdims=True)
+        second = upright / height
+        by_first = moved[0] / np.linalg.norm(bases[0], axis=-1)[..., None, None]
+        by_second = (moved[1] - lean[..., None] * by_first) / height[..., None]
+        along = np.einsum("leqcm,leqc->leqm", by_first, first)
+        axial = np.einsum("leqcm,leqc->leqm", by_second, second)
+        shear = np.einsum("leqcm,leqc->leqm", by_first, second) + np.einsum("leqcm,leqc->leqm", by_second, first)
+        e, nu = self.body.material.youngs_modulus, self.body.material.poisson_ratio
+        plane = e / (1 - nu**2)
+        stresses = (plane * (along + nu * axial), plane * (axial + nu * along), e / (2 * (1 + nu)) * shear)
+        return np.stack([self._at_points(stress) for stress in stresses])
