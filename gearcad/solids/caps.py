@@ -57,6 +57,8 @@ class _Capper:
         self.grid, self.end, self.next_vertex = grid, end, next_vertex
         self.z = grid.screw.width - grid.setback if end.top else grid.setback
         self.turn = grid.screw.kappa * self.z
+        right, left = (turns[-1 if end.top else 0] for turns in grid.turns)
+        self.right, self.left = right - grid.half_angle, left + grid.half_angle
         self.own: list[tuple[int, float]] = []
         self.arcs = self._arc_angles()
 
@@ -81,29 +83,29 @@ class _Capper:
     def _arc_angles(self) -> list[Floats]:
         """For every level below the tip the angles at which it has points, if its ends leave room; none: a straight line."""
         grid = self.grid
-        radius, angle = grid.radius, grid.half_angle
+        radius, right, left = grid.radius, self.right, self.left
         tip, nothing = grid.flank_steps, np.array([])
         first_on_cone = grid.face_level if grid.cone.present else tip
-        foot = 2 * angle[0]
+        foot = left[0] - right[0]
         gap = radius[0] - self.end.inner_radius
         most = math.sqrt(gap / radius[0]) if self.end.inner_radius else math.inf
         if first_on_cone < tip:
-            land = np.linspace(-angle[tip], angle[tip], grid.tip_steps + 1)
-            beyond = angle[tip] + self.end.step * np.arange(1, math.ceil(2 * math.pi / self.end.step))
-            fixed = self.turn[tip] + np.unique(np.concatenate([-beyond, land, beyond]))
+            land = np.linspace(right[tip], left[tip], grid.tip_steps + 1)
+            beyond = self.end.step * np.arange(1, math.ceil(2 * math.pi / self.end.step))
+            fixed = self.turn[tip] + np.unique(np.concatenate([right[tip] - beyond, land, left[tip] + beyond]))
         else:
-            fixed = self.turn[0] + np.linspace(-angle[0], angle[0], math.ceil(foot / min(most, foot)) + 1)
+            fixed = self.turn[0] + np.linspace(right[0], left[0], math.ceil(foot / min(most, foot)) + 1)
         straight = foot <= most
         arcs = []
         for i in range(tip):
-            straight = straight or (i > 0 and radius[i] * math.cos(angle[i]) > radius[i - 1])
+            straight = straight or (i > 0 and radius[i] * math.cos((left[i] - right[i]) / 2) > radius[i - 1])
             arcs.append(fixed if i >= first_on_cone or not straight else nothing)
         return arcs
 
     def _level(self, i: int) -> Chain:
         """Angles and numbers along level i from the right flank to the left one; adds the level's own points."""
         grid = self.grid
-        right, left = self.turn[i] - grid.half_angle[i], self.turn[i] + grid.half_angle[i]
+        right, left = self.turn[i] + self.right[i], self.turn[i] + self.left[i]
         opposite = 2 * grid.flank_steps + grid.tip_steps - i
         if i == grid.flank_steps:
             return np.linspace(right, left, grid.tip_steps + 1).tolist(), list(range(i, opposite + 1))

@@ -1,4 +1,4 @@
-"""DXF of the transverse profile: one closed contour of true arcs for laser and wire cutting."""
+"""DXF of the transverse profile as modified: one closed contour of true arcs for laser and wire cutting."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from gearcad.errors import SolverError, require_number
 from gearcad.geometry import Body, Gear
 from gearcad.geometry.curves import Curve, CurveKind
+from gearcad.solids.turned import middle_section
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -47,8 +48,9 @@ class _Arcs:
 
 
 def write_dxf(gear: Gear, path: Path | str, *, accuracy: float = 0.0005) -> None:
-    """Write the transverse section at z = 0 as DXF (R2010, mm): tooth 0 on +x.
+    """Write the transverse section as DXF (R2010, mm): tooth 0 on +x.
 
+    The flanks are as modified at mid face width, where modifications along the face are nothing (see `middle_section`).
     Layer PROFILE holds the contour, one closed polyline of arcs (see `gear_contour`); BORE the bore, a circle, or with a
     keyway a closed polyline; CIRCLES the tip, reference, base and root circles. Equal input gives equal bytes.
     Raises ParameterError for an `accuracy` (mm) below 1e-7.
@@ -78,9 +80,10 @@ def gear_contour(gear: Gear, accuracy: float = 0.0005) -> Floats:
 
     The lands are single arcs, tip chamfers straight, involute and trochoid pairs of arcs that follow the exact tangents
     and stay within `accuracy` (mm) of the exact curve. Every joint is one shared vertex; the last arc ends in the first.
+    Profile modifications are in it as they are at mid face width.
     """
     require_number("accuracy", accuracy, "mm", at_least=1e-7)
-    curves = gear.profile.curves
+    curves = middle_section(gear)
     flank = _joined([_arcs_of(curve, accuracy) for curve in curves if curve.kind not in (CurveKind.ROOT, CurveKind.TIP)])
     half_pitch = math.pi / gear.teeth
     land = curves[0].kind is CurveKind.ROOT

@@ -15,6 +15,7 @@ from gearcad.errors import require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind, Fillet, Involute, parameters_within
 from gearcad.geometry.trochoid import ToolTip
+from gearcad.solids.turned import TurnedCurve, middle_section
 
 __all__ = ["PointBlock", "gear_points", "tool_in_gear", "tool_outline", "write_points"]
 
@@ -27,7 +28,7 @@ _HEADER = ("curve", "index", "parameter_deg", "radius_mm", "half_angle_deg", "x_
 
 
 class PointBlock(NamedTuple):
-    """Points (n, 2) of one curve in mm, in the gear's transverse section at z = 0, and a parameter in degrees (n,)."""
+    """Points (n, 2) of one curve in mm, in the gear's transverse section, tooth 0 on +x, and a parameter in degrees (n,)."""
 
     curve: str
     parameter: Floats
@@ -53,6 +54,8 @@ def write_points(gear: Gear, path: Path | str, *, chord_error: float = 0.0005) -
 def gear_points(gear: Gear, chord_error: float = 0.0005) -> list[PointBlock]:
     """The left flank of tooth 0 from root to tip, then the tool; dense enough that chords stay within `chord_error` (mm).
 
+    The flank is as modified at mid face width, where modifications along the face are nothing; the tool is the unmodified one.
+
     The parameter is the roll angle on the involute, the angle theta on the tool's tip on the trochoid and on the tool's
     outline, the roll angle of the gear along the tool's path, else the half angle.
     """
@@ -61,7 +64,7 @@ def gear_points(gear: Gear, chord_error: float = 0.0005) -> list[PointBlock]:
 
 
 def _tooth(gear: Gear, chord_error: float) -> Iterator[PointBlock]:
-    for curve in gear.profile.curves:
+    for curve in middle_section(gear):
         s = parameters_within(curve, chord_error)
         yield PointBlock(_NAMES.get(curve.kind, curve.kind.value), np.degrees(_parameter(curve, s)), curve.points(s))
 
@@ -70,6 +73,8 @@ _NAMES = {CurveKind.ROOT: "root land", CurveKind.TIP: "tip land"}
 
 
 def _parameter(curve: Curve, s: Floats) -> Floats:
+    if isinstance(curve, TurnedCurve):
+        curve = curve.curve
     if isinstance(curve, Involute):
         return curve.roll(s)
     if isinstance(curve, Fillet):

@@ -12,7 +12,8 @@ from gearcad.errors import ParameterError, require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.limits import at_least
 from gearcad.solids.caps import GearEnd, cap_teeth
-from gearcad.solids.sampling import ToothGrid, arc_step, tooth_grid
+from gearcad.solids.layers import arc_step
+from gearcad.solids.sampling import ToothGrid, tooth_grid
 from gearcad.solids.zipper import keyway_order, middles, zip_rings
 
 __all__ = ["Facets", "tessellate"]
@@ -49,7 +50,7 @@ class Facets:
 
 
 def tessellate(gear: Gear, chord_error: float = 0.005) -> Facets:
-    """Triangles of the whole gear, nowhere more than `chord_error` (mm) from the exact surface.
+    """Triangles of the whole gear with its flanks as modified, nowhere more than `chord_error` (mm) from the exact surface.
 
     Teeth from z = 0 to the face width, hubs beyond. Errors above 0.01 m_n are made that, so that small teeth keep their
     shape. Raises ParameterError for a chord error that is not positive, or below what the float32 of mesh files resolves.
@@ -88,9 +89,9 @@ class _Builder:
     def _side(self) -> None:
         """The grid of all teeth: layers x teeth x period, every cell cut along its better diagonal."""
         grid, screw = self.grid, self.grid.screw
-        radius, angle, setback = grid.outline
+        radius, setback, angle = grid.outline
         z = screw.heights(setback)[:, None, :]
-        turn = angle + 2 * np.pi / grid.teeth * np.arange(grid.teeth)[:, None] + screw.kappa * z
+        turn = angle[:, None, :] + 2 * np.pi / grid.teeth * np.arange(grid.teeth)[:, None] + screw.kappa * z
         x, y, z = np.broadcast_arrays(radius * np.cos(turn), radius * np.sin(turn), z)
         numbers = self.add(np.stack([x, y, z], -1).reshape(-1, 3)).reshape(screw.layers + 1, -1)
         a, d = numbers[:-1], numbers[1:]

@@ -15,7 +15,7 @@ from gearcad.geometry.gear import Gear
 from gearcad.geometry.modification import FlankForm
 from gearcad.geometry.profile import LEAST_LAND
 
-__all__ = ["FlankCurve", "flank_curves", "middle_section"]
+__all__ = ["FlankCurve", "TurnedCurve", "flank_curves", "middle_section"]
 
 Floats = NDArray[np.float64]
 
@@ -93,7 +93,7 @@ def middle_section(gear: Gear) -> tuple[Curve, ...]:
     """
     if not gear.modification.on_profile:
         return gear.profile.curves
-    flank = [_Turned.of(gear, piece) for piece in flank_curves(gear)]
+    flank = [TurnedCurve.of(gear, piece) for piece in flank_curves(gear)]
     lands = {curve.kind: curve for curve in gear.profile.curves if isinstance(curve, Land)}
     tip = replace(lands[CurveKind.TIP], first=float(flank[-1].polar(1.0)[1]))
     root = lands.get(CurveKind.ROOT)
@@ -101,14 +101,14 @@ def middle_section(gear: Gear) -> tuple[Curve, ...]:
 
 
 @dataclass(frozen=True)
-class _Turned:
+class TurnedCurve:
     """A curve whose points are turned: by (a + b s + c s^2) times s^2 (3 - 2 s) if it is fading; angles in radians."""
 
     curve: Curve
     turn: Polynomial
 
     @classmethod
-    def of(cls, gear: Gear, piece: FlankCurve) -> _Turned:
+    def of(cls, gear: Gear, piece: FlankCurve) -> TurnedCurve:
         """A piece of the left flank at mid face width. Over a piece the depth is a parabola, so three places give it."""
         s = np.array([0.0, 0.5, 1.0])
         at = gear.flank_form.turn(piece.lengths(s), gear.face_width / 2)
