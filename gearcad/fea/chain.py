@@ -86,7 +86,8 @@ class Chain:
 def cut_held(cuts: Cuts, dofs: int, components: int) -> NDArray[np.bool_]:
     """Which dofs (n,) of a cut are held."""
     if cuts is Cuts.SLIDING:
-        return np.arange(dofs) % components == 1
+        tangential: NDArray[np.bool_] = np.arange(dofs) % components == 1
+        return tangential
     return np.full(dofs, cuts is Cuts.FIXED)
 
 

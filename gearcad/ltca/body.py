@@ -61,7 +61,8 @@ class SolidSector:
     def cut_radii(self) -> Floats:
         """Radii (mm) of the nodes of a cut."""
         nodes = self.mesh.over(self.mesh.section.ahead[:-1])
-        return np.hypot(*self.mesh.in_section[nodes].T)
+        result: Floats = np.hypot(*self.mesh.in_section[nodes].T)
+        return result
 
     @cached_property
     def cut_turn(self) -> Any:
@@ -162,7 +163,8 @@ def _slabs(mesh: SweptMesh) -> Indices:
     """The slab (n,) of each node: a plane and the nodes half-way up to the next."""
     section = mesh.section
     planes = np.repeat(np.arange(mesh.layers + 1), len(section.points))
-    return np.r_[planes, np.repeat(np.arange(mesh.layers), section.vertices)]
+    result: Indices = np.r_[planes, np.repeat(np.arange(mesh.layers), section.vertices)]
+    return result
 
 
 class Moved(NamedTuple):
@@ -176,7 +178,7 @@ class Moved(NamedTuple):
 class SolidBody:
     """A body, factorised: tooth 0 in full, and `neighbours` on each side whose displacements are wanted.
 
-    `rest` sectors beside tooth 0 make up the ring, or, `held`, stand half on each side of it with their outer cuts as `cuts` says.
+    `rest` sectors beside tooth 0 make up the ring or, `held`, stand half on each side of it, their outer cuts as `cuts` says.
     """
 
     sector: SolidSector

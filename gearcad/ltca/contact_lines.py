@@ -1,13 +1,14 @@
 """The lines along which flanks can touch at a position of the mesh, cell by cell, and the gap there.
 
-In the plane of action a line of contact is straight and lies at the base helix angle. Where it leaves the flanks, the tip edge of
-one gear faces the other's flank instead.
+In the plane of action a line of contact is straight and lies at the base helix angle. Where it leaves the flanks, the tip
+edge of one gear faces the other's flank instead.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,13 +18,19 @@ from gearcad.geometry import GearPair
 from gearcad.ltca.flank import Places, SolidFlank
 from gearcad.mounting import Mounting
 
-__all__ = ["ContactLine", "contact_lines", "gaps"]
+__all__ = ["ContactLine", "Gaps", "contact_lines", "gaps"]
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 _LEAST_LENGTH = 0.01
 """Least roll length (mm per mm of normal module) at which a flank still has a curvature to speak of."""
+
+_BEND = 0.05
+"""Distance (mm per mm of normal module) over which slope and curvature of a modification are taken."""
+
+_LEAST_BEND = 0.05
+"""Share of the exact flanks' curvature that a hollow modification leaves at the least."""
 
 
 @dataclass(frozen=True)
@@ -50,13 +57,13 @@ class ContactLine:
     @property
     def on_edge(self) -> Bools:
         """Whether the edge of a tip touches instead of the flank."""
-        return self.aside != 0
-
-    def radii(self, helix: float) -> Floats:
-        """Reduced radii of curvature (n,) in mm, in the normal section."""
-        one, other = self.pinion[0], self.wheel[0]
-        result: Floats = one * other / (one + other) / math.cos(helix)
+        result: Bools = self.aside != 0
         return result
+
+    @property
+    def curvature(self) -> Floats:
+        """Curvature (n,) of the gap between the exact flanks in the transverse section (1/mm)."""
+        return 1 / self.pinion[0] + 1 / self.wheel[0]
 
 
 def contact_lines(
@@ -135,22 +142,48 @@ def _behind_tangent(base: float, contact: Floats, place: Floats) -> tuple[Floats
     return length, contact - (length * np.cos(turn) - base * np.sin(turn))
 
 
-def gaps(lines: tuple[ContactLine, ...], pair: GearPair, mounting: Mounting, helix: float) -> Floats:
-    """Gaps (mm) of all cells along the normal: of the exact flanks, their modifications, and the mounting.
+class Gaps(NamedTuple):
+    """Of all cells: the gap (n,) along the normal in mm, and the reduced radius (n,) in the normal section in mm."""
+
+    normal: Floats
+    radii: Floats
+
+
+def gaps(lines: tuple[ContactLine, ...], pair: GearPair, mounting: Mounting, helix: float) -> Gaps:
+    """Gaps and curvatures of all cells: of the exact flanks, their modifications, and the mounting.
 
     A misaligned axis of the wheel is turned, as a rigid body, about its middle in the common face width. Turned in the plane
     of action it recedes along the line of action and moves along the axis; turned across it, flanks face each other nearer to
     tip or root, which only modified flanks feel. A pitch error belongs to the tooth in the middle.
     """
-    whole, width = mounting.misalignment / 1000 / pair.common_width.width, pair.common_width.width
-    across = mounting.misalignment_across / 1000 / width
-    found = []
+    width = pair.common_width.width
+    turn, across = mounting.misalignment / 1000 / width, mounting.misalignment_across / 1000 / width
+    step = _BEND * pair.pinion.normal_module
+    found, radii = [], []
     for line in lines:
-        wheel_lengths, wheel_heights = line.wheel
-        slid = wheel_lengths + across * line.across * pair.wheel.base_diameter / 2 / wheel_lengths
-        transverse = line.gap + pair.pinion.flank_form.depth(*line.pinion) + pair.wheel.flank_form.depth(slid, wheel_heights)
+        before, here, after = (_taken_back(line, pair, across * line.across, place) for place in (-step, 0.0, step))
+        curvature = line.curvature + (after - 2 * here + before) / step**2
+        curvature = np.maximum(curvature, _LEAST_BEND * line.curvature)
+        # Where the depth slopes, the flanks are nearest a little aside: the gap is a parabola there.
+        slope = np.where(line.on_edge, 0.0, (after - before) / (2 * step))
+        transverse = line.gap + here - slope**2 / (2 * curvature)
         if line.tooth == 0:
             transverse = transverse - mounting.pitch_error / 1000
-        turned = whole * (line.across * math.cos(helix) - wheel_lengths * math.sin(helix))
+        turned = turn * (line.across * math.cos(helix) - line.wheel[0] * math.sin(helix))
         found.append(transverse * math.cos(helix) + turned)
-    return np.concatenate(found)
+        radii.append(1 / (curvature * math.cos(helix)))
+    return Gaps(np.concatenate(found), np.concatenate(radii))
+
+
+def _taken_back(line: ContactLine, pair: GearPair, slid: Floats, place: float) -> Floats:
+    """How far (n,) both flanks of a line are taken back (mm) at `place` (mm) along the tangent, towards the pinion's tip.
+
+    The wheel has `slid` (n,) in mm along the tangent, so that the pinion meets it nearer to its tip.
+    """
+    depth = np.zeros_like(slid)
+    for gear, (lengths, heights), along in ((pair.pinion, line.pinion, place), (pair.wheel, line.wheel, slid - place)):
+        form = gear.flank_form
+        there = np.sqrt(np.maximum(lengths**2 + form.base_radius * 2 * along, 0.0))
+        # The point that stands there now comes from further down the flank, by what it was taken back.
+        depth = depth + form.depth(there - form.depth(there, heights), heights)
+    return depth

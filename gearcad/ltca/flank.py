@@ -1,4 +1,4 @@
-"""How a solid gear gives way under a point load anywhere on its flank: finite elements for the body, Boussinesq for the contact.
+"""How a solid gear gives way under a point load on its flank: finite elements for the body, Boussinesq for the contact.
 
 The load's field in a half-space is taken off the elements of the loaded tooth, so they carry only the smooth rest.
 """
@@ -85,7 +85,8 @@ class SolidCompliance:
     """Responses of a body to 1 N normal to the flank of tooth 0 at each place of `loads`.
 
     `moved[k]` (places of `grid`, loads) are normal displacements (mm) of the flank of tooth k; of tooth 0 they lack those of
-    a half-space and of the load's images (see `Images`); `torques` (loads,) act on the hub (N mm); `displacements` (teeth, dofs, loads) in turning axes.
+    a half-space and of the load's images (see `Images`). `torques` (loads,) act on the hub (N mm); `displacements` (teeth,
+    dofs, loads) are in turning axes.
     """
 
     flank: SolidFlank
@@ -205,7 +206,8 @@ class _Spline:
         (low, high), (back, front) = self._bounds
         rows = self._rows(self._up(np.clip(places[0], low, high)))
         columns = self._columns(self._along(np.clip(places[1], back, front)))
-        return (columns[:, :, None] * rows[:, None, :]).reshape(len(rows), -1)
+        result: Floats = (columns[:, :, None] * rows[:, None, :]).reshape(len(rows), -1)
+        return result
 
 
 def solid_compliance(gear: Gear, body: SolidBody, material: Material) -> SolidCompliance:

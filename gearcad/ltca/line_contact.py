@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from gearcad.errors import SolverError
 from gearcad.fea.contact import complementary
-from gearcad.ltca.contact_lines import ContactLine
+from gearcad.ltca.contact_lines import ContactLine, Gaps
 from gearcad.ltca.flank import SolidCompliance
 
 __all__ = ["LineSolution", "Responses", "responses", "solve_lines"]
@@ -37,14 +37,13 @@ _SETTLED = 1e-6
 class Responses:
     """What one position needs of both bodies: `smooth` (2, n, n) normal displacements (mm/N) without the half-space's part.
 
-    `apart` (n, n) are the distances (mm) of cells on the same flank, infinite on different ones; `radii` (n,) reduced radii
-    of curvature (mm), `lengths` (n,) of the cells (mm); `modulus` E_r (MPa), 1/E_r = sum (1 - nu^2)/E.
+    `apart` (n, n) are the distances (mm) of cells on the same flank, infinite on different ones; `lengths` (n,) of the cells
+    (mm); `modulus` E_r (MPa), 1/E_r = sum (1 - nu^2)/E.
     """
 
     lines: tuple[ContactLine, ...]
     smooth: Floats
     apart: Floats
-    radii: Floats
     lengths: Floats
     modulus: float
 
@@ -57,21 +56,13 @@ class Responses:
         """Values of all cells (..., n) by line."""
         return np.split(values, np.cumsum([len(line.across) for line in self.lines])[:-1], axis=-1)
 
-    def half_widths(self, forces: Floats) -> Floats:
-        """Hertz half widths (mm) for forces (N) of the cells: a = sqrt(4 F' R/(pi E_r))."""
-        return np.sqrt(4 * forces / self.lengths * self.radii / (math.pi * self.modulus))
-
-    def pressures(self, forces: Floats) -> Floats:
-        """Greatest pressures (MPa) across each cell: p_0 = sqrt(F' E_r/(pi R))."""
-        return np.sqrt(forces / self.lengths * self.modulus / (math.pi * self.radii))
-
-    def half_space(self, forces: Floats) -> Floats:
-        """Displacements (n, n) in mm/N of both half-spaces, the ellipses as wide as the forces make them."""
-        own = _OWN * self.half_widths(forces)
-        half = self.lengths / 2
+    def half_space(self, half_widths: Floats) -> Floats:
+        """Displacements (n, n) in mm/N of both half-spaces, for ellipses as wide as that (mm) on each side."""
+        own, half = _OWN * half_widths, self.lengths / 2
         finite = np.where(np.isfinite(self.apart), self.apart, 0.0)
         kernel = (np.arcsinh((finite + half) / own) - np.arcsinh((finite - half) / own)) / self.lengths
-        return np.where(np.isfinite(self.apart), kernel, 0.0) / (math.pi * self.modulus)
+        result: Floats = np.where(np.isfinite(self.apart), kernel, 0.0) / (math.pi * self.modulus)
+        return result
 
 
 def responses(lines: tuple[ContactLine, ...], pinion: SolidCompliance, wheel: SolidCompliance) -> Responses:
@@ -84,16 +75,14 @@ def responses(lines: tuple[ContactLine, ...], pinion: SolidCompliance, wheel: So
         here = slice(start, start + size)
         apart[here, here] = np.linalg.norm(line.points[:, None] - line.points, axis=-1)
         start += size
-    helix = pinion.flank.helix
-    radii = np.concatenate([line.radii(helix) for line in lines])
     modulus = 1 / sum((1 - body.material.poisson_ratio**2) / body.material.youngs_modulus for body in (pinion, wheel))
-    return Responses(lines, smooth, apart, radii, np.concatenate([line.lengths for line in lines]), modulus)
+    return Responses(lines, smooth, apart, np.concatenate([line.lengths for line in lines]), modulus)
 
 
 def _smooth(lines: tuple[ContactLine, ...], body: SolidCompliance, gear: int) -> Floats:
     places = [(line.pinion, line.wheel)[gear] for line in lines]
     at, by = [body.at(place) for place in places], [body.by(place) for place in places]
-    blocks = []
+    blocks: list[list[Floats]] = []
     for moved, row in zip(lines, at, strict=True):
         blocks.append([])
         for loaded, column in zip(lines, by, strict=True):
@@ -111,28 +100,43 @@ def _smooth(lines: tuple[ContactLine, ...], body: SolidCompliance, gear: int) ->
 
 @dataclass(frozen=True)
 class LineSolution:
-    """Forces (n,) in N of the cells, the approach along the normal (mm), and the pinion's and the wheel's parts of it."""
+    """Forces (n,) in N of the cells, the approach along the normal (mm), and the pinion's and the wheel's parts of it.
 
-    responses: Responses
+    `rigid` (mm) is what of the approach needs no load.
+    """
+
+    given: Responses
+    gaps: Gaps
     forces: Floats
     approach: float
+    rigid: float
     parts: tuple[float, float]
 
     @property
+    def half_widths(self) -> Floats:
+        """Hertz half width (n,) in mm of each cell."""
+        return half_widths(self.given, self.gaps.radii, self.forces)
+
+    @property
     def pressures(self) -> Floats:
-        """Greatest pressure (n,) in MPa across each cell."""
-        return self.responses.pressures(self.forces)
+        """Greatest pressure (n,) in MPa across each cell: p_0 = sqrt(F' E_r/(pi R))."""
+        result: Floats = np.sqrt(self.forces / self.given.lengths * self.given.modulus / (math.pi * self.gaps.radii))
+        return result
 
 
-def solve_lines(given: Responses, gap: Floats, force: float) -> LineSolution:
-    """Press the gears together with the normal force `force` (N); `gap` (n,) in mm. Raises SolverError."""
-    least = _LEAST * force / given.lengths.sum() * given.lengths
-    smooth = given.smooth.sum(axis=0)
-    forces = force * given.lengths / given.lengths.sum()
-    ones = np.ones(given.cells)
+def half_widths(given: Responses, radii: Floats, forces: Floats) -> Floats:
+    """Hertz half widths (n,) in mm: a = sqrt(4 F' R/(pi E_r))."""
+    result: Floats = np.sqrt(4 * forces / given.lengths * radii / (math.pi * given.modulus))
+    return result
+
+
+def solve_lines(given: Responses, gap: Gaps, force: float) -> LineSolution:
+    """Press the gears together with the normal force `force` (N). Raises SolverError."""
+    even = force * given.lengths / given.lengths.sum()
+    smooth, forces, ones = given.smooth.sum(axis=0), even, np.ones(given.cells)
     for _ in range(_ROUNDS):
-        kernel = given.half_space(np.maximum(forces, least))
-        found, approach = complementary(smooth + kernel, gap, ones, force)
+        kernel = given.half_space(half_widths(given, gap.radii, np.maximum(forces, _LEAST * even)))
+        found, approach = complementary(smooth + kernel, gap.normal, ones, force)
         change = np.abs(found - forces).max() / found.max()
         forces = found
         if change < _SETTLED:
@@ -140,5 +144,5 @@ def solve_lines(given: Responses, gap: Floats, force: float) -> LineSolution:
     else:
         raise SolverError(f"the widths of the contact did not settle within {_ROUNDS} rounds")
     contact = float(forces @ kernel @ forces)
-    parts = [float(forces @ matrix @ forces + contact / 2) / force for matrix in given.smooth]
-    return LineSolution(given, forces, approach, (parts[0], parts[1]))
+    first, second = (float(forces @ matrix @ forces + contact / 2) / force for matrix in given.smooth)
+    return LineSolution(given, gap, forces, approach, float(gap.normal.min()), (first, second))

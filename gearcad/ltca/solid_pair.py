@@ -19,9 +19,11 @@ from gearcad.ltca.body import assemble_body
 from gearcad.ltca.contact_lines import contact_lines, gaps
 from gearcad.ltca.flank import SolidCompliance, solid_compliance
 from gearcad.ltca.line_contact import LineSolution, Responses, responses, solve_lines
+from gearcad.ltca.solid_root import SolidFillet
 from gearcad.ltca.swept import sweep
 from gearcad.material import Material
 from gearcad.meshing import MeshSizes
+from gearcad.meshing.outline import Side
 from gearcad.meshing.quads import mesh_quads
 from gearcad.mounting import Mounting
 
@@ -36,14 +38,18 @@ _STEP = 0.02
 """Step (mm) of that bound, so that loads and modifications that differ little share their responses."""
 
 
+_LOADED = MeshSizes(flank=0.6, corner=0.25, fillet=0.24, outline=0.8, cut=1.0, rim=4.0, growth=0.6)
+_OTHER = MeshSizes(flank=1.6, corner=1.6, fillet=1.2, outline=1.6, cut=1.0, rim=4.0, growth=0.6)
+
+
 @dataclass(frozen=True, kw_only=True)
 class SolidSizes:
-    """Mesh of the solid bodies: twice the edge lengths in the section, for the loaded tooth and the others, in normal modules;
-    mean thickness of the layers in normal modules.
+    """Mesh of the solid bodies: twice the edge lengths in the section of the `loaded` tooth and of every `other`, and the
+    mean thickness of a `layer`, all in normal modules.
     """
 
-    loaded: MeshSizes = MeshSizes(flank=0.6, corner=0.25, fillet=0.24, outline=0.8, cut=1.0, rim=4.0, growth=0.6)
-    other: MeshSizes = MeshSizes(flank=1.6, corner=1.6, fillet=1.2, outline=1.6, cut=1.0, rim=4.0, growth=0.6)
+    loaded: MeshSizes = _LOADED
+    other: MeshSizes = _OTHER
     layer: float = 0.9
     fewest_layers: int = 6
 
@@ -65,7 +71,7 @@ class SolidSizes:
 class SolidPair:
     """The bodies of pinion and wheel, factorised and solved for loads on the flank.
 
-    Hands, modifications and mounting may be changed by `remade`: the bodies are those of the exact gears.
+    Modifications and mounting may be changed by `remade`: the bodies are those of the exact gears. Left flanks carry.
     """
 
     pair: GearPair
@@ -73,7 +79,7 @@ class SolidPair:
     line: MeshLine
     pinion: SolidCompliance
     wheel: SolidCompliance
-    cells: int = 60
+    cells: int
     known: dict[Any, Responses] = field(default_factory=dict, repr=False)
 
     def remade(self, pair: GearPair, mounting: Mounting) -> SolidPair:
@@ -109,6 +115,20 @@ class SolidPair:
         """Roll angles (deg) over one base pitch, as many before the pitch point as after it."""
         pitch = 360 / self.pair.pinion.teeth
         return (np.arange(count) + 0.5) / count * pitch - pitch / 2
+
+    @cached_property
+    def fillets(self) -> tuple[tuple[SolidFillet, SolidFillet], tuple[SolidFillet, SolidFillet]]:
+        """For pinion and wheel: the fillet under the loaded flank, and the one behind it."""
+        pinion, wheel = (
+            (SolidFillet(body, Side.LEFT_FILLET), SolidFillet(body, Side.RIGHT_FILLET)) for body in (self.pinion, self.wheel)
+        )
+        return pinion, wheel
+
+    def common_heights(self, gear: int) -> tuple[float, float]:
+        """Where the common face width begins and ends on the pinion (0) or the wheel (1): z in mm."""
+        own = (self.pair.pinion, self.pair.wheel)[gear]
+        middle = own.face_width / 2 + self.pair.common_width.offset - (0.0, self.pair.axial_offset)[gear]
+        return middle - self.width / 2, middle + self.width / 2
 
     @cached_property
     def _deviation(self) -> float:
@@ -153,9 +173,12 @@ def solid_pair(
     body: BodyModel | None = None,
     sizes: SolidSizes | None = None,
     mounting: Mounting | None = None,
-    progress: Callable[[str], None] = lambda _: None,
+    cells: int = 60,
+    progress: Callable[[str], None] = lambda _gear: None,
 ) -> SolidPair:
-    """Mesh, condense, factorise and solve both gears. Raises SolverError, ParameterError and GeometryError."""
+    """Mesh, condense, factorise and solve both gears; a line of contact has `cells` over the common face width.
+
+    Raises SolverError, ParameterError and GeometryError."""
     body, sizes, mounting = body or BodyModel(), sizes or SolidSizes(), mounting or Mounting()
     neighbours = max(1, math.floor(pair.total_contact_ratio + 0.2))
     bodies = []
@@ -170,4 +193,4 @@ def solid_pair(
         solid = assemble_body(fine, coarse, gear.teeth, neighbours, material, held, body.cuts)
         bodies.append(solid_compliance(gear, solid, material))
     mounted = mounting.mounted(pair)
-    return SolidPair(mounted, mounting, mesh_line(mounted), *bodies)
+    return SolidPair(mounted, mounting, mesh_line(mounted), bodies[0], bodies[1], cells)

@@ -77,13 +77,8 @@ class SolidFillet:
         for layer in range(mesh.layers):
             low, high = mesh.plane(layer), mesh.plane(layer + 1)
             half = mesh.elements(mesh.section.quads[:1], layer)[0, 16] - mesh.section.quads[0, 0]
-            rows.append(
-                np.stack(
-                    [first + low, second + low, second + high, first + high]
-                    + [middle + low, second + half, middle + high, first + half],
-                    -1,
-                )
-            )
+            corners = [first + low, second + low, second + high, first + high]
+            rows.append(np.stack([*corners, middle + low, second + half, middle + high, first + half], -1))
         return np.stack(rows)
 
     @cached_property
@@ -113,7 +108,7 @@ class SolidFillet:
 
     @cached_property
     def _responses(self) -> dict[int, Floats]:
-        """Stresses (3, heights, along, loads) of tooth k: along the profile, across it, shear, by the unit loads on tooth 0."""
+        """Stresses (3, heights, along, loads) of tooth k by the unit loads: along the profile, across it, and shear."""
         neighbours = self.body.neighbours
         return {
             tooth: self._stresses(self.body.displacements[neighbours + tooth]) for tooth in range(-neighbours, neighbours + 1)

@@ -60,7 +60,8 @@ class SweptMesh:
 
     def elements(self, quads: Indices, layer: int) -> Indices:
         """Hexahedra (m, 20) over section quadrangles (m, 8): nodes of the lower plane, of the upper one, and half-way up."""
-        return np.c_[quads + self.plane(layer), quads + self.plane(layer + 1), quads[:, :4] + self._start(layer)]
+        result: Indices = np.c_[quads + self.plane(layer), quads + self.plane(layer + 1), quads[:, :4] + self._start(layer)]
+        return result
 
     def over(self, nodes: Indices) -> Indices:
         """All nodes of the mesh above section nodes: plane by plane, then half-way up layer by layer."""
@@ -71,18 +72,21 @@ class SweptMesh:
     @cached_property
     def _section_node(self) -> Indices:
         every = np.arange(len(self.section.points))
-        return np.r_[np.tile(every, len(self.planes)), np.tile(every[: self.section.vertices], self.layers)]
+        result: Indices = np.r_[np.tile(every, len(self.planes)), np.tile(every[: self.section.vertices], self.layers)]
+        return result
 
     @cached_property
     def heights(self) -> Floats:
         """z (n,) of every node (mm)."""
         middles = (self.planes[1:] + self.planes[:-1]) / 2
-        return np.r_[np.repeat(self.planes, len(self.section.points)), np.repeat(middles, self.section.vertices)]
+        result: Floats = np.r_[np.repeat(self.planes, len(self.section.points)), np.repeat(middles, self.section.vertices)]
+        return result
 
     @cached_property
     def points(self) -> Floats:
         """Places (n, 3) of all nodes (mm)."""
-        return np.c_[turned(self.section.points[self._section_node], self.rate * self.heights), self.heights]
+        result: Floats = np.c_[turned(self.section.points[self._section_node], self.rate * self.heights), self.heights]
+        return result
 
     @property
     def in_section(self) -> Floats:
