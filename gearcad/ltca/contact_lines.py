@@ -7,6 +7,7 @@ edge of one gear faces the other's flank instead.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -18,7 +19,7 @@ from gearcad.geometry import GearPair
 from gearcad.ltca.flank import Places, SolidFlank
 from gearcad.mounting import Mounting
 
-__all__ = ["ContactLine", "Gaps", "contact_lines", "gaps"]
+__all__ = ["ContactLine", "Gaps", "contact_lines", "gaps", "line_gap", "places_beside"]
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -156,34 +157,57 @@ def gaps(lines: tuple[ContactLine, ...], pair: GearPair, mounting: Mounting, hel
     of action it recedes along the line of action and moves along the axis; turned across it, flanks face each other nearer to
     tip or root, which only modified flanks feel. A pitch error belongs to the tooth in the middle.
     """
-    width = pair.common_width.width
-    turn, across = mounting.misalignment / 1000 / width, mounting.misalignment_across / 1000 / width
-    step = _BEND * pair.pinion.normal_module
-    found, radii = [], []
-    for line in lines:
-        before, here, after = (_taken_back(line, pair, across * line.across, place) for place in (-step, 0.0, step))
-        curvature = line.curvature + (after - 2 * here + before) / step**2
-        curvature = np.maximum(curvature, _LEAST_BEND * line.curvature)
-        # Where the depth slopes, the flanks are nearest a little aside: the gap is a parabola there.
-        slope = np.where(line.on_edge, 0.0, (after - before) / (2 * step))
-        transverse = line.gap + here - slope**2 / (2 * curvature)
-        if line.tooth == 0:
-            transverse = transverse - mounting.pitch_error / 1000
-        turned = turn * (line.across * math.cos(helix) - line.wheel[0] * math.sin(helix))
-        found.append(transverse * math.cos(helix) + turned)
-        radii.append(1 / (curvature * math.cos(helix)))
-    return Gaps(np.concatenate(found), np.concatenate(radii))
+    found = [
+        line_gap(line, pair, mounting, helix, [_taken_back(pair, places) for places in places_beside(line, pair, mounting)])
+        for line in lines
+    ]
+    return Gaps(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
 
 
-def _taken_back(line: ContactLine, pair: GearPair, slid: Floats, place: float) -> Floats:
-    """How far (n,) both flanks of a line are taken back (mm) at `place` (mm) along the tangent, towards the pinion's tip.
-
-    The wheel has `slid` (n,) in mm along the tangent, so that the pinion meets it nearer to its tip.
+def line_gap(
+    line: ContactLine, pair: GearPair, mounting: Mounting, helix: float, depths: Sequence[Floats]
+) -> tuple[Floats, Floats]:
+    """Gaps along the normal and reduced radii (..., n) in mm of a line, flanks taken back by `depths` (..., n) in mm
+    at the `places_beside` it.
     """
-    depth = np.zeros_like(slid)
-    for gear, (lengths, heights), along in ((pair.pinion, line.pinion, place), (pair.wheel, line.wheel, slid - place)):
+    before, here, after = depths
+    step = _BEND * pair.pinion.normal_module
+    curvature = np.maximum(line.curvature + (after - 2 * here + before) / step**2, _LEAST_BEND * line.curvature)
+    # Where the depth slopes, the flanks are nearest a little aside: the gap is a parabola there.
+    slope = np.where(line.on_edge, 0.0, (after - before) / (2 * step))
+    transverse = line.gap + here - slope**2 / (2 * curvature)
+    if line.tooth == 0:
+        transverse = transverse - mounting.pitch_error / 1000
+    turn = mounting.misalignment / 1000 / pair.common_width.width
+    turned = turn * (line.across * math.cos(helix) - line.wheel[0] * math.sin(helix))
+    return transverse * math.cos(helix) + turned, 1 / (curvature * math.cos(helix))
+
+
+def places_beside(line: ContactLine, pair: GearPair, mounting: Mounting) -> list[tuple[Places, Places]]:
+    """Places on the pinion's and the wheel's flank a little before the line, on it, and after it along the tangent, towards
+    the pinion's tip; three are what it takes to tell slope and curvature.
+
+    The wheel has slid along the tangent where its axis is turned across, so that the pinion meets it nearer to its tip.
+    """
+    step = _BEND * pair.pinion.normal_module
+    slid = mounting.misalignment_across / 1000 / pair.common_width.width * line.across
+    sides = ((pair.pinion, line.pinion, 1, 0.0), (pair.wheel, line.wheel, -1, slid))
+    found = []
+    for place in (-step, 0.0, step):
+        pinion, wheel = (
+            (np.sqrt(np.maximum(lengths**2 + gear.base_diameter * (sense * place + moved), 0.0)), heights)
+            for gear, (lengths, heights), sense, moved in sides
+        )
+        found.append((pinion, wheel))
+    return found
+
+
+def _taken_back(pair: GearPair, places: tuple[Places, Places]) -> Floats:
+    """How far (n,) both flanks are taken back (mm) at places on them."""
+    depths = []
+    for gear, (lengths, heights) in zip((pair.pinion, pair.wheel), places, strict=True):
         form = gear.flank_form
-        there = np.sqrt(np.maximum(lengths**2 + form.base_radius * 2 * along, 0.0))
         # The point that stands there now comes from further down the flank, by what it was taken back.
-        depth = depth + form.depth(there - form.depth(there, heights), heights)
-    return depth
+        depths.append(form.depth(lengths - form.depth(lengths, heights), heights))
+    result: Floats = depths[0] + depths[1]
+    return result
