@@ -30,8 +30,7 @@ Places = tuple[Floats, Floats]
 """Roll lengths (n,) and heights z (n,) of places on a flank, in mm."""
 
 _ROWS = 8
-_COLUMNS = 40
-"""Unit loads up the flank and along it."""
+"""Unit loads up the flank."""
 
 
 @dataclass(frozen=True)
@@ -210,12 +209,12 @@ class _Spline:
         return result
 
 
-def solid_compliance(gear: Gear, body: SolidBody, material: Material) -> SolidCompliance:
-    """Solve the body for unit loads on some rows and columns of the flank."""
+def solid_compliance(gear: Gear, body: SolidBody, material: Material, start: float) -> SolidCompliance:
+    """Solve the body for unit loads on some rows and columns of the flank, from the roll length `start` (mm) up."""
     sector = body.sector
     mesh, flank = sector.mesh, SolidFlank(gear, sector.mesh.rate)
     nodes, grid = _flank_grid(flank, mesh)
-    loads = _load_grid(grid, gear)
+    loads = _load_grid(grid, gear, start)
     places = loads.places
     at, inward = flank.points(places), flank.inward(places)
     near = _near_quads(gear, mesh)
@@ -257,12 +256,14 @@ def _flank_grid(flank: SolidFlank, mesh: SweptMesh) -> tuple[Indices, Grid]:
     return nodes, Grid(lengths, mesh.planes)
 
 
-def _load_grid(grid: Grid, gear: Gear) -> Grid:
-    """Rows on vertices of the flank but for its tip corner, columns half-way up layers, the outermost among them."""
+def _load_grid(grid: Grid, gear: Gear, start: float) -> Grid:
+    """Rows on vertices of the flank but for its tip corner, the first not above `start`; a column half-way up every layer.
+
+    An undercut flank ends in a corner at the root as well, where no load can be taken off as one on a half-space.
+    """
     vertices = grid.lengths[::2][int(gear.undercut) : -1]
-    rows = vertices[_spread(len(vertices), _ROWS)]
-    middles = (grid.heights[1:] + grid.heights[:-1]) / 2
-    return Grid(rows, middles[_spread(len(middles), _COLUMNS)])
+    vertices = vertices[max(0, int(np.searchsorted(vertices, start, side="right")) - 1) :]
+    return Grid(vertices[_spread(len(vertices), _ROWS)], (grid.heights[1:] + grid.heights[:-1]) / 2)
 
 
 def _spread(count: int, wanted: int) -> Indices:

@@ -164,8 +164,8 @@ class SolidCycle:
     def root_along_face(self, gear: int) -> tuple[Floats, Floats]:
         """Heights (n,) in mm of the gear, and the greatest root tension of the cycle there (n,) in MPa."""
         fillet = self.model.fillets[gear][0]
-        greatest: Floats = np.max([position.tension[gear].along_face for position in self.positions], axis=0)
-        return fillet.heights, greatest
+        stresses = np.stack([position.tension[gear].along_face for position in self.positions])
+        return fillet.heights, stresses.max(axis=0)
 
     def root_face_load_factor(self, gear: int) -> float:
         """K_F_beta: the greatest root tension over its mean along the common face width."""

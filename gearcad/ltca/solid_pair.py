@@ -181,8 +181,11 @@ def solid_pair(
     Raises SolverError, ParameterError and GeometryError."""
     body, sizes, mounting = body or BodyModel(), sizes or SolidSizes(), mounting or Mounting()
     neighbours = max(1, math.floor(pair.total_contact_ratio + 0.2))
-    bodies = []
-    for owner, gear, inner in zip(("pinion", "wheel"), (pair.pinion, pair.wheel), body.inner_diameters, strict=True):
+    bodies, path = [], pair.path_of_contact
+    starts = (path.A, mesh_line(pair).whole - path.E)
+    for owner, gear, inner, start in zip(
+        ("pinion", "wheel"), (pair.pinion, pair.wheel), body.inner_diameters, starts, strict=True
+    ):
         progress(owner)
         try:
             radius = inner_radius(gear, inner)
@@ -191,6 +194,6 @@ def solid_pair(
         held = body.teeth if body.teeth is not None and body.teeth < gear.teeth else None
         fine, coarse = (sweep(gear, mesh_quads(gear, radius, each), sizes.layers(gear)) for each in (sizes.loaded, sizes.other))
         solid = assemble_body(fine, coarse, gear.teeth, neighbours, material, held, body.cuts)
-        bodies.append(solid_compliance(gear, solid, material))
+        bodies.append(solid_compliance(gear, solid, material, start))
     mounted = mounting.mounted(pair)
     return SolidPair(mounted, mounting, mesh_line(mounted), bodies[0], bodies[1], cells)
