@@ -22,14 +22,14 @@ __all__ = ["LineSolution", "Responses", "responses", "solve_lines"]
 
 Floats = NDArray[np.float64]
 
-_OWN = math.exp(-0.5) / 2
+OWN_DISTANCE = math.exp(-0.5) / 2
 """c/a: 0.30327."""
 
 _LEAST = 1e-3
 """Share of the mean load per length for which the ellipse of a cell is wide enough, however little it carries."""
 
-_ROUNDS = 40
-_SETTLED = 1e-6
+_ROUNDS, _FREE_ROUNDS = 40, 8
+_SETTLED = 1e-5
 """Rounds of fitting the ellipses to the loads, and the relative change at which they have settled."""
 
 
@@ -58,7 +58,7 @@ class Responses:
 
     def half_space(self, half_widths: Floats) -> Floats:
         """Displacements (n, n) in mm/N of both half-spaces, for ellipses as wide as that (mm) on each side."""
-        own, half = _OWN * half_widths, self.lengths / 2
+        own, half = OWN_DISTANCE * half_widths, self.lengths / 2
         finite = np.where(np.isfinite(self.apart), self.apart, 0.0)
         kernel = (np.arcsinh((finite + half) / own) - np.arcsinh((finite - half) / own)) / self.lengths
         result: Floats = np.where(np.isfinite(self.apart), kernel, 0.0) / (math.pi * self.modulus)
@@ -134,13 +134,17 @@ def solve_lines(given: Responses, gap: Gaps, force: float) -> LineSolution:
     """Press the gears together with the normal force `force` (N). Raises SolverError."""
     even = force * given.lengths / given.lengths.sum()
     smooth, forces, ones = given.smooth.sum(axis=0), even, np.ones(given.cells)
-    for _ in range(_ROUNDS):
-        kernel = given.half_space(half_widths(given, gap.radii, np.maximum(forces, _LEAST * even)))
+    widths = half_widths(given, gap.radii, even)
+    for count in range(_ROUNDS):
+        kernel = given.half_space(widths)
         found, approach = complementary(smooth + kernel, gap.normal, ones, force)
         change = np.abs(found - forces).max() / found.max()
         forces = found
         if change < _SETTLED:
             break
+        # Later half the step: a cell at the end of a contact could come and go for ever.
+        step = 1.0 if count < _FREE_ROUNDS else 0.5
+        widths = widths + step * (half_widths(given, gap.radii, np.maximum(forces, _LEAST * even)) - widths)
     else:
         raise SolverError(f"the widths of the contact did not settle within {_ROUNDS} rounds")
     contact = float(forces @ kernel @ forces)

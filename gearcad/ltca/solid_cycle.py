@@ -20,7 +20,7 @@ __all__ = ["RootPeak", "SolidContact", "SolidCycle", "SolidPosition", "run_solid
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-_INTERIOR = 3.0
+INTERIOR = 3.0
 """Half widths from the edges of both flanks beyond which a contact is that of two cylinders."""
 
 
@@ -255,6 +255,6 @@ def _contacts(model: SolidPair, solution: LineSolution) -> tuple[SolidContact, .
     for line, forces, widths, pressures, radii in zip(given.lines, *(given.split(part) for part in parts), strict=True):
         if forces.sum() > 0:
             to_end = model.width / 2 - np.abs(line.across)
-            interior = (line.edge_distance > _INTERIOR * widths) & (to_end > _INTERIOR * widths) & (forces > 0)
+            interior = (line.edge_distance > INTERIOR * widths) & (to_end > INTERIOR * widths) & (forces > 0)
             found.append(SolidContact(line, forces, widths, pressures, radii, interior, float(forces.sum() / total)))
     return tuple(found)

@@ -31,10 +31,10 @@ __all__ = ["SolidPair", "SolidSizes", "solid_pair"]
 
 Floats = NDArray[np.float64]
 
-_SOFT = 4000.0
-"""A stiffness (N/mm per mm of width) that no pair of teeth falls below: bounds how far a tip edge can get."""
+_SOFT = 8000.0
+"""A stiffness (N/mm per mm of width) that bounds, at first, how far a tip edge can get."""
 
-_STEP = 0.02
+_STEP = 0.05
 """Step (mm) of that bound, so that loads and modifications that differ little share their responses."""
 
 
@@ -139,12 +139,11 @@ class SolidPair:
             depths.append(np.ptp(form.depth(np.linspace(form.first, form.last, 25), np.linspace(0, form.width, 25)[:, None])))
         return sum(depths) + (abs(self.mounting.misalignment) + abs(self.mounting.pitch_error)) / 1000
 
-    def responses(self, roll_angle: float, force: float, *, single: bool = False) -> Responses:
-        """What the contact at a roll angle (deg) needs of the bodies, for normal forces about `force` (N per mm).
+    def responses(self, roll_angle: float, farthest: float, *, single: bool = False) -> Responses:
+        """What the contact at a roll angle (deg) needs of the bodies, where the exact flanks are nearer than `farthest` (mm).
 
         Raises GeometryError where nothing can touch.
         """
-        farthest = math.ceil((force / _SOFT + self._deviation) / _STEP) * _STEP
         key = (round(roll_angle, 9), farthest, single)
         if key not in self.known:
             lines = contact_lines(self.pair, self.line, self.pinion.flank, self.roll_length(roll_angle), self.cells, farthest)
@@ -160,10 +159,18 @@ class SolidPair:
 
         Raises SolverError, and GeometryError where nothing can touch.
         """
-        force = self.force(torque)
-        given = self.responses(roll_angle, force, single=single)
-        gap = gaps(given.lines, self.pair, self.mounting, self.helix)
-        return solve_lines(given, gap, force * self.width / math.cos(self.helix))
+        force, farthest = self.force(torque), self.farthest(torque)
+        while True:
+            given = self.responses(roll_angle, farthest, single=single)
+            gap = gaps(given.lines, self.pair, self.mounting, self.helix)
+            found = solve_lines(given, gap, force * self.width / math.cos(self.helix))
+            if found.approach - found.rigid + self._deviation < farthest * math.cos(self.helix):
+                return found
+            farthest *= 2
+
+    def farthest(self, torque: float) -> float:
+        """Gap of the exact flanks (mm) beyond which nothing is taken to touch at a torque (N m) but for very soft bodies."""
+        return math.ceil((self.force(torque) / _SOFT + self._deviation) / _STEP) * _STEP
 
 
 def solid_pair(
