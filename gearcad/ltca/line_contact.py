@@ -135,6 +135,7 @@ def solve_lines(given: Responses, gap: Gaps, force: float) -> LineSolution:
     even = force * given.lengths / given.lengths.sum()
     smooth, forces, ones = given.smooth.sum(axis=0), even, np.ones(given.cells)
     widths = half_widths(given, gap.radii, even)
+    spread = _spread(given, widths)
     for count in range(_ROUNDS):
         kernel = given.half_space(widths)
         found, approach = complementary(smooth + kernel, gap.normal, ones, force)
@@ -144,9 +145,19 @@ def solve_lines(given: Responses, gap: Gaps, force: float) -> LineSolution:
             break
         # Later half the step: a cell at the end of a contact could come and go for ever.
         step = 1.0 if count < _FREE_ROUNDS else 0.5
-        widths = widths + step * (half_widths(given, gap.radii, np.maximum(forces, _LEAST * even)) - widths)
+        widths = widths + step * (half_widths(given, gap.radii, spread @ np.maximum(forces, _LEAST * even)) - widths)
     else:
         raise SolverError(f"the widths of the contact did not settle within {_ROUNDS} rounds")
     contact = float(forces @ kernel @ forces)
     first, second = (float(forces @ matrix @ forces + contact / 2) / force for matrix in given.smooth)
     return LineSolution(given, gap, forces, approach, float(gap.normal.min()), (first, second))
+
+
+def _spread(given: Responses, widths: Floats) -> Floats:
+    """Weights (n, n) that even out forces over about a half width along the line.
+
+    An ellipse cannot change its width faster than that; cells that are shorter would each go their own way.
+    """
+    near = np.exp(-((given.apart / widths[:, None]) ** 2)) * given.lengths
+    result: Floats = near / near.sum(axis=1, keepdims=True) * (given.lengths[:, None] / given.lengths)
+    return result
