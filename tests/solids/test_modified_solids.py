@@ -1,0 +1,210 @@
+"""The B-rep of gears with modified flanks, measured before and after STEP against formulas of the tests' own (reference)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import cadquery
+import numpy as np
+import pytest
+from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
+from OCP.BRepCheck import BRepCheck_Analyzer
+from OCP.BRepClass import BRepClass_FaceClassifier
+from OCP.GeomAbs import GeomAbs_BSplineSurface, GeomAbs_Cylinder
+from OCP.gp import gp_Pnt2d
+from OCP.TopAbs import TopAbs_IN
+from support.exact import distance_to_section
+from support.modified import depth_off, folded, removed_volume, specified, unturned
+from support.modifying import AMOUNTS, GEARS, modified, random_gear
+
+from gearcad import BasicRack, Gear
+from gearcad.geometry.modification import FlankModification
+from gearcad.solids import gear_solid, write_step
+
+ON_FLANK = 1e-6  # mm: what section and sweep together are fitted to; the promise is 0.01 um
+VOLUME_TOLERANCE = 1e-7  # of the whole volume: what the kernel's own integration reaches
+EDGE = 1e-6  # mm: radii this close to a circle are on it
+
+
+def _sides(shape: cadquery.Shape, most: int = 32) -> list[cadquery.Face]:
+    """At most so many B-spline faces (flanks, fillets, chamfers), from all teeth."""
+    faces = [face for face in shape.Faces() if BRepAdaptor_Surface(face.wrapped).GetType() == GeomAbs_BSplineSurface]
+    assert len(faces) >= 16, "a gear without flanks"
+    return faces[:: math.ceil(len(faces) / most)]
+
+
+def _points(faces: list[cadquery.Face], grid: int = 6) -> np.ndarray:
+    """Points (n, 3) of the faces, inside their edges."""
+    found = []
+    for face in faces:
+        surface = BRepAdaptor_Surface(face.wrapped)
+        (u0, u1), (v0, v1) = face._uvBounds()[:2], face._uvBounds()[2:]
+        for u in u0 + (u1 - u0) * (np.arange(grid) + 0.37) / grid:
+            for v in v0 + (v1 - v0) * (np.arange(grid) + 0.41) / grid:
+                if BRepClass_FaceClassifier(face.wrapped, gp_Pnt2d(u, v), 1e-7).State() == TopAbs_IN:
+                    point = surface.Value(u, v)
+                    found.append((point.X(), point.Y(), point.Z()))
+    return np.array(found)
+
+
+def _edge_points(faces: list[cadquery.Face], count: int = 6) -> np.ndarray:
+    """Points (n, 3) of the faces' edges, ends included."""
+    curves = [BRepAdaptor_Curve(edge.wrapped) for face in faces for edge in face.Edges()]
+    points = [c.Value(t) for c in curves for t in np.linspace(c.FirstParameter(), c.LastParameter(), count)]
+    return np.array([(point.X(), point.Y(), point.Z()) for point in points])
+
+
+def _on_involute(gear: Gear, points: np.ndarray) -> np.ndarray:
+    radius = np.hypot(*points[:, :2].T)
+    return points[(radius > gear.form_diameter / 2 + EDGE) & (radius < gear.tip_form_diameter / 2 - EDGE)]
+
+
+def _valid_and_closed(shape: cadquery.Shape) -> bool:
+    return BRepCheck_Analyzer(shape.wrapped).IsValid() and all(shell.wrapped.Closed() for shell in shape.Shells())
+
+
+def _again(solid: cadquery.Shape, path: Path) -> cadquery.Shape:
+    write_step(solid, path, name="gear")
+    again = cadquery.importers.importStep(str(path)).val()
+    assert len(again.Solids()) == 1
+    return again
+
+
+def _measure(gear: Gear, shape: cadquery.Shape) -> None:
+    """Flanks, fillets and chamfers lie where they are specified, inside of faces and on edges."""
+    faces = _sides(shape)
+    points = np.concatenate([_points(faces), _edge_points(faces)])
+    flank = _on_involute(gear, points)
+    assert len(flank) > 200
+    assert np.abs(depth_off(gear, flank)).max() < ON_FLANK
+    radius = np.hypot(*points[:, :2].T)
+    rest = points[(radius < gear.form_diameter / 2 - EDGE) | (radius > gear.tip_form_diameter / 2 + EDGE)]
+    assert len(rest) > 100
+    assert distance_to_section(gear, unturned(gear, rest)).max() < ON_FLANK
+
+
+@pytest.mark.parametrize("amount", AMOUNTS)
+@pytest.mark.parametrize("name", GEARS)
+def test_each_modification_is_measured_on_the_solid(name: str, amount: str) -> None:
+    gear = modified(GEARS[name], amount)
+    solid = gear_solid(gear)
+    assert _valid_and_closed(solid)
+    _measure(gear, solid)
+
+
+@pytest.mark.parametrize("shape", ["linear", "parabolic"])
+@pytest.mark.parametrize("name", GEARS)
+def test_all_modifications_before_and_after_step(name: str, shape: str, tmp_path: Path) -> None:
+    gear = modified(GEARS[name], tip_relief_shape=shape, root_relief_shape=shape, end_relief_shape=shape)
+    solid = gear_solid(gear)
+    for made in (solid, _again(solid, tmp_path / "gear.step")):
+        assert _valid_and_closed(made)
+        _measure(gear, made)
+
+
+@pytest.mark.parametrize("amount", [*AMOUNTS, "all"])
+@pytest.mark.parametrize("name", GEARS)
+def test_the_volume_taken_off(name: str, amount: str) -> None:
+    gear = modified(GEARS[name], *(() if amount == "all" else (amount,)))
+    exact = gear_solid(GEARS[name])
+    removed = exact.Volume() - gear_solid(gear).Volume()
+    assert removed == pytest.approx(removed_volume(gear), abs=VOLUME_TOLERANCE * exact.Volume())
+
+
+@pytest.mark.parametrize("share", [0.3, 1.0, 1.7])
+@pytest.mark.parametrize("name", ["chamfered", "chamfered, spur", "chamfered to the root"])
+def test_an_end_relief_that_begins_inside_on_or_beyond_the_cone(name: str, share: float, tmp_path: Path) -> None:
+    """Where the cone crosses the height at which the relief begins, faces end in a corner."""
+    plain = GEARS[name]
+    gear = modified(plain, end_relief_length=min(share * plain.body.end_chamfer, plain.face_width / 2))
+    solid = gear_solid(gear)
+    for made in (solid, _again(solid, tmp_path / "gear.step")):
+        assert _valid_and_closed(made)
+        _measure(gear, made)
+    removed = gear_solid(plain).Volume() - solid.Volume()
+    assert removed == pytest.approx(removed_volume(gear), abs=VOLUME_TOLERANCE * solid.Volume())
+
+
+def test_reliefs_that_meet_in_one_line() -> None:
+    """Tip and root relief that begin in one place, end reliefs that meet in the middle: one break each."""
+    plain = GEARS["spur"]
+    flank = plain.flank_form.last - plain.flank_form.first
+    lengths = {"tip_relief_length": flank / 2, "root_relief_length": flank / 2, "end_relief_length": plain.face_width / 2}
+    gear = modified(plain, "tip_relief", "root_relief", "end_relief", **lengths)
+    solid = gear_solid(gear)
+    assert _valid_and_closed(solid)
+    _measure(gear, solid)
+    more = len(solid.Faces()) - len(gear_solid(plain).Faces())
+    assert more == plain.teeth * (2 * 3 * 2 - 2 * 2)  # fillet and two parts of the flank, in two halves, for fillet and flank
+
+
+def test_lands_reach_from_flank_to_flank() -> None:
+    """Tip and root land stay cylinders; their edges have turned with the flanks."""
+    gear = modified(GEARS["left hand"])
+    lands = [face for face in gear_solid(gear).Faces() if BRepAdaptor_Surface(face.wrapped).GetType() == GeomAbs_Cylinder]
+    assert len(lands) == 2 * gear.teeth
+    radius, angle, z = folded(gear, _edge_points(lands))
+    tip = np.abs(radius - gear.tip_diameter / 2) < EDGE
+    inside = (z > EDGE) & (z < gear.face_width - EDGE)
+    left = angle > 0
+    for on_land, circle in ((tip, gear.tip_diameter), (~tip, gear.root_diameter)):
+        side = inside & on_land
+        half = math.radians(gear.profile.half_angle(circle / 2))
+        turned = half - specified(gear, radius[side], z[side], left[side]) / (gear.base_diameter / 2)
+        assert side.sum() > 4 * gear.teeth
+        assert np.abs(np.abs(angle[side]) - turned).max() * circle / 2 < ON_FLANK
+
+
+def test_fillets_without_a_root_land_go_on_meeting() -> None:
+    """A full root radius leaves no land to open: the fillets turn less and less towards the middle of the space."""
+    plain = replace(GEARS["right hand"], rack=BasicRack(root_radius="full"))
+    gear = modified(plain)
+    solid = gear_solid(gear)
+    assert _valid_and_closed(solid)
+    points = _edge_points(_sides(solid))
+    root = points[np.abs(np.hypot(*points[:, :2].T) - gear.root_diameter / 2) < EDGE]
+    assert len(root) > 100
+    assert distance_to_section(gear, root).max() < ON_FLANK
+    flank = _on_involute(gear, _points(_sides(solid)))
+    assert np.abs(depth_off(gear, flank)).max() < ON_FLANK
+
+
+def test_no_modification_leaves_the_solid_as_it_was(tmp_path: Path) -> None:
+    """Lengths and shapes without amounts change nothing, to the byte."""
+    plain = GEARS["chamfered"]
+    idle = replace(plain, modification=FlankModification(tip_relief_length=1.0, end_relief_length=2.0))
+    for name, gear in (("plain", plain), ("idle", idle)):
+        write_step(gear_solid(gear), tmp_path / name, name="gear")
+    assert (tmp_path / "plain").read_bytes() == (tmp_path / "idle").read_bytes()
+
+
+def test_two_turns_of_twist_are_parted() -> None:
+    """A long helical gear needs more than one polynomial along z."""
+    width = 7.9 * math.pi * 10 / math.tan(math.radians(30)) / math.cos(math.radians(30)) / 2
+    gear = modified(Gear(teeth=10, normal_module=2.0, face_width=width, helix_angle=30, profile_shift=0.3))
+    solid = gear_solid(gear)
+    assert _valid_and_closed(solid)
+    _measure(gear, solid)
+
+
+def _check_random(seed: int, path: Path) -> None:
+    gear = random_gear(seed)
+    solid = gear_solid(gear)
+    for made in (solid, _again(solid, path)):
+        assert _valid_and_closed(made), gear
+    _measure(gear, solid)
+    removed = gear_solid(replace(gear, modification=FlankModification())).Volume() - solid.Volume()
+    assert removed == pytest.approx(removed_volume(gear), abs=VOLUME_TOLERANCE * solid.Volume()), gear
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_random_modifications(seed: int, tmp_path: Path) -> None:
+    _check_random(seed, tmp_path / "gear.step")
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(6, 300))
+def test_random_modifications_long(seed: int, tmp_path: Path) -> None:
+    _check_random(seed, tmp_path / "gear.step")

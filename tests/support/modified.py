@@ -1,0 +1,117 @@
+"""Modified flanks by formulas of their own: depths in mm, and how far points of a solid are off the surface they make."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+from numpy.typing import NDArray
+
+from gearcad import Gear
+
+__all__ = ["depth_off", "folded", "removed_volume", "roll_ends", "specified", "unturned"]
+
+Floats = NDArray[np.float64]
+
+
+def _roll(gear: Gear, radius: Floats) -> Floats:
+    """Length of roll (mm): the tangent from a circle to the base circle."""
+    result: Floats = np.sqrt(np.maximum(radius**2 - gear.base_diameter**2 / 4, 0.0))
+    return result
+
+
+def roll_ends(gear: Gear) -> tuple[float, float]:
+    """Lengths of roll (mm) of the root and the tip form circle."""
+    first, last = _roll(gear, np.array([gear.form_diameter, gear.tip_form_diameter]) / 2)
+    return float(first), float(last)
+
+
+def specified(gear: Gear, radius: Floats, z: Floats, left: NDArray[np.bool_] | bool) -> Floats:
+    """Depth (mm) asked for at a radius and a height: what `gear.modification` says, one line per modification.
+
+    On the fillet that at the root form circle, on the tip chamfer that at the tip form circle.
+    """
+    m = gear.modification
+    first, last = roll_ends(gear)
+    roll = np.clip(np.where(radius < gear.form_diameter / 2, first, _roll(gear, radius)), first, last)
+    length, width = last - first, gear.face_width
+    middle = roll - (first + last) / 2
+    off = z - width / 2
+    tip_share = np.clip((roll - last) / m.tip_relief_length + 1, 0, None) if m.tip_relief else 0.0 * roll
+    root_share = np.clip((first - roll) / m.root_relief_length + 1, 0, None) if m.root_relief else 0.0 * roll
+    end_share = np.clip((np.abs(off) - width / 2) / m.end_relief_length + 1, 0, None) if m.end_relief else 0.0 * off
+    powers = {"linear": 1, "parabolic": 2}
+    steeper = 1.0 if gear.helix_angle >= 0 else -1.0  # the hand
+    micrometres = (
+        m.tip_relief * tip_share ** powers[m.tip_relief_shape.value]
+        + m.root_relief * root_share ** powers[m.root_relief_shape.value]
+        + m.end_relief * end_share ** powers[m.end_relief_shape.value]
+        + m.profile_crowning * (middle / (length / 2)) ** 2
+        + m.lead_crowning * (off / (width / 2)) ** 2
+        + m.pressure_angle_modification * (roll - first) / length
+        # A steeper helix turns the sections above the middle on, which takes off the right flank there.
+        + m.helix_angle_modification * steeper * off / width * np.where(left, -1.0, 1.0)
+        + m.twist * (off / width) * (middle / length)
+    )
+    result: Floats = np.asarray(micrometres / 1000)
+    return result
+
+
+def folded(gear: Gear, points: Floats) -> tuple[Floats, Floats, Floats]:
+    """Radius (mm), angle from the middle of the tooth (rad) and height (mm) of points (n, 3), the twist taken off."""
+    x, y, z = points.T
+    rate = math.tan(math.radians(gear.helix_angle)) / (gear.reference_diameter / 2)
+    pitch = 2 * math.pi / gear.teeth
+    angle = np.mod(np.arctan2(y, x) - rate * z + pitch / 2, pitch) - pitch / 2
+    return np.hypot(x, y), angle, z
+
+
+def depth_off(gear: Gear, points: Floats) -> Floats:
+    """How far (mm, along the base tangent) points (n, 3) on the involute flanks are off the depth that is specified."""
+    radius, angle, z = folded(gear, points)
+    left = angle > 0
+    pressure = np.arccos(np.clip(gear.base_diameter / 2 / radius, -1, 1))
+    at_reference = math.radians(gear.transverse_pressure_angle)
+    half = gear.transverse_tooth_thickness / gear.reference_diameter + math.tan(at_reference) - at_reference
+    half = half - (np.tan(pressure) - pressure)
+    measured = (half - np.abs(angle)) * gear.base_diameter / 2
+    result: Floats = measured - specified(gear, radius, z, left)
+    return result
+
+
+def unturned(gear: Gear, points: Floats) -> Floats:
+    """Points (n, 3) of the side turned back by what the modifications have turned them: onto the unmodified side."""
+    radius, angle, z = folded(gear, points)
+    back = specified(gear, radius, z, angle > 0) / (gear.base_diameter / 2) * np.where(angle > 0, 1, -1)
+    x, y, _ = points.T
+    cosine, sine = np.cos(back), np.sin(back)
+    return np.stack([cosine * x - sine * y, sine * x + cosine * y, z], -1)
+
+
+def removed_volume(gear: Gear) -> float:
+    """Volume (mm^3) that the modifications take off: the integral of (left and right depth)/r_b R dR dz over the teeth.
+
+    Gauss points on pieces between all corners of the depth and of the end chamfers.
+    """
+    m, width = gear.modification, gear.face_width
+    first, last = roll_ends(gear)
+    slope = math.tan(math.radians(gear.body.end_chamfer_angle))
+    face = gear.tip_diameter / 2 - gear.body.end_chamfer * slope
+    ends = [0.0, m.end_relief_length if m.end_relief else 0.0]
+    rolls = [last - m.tip_relief_length, first + m.root_relief_length]
+    root, tip = gear.root_diameter / 2, gear.tip_diameter / 2
+    radii = [root, gear.form_diameter / 2, gear.tip_form_diameter / 2, tip, *(face + z * slope for z in ends)]
+    radii += [math.hypot(roll, gear.base_diameter / 2) for roll in rolls if first < roll < last]
+    nodes, weights = leggauss(12)
+    total = 0.0
+    for inner, outer in pairwise(sorted({min(max(radius, root), tip) for radius in radii})):
+        for radius, share in zip((inner + outer) / 2 + nodes * (outer - inner) / 2, weights * (outer - inner) / 2, strict=True):
+            setback = max(radius - face, 0.0) / slope if gear.body.end_chamfer else 0.0
+            inside = (min(max(z, setback), width - setback) for end in ends for z in (end, width - end))
+            for low, high in pairwise(sorted(inside)):
+                z = (low + high) / 2 + nodes * (high - low) / 2
+                both = specified(gear, np.full(z.shape, radius), z, True) + specified(gear, np.full(z.shape, radius), z, False)
+                total += share * radius * float(both @ weights) * (high - low) / 2
+    return gear.teeth * total / (gear.base_diameter / 2)
