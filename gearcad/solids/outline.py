@@ -19,6 +19,7 @@ from gearcad.solids.turned import FlankCurve, flank_curves
 __all__ = ["Arc", "Piece", "Span", "accuracy_for", "parameter_at_radius", "tooth_outline"]
 
 Floats = NDArray[np.float64]
+Error = Callable[[Floats, Floats], Floats]
 
 _SPLIT_DEGREE = 14
 """A curve that needs a higher degree is halved instead: cheaper to evaluate, and better conditioned."""
@@ -84,12 +85,12 @@ def tooth_outline(gear: Gear, cuts: Sequence[float] = ()) -> tuple[Piece, ...]:
     end where its depth is not smooth, and at the radii `cuts` (mm).
     """
     curves = gear.profile.curves
-    tolerance = accuracy_for(gear)
+    fitted = _fitted_throughout if gear.modification.present else _fitted
     flank = [
         piece
         for curve in flank_curves(gear)
         for first, last in pairwise(_cut(curve.curve, cuts))
-        for piece in _fitted(curve, first, last, tolerance)
+        for piece in fitted(curve, first, last, accuracy_for(gear))
     ]
     _join([piece.poles for piece in flank])
     if curves[0].kind is not CurveKind.ROOT:
@@ -114,23 +115,42 @@ def _cut(curve: Curve, radii: Sequence[float]) -> list[float]:
 
 
 def _fitted(curve: FlankCurve, first: float, last: float, tolerance: float) -> list[Span]:
-    """Spans of a curve of the left flank on [first, last], root to tip, halved until the degree is moderate."""
-    exact = curve.curve
+    """Spans of a curve of the left flank on [first, last], root to tip, within `tolerance` (mm) along the normal."""
 
-    def points(t: Floats) -> Floats:
-        return exact.points(first + t * (last - first))
-
-    def deviation(values: Floats, t: Floats) -> Floats:
-        s = first + t * (last - first)
-        off, heading = values - exact.points(s), exact.direction(s)
+    def deviation(values: Floats, s: Floats) -> Floats:
+        off, heading = values - curve.curve.points(s), curve.curve.direction(s)
         return np.asarray(np.abs(off[:, 1] * np.cos(heading) - off[:, 0] * np.sin(heading)))
 
-    least = 1 if exact.kind is CurveKind.CHAMFER else 2
-    poles = bezier.fit(points, deviation, tolerance, least=least, most=_SPLIT_DEGREE)
+    return _halved(curve, first, last, deviation, tolerance)
+
+
+def _fitted_throughout(curve: FlankCurve, first: float, last: float, tolerance: float) -> list[Span]:
+    """The same within a quarter of it and along the curve too: modifications turn a point by what its parameter says."""
+
+    def deviation(values: Floats, s: Floats) -> Floats:
+        return np.asarray(np.hypot(*(values - curve.curve.points(s)).T))
+
+    return _halved(curve, first, last, deviation, 0.25 * tolerance)
+
+
+def _halved(curve: FlankCurve, first: float, last: float, deviation: Error, tolerance: float) -> list[Span]:
+    """The span of a curve on [first, last], or those of its halves, until the degree is moderate."""
+
+    def parameter(t: Floats) -> Floats:
+        return first + t * (last - first)
+
+    poles = bezier.fit(
+        lambda t: curve.curve.points(parameter(t)),
+        lambda values, t: deviation(values, parameter(t)),
+        tolerance,
+        least=1 if curve.curve.kind is CurveKind.CHAMFER else 2,
+        most=_SPLIT_DEGREE,
+    )
     if poles is not None:
         return [Span(poles, curve, first, last, left=True)]
     middle = (first + last) / 2
-    return _fitted(curve, first, middle, tolerance) + _fitted(curve, middle, last, tolerance)
+    halves = (first, middle), (middle, last)
+    return [span for half in halves for span in _halved(curve, *half, deviation, tolerance)]
 
 
 def _join(flank: list[Floats]) -> None:
