@@ -27,7 +27,7 @@ Bools = NDArray[np.bool_]
 _LEAST_LENGTH = 0.01
 """Least roll length (mm per mm of normal module) at which a flank still has a curvature to speak of."""
 
-_BEND = 0.05
+BEND = 0.05
 """Distance (mm per mm of normal module) over which slope and curvature of a modification are taken."""
 
 _LEAST_BEND = 0.05
@@ -171,7 +171,7 @@ def line_gap(
     at the `places_beside` it.
     """
     before, here, after = depths
-    step = _BEND * pair.pinion.normal_module
+    step = BEND * pair.pinion.normal_module
     curvature = np.maximum(line.curvature + (after - 2 * here + before) / step**2, _LEAST_BEND * line.curvature)
     # Where the depth slopes, the flanks are nearest a little aside: the gap is a parabola there.
     slope = np.where(line.on_edge, 0.0, (after - before) / (2 * step))
@@ -189,7 +189,7 @@ def places_beside(line: ContactLine, pair: GearPair, mounting: Mounting) -> list
 
     The wheel has slid along the tangent where its axis is turned across, so that the pinion meets it nearer to its tip.
     """
-    step = _BEND * pair.pinion.normal_module
+    step = BEND * pair.pinion.normal_module
     slid = mounting.misalignment_across / 1000 / pair.common_width.width * line.across
     sides = ((pair.pinion, line.pinion, 1, 0.0), (pair.wheel, line.wheel, -1, slid))
     found = []

@@ -1,0 +1,236 @@
+"""The search for tip relief and crowning: least transmission error under one torque, pressure and tip edges kept in bounds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.errors import GeometryError
+from gearcad.geometry import GearPair, ReliefShape
+from gearcad.ltca.solid_pair import SolidPair
+from gearcad.ltca.variants import AMOUNTS, Condition, Outcomes, Variants, with_amounts
+
+__all__ = ["Found", "Search", "conditions", "start_search"]
+
+Floats = NDArray[np.float64]
+
+_HELICAL = (24, 12)
+_SPUR = (14, 24)
+"""Cells of a line of contact, and positions over a base pitch, by which a variant is judged: where a line runs across the
+flank its cells are at many places of it at once, where it does not positions must be.
+"""
+
+_STEPS = np.array([1.0, 0.05, 1.0, 0.05, 1.0, 1.0])
+"""To what amounts (µm) and lengths (mm) are rounded."""
+
+_MOST_RELIEF = 1.5
+_MOST_CROWNING = 0.5
+"""Largest tip relief of a gear and largest crowning, as shares of the greatest deflection of the teeth."""
+
+_SHORTEST = 0.1
+_LONGEST = 0.5
+"""Shortest and longest tip relief, as shares of the path of contact: in its middle flanks stay exact."""
+
+_OVER_PRESSURE = 10.0
+_ON_EDGE = (0.1, 10.0)
+"""What it costs, in deflections of the teeth, to be above the bound by all of it, and to carry all load on the edge of a tip:
+where that is only unwelcome, and where it is not permitted."""
+
+_FREE = 2e-3
+"""Share of the load up to which the edges of tips count as free."""
+
+_WITHIN = 1e-3
+"""Share by which a bound may be passed over: less than the pressures are exact."""
+
+_NEAR = 0.1
+_NEAR_AT_LEAST = 0.1
+_NEAR_MOST = 48
+"""Variants count as near the best up to this share, or up to so many µm, above it; at most so many of them."""
+
+_NEVER = 1e9
+"""Score of a variant whose contact does not settle."""
+
+_POPULATION = 12
+_GENERATIONS = 60
+_SEED = 0
+
+MISALIGNMENT = 10.0
+"""Misalignment (µm) over the common face width that a proposal should bear, either way, on top of the mounting's own."""
+
+
+def conditions(torque: float, pitch_error: float = 0.0) -> tuple[Condition, ...]:
+    """What a robust proposal has to bear: parts of the torque, the wheel's axis turned either way, and a pitch error (µm)."""
+    parts = [Condition(part * torque) for part in (0.25, 0.5, 0.75, 1.0)]
+    turned = [Condition(torque, misalignment=sign * MISALIGNMENT) for sign in (1, -1)]
+    return (*parts, *turned, *([Condition(torque, pitch_error=pitch_error)] if pitch_error else []))
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a search came to: the amounts (6,), the bound (MPa), and what becomes of the flanks."""
+
+    amounts: Floats
+    bound: float
+    outcome: Outcomes
+
+    @property
+    def bounded(self) -> bool:
+        """Whether the pressure keeps to the bound."""
+        return bool(self.outcome.pressures[0] <= self.bound * (1 + _WITHIN))
+
+    @property
+    def edges_free(self) -> bool:
+        """Whether the edges of the tips are out of contact."""
+        return bool(self.outcome.edge_shares[0] <= _FREE)
+
+    @property
+    def peak_to_peak(self) -> float:
+        """Of the transmission error (µm)."""
+        return float(self.outcome.peak_to_peak[0])
+
+    @property
+    def named(self) -> dict[str, float]:
+        """The amounts under the keys of a spec, without `modification.`."""
+        return dict(zip(AMOUNTS, self.amounts.tolist(), strict=True))
+
+
+@dataclass(frozen=True)
+class Search:
+    """Variants between `low` and `high` (6,) under a torque (N m); `plain` is what becomes of the flanks without any."""
+
+    variants: Variants
+    torque: float
+    low: Floats
+    high: Floats
+    plain: Outcomes
+    tried: list[int] = field(default_factory=list, repr=False)
+
+    @property
+    def deflection(self) -> float:
+        """The greatest transmission error (µm) without modifications."""
+        return float(self.plain.transmission_errors.max())
+
+    def outcomes(self, amounts: Floats, condition: Condition | None = None) -> Outcomes:
+        """What becomes of variants (v, 6)."""
+        self.tried.append(len(amounts))
+        return self.variants.outcomes(amounts, condition or Condition(self.torque))
+
+    def best(self, bounds: Sequence[float]) -> Found:
+        """The proposal for the first of the bounds (MPa) that can be kept, else for the last.
+
+        Without contact on the edges of the tips if that costs no transmission error over that of the plain flanks.
+        """
+        for bound in bounds:
+            found = self.run(bound)
+            if found.bounded:
+                break
+        if found.edges_free or not found.bounded:
+            return found
+        strict = self.run(bound, edges=False)
+        free = strict.bounded and strict.edges_free and strict.peak_to_peak <= self.plain.peak_to_peak[0]
+        return strict if free else found
+
+    def scores(self, found: Outcomes, bound: float, *, edges: bool) -> Floats:
+        """What is to be least (v,): peak to peak of the transmission error in µm, and what broken bounds cost."""
+        over = np.maximum(found.pressures / bound - 1, 0.0)
+        cost = _OVER_PRESSURE * over + _ON_EDGE[0 if edges else 1] * found.edge_shares
+        return np.nan_to_num(found.peak_to_peak + self.deflection * cost, nan=_NEVER, posinf=_NEVER)
+
+    def run(self, bound: float, *, edges: bool = True) -> Found:
+        """Search with a bound (MPa) of the interior pressure; the same input gives the same result.
+
+        `edges` tells whether those of the tips may carry load.
+        """
+        from scipy.optimize import differential_evolution
+
+        free = np.flatnonzero(self.high > self.low)
+        seen: list[tuple[Floats, Floats]] = []
+
+        def judge(columns: Floats) -> Floats:
+            amounts = np.tile(self.low, (columns.shape[1], 1))
+            amounts[:, free] = columns.T
+            scores = self.scores(self.outcomes(amounts), bound, edges=edges)
+            seen.append((amounts, scores))
+            return scores
+
+        differential_evolution(
+            judge,
+            list(zip(self.low[free], self.high[free], strict=True)),
+            popsize=_POPULATION,
+            maxiter=_GENERATIONS,
+            init="sobol",
+            seed=_SEED,
+            polish=False,
+            updating="deferred",
+            vectorized=True,
+        )
+        every, scores = (np.concatenate(parts) for parts in zip(*seen, strict=True))
+        amounts = self._robust(every, scores, bound, edges)
+        return Found(amounts, bound, self.outcomes(amounts[None]))
+
+    def _robust(self, amounts: Floats, scores: Floats, bound: float, edges: bool) -> Floats:
+        """Of the variants that are, rounded, near the best: the one that does best over parts of the torque and misaligned."""
+        order = np.argsort(scores, kind="stable")
+        near = order[scores[order] <= _near(scores.min())]
+        # Spread over all that are near, the best first: neighbours of the best differ little.
+        chosen = near[np.unique(np.linspace(0, len(near) - 1, 4 * _NEAR_MOST).astype(int))]
+        rounded = np.unique(np.clip(np.round(amounts[chosen] / _STEPS), self._least, self._most) * _STEPS, axis=0)
+        again = self.scores(self.outcomes(rounded), bound, edges=edges)
+        kept = np.flatnonzero(again <= _near(again.min()))
+        kept = kept[np.argsort(again[kept], kind="stable")][:_NEAR_MOST]
+        others = [each for each in conditions(self.torque) if each.torque >= self.torque / 2]
+        burden = np.sum([self.outcomes(rounded[kept], each).peak_to_peak for each in others], axis=0)
+        best: Floats = rounded[kept[np.argmin(burden)]]
+        return best
+
+    @property
+    def _least(self) -> Floats:
+        return np.ceil(self.low / _STEPS - 1e-9)
+
+    @property
+    def _most(self) -> Floats:
+        return np.floor(self.high / _STEPS + 1e-9)
+
+
+def _near(best: float) -> float:
+    return best + max(_NEAR * best, _NEAR_AT_LEAST)
+
+
+def start_search(model: SolidPair, torque: float, shape: ReliefShape) -> Search:
+    """Prepare a search at a torque (N m) for a model whatever its own tip relief and crowning; the helix angle is modified
+    only against a misalignment of its mounting.
+    """
+    nothing = np.zeros(len(AMOUNTS))
+    cells, positions = _HELICAL if model.helix else _SPUR
+    bare = replace(model.remade(with_amounts(model.pair, nothing, shape), model.mounting), cells=cells, known={})
+    plain = Variants(bare, shape, positions, torque).outcomes(nothing[None], Condition(torque))
+    low, high = _bounds(bare, shape, float(plain.transmission_errors.max()))
+    roomy = bare.remade(with_amounts(bare.pair, high, shape), bare.mounting)
+    variants = Variants(roomy, shape, positions, torque)
+    return Search(variants, torque, low, high, variants.outcomes(nothing[None], Condition(torque)))
+
+
+def _bounds(model: SolidPair, shape: ReliefShape, deflection: float) -> tuple[Floats, Floats]:
+    """The least and the greatest amounts (6,)."""
+    path, pair = model.pair.path_of_contact, model.pair
+    reach = path.E - path.A
+    longest = [min(_LONGEST * reach, gear.flank_form.last - gear.flank_form.first) for gear in (pair.pinion, pair.wheel)]
+    helix = abs(model.mounting.misalignment) * 1.5
+    low = np.array([0.0, _SHORTEST * reach, 0.0, _SHORTEST * reach, 0.0, -helix])
+    relief, crowning = np.ceil(_MOST_RELIEF * deflection), np.ceil(_MOST_CROWNING * deflection)
+    high = np.array([relief, longest[0], relief, longest[1], crowning, helix])
+    while not _fits(pair, high, shape):
+        high[[0, 2, 4]] = np.floor(0.9 * high[[0, 2, 4]])
+    return low, high
+
+
+def _fits(pair: GearPair, amounts: Floats, shape: ReliefShape) -> bool:
+    """Whether flanks can be taken back that far; nothing at all always fits."""
+    try:
+        with_amounts(pair, amounts, shape)
+    except GeometryError:
+        return not amounts[[0, 2, 4]].any()
+    return True
