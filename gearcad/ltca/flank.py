@@ -85,7 +85,7 @@ class SolidCompliance:
 
     `moved[k]` (places of `grid`, loads) are normal displacements (mm) of the flank of tooth k; of tooth 0 they lack those of
     a half-space and of the load's images (see `Images`). `torques` (loads,) act on the hub (N mm); `displacements` (teeth,
-    dofs, loads) are in turning axes.
+    dofs, loads) are in turning axes, those of tooth 0 without `taken_off` (dofs, loads), the fields that were taken off.
     """
 
     flank: SolidFlank
@@ -95,6 +95,7 @@ class SolidCompliance:
     grid: Grid
     moved: dict[int, Floats]
     displacements: Floats
+    taken_off: Floats
     torques: Floats
 
     @property
@@ -134,6 +135,12 @@ class SolidCompliance:
     def images(self) -> Images:
         """The loads' images behind the ends of the teeth."""
         return Images(self.flank, self.material)
+
+    def taken_off_traction(self, points: Floats, normals: Floats) -> Floats:
+        """Traction (..., 3, loads) in MPa by the fields that were taken off, on elements of surface of tooth 0."""
+        field, places = _Field(self.flank, self.material), self.loads.places
+        loads = zip(self.flank.points(places), self.flank.inward(places), strict=True)
+        return np.stack([field.traction(points, normals, at, inward) for at, inward in loads], -1)
 
     def torque(self, places: Places) -> Floats:
         """Torque on the hub (N mm) by 1 N at each place."""
@@ -236,7 +243,8 @@ def solid_compliance(gear: Gear, body: SolidBody, material: Material, start: flo
     distance = np.linalg.norm(flank.points(grid.places)[:, None] - at, axis=-1)
     found[0] = found[0] - np.where(distance > 1e-9, surface_displacement(np.maximum(distance, 1e-9), material), 0.0)
     found[0] -= Images(flank, material).normal(grid.places, places)
-    return SolidCompliance(flank, body, material, loads, grid, found, moved.displacements, moved.torques)
+    moved.displacements[body.neighbours] -= taken_off
+    return SolidCompliance(flank, body, material, loads, grid, found, moved.displacements, taken_off, moved.torques)
 
 
 def _normal(mesh: SweptMesh, displacements: Floats, nodes: Indices, inward: Floats) -> Floats:

@@ -110,23 +110,40 @@ class SolidFillet:
     def _responses(self) -> dict[int, Floats]:
         """Stresses (3, heights, along, loads) of tooth k by the unit loads: along the profile, across it, and shear."""
         neighbours = self.body.neighbours
-        return {
-            tooth: self._stresses(self.body.displacements[neighbours + tooth]) for tooth in range(-neighbours, neighbours + 1)
-        }
+        teeth = range(-neighbours, neighbours + 1)
+        found = {tooth: self._stresses(self.body.displacements[neighbours + tooth]) for tooth in teeth}
+        found[0] += self._taken_off
+        return found
+
+    @cached_property
+    def _bases(self) -> tuple[list[Floats], Floats, Floats]:
+        """Slopes of the faces both ways, and unit vectors along the profile and square to it, (layers, edges, 4, 3) each."""
+        mesh = self.body.body.sector.mesh
+        bases = [np.einsum("qa,leac->leqc", slope, mesh.points[self._faces]) for slope in self._shape[1]]
+        first = bases[0] / np.linalg.norm(bases[0], axis=-1, keepdims=True)
+        upright = bases[1] - (bases[1] * first).sum(-1, keepdims=True) * first
+        return bases, first, upright / np.linalg.norm(upright, axis=-1, keepdims=True)
+
+    @property
+    def _taken_off(self) -> Floats:
+        """The exact stresses of the fields that the elements do not have, as `_stresses`."""
+        _, first, second = self._bases
+        points = np.einsum("qa,leac->leqc", self._shape[0], self.body.body.sector.mesh.points[self._faces])
+        on_first, on_second = (self.body.taken_off_traction(points, normals) for normals in (first, second))
+        along = np.einsum("leqcm,leqc->leqm", on_first, first)
+        axial = np.einsum("leqcm,leqc->leqm", on_second, second)
+        shear = np.einsum("leqcm,leqc->leqm", on_first, second)
+        return np.stack([self._at_points(stress) for stress in (along, axial, shear)])
 
     def _stresses(self, displacements: Floats) -> Floats:
         mesh, faces = self.body.body.sector.mesh, self._faces
         _, slopes = self._shape
+        bases, first, second = self._bases
         vectors = mesh.to_space(displacements.reshape(mesh.nodes, 3, -1))[faces]  # (layers, edges, 8, 3, loads)
-        bases = [np.einsum("qa,leac->leqc", slope, mesh.points[faces]) for slope in slopes]
         moved = [np.einsum("qa,leacm->leqcm", slope, vectors) for slope in slopes]
-        first = bases[0] / np.linalg.norm(bases[0], axis=-1, keepdims=True)
-        lean = (bases[1] * first).sum(-1, keepdims=True)
-        upright = bases[1] - lean * first
-        height = np.linalg.norm(upright, axis=-1, keepdims=True)
-        second = upright / height
+        lean, height = ((bases[1] * unit).sum(-1) for unit in (first, second))
         by_first = moved[0] / np.linalg.norm(bases[0], axis=-1)[..., None, None]
-        by_second = (moved[1] - lean[..., None] * by_first) / height[..., None]
+        by_second = (moved[1] - lean[..., None, None] * by_first) / height[..., None, None]
         along = np.einsum("leqcm,leqc->leqm", by_first, first)
         axial = np.einsum("leqcm,leqc->leqm", by_second, second)
         shear = np.einsum("leqcm,leqc->leqm", by_first, second) + np.einsum("leqcm,leqc->leqm", by_second, first)
