@@ -30,8 +30,14 @@ _RELIEFS = ("tip_relief", "root_relief", "end_relief")
 _LARGEST = 1000.0
 """Largest amount (um)."""
 
+_LEAST_LENGTH = 1e-3
+"""Least length (mm) of a relief."""
+
 _LEAST_LAND = 1e-3
 """Least width (mm) of what modifications leave of a tip land."""
+
+_ONE = 3e-7
+"""Breaks closer than this (mm) are one: a solid cannot tell them apart, and no depth changes by what would be seen."""
 
 _ROUNDING = 1e-9
 """Overlap (mm) in a root that comes to a point which is rounding."""
@@ -90,8 +96,10 @@ class FlankModification:
                 least = 0.0 if each.name.endswith("_relief") else -_LARGEST
                 require_number(each.name, value, "µm", at_least=least, at_most=_LARGEST)
         for name in _RELIEFS:
-            if getattr(self, name) and not getattr(self, f"{name}_length"):
-                raise GeometryError(f"{name}_length", 0, f"must be above 0 mm for a {name} above 0 µm", "mm")
+            length = getattr(self, f"{name}_length")
+            if getattr(self, name) and length < _LEAST_LENGTH:
+                permitted = f"must be at least {_LEAST_LENGTH} mm for a {name} above 0 µm"
+                raise GeometryError(f"{name}_length", length, permitted, "mm")
 
     @property
     def present(self) -> bool:
@@ -229,7 +237,7 @@ def check_flanks(gear: Gear) -> None:
 
 
 def _inside(places: list[float], first: float, last: float) -> tuple[float, ...]:
-    """The places between both ends, in order; those that are one but for rounding count once."""
-    slack = 1e-9 * (last - first)
+    """The places between both ends, in order; those that are one for a solid count once."""
+    slack = max(_ONE, 1e-9 * (last - first))
     ordered = sorted(place for place in places if first + slack < place < last - slack)
     return tuple(ordered[:1]) + tuple(after for before, after in pairwise(ordered) if after - before > slack)

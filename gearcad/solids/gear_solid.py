@@ -17,7 +17,7 @@ __all__ = ["gear_solid"]
 
 
 def gear_solid(gear: Gear) -> cadquery.Solid:
-    """The gear as a closed boundary representation, within 1 nm of the exact involute and trochoid.
+    """The gear as a closed boundary representation, within 1 nm of the exact involute and trochoid, or of its modified flanks.
 
     Teeth from z = 0 to the face width, tooth 0 centred on +x at z = 0. Go on in CadQuery with
     `cadquery.Workplane(obj=gear_solid(gear))`.

@@ -140,6 +140,19 @@ def test_reliefs_that_meet_in_one_line() -> None:
     assert more == plain.teeth * (2 * 3 * 2 - 2 * 2)  # fillet and two parts of the flank, in two halves, for fillet and flank
 
 
+@pytest.mark.parametrize("gap", [1e-4, 1e-6, 1e-7, 1e-8])
+def test_reliefs_that_all_but_meet(gap: float, tmp_path: Path) -> None:
+    """A stretch between two breaks that is narrower than the kernel can tell is left out."""
+    plain = GEARS["undercut"]
+    flank = plain.flank_form.last - plain.flank_form.first
+    lengths = {"tip_relief_length": flank / 2, "root_relief_length": flank / 2 - gap}
+    gear = modified(plain, **lengths, end_relief_length=plain.face_width / 2 - gap)
+    solid = gear_solid(gear)
+    for made in (solid, _again(solid, tmp_path / "gear.step")):
+        assert _valid_and_closed(made)
+    _measure(gear, solid)
+
+
 def test_lands_reach_from_flank_to_flank() -> None:
     """Tip and root land stay cylinders; their edges have turned with the flanks."""
     gear = modified(GEARS["left hand"])
@@ -163,7 +176,7 @@ def test_fillets_without_a_root_land_go_on_meeting() -> None:
     gear = modified(plain)
     solid = gear_solid(gear)
     assert _valid_and_closed(solid)
-    points = _edge_points(_sides(solid))
+    points = _edge_points(_sides(solid, 150))
     root = points[np.abs(np.hypot(*points[:, :2].T) - gear.root_diameter / 2) < EDGE]
     assert len(root) > 100
     assert distance_to_section(gear, root).max() < ON_FLANK

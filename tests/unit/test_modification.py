@@ -206,7 +206,7 @@ def test_wrong_values_are_refused(wrong: dict[str, Any], message: str) -> None:
 
 @pytest.mark.parametrize("relief", ["tip_relief", "root_relief", "end_relief"])
 def test_a_relief_needs_a_length(relief: str) -> None:
-    with pytest.raises(GeometryError, match=f"{relief}_length = 0 mm: must be above 0 mm for a {relief} above 0 µm"):
+    with pytest.raises(GeometryError, match=f"{relief}_length = 0 mm: must be at least 0.001 mm for a {relief} above 0 µm"):
         FlankModification(**{relief: 5.0})
 
 

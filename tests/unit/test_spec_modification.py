@@ -113,7 +113,7 @@ def test_cells_of_a_table(tmp_path: Path) -> None:
     assert b.design().mounting is None
     (length,), (misalignment,) = c.all_faults(), d.all_faults()
     assert "row 4" in length
-    assert "modification.tip_relief_length = 0 mm (by default): must be above 0 mm for a tip_relief above 0 µm" in length
+    assert "modification.tip_relief_length = 0 mm (by default): must be at least 0.001 mm for a tip_relief above 0 µm" in length
     assert "row 5 column J (d): mounting.misalignment = 2000 µm: must be a number at least -1000 µm" in misalignment
 
 
