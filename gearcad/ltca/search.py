@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -10,6 +11,8 @@ from numpy.typing import NDArray
 
 from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair, ReliefShape
+from gearcad.ltca.contact_lines import gaps
+from gearcad.ltca.line_contact import solve_lines
 from gearcad.ltca.solid_pair import SolidPair
 from gearcad.ltca.variants import AMOUNTS, Condition, Outcomes, Variants, with_amounts
 
@@ -24,11 +27,15 @@ flank its cells are at many places of it at once, where it does not positions mu
 """
 
 _STEPS = np.array([1.0, 0.05, 1.0, 0.05, 1.0, 1.0])
-"""To what amounts (µm) and lengths (mm) are rounded."""
+_DECIMALS = 2
+"""To what amounts (µm) and lengths (mm) are rounded, and to how many decimals that is."""
 
 _MOST_RELIEF = 1.5
 _MOST_CROWNING = 0.5
 """Largest tip relief of a gear and largest crowning, as shares of the greatest deflection of the teeth."""
+
+_MOST_HELIX = 1.5
+"""Largest change of the pinion's helix, as a share of the one that makes up for the misalignment."""
 
 _SHORTEST = 0.1
 _LONGEST = 0.5
@@ -57,15 +64,18 @@ _POPULATION = 12
 _GENERATIONS = 60
 _SEED = 0
 
-MISALIGNMENT = 10.0
-"""Misalignment (µm) over the common face width that a proposal should bear, either way, on top of the mounting's own."""
+_MISALIGNMENT = 10.0
+_PITCH_ERROR = 10.0
+"""Misalignment (µm) over the common face width and pitch error (µm) of a tooth that a proposal should bear, on top of those of
+the mounting.
+"""
 
 
-def conditions(torque: float, pitch_error: float = 0.0) -> tuple[Condition, ...]:
-    """What a robust proposal has to bear: parts of the torque, the wheel's axis turned either way, and a pitch error (µm)."""
+def conditions(torque: float) -> tuple[Condition, ...]:
+    """What a proposal should bear: parts of the torque, the wheel's axis turned either way, and a pitch error."""
     parts = [Condition(part * torque) for part in (0.25, 0.5, 0.75, 1.0)]
-    turned = [Condition(torque, misalignment=sign * MISALIGNMENT) for sign in (1, -1)]
-    return (*parts, *turned, *([Condition(torque, pitch_error=pitch_error)] if pitch_error else []))
+    turned = [Condition(torque, misalignment=sign * _MISALIGNMENT) for sign in (1, -1)]
+    return (*parts, *turned, Condition(torque, pitch_error=_PITCH_ERROR))
 
 
 @dataclass(frozen=True)
@@ -99,18 +109,22 @@ class Found:
 
 @dataclass(frozen=True)
 class Search:
-    """Variants between `low` and `high` (6,) under a torque (N m); `plain` is what becomes of the flanks without any."""
+    """Variants between `low` and `high` (6,) under a torque (N m).
+
+    `plain` is what becomes of the flanks without reliefs and crowning, their helix angle made up for a misalignment.
+    """
 
     variants: Variants
     torque: float
     low: Floats
     high: Floats
+    start: Floats
     plain: Outcomes
     tried: list[int] = field(default_factory=list, repr=False)
 
     @property
     def deflection(self) -> float:
-        """The greatest transmission error (µm) without modifications."""
+        """The greatest transmission error (µm) of plain flanks."""
         return float(self.plain.transmission_errors.max())
 
     def outcomes(self, amounts: Floats, condition: Condition | None = None) -> Outcomes:
@@ -162,6 +176,7 @@ class Search:
             popsize=_POPULATION,
             maxiter=_GENERATIONS,
             init="sobol",
+            x0=np.clip(self.start, self.low, self.high)[free],
             seed=_SEED,
             polish=False,
             updating="deferred",
@@ -172,27 +187,41 @@ class Search:
         return Found(amounts, bound, self.outcomes(amounts[None]))
 
     def _robust(self, amounts: Floats, scores: Floats, bound: float, edges: bool) -> Floats:
-        """Of the variants that are, rounded, near the best: the one that does best over parts of the torque and misaligned."""
+        """Of the variants that are, rounded, near the best: the one that bears parts of the torque and misalignment best.
+
+        Pressure counts along, else the free play would go into crowning that nothing asks for.
+        """
         order = np.argsort(scores, kind="stable")
         near = order[scores[order] <= _near(scores.min())]
         # Spread over all that are near, the best first: neighbours of the best differ little.
         chosen = near[np.unique(np.linspace(0, len(near) - 1, 4 * _NEAR_MOST).astype(int))]
-        rounded = np.unique(np.clip(np.round(amounts[chosen] / _STEPS), self._least, self._most) * _STEPS, axis=0)
+        steps = np.clip(np.round(amounts[chosen] / _STEPS), self._least, self._most)
+        # The sum makes -0.0 a plain zero.
+        rounded = np.unique(np.round(steps * _STEPS, _DECIMALS) + 0.0, axis=0)
         again = self.scores(self.outcomes(rounded), bound, edges=edges)
         kept = np.flatnonzero(again <= _near(again.min()))
         kept = kept[np.argsort(again[kept], kind="stable")][:_NEAR_MOST]
-        others = [each for each in conditions(self.torque) if each.torque >= self.torque / 2]
+        others = [each for each in conditions(self.torque) if abs(each.torque) >= abs(self.torque) / 2]
         burden = np.sum([self.outcomes(rounded[kept], each).peak_to_peak for each in others], axis=0)
-        best: Floats = rounded[kept[np.argmin(burden)]]
+        best: Floats = rounded[kept[np.argmin(burden * self.outcomes(rounded[kept]).pressures)]]
         return best
+
+    def peak_to_peak(self, pair: GearPair, condition: Condition) -> float:
+        """Of the transmission error (µm) of a pair with any modifications, the contact solved in full. Raises SolverError."""
+        of, mounting = self.variants, condition.mounted(self.variants.roomy.mounting)
+        force, helix = of.force(condition.torque), of.roomy.helix
+        solved = [solve_lines(given, gaps(given.lines, pair, mounting, helix), force).approach for given in of.positions]
+        return float(np.ptp(solved)) / math.cos(helix) * 1000
 
     @property
     def _least(self) -> Floats:
-        return np.ceil(self.low / _STEPS - 1e-9)
+        steps: Floats = np.ceil(self.low / _STEPS - 1e-9)
+        return steps
 
     @property
     def _most(self) -> Floats:
-        return np.floor(self.high / _STEPS + 1e-9)
+        steps: Floats = np.floor(self.high / _STEPS + 1e-9)
+        return steps
 
 
 def _near(best: float) -> float:
@@ -206,11 +235,18 @@ def start_search(model: SolidPair, torque: float, shape: ReliefShape) -> Search:
     nothing = np.zeros(len(AMOUNTS))
     cells, positions = _HELICAL if model.helix else _SPUR
     bare = replace(model.remade(with_amounts(model.pair, nothing, shape), model.mounting), cells=cells, known={})
-    plain = Variants(bare, shape, positions, torque).outcomes(nothing[None], Condition(torque))
+    start = np.array([0.0, 0.0, 0.0, 0.0, 0.0, _aligning(bare)])
+    plain = Variants(bare, shape, positions, torque).outcomes(start[None], Condition(torque))
     low, high = _bounds(bare, shape, float(plain.transmission_errors.max()))
     roomy = bare.remade(with_amounts(bare.pair, high, shape), bare.mounting)
     variants = Variants(roomy, shape, positions, torque)
-    return Search(variants, torque, low, high, variants.outcomes(nothing[None], Condition(torque)))
+    return Search(variants, torque, low, high, start, variants.outcomes(start[None], Condition(torque)))
+
+
+def _aligning(model: SolidPair) -> float:
+    """Helix angle modification (µm) of the pinion that turns its loaded, left flanks as far as the wheel is misaligned."""
+    form = model.pair.pinion.flank_form
+    return form.hand * model.mounting.misalignment * form.width / model.width
 
 
 def _bounds(model: SolidPair, shape: ReliefShape, deflection: float) -> tuple[Floats, Floats]:
@@ -218,7 +254,7 @@ def _bounds(model: SolidPair, shape: ReliefShape, deflection: float) -> tuple[Fl
     path, pair = model.pair.path_of_contact, model.pair
     reach = path.E - path.A
     longest = [min(_LONGEST * reach, gear.flank_form.last - gear.flank_form.first) for gear in (pair.pinion, pair.wheel)]
-    helix = abs(model.mounting.misalignment) * 1.5
+    helix = _MOST_HELIX * abs(_aligning(model))
     low = np.array([0.0, _SHORTEST * reach, 0.0, _SHORTEST * reach, 0.0, -helix])
     relief, crowning = np.ceil(_MOST_RELIEF * deflection), np.ceil(_MOST_CROWNING * deflection)
     high = np.array([relief, longest[0], relief, longest[1], crowning, helix])

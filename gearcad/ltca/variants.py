@@ -18,6 +18,7 @@ from gearcad.ltca.contact_lines import BEND, line_gap, places_beside
 from gearcad.ltca.line_contact import OWN_DISTANCE, Responses, half_widths
 from gearcad.ltca.solid_cycle import INTERIOR
 from gearcad.ltca.solid_pair import SolidPair
+from gearcad.mounting import Mounting
 
 __all__ = ["AMOUNTS", "Condition", "Outcomes", "Variants", "with_amounts"]
 
@@ -58,6 +59,14 @@ class Condition:
     torque: float
     misalignment: float = 0.0
     pitch_error: float = 0.0
+
+    def mounted(self, mounting: Mounting) -> Mounting:
+        """The mounting with the deviations on top of its own."""
+        return replace(
+            mounting,
+            misalignment=mounting.misalignment + self.misalignment,
+            pinion_pitch_error=mounting.pinion_pitch_error + self.pitch_error,
+        )
 
 
 @dataclass(frozen=True)
@@ -143,7 +152,7 @@ class Variants:
     @cached_property
     def _matrices(self) -> tuple[Floats, ...]:
         """Compliances (n, n) in mm/N of each position but for what a cell's own ellipse adds to the diagonal."""
-        force, found = self._force(self.torque), []
+        force, found = self.force(self.torque), []
         for given in self.positions:
             even = force * given.lengths / given.lengths.sum()
             radii = np.concatenate([1 / line.curvature for line in given.lines]) / math.cos(self.roomy.helix)
@@ -151,13 +160,13 @@ class Variants:
             found.append(given.smooth.sum(axis=0) + kernel - np.diag(np.diag(kernel)))
         return tuple(found)
 
-    def _force(self, torque: float) -> float:
+    def force(self, torque: float) -> float:
         """Normal force (N) at a torque (N m)."""
         return self.roomy.force(torque) * self.roomy.width / math.cos(self.roomy.helix)
 
     def outcomes(self, amounts: Floats, condition: Condition) -> Outcomes:
         """What becomes of variants (v, 6) under a condition; all infinite for one whose contact does not settle."""
-        force, errors, pressures, edges = self._force(condition.torque), [], [], []
+        force, errors, pressures, edges = self.force(condition.torque), [], [], []
         for given, matrix in zip(self.positions, self._matrices, strict=True):
             gap, radii = self.gaps(given, amounts, condition)
             forces, approach = _pressed(given, matrix, gap, radii, force)
@@ -174,11 +183,7 @@ class Variants:
         nothing = np.zeros_like(columns[0])
         pinion = _Flanks(self.plain.pinion.flank_form, self.shape, columns[0], length[0], columns[4], columns[5])
         wheel = _Flanks(self.plain.wheel.flank_form, self.shape, columns[2], length[1], nothing, nothing)
-        mounting = replace(
-            self.roomy.mounting,
-            misalignment=self.roomy.mounting.misalignment + condition.misalignment,
-            pinion_pitch_error=self.roomy.mounting.pinion_pitch_error + condition.pitch_error,
-        )
+        mounting = condition.mounted(self.roomy.mounting)
         found = []
         for line in given.lines:
             places = places_beside(line, self.plain, mounting)
