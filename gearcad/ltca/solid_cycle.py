@@ -15,7 +15,15 @@ from gearcad.ltca.line_contact import LineSolution
 from gearcad.ltca.solid_pair import SolidPair
 from gearcad.ltca.solid_root import FilletState, SolidFillet
 
-__all__ = ["RootPeak", "SolidContact", "SolidCycle", "SolidPosition", "run_solid_cycle", "solid_single_stiffness"]
+__all__ = [
+    "RootPeak",
+    "SolidContact",
+    "SolidCycle",
+    "SolidPosition",
+    "run_solid_cycle",
+    "solid_single_stiffness",
+    "tooth_loads",
+]
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -151,20 +159,25 @@ class SolidCycle:
             for contact in position.contacts:
                 cell = np.floor(contact.line.across / step + count / 2).astype(int)
                 np.add.at(total, cell, contact.forces)
-        across: Floats = (np.arange(count) + 0.5) * step - width / 2
+        edges = np.linspace(-width / 2, width / 2, count + 1)
         load: Floats = total * math.cos(self.model.helix) / step / len(self.positions)
-        return across, load
+        return (edges[1:] + edges[:-1]) / 2, load
 
     @property
     def face_load_factor(self) -> float:
-        """K_H_beta: the greatest load per width over its mean, both of the whole cycle."""
-        load = self.load_along_face[1]
-        return float(load.max() / load.mean())
+        """K_H_beta: the greatest load per width over its mean, both of the whole cycle, away from the ends of the face width.
+
+        There, where the end of one gear presses on the other's flank, an edge carries more whatever the gears' alignment.
+        """
+        across, load = self.load_along_face
+        widest = max(contact.half_widths.max() for position in self.positions for contact in position.contacts)
+        inside = np.abs(across) < self.model.width / 2 - min(INTERIOR * float(widest), self.model.width / 4)
+        return float(load[inside].max() / load.mean())
 
     def root_along_face(self, gear: int) -> tuple[Floats, Floats]:
         """Heights (n,) in mm of the gear, and the greatest root tension of the cycle there (n,) in MPa."""
         fillet = self.model.fillets[gear][0]
-        stresses = np.stack([position.tension[gear].along_face for position in self.positions])
+        stresses: Floats = np.array([position.tension[gear].along_face for position in self.positions])
         return fillet.heights, stresses.max(axis=0)
 
     def root_face_load_factor(self, gear: int) -> float:
@@ -203,11 +216,7 @@ def _position(model: SolidPair, angle: float, torque: float) -> SolidPosition:
     contacts = _contacts(model, solution)
     tension, compression, torques = [], [], []
     for gear, body in enumerate((model.pinion, model.wheel)):
-        # On the wheel the teeth follow each other the other way round.
-        loads = [
-            ((1, -1)[gear] * contact.tooth, body.by((contact.line.pinion, contact.line.wheel)[gear]).T @ contact.forces)
-            for contact in contacts
-        ]
+        loads = tooth_loads(model, contacts, gear)
         pulled, pushed = (_states(fillet, loads) for fillet in model.fillets[gear])
         tension.append(_peak(model.fillets[gear][0], [state.greater for state in pulled], 1))
         compression.append(_peak(model.fillets[gear][1], [state.lesser for state in pushed], -1))
@@ -224,6 +233,16 @@ def _position(model: SolidPair, angle: float, torque: float) -> SolidPosition:
         compression=(compression[0], compression[1]),
         torques=(torques[0], torques[1]),
     )
+
+
+def tooth_loads(model: SolidPair, contacts: tuple[SolidContact, ...], gear: int) -> list[tuple[int, Floats]]:
+    """For each tooth in contact: its number on the pinion (0) or the wheel (1), and the force (N) at each unit load's place."""
+    body = (model.pinion, model.wheel)[gear]
+    # On the wheel the teeth follow each other the other way round.
+    return [
+        ((1, -1)[gear] * contact.tooth, body.by((contact.line.pinion, contact.line.wheel)[gear]).T @ contact.forces)
+        for contact in contacts
+    ]
 
 
 def _states(fillet: SolidFillet, loads: list[tuple[int, Floats]]) -> list[FilletState]:
