@@ -1,0 +1,232 @@
+"""Contact along lines: the half-space's field, gaps against points in space, ellipses against Hertz."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+from scipy.special import ellipe, ellipk
+from support.gap import gap_along_action, middle_height
+
+from gearcad import FlankModification, Gear, GearPair, Material, Mounting, ReliefShape
+from gearcad.fea.mesh_positions import mesh_line
+from gearcad.ltca.boussinesq import half_space_displacement, half_space_traction, surface_displacement
+from gearcad.ltca.contact_lines import ContactLine, Gaps, contact_lines, gaps
+from gearcad.ltca.flank import SolidFlank
+from gearcad.ltca.hexahedra import lame
+from gearcad.ltca.line_contact import Responses, solve_lines
+
+Floats = NDArray[np.float64]
+
+STEEL = Material()
+LOAD = np.array([0.3, -0.2, 0.1])
+INWARD = np.array([2.0, -1.0, 2.0]) / 3
+
+
+# ---------------------------------------------------------------------- the half-space
+
+
+def inside(count: int = 40) -> Floats:
+    """Points below the surface, some way from the load."""
+    draw = np.random.default_rng(3).normal(size=(count, 3))
+    depth = draw @ INWARD
+    return LOAD + draw + (np.abs(depth) - depth + 0.3)[:, None] * INWARD
+
+
+def test_stress_is_hookes_of_the_displacement() -> None:
+    """The tractions on three planes are those of the strains, by differences of the displacement."""
+    points, step = inside(), 1e-4
+    slope = np.zeros((len(points), 3, 3))
+    for axis in range(3):
+        shift = np.eye(3)[axis] * step
+        ahead, behind = (half_space_displacement(points + sign * shift, LOAD, INWARD, STEEL) for sign in (1, -1))
+        slope[:, :, axis] = (ahead - behind) / (2 * step)
+    strain, (first, second) = (slope + slope.transpose(0, 2, 1)) / 2, lame(STEEL)
+    stress = first * np.trace(strain, axis1=1, axis2=2)[:, None, None] * np.eye(3) + 2 * second * strain
+    for axis in range(3):
+        normal = np.broadcast_to(np.eye(3)[axis], points.shape)
+        found = half_space_traction(points, normal, LOAD, INWARD, STEEL)
+        assert found == pytest.approx(stress[:, axis], rel=1e-5, abs=1e-6 * np.abs(stress).max())
+
+
+def test_surface_is_free_and_sinks_by_the_closed_form() -> None:
+    across = np.cross(INWARD, [1.0, 0, 0])
+    points = LOAD + np.outer([0.5, 1.0, 3.0], across / np.linalg.norm(across))
+    normals = np.broadcast_to(-INWARD, points.shape)
+    assert np.abs(half_space_traction(points, normals, LOAD, INWARD, STEEL)).max() < 1e-12
+    sunk = half_space_displacement(points, LOAD, INWARD, STEEL) @ INWARD
+    assert sunk == pytest.approx(surface_displacement(np.array([0.5, 1.0, 3.0]), STEEL), rel=1e-12)
+
+
+def test_plane_below_carries_the_load() -> None:
+    """The traction on a plane at some depth has the load as its resultant."""
+    first = np.cross(INWARD, [1.0, 0, 0])
+    first /= np.linalg.norm(first)
+    second = np.cross(INWARD, first)
+    s, w = np.polynomial.legendre.leggauss(60)
+    radius, around = (s + 1) / 2, np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    r, factor = radius / (1 - radius), 1 / (1 - radius) ** 2 / 2  # out to infinity
+    ring = np.cos(around)[:, None] * first + np.sin(around)[:, None] * second
+    points = LOAD + INWARD + r[:, None, None] * ring
+    normals = np.broadcast_to(INWARD, points.shape)
+    traction = half_space_traction(points, normals, LOAD, INWARD, STEEL)
+    total = np.einsum("r,rac->c", w * factor * r * 2 * np.pi / len(around), traction)
+    assert total == pytest.approx(-INWARD, abs=1e-6)
+
+
+# ---------------------------------------------------------------------- gaps
+
+PINION = Gear(teeth=17, normal_module=3.0, face_width=22, helix_angle=18.0, profile_shift=0.2)
+WHEEL = Gear(teeth=31, normal_module=3.0, face_width=18, helix_angle=-18.0, profile_shift=0.1)
+MODIFIED = (
+    FlankModification(
+        tip_relief=18,
+        tip_relief_length=2.5,
+        tip_relief_shape=ReliefShape.PARABOLIC,
+        lead_crowning=9,
+        helix_angle_modification=14,
+        profile_crowning=5,
+    ),
+    FlankModification(root_relief=11, root_relief_length=1.8, end_relief=12, end_relief_length=5, twist=8, lead_crowning=3),
+)
+MOUNTINGS = (
+    Mounting(),
+    Mounting(misalignment=25),
+    Mounting(misalignment_across=-40),
+    Mounting(pinion_pitch_error=6, wheel_pitch_error=-2, centre_distance_change=0.15),
+)
+GAP = 1e-4
+"""mm: 0.1 um; the gap is taken along the normal of the exact flanks, and nearest places to second order in slopes."""
+
+EDGE = 3e-3
+"""The same at the edge of a tip: where it stands is that of the exact flanks as drawn."""
+
+NEAR_EDGE = 4e-4
+"""The same on the last tenth of a module, where slopes are taken over the end of the flank."""
+
+
+def lines_of(pair: GearPair, roll_length: float, cells: int = 24) -> tuple[ContactLine, ...]:
+    gear = pair.pinion
+    rate = math.tan(math.radians(gear.helix_angle)) / (gear.reference_diameter / 2)
+    return contact_lines(pair, mesh_line(pair), SolidFlank(gear, rate), roll_length, cells, 0.05)
+
+
+@pytest.mark.parametrize("mounting", MOUNTINGS, ids=["drawing", "in plane", "across", "pitch and centre"])
+@pytest.mark.parametrize("modified", [False, True])
+def test_gaps_are_those_of_the_flanks_in_space(mounting: Mounting, modified: bool) -> None:
+    """Against the nearest of many points of both surfaces in each transverse section.
+
+    A rigid displacement of the wheel along the axis is not in that picture: it is taken off (see `gaps`).
+    """
+    pinion, wheel = (
+        (replace(gear, modification=of) for gear, of in zip((PINION, WHEEL), MODIFIED, strict=True))
+        if modified
+        else (PINION, WHEEL)
+    )
+    pair = mounting.mounted(GearPair(pinion=pinion, wheel=wheel, axial_offset=1.5))
+    helix = math.radians(pair.pinion.base_helix_angle)
+    for roll_length in (pair.path_of_contact.C, pair.path_of_contact.C + 2.0):
+        lines = lines_of(pair, roll_length)
+        found, start = gaps(lines, pair, mounting, helix).normal, 0
+        for line in lines:
+            here = found[start : start + len(line.across)] / math.cos(helix)
+            start += len(line.across)
+            turn = mounting.misalignment / 1000 / pair.common_width.width
+            here = here + turn * line.wheel[0] * math.tan(helix)
+            heights = line.across + middle_height(pair)
+            for row in range(0, len(heights), 5):
+                places = line.aside[row] + 1e-3 * np.arange(-400, 401)
+                witness = gap_along_action(pair, mounting, roll_length, line.tooth, heights[row : row + 1], places)
+                near = line.edge_distance[row] < 0.1 * PINION.normal_module
+                tolerance = EDGE if line.on_edge[row] else NEAR_EDGE if near else GAP
+                assert here[row] == pytest.approx(float(np.nanmin(witness)), abs=tolerance)
+
+
+def test_line_lies_at_the_base_helix_angle() -> None:
+    pair = GearPair(pinion=PINION, wheel=WHEEL)
+    helix = math.radians(pair.pinion.base_helix_angle)
+    for line in lines_of(pair, pair.path_of_contact.C):
+        on_flank = ~line.on_edge
+        lean = np.diff(line.nominal[on_flank]) / np.diff(line.across[on_flank])
+        assert lean == pytest.approx(math.tan(helix), rel=1e-9)
+        # A generator of the involute helicoid: cells are equally long, and their points lie on one straight line.
+        assert line.lengths[on_flank] == pytest.approx(18 / 24 / math.cos(helix), rel=1e-9)
+        points = line.points[on_flank]
+        if len(points) > 2:
+            assert np.abs(np.diff(points, 2, axis=0)).max() < 1e-9
+
+
+# ---------------------------------------------------------------------- ellipses
+
+
+def hertz_ellipse(force: float, across: float, along: float, modulus: float) -> tuple[float, float, float]:
+    """p_0 (MPa), greater and lesser half axis (mm) of an elliptical contact (Johnson, Contact Mechanics, 4.26 to 4.32)."""
+
+    def ratio(slim: float) -> float:
+        m = 1 - slim**2
+        return float((ellipe(m) / slim**2 - ellipk(m)) / (ellipk(m) - ellipe(m))) - along / across
+
+    slim = float(brentq(ratio, 1e-4, 1 - 1e-9))
+    m = 1 - slim**2
+    greater = (3 * force * (ellipk(m) - ellipe(m)) * along / (math.pi * m * modulus)) ** (1 / 3)
+    return 3 * force / (2 * math.pi * greater**2 * slim), greater, greater * slim
+
+
+def half_spaces(width: float, cells: int) -> Responses:
+    """One line across two half-spaces, without anything smooth."""
+    across = (np.arange(cells) + 0.5) * width / cells - width / 2
+    zero, one = np.zeros(cells), np.ones(cells)
+    line = ContactLine(
+        tooth=0,
+        across=across,
+        nominal=zero,
+        pinion=(one, across),
+        wheel=(one, across),
+        lengths=one * width / cells,
+        aside=zero,
+        gap=zero,
+        points=np.stack([zero, zero, across], -1),
+        edge_distance=one,
+    )
+    modulus = STEEL.youngs_modulus / (1 - STEEL.poisson_ratio**2) / 2
+    return Responses((line,), np.zeros((2, cells, cells)), np.abs(across[:, None] - across), line.lengths, modulus)
+
+
+@pytest.mark.parametrize(("along", "tolerance"), [(2000.0, 0.005), (500.0, 0.007), (120.0, 0.02)])
+@pytest.mark.parametrize("cells", [60, 200])
+def test_crowned_contact_is_hertzs_ellipse(along: float, tolerance: float, cells: int) -> None:
+    """A crowned line presses an ellipse; the slimmer, the better the line's ellipses are those of the whole: 2 % is asked."""
+    given, force, across = half_spaces(20.0, cells), 3000.0, 8.0
+    place = given.lines[0].across
+    solved = solve_lines(given, Gaps(place**2 / (2 * along), np.full(cells, across)), force)
+    pressure, greater, lesser = hertz_ellipse(force, across, along, given.modulus)
+    assert solved.forces.sum() == pytest.approx(force, rel=1e-12)
+    assert solved.pressures.max() == pytest.approx(pressure, rel=tolerance)
+    assert solved.half_widths.max() == pytest.approx(lesser, rel=tolerance)
+    fit = np.polyfit(place[solved.pressures > 0.3 * pressure] ** 2, solved.pressures[solved.pressures > 0.3 * pressure] ** 2, 1)
+    assert math.sqrt(-fit[1] / fit[0]) == pytest.approx(greater, rel=2 * tolerance)
+
+
+def test_hertz_ellipse_of_a_sphere() -> None:
+    """The witness itself: equal radii give a circle, a^3 = 3 F R/(4 E*)."""
+    _, greater, lesser = hertz_ellipse(1000.0, 9.999, 10.0, 1e5)
+    assert greater == pytest.approx((3 * 1000 * 10 / 4 / 1e5) ** (1 / 3), rel=1e-3)
+    assert lesser == pytest.approx(greater, rel=1e-3)
+
+
+def test_solution_is_complementary() -> None:
+    """Loaded cells touch, the others are open; a gap that is the same everywhere only adds to the approach."""
+    given = half_spaces(12.0, 40)
+    gap = np.abs(given.lines[0].across) ** 3 / 4e3
+    radii = np.full(40, 6.0)
+    plain, apart = (solve_lines(given, Gaps(gap + more, radii), 500.0) for more in (0.0, 0.01))
+    moved = given.half_space(plain.half_widths + (plain.forces == 0) * 1e-3) @ plain.forces + gap - plain.approach
+    assert np.abs(moved[plain.forces > 0]).max() < 1e-6
+    assert moved[plain.forces == 0].min() > -1e-9
+    assert apart.approach - plain.approach == pytest.approx(0.01, rel=1e-9)
+    assert apart.rigid == pytest.approx(0.01 + gap.min())
+    assert sum(plain.parts) == pytest.approx(plain.approach - plain.forces @ gap / 500, rel=1e-9)
