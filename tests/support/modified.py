@@ -95,7 +95,7 @@ def removed_volume(gear: Gear) -> float:
 
     Gauss points on pieces between all corners of the depth and of the end chamfers.
     """
-    m, width = gear.modification, gear.face_width
+    m = gear.modification
     first, last = roll_ends(gear)
     slope = math.tan(math.radians(gear.body.end_chamfer_angle))
     face = gear.tip_diameter / 2 - gear.body.end_chamfer * slope
@@ -104,14 +104,29 @@ def removed_volume(gear: Gear) -> float:
     root, tip = gear.root_diameter / 2, gear.tip_diameter / 2
     radii = [root, gear.form_diameter / 2, gear.tip_form_diameter / 2, tip, *(face + z * slope for z in ends)]
     radii += [math.hypot(roll, gear.base_diameter / 2) for roll in rolls if first < roll < last]
+    return gear.teeth * sum(
+        _over_ring(gear, inner, outer, ends, face, slope)
+        for inner, outer in pairwise(sorted({min(max(radius, root), tip) for radius in radii}))
+    )
+
+
+def _over_ring(gear: Gear, inner: float, outer: float, ends: list[float], face: float, slope: float) -> float:
+    """The integral over one tooth between two radii (mm), over the roll xi where there is one: R dR = xi dxi."""
+    base, width = gear.base_diameter / 2, gear.face_width
+    core = base if inner > gear.form_diameter / 2 - 1e-9 else 0.0
+    low_roll, high_roll = (math.sqrt(max(radius**2 - core**2, 0.0)) for radius in (inner, outer))
     nodes, weights = leggauss(12)
     total = 0.0
-    for inner, outer in pairwise(sorted({min(max(radius, root), tip) for radius in radii})):
-        for radius, share in zip((inner + outer) / 2 + nodes * (outer - inner) / 2, weights * (outer - inner) / 2, strict=True):
-            setback = max(radius - face, 0.0) / slope if gear.body.end_chamfer else 0.0
-            inside = (min(max(z, setback), width - setback) for end in ends for z in (end, width - end))
-            for low, high in pairwise(sorted(inside)):
-                z = (low + high) / 2 + nodes * (high - low) / 2
-                both = specified(gear, np.full(z.shape, radius), z, True) + specified(gear, np.full(z.shape, radius), z, False)
-                total += share * radius * float(both @ weights) * (high - low) / 2
-    return gear.teeth * total / (gear.base_diameter / 2)
+    for roll, share in zip(*_placed(nodes, weights, low_roll, high_roll), strict=True):
+        radius = math.hypot(core, roll)
+        setback = max(radius - face, 0.0) / slope if gear.body.end_chamfer else 0.0
+        inside = (min(max(z, setback), width - setback) for end in ends for z in (end, width - end))
+        for low, high in pairwise(sorted(inside)):
+            z, part = _placed(nodes, weights, low, high)
+            both = sum(specified(gear, np.full(z.shape, radius), z, left) for left in (True, False))
+            total += share * roll * float(both @ part)
+    return total / base
+
+
+def _placed(nodes: Floats, weights: Floats, low: float, high: float) -> tuple[Floats, Floats]:
+    return (low + high) / 2 + nodes * (high - low) / 2, weights * (high - low) / 2
