@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from gearcad.check.run import CheckResult, Progress, check_pair
+from gearcad.check.result import CheckResult
+from gearcad.check.run import Progress, check_pair
 from gearcad.errors import ParameterError
 from gearcad.material import Material
 from gearcad.spec.design import Design

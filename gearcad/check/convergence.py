@@ -1,29 +1,36 @@
-"""How far the figures are from those of an infinitely fine mesh: three meshes, observed order, Richardson's estimate."""
+"""How far the figures are from those of an infinitely fine mesh: refined meshes, and an estimate from what they change."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from gearcad.check.options import CheckOptions
 from gearcad.check.summary import figures
-from gearcad.fea.cycle import run_cycle
-from gearcad.fea.flexible_pair import FlexiblePair, flexible_pair
-from gearcad.material import Material
-from gearcad.meshing import MeshSizes
+from gearcad.fea.cycle import Cycle
+from gearcad.ltca.solid_cycle import SolidCycle
 
-__all__ = ["LEAST_ORDER", "Convergence", "study_convergence"]
+__all__ = ["FACTORS", "FEW_POSITIONS", "FINER", "LEAST_ORDER", "SOLID_ORDER", "Convergence", "three_meshes", "two_meshes"]
 
-_FACTORS = (0.5, 1.0, 2.0)
-"""Refinement of the three meshes; the check itself is the middle one."""
+FEW_POSITIONS = 12
+"""Positions of a mesh cycle where only its extremes matter."""
 
-_POSITIONS = 12
+FACTORS = (0.5, 1.0, 2.0)
+"""Refinement of three meshes; the check itself is the middle one."""
+
 LEAST_ORDER = 1.0
 """Order below which the changes from mesh to mesh are taken for noise."""
 
 _SAFETY = 1.25
 """Factor on the change to the finest mesh where the changes are too small or too uneven to show an order (Roache)."""
+
+FINER = 1.3
+"""Refinement of the second of two solid meshes: twice the dofs."""
+
+SOLID_ORDER = 2.0
+"""Order at which two solid meshes are taken to converge: less than the quadratic elements' own, for what singular corners of
+fillet and face leave of it."""
 
 
 @dataclass(frozen=True)
@@ -41,30 +48,32 @@ class Convergence:
         return asdict(self)
 
 
-def study_convergence(
-    middle: FlexiblePair, material: Material, options: CheckOptions, torque: float
-) -> tuple[Convergence, ...]:
-    """Mean mesh stiffness and root tension of both gears on the mesh of `middle`, one half as fine and one twice as fine."""
-    found: dict[str, list[float]] = {"mean mesh stiffness": [], "root tension, pinion": [], "root tension, wheel": []}
-    for factor in _FACTORS:
-        sizes = MeshSizes().refined(factor)
-        model = middle
-        if factor != 1:
-            error = 1000 * middle.line.proud
-            model = flexible_pair(
-                middle.pair, material, plane=options.plane_state, body=options.body, sizes=sizes, pitch_error=error
-            )
-        few = figures(run_cycle(model, torque, _POSITIONS))
-        for values, value in zip(found.values(), (few.mesh_stiffness, *few.root_tension), strict=True):
-            values.append(value)
-    return tuple(_estimate(quantity, tuple(values)) for quantity, values in found.items())
+def three_meshes(cycles: Iterable[Cycle]) -> tuple[Convergence, ...]:
+    """From the cycles on meshes refined by FACTORS: Richardson's estimate of the middle one's error."""
+    return tuple(_richardson(quantity, values) for quantity, values in _values(cycles))
 
 
-def _estimate(quantity: str, values: tuple[float, ...]) -> Convergence:
+def two_meshes(cycles: Iterable[SolidCycle]) -> tuple[Convergence, ...]:
+    """From the cycles on a mesh and a refined one: the change, times 1/(1 - FINER^-SOLID_ORDER)."""
+    rest = 1 / (1 - FINER**-SOLID_ORDER)
+    return tuple(
+        Convergence(quantity, values, (1.0, FINER), None, rest * abs(values[0] / values[1] - 1))
+        for quantity, values in _values(cycles)
+    )
+
+
+def _values(cycles: Iterable[Cycle | SolidCycle]) -> list[tuple[str, tuple[float, ...]]]:
+    """Mean mesh stiffness and root tension of both gears, mesh by mesh."""
+    few = [figures(cycle) for cycle in cycles]
+    words = ("mean mesh stiffness", "root tension, pinion", "root tension, wheel")
+    return list(zip(words, zip(*((of.mesh_stiffness, *of.root_tension) for of in few), strict=True), strict=True))
+
+
+def _richardson(quantity: str, values: tuple[float, ...]) -> Convergence:
     coarse, middle, fine = values
     first, second = coarse - middle, middle - fine
     ratio = first / second if second else math.inf
     order = math.log2(ratio) if 0 < ratio < math.inf else None
     if order is None or order < LEAST_ORDER:
-        return Convergence(quantity, values, _FACTORS, order, _SAFETY * abs(second / fine))
-    return Convergence(quantity, values, _FACTORS, order, abs(second / fine) * 2**order / (2**order - 1))
+        return Convergence(quantity, values, FACTORS, order, _SAFETY * abs(second / fine))
+    return Convergence(quantity, values, FACTORS, order, abs(second / fine) * 2**order / (2**order - 1))

@@ -5,8 +5,11 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from gearcad.check.run import CheckResult
+from gearcad.check.document_solid import load_distribution, over_face, solid_mesh
+from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
+from gearcad.fea.cycle import PairContact
 from gearcad.fea.flank import FlankCompliance
+from gearcad.ltca.solid_cycle import SolidContact
 from gearcad.meshing.quality import mesh_quality
 
 __all__ = ["check_document"]
@@ -16,13 +19,13 @@ def check_document(result: CheckResult) -> dict[str, Any]:
     """Everything of a check under the names of check.json."""
     return {
         "kind": "check",
-        "model": "2d",
+        "model": result.model.value,
         "load": asdict(result.load),
         "mounting": asdict(result.mounting),
         "material": asdict(result.material),
         "options": asdict(result.options),
         "body": result.bodies,
-        "mesh": {"pinion": _mesh(result.cycle.model.pinion), "wheel": _mesh(result.cycle.model.wheel)},
+        **_of_model(result),
         "positions": len(result.cycle.positions),
         "mesh_cycle": _cycle(result),
         "summary": result.summary.to_dict(),
@@ -35,6 +38,19 @@ def check_document(result: CheckResult) -> dict[str, Any]:
     }
 
 
+def _of_model(result: CheckResult) -> dict[str, Any]:
+    """What only one of the models has to tell."""
+    if isinstance(result, SolidCheck):
+        pinion, wheel = result.cycle.model.pinion, result.cycle.model.wheel
+        return {
+            "mesh": {"pinion": solid_mesh(pinion), "wheel": solid_mesh(wheel)},
+            "load_distribution": load_distribution(result.cycle),
+            "face": over_face(result.cycle),
+        }
+    assert isinstance(result, PlaneCheck)  # there are two
+    return {"mesh": {"pinion": _mesh(result.cycle.model.pinion), "wheel": _mesh(result.cycle.model.wheel)}}
+
+
 def _mesh(body: FlankCompliance) -> dict[str, Any]:
     """Size and quality of the mesh of one tooth sector."""
     mesh = body.ring.sector.mesh
@@ -44,29 +60,25 @@ def _mesh(body: FlankCompliance) -> dict[str, Any]:
 def _cycle(result: CheckResult) -> dict[str, Any]:
     """Lists over the positions; those of load share and pressure hold one value for each of `pairs`, 0 out of contact.
 
-    The pressure of a corner contact is null: it depends on the mesh.
+    The pressure of a contact of edges alone is null: it depends on the mesh.
     """
     positions = result.cycle.positions
-    pairs = sorted({contact.pair.tooth for position in positions for contact in position.contacts})
-    shares, pressures = [], []
-    for position in positions:
-        contacts = {contact.pair.tooth: contact for contact in position.contacts}
-        shares.append([contacts[pair].share if pair in contacts else 0.0 for pair in pairs])
-        pressures.append(
-            [
-                0.0 if pair not in contacts else contacts[pair].peak_pressure if contacts[pair].interior else None
-                for pair in pairs
-            ]
-        )
+    by_tooth = [{contact.tooth: contact for contact in position.contacts} for position in positions]
+    pairs = sorted(set().union(*by_tooth))
     return {
         "roll_angle": [position.roll_angle for position in positions],
         "mesh_stiffness": [position.stiffness for position in positions],
         "transmission_error": [position.transmission_error for position in positions],
         "pairs": pairs,
-        "load_share": shares,
-        "contact_pressure": pressures,
+        "load_share": [[of[pair].share if pair in of else 0.0 for pair in pairs] for of in by_tooth],
+        "contact_pressure": [[_pressure(of[pair]) if pair in of else 0.0 for pair in pairs] for of in by_tooth],
         "root_stress_pinion": [position.tension[0].stress for position in positions],
         "root_stress_wheel": [position.tension[1].stress for position in positions],
         "root_compression_pinion": [position.compression[0].stress for position in positions],
         "root_compression_wheel": [position.compression[1].stress for position in positions],
     }
+
+
+def _pressure(contact: PairContact | SolidContact) -> float | None:
+    inside = contact.interior.any() if isinstance(contact, SolidContact) else contact.interior
+    return contact.peak_pressure if inside else None

@@ -1,4 +1,4 @@
-"""The comparisons of a check: gates that decide, and references with a band that inform."""
+"""The comparisons of a check in the plane: gates that decide, and references with a band that inform."""
 
 from __future__ import annotations
 
@@ -6,34 +6,29 @@ from collections.abc import Iterator
 
 from gearcad.check.comparison import Comparison, Role, against, at_most
 from gearcad.check.convergence import LEAST_ORDER, Convergence
-from gearcad.check.options import CheckOptions
-from gearcad.check.summary import Summary
+from gearcad.check.result import Task
+from gearcad.check.summary import PlaneSummary, Summary
 from gearcad.fea.cycle import Cycle, PairContact
-from gearcad.material import Material
-from gearcad.rating import Rating
 
-__all__ = ["compare"]
+__all__ = ["REACTION", "compare_plane", "material_limits", "standards"]
+
+REACTION = 0.005
+"""Torque on a hub against that applied: interpolation between unit loads, not equilibrium, makes up what is missing."""
 
 _HERTZ = 0.01
-_REACTION = 0.005
 _DISCRETISATION = 0.01
 
 
-def compare(
-    cycle: Cycle,
-    summary: Summary,
-    convergence: tuple[Convergence, ...],
-    rating: Rating,
-    material: Material,
-    options: CheckOptions,
+def compare_plane(
+    task: Task, cycle: Cycle, summary: PlaneSummary, convergence: tuple[Convergence, ...]
 ) -> tuple[Comparison, ...]:
     """All comparisons, gates first."""
     return (
         *_hertz(cycle),
         *_reactions(cycle),
         *_errors(convergence),
-        *_limits(summary, material),
-        *_standards(summary, rating, options),
+        *material_limits(task, summary),
+        *standards(task, summary),
     )
 
 
@@ -69,7 +64,7 @@ def _reactions(cycle: Cycle) -> Iterator[Comparison]:
         applied = force * body.flank.base_radius
         worst = max(reactions, key=lambda reaction: abs(reaction - applied))
         source = "equilibrium: the torque that is applied through the teeth"
-        yield against(f"torque reaction of the {owner}", worst, applied, _REACTION, "N·m", source, Role.GATE)
+        yield against(f"torque reaction of the {owner}", worst, applied, REACTION, "N·m", source, Role.GATE)
 
 
 def _errors(convergence: tuple[Convergence, ...]) -> Iterator[Comparison]:
@@ -86,13 +81,18 @@ def _errors(convergence: tuple[Convergence, ...]) -> Iterator[Comparison]:
         )
 
 
-def _limits(summary: Summary, material: Material) -> Iterator[Comparison]:
+def material_limits(task: Task, summary: Summary) -> Iterator[Comparison]:
     """What the material gives a limit for."""
-    pressure = "the greatest away from the corners of the flanks"
+    material = task.material
     for words, value, limit, note in (
-        ("contact pressure", summary.contact_pressure, material.contact_limit, pressure),
-        ("root stress, pinion", summary.root_tension[0], material.root_limit, "tension"),
-        ("root stress, wheel", summary.root_tension[1], material.root_limit, "tension"),
+        (
+            "contact pressure",
+            summary.contact_pressure,
+            material.contact_limit,
+            "the greatest away from the corners of the flanks",
+        ),
+        ("root stress, pinion", summary.root_tension.pinion, material.root_limit, "tension"),
+        ("root stress, wheel", summary.root_tension.wheel, material.root_limit, "tension"),
         (
             "von Mises stress below the flank",
             summary.von_mises,
@@ -107,11 +107,11 @@ def _limits(summary: Summary, material: Material) -> Iterator[Comparison]:
             yield at_most(words, value, limit, "MPa", f"limit of {material.name}", note)
 
 
-def _standards(summary: Summary, rating: Rating, options: CheckOptions) -> Iterator[Comparison]:
-    """The FE against ISO 6336, with a band for what the two leave out differently."""
-    root, stiffness = options.root_band / 100, options.stiffness_band / 100
+def standards(task: Task, summary: Summary) -> Iterator[Comparison]:
+    """Root stress and stiffness against ISO 6336, with a band for what the two leave out differently."""
+    root, stiffness = task.options.root_band / 100, task.options.stiffness_band / 100
     sharing = "ISO puts the whole load on one pair of teeth at its outer point; the FE shares it, and sees the true fillet"
-    for owner, value, reference in zip(("pinion", "wheel"), summary.root_tension, rating.root_stresses, strict=True):
+    for owner, value, reference in zip(("pinion", "wheel"), summary.root_tension, task.rating.root_stresses, strict=True):
         source = "sigma_F0, ISO 6336-3:2006 Method B"
         yield against(f"root stress, {owner}", value, reference, root, "MPa", source, Role.INFORMATION, sharing)
     body = "ISO's discs are stiffer or softer than this body; see how the bodies are held"
@@ -119,9 +119,9 @@ def _standards(summary: Summary, rating: Rating, options: CheckOptions) -> Itera
         (
             "mean mesh stiffness",
             summary.mesh_stiffness_mean,
-            rating.stiffness.mesh_alpha,
+            task.rating.stiffness.mesh_alpha,
             "c_gamma_alpha, ISO 6336-1:2006 Method B",
         ),
-        ("single stiffness", summary.single_stiffness, rating.stiffness.single, "c', ISO 6336-1:2006 Method B"),
+        ("single stiffness", summary.single_stiffness, task.rating.stiffness.single, "c', ISO 6336-1:2006 Method B"),
     ):
         yield against(words, value, reference, stiffness, "N/(mm µm)", source, Role.INFORMATION, body)

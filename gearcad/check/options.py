@@ -3,29 +3,54 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 
-from gearcad.errors import ParameterError, as_choice, plain_numbers, require_number, require_whole
+from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_number, require_whole
 from gearcad.fea.chain import Cuts
 from gearcad.fea.elasticity import Plane
 from gearcad.fea.flexible_pair import BodyModel
+from gearcad.geometry import GearPair
 
-__all__ = ["CheckOptions"]
+__all__ = ["CheckOptions", "Model"]
 
 _PLANES = {"strain": Plane.STRAIN, "stress": Plane.STRESS}
+_AUTO = "auto"
+
+_LEAST_POSITIONS = 12
+
+
+class Model(Enum):
+    """What the gears are to the finite elements."""
+
+    PLANE = "2d"
+    """A section through the middle of the common face width."""
+
+    SOLID = "3d"
+    """Bodies over their face widths, in contact along lines."""
+
+
+_POSITIONS = {Model.PLANE: 60, Model.SOLID: 24}
 
 
 @dataclass(frozen=True, kw_only=True)
 class CheckOptions:
     """Options of the structural check. Raises ParameterError.
 
-    `plane` is "strain" (wide gears) or "stress"; `positions` over one base pitch; `body_teeth` of each body, 0 for the full
-    ring, and what holds its `cuts`: "fixed", "sliding" or "free". `pinion_inner_diameter`, `wheel_inner_diameter` (mm):
-    where the bodies are held, instead of the bore or 4 m_n below the root circle. `torques` (N·m on the pinion) of the
-    sweep, () for five up to the load's. `root_band` and `stiffness_band` (%): how far the FE may be from ISO 6336.
+    `model` is "2d", "3d", or "auto": solid bodies for helical gears, a plane for spur gears. `positions` over one base pitch,
+    0 for the model's own number (60 in the plane, 24 of solids); `refinement` makes the edges of all elements that many times
+    shorter; `convergence` False leaves out the other meshes, and with them the estimate of the error. `body_teeth` of each
+    body, 0 for the full ring, and what holds its `cuts`: "fixed", "sliding" or "free". `pinion_inner_diameter`,
+    `wheel_inner_diameter` (mm): where the bodies are held, instead of the bore or 4 m_n below the root circle. `torques` (N·m
+    on the pinion) of the sweep, () for five up to the load's. `root_band`, `stiffness_band` and `contact_band` (%): how far
+    root stress, stiffness, and load and stress along the lines of contact may be from ISO 6336. `plane` is "strain" (wide
+    gears) or "stress": of the plane model only, as `contact_band` is of the solid one.
     """
 
+    model: str = _AUTO
     plane: str = "strain"
-    positions: int = 60
+    positions: int = 0
+    refinement: float = 1.0
+    convergence: bool = True
     body_teeth: int = 0
     cuts: str = "fixed"
     pinion_inner_diameter: float | None = None
@@ -33,13 +58,20 @@ class CheckOptions:
     torques: tuple[float, ...] = ()
     root_band: float = 25.0
     stiffness_band: float = 25.0
+    contact_band: float = 25.0
 
     def __post_init__(self) -> None:
         plain_numbers(self)
+        if self.model not in (_AUTO, *(model.value for model in Model)):
+            raise ParameterError("model", self.model, 'must be "2d", "3d" or "auto"')
         if self.plane not in _PLANES:
             raise ParameterError("plane", self.plane, 'must be "strain" or "stress"')
+        if not isinstance(self.convergence, bool):
+            raise ParameterError("convergence", self.convergence, "must be true or false")
         as_choice("cuts", self.cuts, Cuts)
-        require_whole("positions", self.positions, at_least=12, at_most=1000)
+        if self.positions != 0:
+            require_whole("positions", self.positions, at_least=_LEAST_POSITIONS, at_most=1000)
+        require_number("refinement", self.refinement, at_least=0.25, at_most=4)
         if self.body_teeth != 0:
             require_whole("body_teeth", self.body_teeth, at_least=3, at_most=999)
             if self.body_teeth % 2 == 0:
@@ -51,8 +83,22 @@ class CheckOptions:
         for torque in torques:
             require_number("torques", torque, "N·m", above=0)
         object.__setattr__(self, "torques", tuple(float(torque) for torque in torques))
-        for name in ("root_band", "stiffness_band"):
+        for name in ("root_band", "stiffness_band", "contact_band"):
             require_number(name, getattr(self, name), "%", above=0)
+
+    def model_for(self, pair: GearPair) -> Model:
+        """The model of a pair. Raises GeometryError for helical gears in a plane."""
+        helix = pair.pinion.helix_angle
+        if self.model == _AUTO:
+            return Model.SOLID if helix else Model.PLANE
+        if helix and self.model == Model.PLANE.value:
+            permitted = "must be 0 for model 2d: the lines of contact of helical teeth run across the flank, as in model 3d"
+            raise GeometryError("pair.helix_angle", helix, permitted, "deg")
+        return Model(self.model)
+
+    def positions_of(self, model: Model) -> int:
+        """Positions over one base pitch."""
+        return self.positions or _POSITIONS[model]
 
     @property
     def plane_state(self) -> Plane:

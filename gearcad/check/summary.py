@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -10,20 +11,39 @@ import numpy as np
 from gearcad.fea.cycle import Cycle, pitch_point_contact
 from gearcad.fea.stress_field import contact_frame, tooth_field
 from gearcad.fea.subsurface import greatest_von_mises
+from gearcad.ltca.solid_cycle import SolidCycle
 
-__all__ = ["Figures", "Summary", "figures", "summarise"]
+__all__ = ["Figures", "OfGears", "PlaneSummary", "Summary", "by_name", "common_summary", "figures", "summarise"]
 
 _NEAR = 2.0
 """Half widths around a contact within which the stress below it is greatest."""
 
 
+class OfGears(NamedTuple):
+    """A quantity of both gears."""
+
+    pinion: float
+    wheel: float
+
+
+def by_name(values: Mapping[str, Any]) -> dict[str, Any]:
+    """As `check.json` has it: what both gears have gets a name for each, `root_tension_pinion`."""
+    document: dict[str, Any] = {}
+    for name, value in values.items():
+        if isinstance(value, OfGears):
+            document |= {f"{name}_{gear}": of for gear, of in value._asdict().items()}
+        else:
+            document[name] = value
+    return document
+
+
 @dataclass(frozen=True, kw_only=True)
 class Summary:
-    """Stiffness in N/(mm µm) of common face width, stresses in MPa, half width in mm, transmission error in µm.
+    """What every model tells: stiffness in N/(mm µm) of common face width, stresses in MPa, transmission error in µm.
 
-    `contact_pressure` is the greatest away from the ends of the flanks, `von_mises` the greatest below that contact, and
-    `von_mises_half_plane` what its pressures alone would make in a half-plane. `corner_positions` counts positions where
-    a tip corner touches, whose pressure is not told.
+    `contact_pressure` is the greatest away from the edges of the flanks, `von_mises` the greatest below that contact,
+    `von_mises_depth` (mm) below the flank. `corner_positions` counts positions where the edge of a tip touches, whose pressure
+    is not told. At the pitch point: pressure, half width (mm), and share of the load that the pair of teeth carries.
     """
 
     mesh_stiffness_mean: float
@@ -37,20 +57,20 @@ class Summary:
     share_pitch_point: float
     von_mises: float
     von_mises_depth: float
-    von_mises_half_plane: float
-    root_tension: tuple[float, float]
-    root_compression: tuple[float, float]
+    root_tension: OfGears
+    root_compression: OfGears
     corner_positions: int
 
     def to_dict(self) -> dict[str, Any]:
         """As `check.json` has it."""
-        document: dict[str, Any] = {}
-        for name, value in vars(self).items():
-            if isinstance(value, tuple):
-                document |= {f"{name}_{gear}": one for gear, one in zip(("pinion", "wheel"), value, strict=True)}
-            else:
-                document[name] = value
-        return document
+        return by_name(vars(self))
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaneSummary(Summary):
+    """That of a plane cycle; `von_mises_half_plane` is what the pressures alone would make in a half-plane."""
+
+    von_mises_half_plane: float
 
 
 class Figures(NamedTuple):
@@ -58,38 +78,45 @@ class Figures(NamedTuple):
 
     mesh_stiffness: float
     contact_pressure: float
-    root_tension: tuple[float, float]
+    root_tension: OfGears
 
 
-def figures(cycle: Cycle) -> Figures:
+def figures(cycle: Cycle | SolidCycle) -> Figures:
     """Mean mesh stiffness, greatest interior pressure and root tensions of a cycle."""
     _, worst = cycle.worst_contact
-    tension = [max(position.tension[gear].stress for position in cycle.positions) for gear in (0, 1)]
-    return Figures(float(cycle.values("stiffness").mean()), worst.peak_pressure, (tension[0], tension[1]))
+    tension = OfGears(*(cycle.worst_position(gear).tension[gear].stress for gear in (0, 1)))
+    return Figures(float(cycle.values("stiffness").mean()), worst.peak_pressure, tension)
 
 
-def summarise(cycle: Cycle, single: float) -> Summary:
-    """Summarise a cycle; `single` is the stiffness of one pair of teeth alone."""
+def common_summary(cycle: Cycle | SolidCycle, single: float) -> dict[str, Any]:
+    """Fields of a Summary that are found in every model alike; `single` is the stiffness of one pair of teeth alone."""
     stiffness, error = cycle.values("stiffness"), cycle.values("transmission_error")
-    at_pitch = pitch_point_contact(cycle.model, cycle.torque)
     few = figures(cycle)
+    compression = (min(position.compression[gear].stress for position in cycle.positions) for gear in (0, 1))
+    return {
+        "mesh_stiffness_mean": few.mesh_stiffness,
+        "mesh_stiffness_max": float(stiffness.max()),
+        "mesh_stiffness_min": float(stiffness.min()),
+        "single_stiffness": single,
+        "transmission_error_peak_to_peak": float(np.ptp(error)),
+        "contact_pressure": few.contact_pressure,
+        "root_tension": few.root_tension,
+        "root_compression": OfGears(*compression),
+    }
+
+
+def summarise(cycle: Cycle, single: float) -> PlaneSummary:
+    """Summarise a plane cycle; `single` is the stiffness of one pair of teeth alone."""
+    at_pitch = pitch_point_contact(cycle.model, cycle.torque)
     mises, depth = max(_below(cycle, gear) for gear in (0, 1))
-    compression = [min(position.compression[gear].stress for position in cycle.positions) for gear in (0, 1)]
-    return Summary(
-        mesh_stiffness_mean=few.mesh_stiffness,
-        mesh_stiffness_max=float(stiffness.max()),
-        mesh_stiffness_min=float(stiffness.min()),
-        single_stiffness=single,
-        transmission_error_peak_to_peak=float(np.ptp(error)),
-        contact_pressure=few.contact_pressure,
+    return PlaneSummary(
+        **common_summary(cycle, single),
         contact_pressure_pitch_point=at_pitch.peak_pressure,
         half_width_pitch_point=at_pitch.half_width,
         share_pitch_point=at_pitch.share,
         von_mises=mises,
         von_mises_depth=depth,
         von_mises_half_plane=_half_plane(cycle),
-        root_tension=few.root_tension,
-        root_compression=(compression[0], compression[1]),
         corner_positions=sum(any(contact.edge_distance < 0 for contact in position.contacts) for position in cycle.positions),
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,11 +11,9 @@ import click
 from gearcad.check.comparison import Role
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.progress import file_progress
-from gearcad.errors import ParameterError
 
 if TYPE_CHECKING:
-    from gearcad.check.run import CheckResult
-    from gearcad.rating import Rating
+    from gearcad.check.result import CheckResult
     from gearcad.spec.design import Design
 
 __all__ = ["check"]
@@ -26,28 +25,26 @@ _WIDE = 130
 @click.command(short_help="Check the strength of SPEC's pair by finite elements.")
 @spec_argument
 @click.option("-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/NAME]")
-@click.option("--model", type=click.Choice(["2d", "3d"]), default="2d", show_default=True, help="Plane or solid bodies.")
+@click.option("--model", type=click.Choice(["2d", "3d"]), help="Plane or solid bodies.  [default: 3d for helical gears]")
 @click.option("--json", "as_json", is_flag=True, help="Print the document of check.json and nothing else.")
 @click.option("--quiet", is_flag=True, help="No progress on the screen.")
 @debug_option
-def check(spec: Path, output: Path | None, model: str, as_json: bool, quiet: bool) -> None:
+def check(spec: Path, output: Path | None, model: str | None, as_json: bool, quiet: bool) -> None:
     """Check the pair of SPEC under its [load]: contact and root stress by finite elements, beside Hertz and ISO 6336.
 
-    Writes check.json and report.html. Exit status 1 if a gate is not passed; [check] in SPEC sets body, torques and bands.
+    Writes check.json and report.html, and for solid bodies the stresses in the loaded teeth (stress_*.vtu). Exit status 1 if a
+    gate is not passed; [check] in SPEC sets model, body, torques and bands.
     """
     from gearcad.assess import assess
     from gearcad.check.document import check_document
-    from gearcad.material import Material
+    from gearcad.check.options import CheckOptions
     from gearcad.output import json_text, staged_files
-    from gearcad.rating import rate
     from gearcad.report import write_report
     from gearcad.spec import read_spec
 
-    if model == "3d":
-        raise ParameterError("model", model, "must be 2d: the solid model is not there yet")
     design = read_spec(spec)
-    if design.pair is not None and design.load is not None and design.pair.pinion.helix_angle and not as_json:
-        _print_rating(design, rate(design.pair, design.material or Material(), design.load))
+    if model is not None:
+        design = replace(design, check=replace(design.check or CheckOptions(), model=model))
     with file_progress(shown=not quiet) as progress:
         result = assess(design, progress)
     document = check_document(result)
@@ -55,13 +52,25 @@ def check(spec: Path, output: Path | None, model: str, as_json: bool, quiet: boo
     with staged_files(folder) as staging:
         (staging / "check.json").write_text(json_text(document), encoding="utf-8")
         write_report(result, design.name, staging / "report.html")
+        _write_fields(result, staging)
+        files = sorted(file.name for file in staging.iterdir())
     if as_json:
         click.echo(json_text(document), nl=False)
     else:
         _print_verdict(design, result)
-        click.echo("".join(f"{folder / file}\n" for file in ("check.json", "report.html")), nl=False)
+        click.echo("".join(f"{folder / file}\n" for file in files), nl=False)
     if not result.passed:
         click.get_current_context().exit(1)
+
+
+def _write_fields(result: CheckResult, folder: Path) -> None:
+    """Stresses of the most stressed tooth of each gear, where the bodies are solid."""
+    from gearcad.check.result import SolidCheck
+    from gearcad.ltca.solid_field import worst_field, write_vtu
+
+    if isinstance(result, SolidCheck):
+        for gear, name in enumerate(("pinion", "wheel")):
+            write_vtu(worst_field(result.cycle, gear), folder / f"stress_{name}.vtu")
 
 
 def _print_verdict(design: Design, result: CheckResult) -> None:
@@ -81,7 +90,7 @@ def _print_verdict(design: Design, result: CheckResult) -> None:
         figures = (f"{each.computed:.5g}", f"{each.reference:.5g}", each.unit, f"{100 * each.deviation:+.2f} %", permitted)
         lines.append((_line(word, each.quantity, *figures, each.source.split(":")[0] if wide else ""), style))
     lines += [(f"Warning: {warning}", "yellow") for warning in result.warnings]
-    torque = result.load.torque * result.load.application_factor
+    torque = result.torque
     verdict = "passed" if result.passed else "NOT passed"
     lines.append((f"{design.name} at {torque:g} N·m: {verdict}", "bold green" if result.passed else "bold red"))
     for text, style in lines:
@@ -93,21 +102,3 @@ def _line(
     word: str, quantity: str, computed: str, reference: str, unit: str, deviation: str, permitted: str, source: str
 ) -> str:
     return f"{word:<8}{quantity:<43}{computed:>10}{reference:>10} {unit:<10}{deviation:>9} {permitted:>9}  {source}".rstrip()
-
-
-def _print_rating(design: Design, rating: Rating) -> None:
-    """The rating by ISO 6336: a symbol a line, those of one gear in two columns."""
-    from gearcad import symbols
-
-    document = rating.to_dict()
-    pinion, wheel = document.pop("pinion"), document.pop("wheel")
-    lines = [f"{design.name}: rating by {document.pop('edition')}, Method B"]
-    warnings = document.pop("warnings")
-    both = {symbol: (value,) for symbol, value in document.items()} | {
-        symbol: (pinion[symbol], wheel[symbol]) for symbol in pinion
-    }
-    for symbol, values in both.items():
-        words = symbols.RATING[symbol] if symbol in symbols.RATING else symbols.Symbol(symbol, "", "", "")
-        figures = "".join(f"{value:>12.5g}" if isinstance(value, float | int) else f"{value!s:>12}" for value in values)
-        lines.append(f"  {words.words:<44}{symbol:<22}{words.unit:<10}{figures}")
-    click.echo("\n".join([*lines, *(f"Warning: {warning}" for warning in warnings)]))

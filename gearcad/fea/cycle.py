@@ -39,6 +39,11 @@ class PairContact:
     even_distance: float
 
     @property
+    def tooth(self) -> int:
+        """Tooth of the pinion, 0 is the middle one."""
+        return self.pair.tooth
+
+    @property
     def peak_pressure(self) -> float:
         """Greatest cell pressure."""
         return float(self.pressures.max())

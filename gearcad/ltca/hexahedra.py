@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 from gearcad.ltca.swept import SweptMesh, turned
 from gearcad.material import Material
 
-__all__ = ["lame", "layer_matrices", "stiffness_matrices"]
+__all__ = ["PLACES", "lame", "layer_matrices", "slopes_at", "stiffness_matrices"]
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _CORNERS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
 _MIDDLES = np.array([[0.5, 0], [1, 0.5], [0.5, 1], [0, 0.5]])
-_PLACES = np.array(
+PLACES = np.array(
     [
         *([x, y, z] for z in (0.0, 1.0) for x, y in (*_CORNERS, *_MIDDLES)),
         *([x, y, 0.5] for x, y in _CORNERS),
@@ -40,11 +40,18 @@ def _rule() -> _Rule:
     from skfem import ElementHexS2
     from skfem.quadrature import get_quadrature
 
+    places, weights = get_quadrature(ElementHexS2.refdom, _ORDER)
+    return _Rule(slopes_at(places), weights)
+
+
+def slopes_at(places: Floats) -> Floats:
+    """Slopes (n, 20, 3) of the shape functions at places (3, n) in the unit cube."""
+    from skfem import ElementHexS2
+
     element = ElementHexS2()
-    places, weights = get_quadrature(element.refdom, _ORDER)
-    index = [int(np.argmin(np.abs(element.doflocs - place).sum(axis=1))) for place in _PLACES]
-    slopes = np.stack([element.lbasis(places, k)[1] for k in index])
-    return _Rule(slopes.transpose(2, 0, 1), weights)
+    index = [int(np.argmin(np.abs(element.doflocs - place).sum(axis=1))) for place in PLACES]
+    slopes: Floats = np.stack([element.lbasis(places, k)[1] for k in index])
+    return slopes.transpose(2, 0, 1)
 
 
 def lame(material: Material) -> tuple[float, float]:

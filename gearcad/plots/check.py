@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.check.run import CheckResult
+from gearcad.check.result import CheckResult, PlaneCheck
 from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, legend_above, prepared
 
 if TYPE_CHECKING:
@@ -15,20 +15,28 @@ if TYPE_CHECKING:
 
     from gearcad.fea.cycle import PairContact
 
-__all__ = ["plot_contact_pressure", "plot_load_share", "plot_mesh_stiffness", "plot_root_stress", "plot_transmission_error"]
+__all__ = [
+    "PATH",
+    "mark_path",
+    "plot_contact_pressure",
+    "plot_load_share",
+    "plot_mesh_stiffness",
+    "plot_root_stress",
+    "plot_transmission_error",
+]
 
 Floats = NDArray[np.float64]
 
-_PATH = "place on the line of action, from T$_1$, in mm"
+PATH = "place on the line of action, from T$_1$, in mm"
 _ROLL = "roll angle of the pinion in °, 0 at the pitch point"
 
 
-def plot_contact_pressure(result: CheckResult, ax: Axes | None = None) -> Axes:
+def plot_contact_pressure(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     """Peak pressure of every pair of teeth along the path of contact, beside Hertz's under the load that the pair carries.
 
     Near the ends of the flanks there is no line: there the pressure is that of an edge. Contact of a corner is marked below.
     """
-    axes = prepared(ax, _PATH, "peak pressure in MPa")
+    axes = prepared(ax, PATH, "peak pressure in MPa")
     contacts = _along_path(result)
     lengths = np.array([contact.pair.pinion for contact in contacts])
     inside = np.array([contact.interior for contact in contacts])
@@ -47,14 +55,14 @@ def plot_contact_pressure(result: CheckResult, ax: Axes | None = None) -> Axes:
             across = axes.get_xaxis_transform()
             axes.plot(lengths[places], height + 0.03, marker, color=DARK, markersize=5, transform=across, label=words)
     draw_limit(axes, result.material.contact_limit)
-    _mark_path(axes, result)
+    mark_path(axes, result)
     legend_above(axes, 3)
     return axes
 
 
-def plot_load_share(result: CheckResult, ax: Axes | None = None) -> Axes:
+def plot_load_share(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     """Part of the load that a pair of teeth carries along the path of contact, contact of corners beyond it included."""
-    axes = prepared(ax, _PATH, "share of the load")
+    axes = prepared(ax, PATH, "share of the load")
     contacts = _along_path(result)
     lengths = np.array([contact.pair.pinion for contact in contacts])
     shares = np.array([contact.share for contact in contacts])
@@ -63,7 +71,7 @@ def plot_load_share(result: CheckResult, ax: Axes | None = None) -> Axes:
     if corner.any():
         axes.plot(lengths[corner], shares[corner], "x", color=DARK, markersize=5, label="a corner touches")
     axes.set_ylim(0, 1.05)
-    _mark_path(axes, result)
+    mark_path(axes, result)
     legend_above(axes, 2)
     return axes
 
@@ -115,13 +123,13 @@ def plot_root_stress(result: CheckResult, ax: Axes | None = None) -> Axes:
     return axes
 
 
-def _along_path(result: CheckResult) -> list[PairContact]:
+def _along_path(result: PlaneCheck) -> list[PairContact]:
     """All contacts of the cycle in the order in which one pair of teeth goes through them."""
     contacts = [contact for position in result.cycle.positions for contact in position.contacts]
     return sorted(contacts, key=lambda contact: contact.pair.pinion)
 
 
-def _mark_path(axes: Axes, result: CheckResult) -> None:
+def mark_path(axes: Axes, result: CheckResult) -> None:
     """The points A to E of the path of contact, by name."""
     across = axes.get_xaxis_transform()
     for name, place in result.pair.path_of_contact._asdict().items():

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.check.run import CheckResult
+from gearcad.check.result import PlaneCheck
 from gearcad.fea.cycle import root_loads
 from gearcad.fea.elasticity import Plane
 from gearcad.fea.root import Fillets
@@ -53,14 +53,14 @@ _LEAST_ANGLE, _ISO_ANGLE = 20.0, 30.0
 """Tangent angles (deg) from which on a fillet is the root, and where ISO 6336-3 looks."""
 
 
-def worst_fields(result: CheckResult) -> list[ToothField]:
+def worst_fields(result: PlaneCheck) -> list[ToothField]:
     """Stresses in three teeth of each gear at the position of the greatest pressure away from corners."""
     position, contact = result.cycle.worst_contact
     teeth = range(contact.pair.tooth - 1, contact.pair.tooth + 2)
     return [tooth_field(result.cycle, position, gear, tooth) for gear in (0, 1) for tooth in teeth]
 
 
-def plot_stress_field(result: CheckResult, ax: Axes | None = None, fields: list[ToothField] | None = None) -> Axes:
+def plot_stress_field(result: PlaneCheck, ax: Axes | None = None, fields: list[ToothField] | None = None) -> Axes:
     """Von Mises stress of both gears in mesh; colours end a little above the greatest of the fillets.
 
     `fields` are those of `worst_fields`, if they are at hand.
@@ -72,7 +72,7 @@ def plot_stress_field(result: CheckResult, ax: Axes | None = None, fields: list[
     return _plot_field(result, ax, fields, _TEETH_SHOWN * module, _OVER * most, ((0.12, 0.5), (0.88, 0.5)))
 
 
-def plot_contact_zone(result: CheckResult, ax: Axes | None = None, fields: list[ToothField] | None = None) -> Axes:
+def plot_contact_zone(result: PlaneCheck, ax: Axes | None = None, fields: list[ToothField] | None = None) -> Axes:
     """Von Mises stress around the contact of `plot_stress_field`, some half widths wide."""
     _, contact = result.cycle.worst_contact
     fields = worst_fields(result) if fields is None else fields
@@ -81,7 +81,7 @@ def plot_contact_zone(result: CheckResult, ax: Axes | None = None, fields: list[
 
 
 def _plot_field(
-    result: CheckResult, ax: Axes | None, fields: list[ToothField], reach: float, most: float, names: tuple[_Place, _Place]
+    result: PlaneCheck, ax: Axes | None, fields: list[ToothField], reach: float, most: float, names: tuple[_Place, _Place]
 ) -> Axes:
     """Fields within `reach` (mm) of the worst contact, colours up to `most` (MPa), the gears' names at parts of the axes."""
     axes = new_figure().subplots() if ax is None else ax
@@ -104,7 +104,7 @@ def _plot_field(
     return axes
 
 
-def fillet_curve(result: CheckResult, gear: int, side: Side) -> tuple[Floats, Floats]:
+def fillet_curve(result: PlaneCheck, gear: int, side: Side) -> tuple[Floats, Floats]:
     """Tangent angles (deg) and stresses (MPa) along a fillet of the most stressed tooth when its gear's tension is greatest."""
     body = (result.cycle.model.pinion, result.cycle.model.wheel)[gear]
     fillets = Fillets(body)
@@ -115,7 +115,7 @@ def fillet_curve(result: CheckResult, gear: int, side: Side) -> tuple[Floats, Fl
     return angles[order], fillets.stresses(side, worst)[order]
 
 
-def plot_fillets(result: CheckResult, ax: Axes | None = None) -> Axes:
+def plot_fillets(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     """Stress along both fillets of each gear at its worst position, over the tangent's angle to the middle of the tooth."""
     axes = prepared(ax, "tangent angle, from the middle of the tooth, in °", "stress along the fillet in MPa")
     for gear, (words, colour, marker) in enumerate(GEARS):
@@ -132,7 +132,7 @@ def plot_fillets(result: CheckResult, ax: Axes | None = None) -> Axes:
     return axes
 
 
-def plot_depth_profile(result: CheckResult, ax: Axes | None = None) -> Axes:
+def plot_depth_profile(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     """Stresses below the middle of the worst contact by the pressures found (lines), and by Hertz (dots)."""
     axes = prepared(ax, "depth below the flank in mm", "stress in MPa")
     _, contact = result.cycle.worst_contact
@@ -158,7 +158,7 @@ _DEPTH_WORDS = {
 """Stresses of a depth profile as the legend has them."""
 
 
-def depth_stresses(result: CheckResult, contact: PairContact, depth: Floats) -> Stresses:
+def depth_stresses(result: PlaneCheck, contact: PairContact, depth: Floats) -> Stresses:
     """Stresses of a half-plane below the centre of the pressures of a contact, in the directions of `Stresses`."""
     cells = contact.pair.cells
     middle = float((cells.place * contact.pressures).sum() / contact.pressures.sum())
@@ -170,7 +170,7 @@ def depth_stresses(result: CheckResult, contact: PairContact, depth: Floats) -> 
     return Stresses(depth, across, along, down, largest, mises)
 
 
-def hertz_contact(result: CheckResult, contact: PairContact) -> LineContact:
+def hertz_contact(result: PlaneCheck, contact: PairContact) -> LineContact:
     """Two cylinders of the curvature of the flanks under the load of a contact."""
     return LineContact(
         load_per_width=contact.force,
@@ -180,6 +180,6 @@ def hertz_contact(result: CheckResult, contact: PairContact) -> LineContact:
     )
 
 
-def _poisson_ratio(result: CheckResult) -> float:
+def _poisson_ratio(result: PlaneCheck) -> float:
     """That of sigma_y: in plane stress there is none."""
     return result.material.poisson_ratio if result.options.plane_state is Plane.STRAIN else 0.0

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.check.run import CheckResult
+from gearcad.check.result import CheckResult
 from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, legend_above, prepared, short
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from gearcad import symbols
-from gearcad.check.run import CheckResult
+from gearcad.check.result import CheckResult
 
 __all__ = ["Row", "gear_rows", "load_rows", "pair_rows", "rating_rows"]
 

@@ -8,11 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 from gearcad import __version__
 from gearcad.check.comparison import Comparison, Role
-from gearcad.check.run import CheckResult
+from gearcad.check.convergence import SOLID_ORDER
+from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
 from gearcad.plots.paper import short
 from gearcad.report.figures import make_figures
-from gearcad.report.reasons import root_reasons, stiffness_reasons
+from gearcad.report.reasons import stiffness_reasons
+from gearcad.report.reasons_plane import plane_root_reasons
+from gearcad.report.reasons_solid import face_reasons, solid_root_reasons
 from gearcad.report.tables import gear_rows, load_rows, pair_rows, rating_rows
+from gearcad.report.views import tooth_views
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -27,12 +31,14 @@ def write_report(result: CheckResult, design_name: str, path: Path) -> None:
 
 def report_html(result: CheckResult, design_name: str) -> str:
     """The report as one HTML document without links: pictures and styles are inside."""
-    from jinja2 import Environment, StrictUndefined
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=StrictUndefined)
+    loader = FileSystemLoader(_templates())
+    environment = Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=StrictUndefined)
     environment.filters |= {"short": short, "indexed": _indexed}
-    template = environment.from_string(_template().read_text(encoding="utf-8"))
-    return template.render(name=design_name, version=__version__, result=result, **_sections(result))
+    return environment.get_template("report.html").render(
+        name=design_name, version=__version__, result=result, **_sections(result)
+    )
 
 
 def _indexed(text: str) -> Markup:
@@ -42,19 +48,18 @@ def _indexed(text: str) -> Markup:
     return Markup(re.sub(r"_([^\s*/,;)]+)", r"<sub>\1</sub>", str(escape(text))))
 
 
-def _template() -> Path:
+def _templates() -> Path:
     """The wheel carries the templates inside the package; a checkout has them beside it."""
     package = Path(__file__).parent.parent
     installed = package / "templates"
-    return (installed if installed.is_dir() else package.parent / "templates") / "report.html"
+    return installed if installed.is_dir() else package.parent / "templates"
 
 
 def _sections(result: CheckResult) -> dict[str, Any]:
     gates = [each for each in result.comparisons if each.role is Role.GATE]
     information = [each for each in result.comparisons if each.role is Role.INFORMATION]
-    model = result.cycle.model
     return {
-        "torque": result.load.torque * result.load.application_factor,
+        "torque": result.torque,
         "gates": [_row(each) for each in gates],
         "information": [_row(each) for each in information],
         "failed": [_row(each) for each in gates if not each.passed],
@@ -64,11 +69,31 @@ def _sections(result: CheckResult) -> dict[str, Any]:
         "load_rows": load_rows(result),
         "rating_rows": rating_rows(result),
         "figures": make_figures(result),
-        "root_reasons": root_reasons(result),
+        "views": tooth_views(result),
         "stiffness_reasons": stiffness_reasons(result),
-        "plane": result.options.plane_state.value,
-        "nodes": [len(body.ring.sector.mesh.points) for body in (model.pinion, model.wheel)],
-        "places": [len(body.loads) for body in (model.pinion, model.wheel)],
+        **_of_model(result),
+    }
+
+
+def _of_model(result: CheckResult) -> dict[str, Any]:
+    """What the models tell differently."""
+    if isinstance(result, SolidCheck):
+        solids = (result.cycle.model.pinion, result.cycle.model.wheel)
+        return {
+            "solid": True,
+            "solid_order": SOLID_ORDER,
+            "root_reasons": solid_root_reasons(result),
+            "face_reasons": face_reasons(result),
+            "nodes": [body.body.sector.mesh.nodes for body in solids],
+            "places": [len(body.torques) for body in solids],
+        }
+    assert isinstance(result, PlaneCheck)  # there are two
+    bodies = (result.cycle.model.pinion, result.cycle.model.wheel)
+    return {
+        "solid": False,
+        "root_reasons": plane_root_reasons(result),
+        "nodes": [len(body.ring.sector.mesh.points) for body in bodies],
+        "places": [len(body.loads) for body in bodies],
     }
 
 

@@ -89,17 +89,6 @@ def test_limits_that_are_passed_over_are_exit_status_1_and_json_is_one_document(
     }
 
 
-def test_helical_pair_gets_its_rating_and_no_half_report(here: Path) -> None:
-    result = run("check", str(TEMPLATES / "volvo-13-44.toml"), "--quiet")
-    assert result.exit_code == 2
-    assert "sigma_F0" in result.stdout or "σ_F0" in result.stdout
-    assert result.stderr == (
-        "Error: pair.helix_angle = 28 deg: needs --model 3d, which is not there yet: "
-        "the lines of contact of helical teeth run across the flank\n"
-    )
-    assert list(here.iterdir()) == []
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -122,6 +111,19 @@ def test_helical_pair_gets_its_rating_and_no_half_report(here: Path) -> None:
         (
             SPUR.replace("positions = 12", 'plane = "flat"'),
             'pair.toml line 15: check.plane = \'flat\': must be "strain" or "stress"',
+        ),
+        (
+            SPUR.replace("positions = 12", 'model = "4d"'),
+            'pair.toml line 15: check.model = \'4d\': must be "2d", "3d" or "auto"',
+        ),
+        (
+            SPUR.replace("positions = 12", 'model = "2d"').replace("[pair]", "[pair]\nhelix_angle = 12.0"),
+            "pair.helix_angle = 12 deg: must be 0 for model 2d: "
+            "the lines of contact of helical teeth run across the flank, as in model 3d",
+        ),
+        (
+            SPUR.replace("positions = 12", "convergence = 1"),
+            "pair.toml line 15: check.convergence = 1: must be true or false",
         ),
         (
             SPUR.replace("positions = 12", "postions = 12"),

@@ -12,7 +12,7 @@ from support.checks import NASTY_NAME, small_check
 from gearcad.check.comparison import Role
 from gearcad.plots.paper import short
 from gearcad.report import report_html, write_report
-from gearcad.report.reasons import root_at_single_contact
+from gearcad.report.reasons_plane import root_at_single_contact
 
 _PICTURES = 12
 

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, Body, Gear, GearPair, Material
-from gearcad.check.summary import Summary, summarise
+from gearcad.check.summary import PlaneSummary, summarise
+from gearcad.fea.chain import Cuts
 from gearcad.fea.cycle import Cycle, run_cycle
 from gearcad.fea.elasticity import Plane
 from gearcad.fea.flexible_pair import BodyModel, flexible_pair
-from gearcad.fea.chain import Cuts
 
 TORQUE = 12.7
 TRIAL = 0.015
@@ -49,7 +49,7 @@ def cycle(body: BodyModel | None = None, plane: Plane = Plane.STRAIN, positions:
     return run_cycle(flexible_pair(thesis_pair(), Material(), plane=plane, body=body), TORQUE, positions)
 
 
-def summary(of: Cycle) -> Summary:
+def summary(of: Cycle) -> PlaneSummary:
     return summarise(of, 0.0)
 
 

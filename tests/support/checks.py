@@ -1,20 +1,25 @@
-"""A check to draw and to report: a true mesh cycle of few positions, and a sweep and a convergence that are made up."""
+"""Checks to draw and to report: true mesh cycles of few positions, and sweeps and convergence that are made up."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 
 from gearcad import Body, Gear, GearPair, Load, Material, Mounting
 from gearcad.check.convergence import Convergence
-from gearcad.check.judge import compare
+from gearcad.check.judge import compare_plane
+from gearcad.check.judge_solid import compare_solid
 from gearcad.check.options import CheckOptions
-from gearcad.check.run import CheckResult, SweepPoint
-from gearcad.check.summary import summarise
+from gearcad.check.result import PlaneCheck, SolidCheck, SweepPoint, Task
+from gearcad.check.solid_summary import summarise_solid
+from gearcad.check.summary import OfGears, summarise
 from gearcad.fea.cycle import run_cycle, single_stiffness
 from gearcad.fea.flexible_pair import flexible_pair
-from gearcad.rating import rate
+from gearcad.geometry import FlankModification
+from gearcad.ltca.solid_cycle import run_solid_cycle, solid_single_stiffness
+from support.coarse import coarse_model
 
-__all__ = ["NASTY_NAME", "small_check"]
+__all__ = ["NASTY_NAME", "small_check", "small_solid_check"]
 
 NASTY_NAME = "<script>alert('gear')</script> & \"$x_1$\""
 """A name that would break HTML, and mathtext."""
@@ -23,7 +28,7 @@ _POSITIONS = 16
 
 
 @lru_cache
-def small_check() -> CheckResult:
+def small_check() -> PlaneCheck:
     """FZG's C gears with unequal widths and a limit for contact that they exceed."""
     pinion, wheel = (
         Gear(teeth=teeth, normal_module=4.5, profile_shift=shift, face_width=width, body=Body(bore=30))
@@ -34,27 +39,55 @@ def small_check() -> CheckResult:
     options = CheckOptions(positions=_POSITIONS)
     model = flexible_pair(pair, material)
     cycle = run_cycle(model, load.torque, _POSITIONS)
-    summary, rating = summarise(cycle, single_stiffness(model, load.torque, 5)), rate(pair, material, load)
+    summary = summarise(cycle, single_stiffness(model, load.torque, 5))
     convergence = (
         Convergence("mean mesh stiffness", (15.4, 15.3, 15.2), (0.5, 1.0, 2.0), None, 0.008),
         Convergence("root tension, pinion", (380.0, 374.0, 372.0), (0.5, 1.0, 2.0), 1.58, 0.0081),
         Convergence("root tension, wheel", (360.0, 357.0, 356.0), (0.5, 1.0, 2.0), 1.58, 0.0042),
     )
     sweep = (
-        SweepPoint(302.0, 15.2, 1700.0, (370.0, 350.0), (5.6e5, 9.8e5)),
-        SweepPoint(75.5, 14.5, 850.0, (92.5, 87.5), (5.2e5, 9.2e5)),
+        SweepPoint(302.0, 15.2, 1700.0, OfGears(370.0, 350.0), OfGears(5.6e5, 9.8e5)),
+        SweepPoint(75.5, 14.5, 850.0, OfGears(92.5, 87.5), OfGears(5.2e5, 9.2e5)),
     )
-    return CheckResult(
-        pair=pair,
-        material=material,
-        load=load,
-        mounting=Mounting(),
-        options=options,
+    task = Task(pair=pair, material=material, load=load, mounting=Mounting(), options=options)
+    return PlaneCheck(
+        **task.inputs,
         cycle=cycle,
         summary=summary,
         sweep=sweep,
         convergence=convergence,
-        rating=rating,
-        comparisons=compare(cycle, summary, convergence, rating, material, options),
+        comparisons=compare_plane(task, cycle, summary, convergence),
+        warnings=("a warning with <b>tags</b>",),
+    )
+
+
+@lru_cache
+def small_solid_check() -> SolidCheck:
+    """A coarse helical pair, misaligned and with a crowned pinion, whose root limit the wheel exceeds."""
+    plain, torque = coarse_model("helical"), 120.0
+    crowned = FlankModification(lead_crowning=4.0, tip_relief=10.0, tip_relief_length=0.8, helix_angle_modification=6.0)
+    pair = replace(plain.pair, pinion=replace(plain.pair.pinion, modification=crowned))
+    material, mounting = Material(name=NASTY_NAME, root_limit=300.0, yield_strength=900.0), Mounting(misalignment=10.0)
+    options = CheckOptions(model="3d", positions=12, body_teeth=3, refinement=0.5)
+    task = Task(pair=pair, material=material, load=Load(torque=torque), mounting=mounting, options=options)
+    model = plain.remade(pair, mounting)
+    cycle = run_solid_cycle(model, torque, 12)
+    summary = summarise_solid(cycle, solid_single_stiffness(model, torque, 5))
+    convergence = (
+        Convergence("mean mesh stiffness", (12.1, 12.0), (1.0, 1.3), None, 0.02),
+        Convergence("root tension, pinion", (305.0, 304.0), (1.0, 1.3), None, 0.008),
+        Convergence("root tension, wheel", (310.0, 309.0), (1.0, 1.3), None, 0.008),
+    )
+    sweep = (
+        SweepPoint(120.0, 12.1, 1400.0, OfGears(305.0, 310.0), OfGears(2.6e5, 4.8e5)),
+        SweepPoint(30.0, 11.5, 700.0, OfGears(76.0, 77.0), OfGears(2.2e5, 4.2e5)),
+    )
+    return SolidCheck(
+        **task.inputs,
+        cycle=cycle,
+        summary=summary,
+        sweep=sweep,
+        convergence=convergence,
+        comparisons=compare_solid(task, cycle, summary, convergence),
         warnings=("a warning with <b>tags</b>",),
     )

@@ -1,0 +1,52 @@
+"""What check.json tells of solid bodies only: the load along every line of contact, and load and stress along the face."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gearcad.ltca.flank import SolidCompliance
+from gearcad.ltca.solid_cycle import SolidContact, SolidCycle
+
+__all__ = ["load_distribution", "over_face", "solid_mesh"]
+
+
+def solid_mesh(body: SolidCompliance) -> dict[str, Any]:
+    """Size of the mesh of the loaded tooth's sector."""
+    mesh = body.body.sector.mesh
+    return {
+        "nodes": mesh.nodes,
+        "hexahedra": mesh.layers * len(mesh.section.quads),
+        "layers": mesh.layers,
+        "unit_loads": len(body.torques),
+    }
+
+
+def load_distribution(cycle: SolidCycle) -> list[list[dict[str, Any]]]:
+    """Position by position, the lines of contact that carry; their lists go cell by cell along the face width."""
+    return [[_line(contact) for contact in position.contacts] for position in cycle.positions]
+
+
+def _line(contact: SolidContact) -> dict[str, Any]:
+    """`across` (mm) from the middle of the common face width, roll lengths in mm, loads in N/mm, half widths in mm."""
+    line = contact.line
+    return {
+        "tooth": contact.tooth,
+        "across": line.across.tolist(),
+        "pinion_roll_length": line.pinion[0].tolist(),
+        "wheel_roll_length": line.wheel[0].tolist(),
+        "line_load": contact.line_loads.tolist(),
+        "pressure": contact.pressures.tolist(),
+        "half_width": contact.half_widths.tolist(),
+        "on_edge": line.on_edge.tolist(),
+        "interior": contact.interior.tolist(),
+    }
+
+
+def over_face(cycle: SolidCycle) -> dict[str, Any]:
+    """Load per width (N/mm, transverse), mean of all positions, over the common face width; each gear's root tension over z."""
+    across, load = cycle.load_along_face
+    face: dict[str, Any] = {"across": across.tolist(), "load": load.tolist()}
+    for gear, name in enumerate(("pinion", "wheel")):
+        heights, stress = cycle.root_along_face(gear)
+        face[name] = {"height": heights.tolist(), "root_tension": stress.tolist()}
+    return face

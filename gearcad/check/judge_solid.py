@@ -1,0 +1,119 @@
+"""The comparisons of a check of solid bodies: gates that decide, and references with a band that inform."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from gearcad.check.comparison import Comparison, Role, against, at_most
+from gearcad.check.convergence import FINER, SOLID_ORDER, Convergence
+from gearcad.check.face import face_factors
+from gearcad.check.judge import REACTION, material_limits, standards
+from gearcad.check.result import Task
+from gearcad.check.solid_summary import SolidSummary
+from gearcad.geometry.contact import contact_line_lengths
+from gearcad.ltca.solid_cycle import SolidCycle
+
+__all__ = ["compare_solid"]
+
+_STIFFNESS_ERROR, _ROOT_ERROR = 0.005, 0.02
+"""What the mesh may do to the mesh stiffness, and to a root stress, which is that of one point."""
+
+
+def compare_solid(
+    task: Task, cycle: SolidCycle, summary: SolidSummary, convergence: tuple[Convergence, ...]
+) -> tuple[Comparison, ...]:
+    """All comparisons, gates first."""
+    return (
+        *_reactions(cycle),
+        *_errors(convergence),
+        *material_limits(task, summary),
+        *standards(task, summary),
+        *_contact(task, summary),
+        *_face(task, summary),
+    )
+
+
+def _reactions(cycle: SolidCycle) -> Iterator[Comparison]:
+    """Torque on the hub of each gear against that applied, at the position where they differ most."""
+    source = f"equilibrium: the torque that is applied through the teeth, at the worst of {len(cycle.positions)} positions"
+    force = cycle.model.force(cycle.torque) * cycle.model.width / 1000
+    for gear, (owner, body) in enumerate((("pinion", cycle.model.pinion), ("wheel", cycle.model.wheel))):
+        applied = force * body.flank.base_radius
+        worst = max((position.torques[gear] for position in cycle.positions), key=lambda torque: abs(torque - applied))
+        yield against(f"torque reaction of the {owner}", worst, applied, REACTION, "N·m", source, Role.GATE)
+
+
+def _errors(convergence: tuple[Convergence, ...]) -> Iterator[Comparison]:
+    limits = (_STIFFNESS_ERROR, _ROOT_ERROR, _ROOT_ERROR)
+    note = f"two meshes, taken to converge with order {SOLID_ORDER:g}: no third one shows the order"
+    for each, limit in zip(convergence, limits, strict=bool(convergence)):
+        words = f"discretisation error, {each.quantity}"
+        yield at_most(words, 100 * each.error, 100 * limit, "%", f"mesh with edges {FINER:g} times shorter", note)
+
+
+def _contact(task: Task, summary: SolidSummary) -> Iterator[Comparison]:
+    """Pressure and lines of contact against ISO 6336-2 and the geometry."""
+    band, rating, cells = task.options.contact_band / 100, task.rating, "the FE's is the greatest of all cells away from edges"
+    nominal = rating.flank.nominal_stress * math.sqrt(rating.application_factor)
+    for words, value, reference, source, note in (
+        (
+            "contact pressure, pinion",
+            summary.contact_pressure,
+            rating.contact_stresses[0],
+            "Z_B sigma_H0, ISO 6336-2:2006 Method B",
+            cells,
+        ),
+        (
+            "contact pressure, wheel",
+            summary.contact_pressure,
+            rating.contact_stresses[1],
+            "Z_D sigma_H0, ISO 6336-2:2006 Method B",
+            cells,
+        ),
+        (
+            "contact pressure at the pitch point",
+            summary.contact_pressure_pitch_point,
+            nominal,
+            "sigma_H0, ISO 6336-2:2006 Method B",
+            "in the middle of the common face width",
+        ),
+    ):
+        yield against(words, value, reference, band, "MPa", source, Role.INFORMATION, note)
+    length = contact_line_lengths(task.pair).mean
+    yield against(
+        "mean length of the lines of contact",
+        summary.contact_length_mean,
+        length,
+        band,
+        "mm",
+        "epsilon_alpha b/cos beta_b",
+        Role.INFORMATION,
+        "the FE counts cells that carry: bent teeth touch early and late, and modified or misaligned flanks not everywhere",
+    )
+    yield against(
+        "greatest line load",
+        summary.line_load_max,
+        rating.normal_force * rating.application_factor / length,
+        band,
+        "N/mm",
+        "F_bn over the mean length of the lines of contact",
+        Role.INFORMATION,
+        "the reference is a mean: what is above it is how unevenly lines and positions share the load",
+    )
+
+
+def _face(task: Task, summary: SolidSummary) -> Iterator[Comparison]:
+    """Face load factors against Method C."""
+    band, factors = task.options.contact_band / 100, face_factors(task)
+    note = (
+        f"Method C knows F_beta_y = {abs(factors.misalignment):.3g} µm, from misalignment and helix angle modifications alone: "
+        "no edges, crowning, or deflection of the bodies"
+    )
+    source = "ISO 6336-1:2006 Method C"
+    for words, value, reference in (
+        ("face load factor K_Hbeta", summary.face_load_factor, factors.flank),
+        ("face load factor K_Fbeta, pinion", summary.root_face_load_factor.pinion, factors.root),
+        ("face load factor K_Fbeta, wheel", summary.root_face_load_factor.wheel, factors.root),
+    ):
+        yield against(words, value, reference, band, "", source, Role.INFORMATION, note)

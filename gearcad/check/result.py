@@ -1,0 +1,118 @@
+"""What a check is about, and what it found out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import Any, ClassVar, NamedTuple
+
+from gearcad.check.comparison import Comparison, Role
+from gearcad.check.convergence import Convergence
+from gearcad.check.options import CheckOptions, Model
+from gearcad.check.solid_summary import SolidSummary
+from gearcad.check.summary import OfGears, PlaneSummary, Summary, by_name
+from gearcad.fea.cycle import Cycle
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.ltca.solid_cycle import SolidCycle
+from gearcad.material import Material
+from gearcad.mounting import Mounting
+from gearcad.rating import Rating, rate
+
+__all__ = ["CheckResult", "PlaneCheck", "SolidCheck", "SweepPoint", "Task"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """What is to be checked; `pair` is as mounted."""
+
+    pair: GearPair
+    material: Material
+    load: Load
+    mounting: Mounting
+    options: CheckOptions
+
+    @property
+    def torque(self) -> float:
+        """On the pinion, with the application factor (N·m)."""
+        return self.load.torque * self.load.application_factor
+
+    @property
+    def torques(self) -> tuple[float, ...]:
+        """Of the sweep (N·m)."""
+        return self.options.torques or tuple(part * abs(self.torque) for part in (0.1, 0.3, 0.55, 0.77, 1.0))
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """The fields of a task by their names."""
+        return {each.name: getattr(self, each.name) for each in fields(Task)}
+
+    @cached_property
+    def rating(self) -> Rating:
+        """By ISO 6336, Method B."""
+        return rate(self.pair, self.material, self.load)
+
+
+class SweepPoint(NamedTuple):
+    """One torque (N·m on the pinion) of the sweep: mean mesh stiffness (N/(mm µm)), greatest pressure and root tensions (MPa).
+
+    `torsional_stiffness` is M/phi of each gear (N·m/rad).
+    """
+
+    torque: float
+    mesh_stiffness: float
+    contact_pressure: float
+    root_tension: OfGears
+    torsional_stiffness: OfGears
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `check.json` has it."""
+        return by_name(self._asdict())
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckResult(Task):
+    """A task, and everything that its check found out, whatever the model."""
+
+    cycle: Cycle | SolidCycle
+    summary: Summary
+    sweep: tuple[SweepPoint, ...]
+    convergence: tuple[Convergence, ...]
+    comparisons: tuple[Comparison, ...]
+    warnings: tuple[str, ...]
+
+    model: ClassVar[Model]
+
+    @property
+    def bodies(self) -> dict[str, str]:
+        """How each body is taken, in words."""
+        body = self.options.body
+        gears = {"pinion": self.pair.pinion, "wheel": self.pair.wheel}
+        return {
+            name: body.describe(gear, inner) for (name, gear), inner in zip(gears.items(), body.inner_diameters, strict=True)
+        }
+
+    @property
+    def passed(self) -> bool:
+        """True if every gate is passed."""
+        return all(comparison.passed for comparison in self.comparisons if comparison.role is Role.GATE)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaneCheck(CheckResult):
+    """A check in the transverse section through the middle of the common face width."""
+
+    cycle: Cycle
+    summary: PlaneSummary
+
+    model: ClassVar[Model] = Model.PLANE
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolidCheck(CheckResult):
+    """A check of solid bodies; under a negative torque `cycle` is that of the mirrored pair."""
+
+    cycle: SolidCycle
+    summary: SolidSummary
+
+    model: ClassVar[Model] = Model.SOLID

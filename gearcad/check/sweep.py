@@ -1,0 +1,23 @@
+"""What a check tells of each torque of its sweep."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gearcad.check.result import SweepPoint
+from gearcad.check.summary import OfGears, figures
+from gearcad.fea.cycle import Cycle
+from gearcad.ltca.solid_cycle import SolidCycle
+
+__all__ = ["sweep_point"]
+
+
+def sweep_point(cycle: Cycle | SolidCycle) -> SweepPoint:
+    """The figures of a cycle at its torque."""
+    few, model = figures(cycle), cycle.model
+    turns = np.array([position.approach_parts for position in cycle.positions]).mean(axis=0)
+    # A gear whose flank gives way by u along the line of action turns by u/r_b under the torque F r_b.
+    radii = np.array([model.pair.pinion.base_diameter, model.pair.wheel.base_diameter]) / 2
+    force = model.force(cycle.torque) * model.width
+    stiffness = OfGears(*(force * radii**2 / turns / 1000).tolist())
+    return SweepPoint(abs(cycle.torque), few.mesh_stiffness, few.contact_pressure, few.root_tension, stiffness)

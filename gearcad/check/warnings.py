@@ -1,0 +1,39 @@
+"""What an engineer should know before trusting a check, in sentences with numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from gearcad.check.result import Task
+from gearcad.check.summary import Summary
+from gearcad.fea.cycle import Cycle
+from gearcad.ltca.solid_cycle import SolidCycle
+
+__all__ = ["corner_warnings", "general_warnings"]
+
+_ABSURD = 0.03
+"""Pressure over modulus above which strains are no longer small."""
+
+
+def general_warnings(task: Task, cycle: Cycle | SolidCycle, strain: float) -> Iterator[str]:
+    """Of the pair, of the load (`strain` is the greatest pressure over the modulus), and of the bodies."""
+    yield from task.pair.warnings
+    if strain > _ABSURD:
+        yield f"the contact pressure is {strain:.1%} of the modulus: linear elasticity means little there"
+    gears, bodies = (task.pair.pinion, task.pair.wheel), (cycle.model.pinion, cycle.model.wheel)
+    given = task.options.body.inner_diameters
+    for name, gear, body, inner in zip(("pinion", "wheel"), gears, bodies, given, strict=True):
+        rim = gear.root_diameter / 2 - body.hub_radius
+        if rim < (gear.tip_diameter - gear.root_diameter) / 2:
+            yield f"the {name}'s rim below the root ({rim:.3g} mm) is thinner than its teeth are high"
+        if not gear.body.bore and inner is None:
+            yield f"the {name} has no bore: its body is taken as held on diameter {2 * body.hub_radius:.6g} mm"
+
+
+def corner_warnings(cycle: Cycle | SolidCycle, summary: Summary) -> Iterator[str]:
+    """Of tips whose edge touches."""
+    if summary.corner_positions:
+        yield (
+            f"a tip corner touches at {summary.corner_positions} of {len(cycle.positions)} positions: its pressure depends on "
+            "the mesh and is left out; tip relief would avoid it"
+        )

@@ -1,0 +1,206 @@
+"""Pictures of a check of solid bodies: load along the lines of contact, over the flanks, and along the face width."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.check.result import SolidCheck
+from gearcad.check.solid_summary import middle_contacts
+from gearcad.plots.check import PATH, mark_path
+from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, new_figure, prepared, short
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.tri import Triangulation
+
+__all__ = [
+    "Cells",
+    "loaded_cells",
+    "plot_contact_pattern",
+    "plot_harmonics",
+    "plot_line_loads",
+    "plot_lines_share",
+    "plot_load_along_face",
+    "plot_root_along_face",
+]
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+_COLOUR_MAP = "viridis"
+
+_ROUNDED = 6
+"""Decimals (mm) of places that count as one."""
+
+_GAP = 3.0
+"""Edges of triangles longer than so many times the distance between neighbours span a hole in the map."""
+
+_ACROSS = "across the face, from the middle of the common width, in mm"
+
+
+class Cells(NamedTuple):
+    """Cells of all lines of all positions (n,): places on the line of action (mm from T1) and across the common width (mm),
+    roll lengths and heights on pinion and wheel (mm), line load (N/mm), pressure (MPa).
+
+    `interior` cells are away from all edges; at those `on_edge` the edge of a tip faces the other's flank.
+    """
+
+    place: Floats
+    across: Floats
+    rolls: tuple[Floats, Floats]
+    heights: tuple[Floats, Floats]
+    line_load: Floats
+    pressure: Floats
+    interior: Bools
+    on_edge: Bools
+
+    def only(self, chosen: Bools) -> Cells:
+        """Some of the cells."""
+        return Cells(
+            self.place[chosen],
+            self.across[chosen],
+            (self.rolls[0][chosen], self.rolls[1][chosen]),
+            (self.heights[0][chosen], self.heights[1][chosen]),
+            self.line_load[chosen],
+            self.pressure[chosen],
+            self.interior[chosen],
+            self.on_edge[chosen],
+        )
+
+
+def loaded_cells(result: SolidCheck) -> Cells:
+    """All of a cycle."""
+    contacts = [contact for position in result.cycle.positions for contact in position.contacts]
+
+    lines = [contact.line for contact in contacts]
+    pinion, wheel = (np.concatenate(of, axis=1) for of in ([line.pinion for line in lines], [line.wheel for line in lines]))
+    return Cells(
+        np.concatenate([line.nominal for line in lines]),
+        np.concatenate([line.across for line in lines]),
+        (pinion[0], wheel[0]),
+        (pinion[1], wheel[1]),
+        np.concatenate([contact.line_loads for contact in contacts]),
+        np.concatenate([contact.pressures for contact in contacts]),
+        np.concatenate([contact.interior for contact in contacts]),
+        np.concatenate([line.on_edge for line in lines]),
+    )
+
+
+def plot_line_loads(result: SolidCheck, ax: Axes | None = None) -> Axes:
+    """Line load over the plane of action, and the lines of contact of the position with the greatest pressure."""
+    axes = new_figure().subplots() if ax is None else ax
+    cells = loaded_cells(result)
+    cells = cells.only(~cells.on_edge | (cells.line_load > 0))
+    _map(axes, cells.place, cells.across, cells.line_load, cells.interior, "line load in N/mm")
+    position, _ = result.cycle.worst_contact
+    for contact in position.contacts:
+        axes.plot(contact.line.nominal, contact.line.across, color="white", linewidth=1.2, linestyle="--")
+    axes.set_xlabel(PATH)
+    axes.set_ylabel("across the face in mm")
+    mark_path(axes, result)
+    return axes
+
+
+def plot_contact_pattern(result: SolidCheck, gear: int, ax: Axes | None = None) -> Axes:
+    """Greatest pressure of the cycle at every place of the flank of the pinion (0) or the wheel (1), in the flank's outline.
+
+    Contact of edges is left out.
+    """
+    axes = new_figure().subplots() if ax is None else ax
+    cells, own = loaded_cells(result), (result.pair.pinion, result.pair.wheel)[gear]
+    cells = cells.only(~cells.on_edge)
+    _map(axes, cells.heights[gear], cells.rolls[gear], cells.pressure, cells.interior, "pressure in MPa")
+    form = own.flank_form
+    z, roll = np.array([0, 1, 1, 0, 0]) * form.width, np.array([0, 0, 1, 1, 0]) * (form.last - form.first) + form.first
+    axes.plot(z, roll, color=DARK, linewidth=1.2, label=f"flank of the {GEARS[gear][0]}, tip above")
+    low, high = result.cycle.model.common_heights(gear)
+    for height, words in ((low, "ends of the common width"), (high, None)):
+        axes.axvline(height, color=MARKED, linestyle=":", linewidth=1.2, label=words)
+    axes.set_xlabel("along the axis, z in mm")
+    axes.set_ylabel("roll length in mm")
+    legend_above(axes, 2)
+    return axes
+
+
+def _map(axes: Axes, x: Floats, y: Floats, values: Floats, interior: Bools, words: str) -> None:
+    """Greatest values at every place as colours, which end at the greatest away from edges."""
+    (x, y), found = _greatest(x, y, values)
+    most = float(values[interior].max()) if interior.any() else float(values.max())
+    drawn = axes.tripcolor(_joined(x, y), found, shading="gouraud", vmin=0, vmax=most, cmap=_COLOUR_MAP)
+    drawn.set_rasterized(True)
+    axes.figure.colorbar(drawn, ax=axes, label=words, extend="max" if found.max() > most else "neither")
+
+
+def _greatest(x: Floats, y: Floats, values: Floats) -> tuple[Floats, Floats]:
+    """Places (2, m), each once, and the greatest value there: an edge touches at the same place many times."""
+    places, index = np.unique(np.stack([x, y], -1).round(_ROUNDED), axis=0, return_inverse=True)
+    found = np.zeros(len(places))
+    np.maximum.at(found, index.ravel(), values)
+    return places.T, found
+
+
+def _joined(x: Floats, y: Floats) -> Triangulation:
+    """Triangles between places, but for those that would span a hole."""
+    from matplotlib.tri import Triangulation
+
+    triangles = Triangulation(x, y)
+    corners = np.stack([x, y], -1)[triangles.triangles]
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=-1).max(axis=1)
+    triangles.set_mask(longest > _GAP * float(np.median(longest)))
+    return triangles
+
+
+def plot_lines_share(result: SolidCheck, ax: Axes | None = None) -> Axes:
+    """Part of the load that a pair of teeth carries, over the place where its line of contact crosses the middle."""
+    axes = prepared(ax, PATH, "share of the load")
+    contacts = middle_contacts(result.cycle)
+    axes.plot([each.place for each in contacts], [each.share for each in contacts], color=SERIES[0], label="finite elements")
+    axes.set_ylim(0, 1.05)
+    mark_path(axes, result)
+    legend_above(axes, 1)
+    return axes
+
+
+def plot_harmonics(result: SolidCheck, ax: Axes | None = None) -> Axes:
+    """Amplitudes of the transmission error at the tooth frequency and its multiples."""
+    axes = prepared(ax, "harmonic of the tooth frequency", "amplitude in µm")
+    amplitudes = result.summary.transmission_error_harmonics
+    bars = axes.bar(np.arange(len(amplitudes)) + 1, amplitudes, width=0.6, color=SERIES[0])
+    axes.bar_label(bars, [short(each) for each in amplitudes], fontsize=9, padding=2)
+    axes.set_ylim(0, 1.15 * max(amplitudes))
+    axes.set_xticks(np.arange(len(amplitudes)) + 1)
+    return axes
+
+
+def plot_load_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
+    """Load per width over the face width, mean of the cycle, with its own mean."""
+    axes = prepared(ax, _ACROSS, "load per width in N/mm")
+    across, load = result.cycle.load_along_face
+    factor = result.summary.face_load_factor
+    axes.step(across, load, where="mid", color=SERIES[0], label=rf"mean of all positions, $K_{{H\beta}}$ = {factor:.2f}")
+    axes.axhline(load.mean(), color=DARK, linestyle="--", linewidth=1.2, label=f"mean: {short(float(load.mean()))} N/mm")
+    axes.set_ylim(bottom=0)
+    legend_above(axes, 2)
+    return axes
+
+
+def plot_root_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
+    """Greatest root tension of the cycle along the face of both gears; what stands out beyond the common width is pale."""
+    axes = prepared(ax, _ACROSS, "root tension in MPa")
+    for gear, (words, colour, marker) in enumerate(GEARS):
+        heights, stress = result.cycle.root_along_face(gear)
+        low, high = result.cycle.model.common_heights(gear)
+        across = heights - (low + high) / 2
+        factor = result.summary.root_face_load_factor[gear]
+        axes.plot(across, stress, color=colour, linewidth=1.0, alpha=0.4)
+        inside = (heights >= low) & (heights <= high)
+        label = rf"{words}, $K_{{F\beta}}$ = {factor:.2f}"
+        axes.plot(across[inside], stress[inside], color=colour, marker=marker, markersize=3.5, label=label)
+        standard = result.rating.root_stresses[gear]
+        axes.axhline(standard, color=colour, linestyle=":", linewidth=1.4, label=f"{words}, ISO 6336-3: {standard:.0f} MPa")
+    axes.set_ylim(bottom=0)
+    legend_above(axes, 2)
+    return axes
