@@ -61,7 +61,7 @@ _NEVER = 1e9
 """Score of a variant whose contact does not settle."""
 
 _POPULATION = 12
-_GENERATIONS = 60
+_GENERATIONS = 30
 _SEED = 0
 
 _MISALIGNMENT = 10.0
@@ -135,7 +135,7 @@ class Search:
     def best(self, bounds: Sequence[float]) -> Found:
         """The proposal for the first of the bounds (MPa) that can be kept, else for the last.
 
-        Without contact on the edges of the tips if that costs no transmission error over that of the plain flanks.
+        Without contact on the edges of the tips, unless that costs more than half of what is gained.
         """
         for bound in bounds:
             found = self.run(bound)
@@ -144,8 +144,8 @@ class Search:
         if found.edges_free or not found.bounded:
             return found
         strict = self.run(bound, edges=False)
-        free = strict.bounded and strict.edges_free and strict.peak_to_peak <= self.plain.peak_to_peak[0]
-        return strict if free else found
+        dearest = (found.peak_to_peak + float(self.plain.peak_to_peak[0])) / 2
+        return strict if strict.bounded and strict.edges_free and strict.peak_to_peak <= dearest else found
 
     def scores(self, found: Outcomes, bound: float, *, edges: bool) -> Floats:
         """What is to be least (v,): peak to peak of the transmission error in µm, and what broken bounds cost."""
@@ -195,15 +195,21 @@ class Search:
         near = order[scores[order] <= _near(scores.min())]
         # Spread over all that are near, the best first: neighbours of the best differ little.
         chosen = near[np.unique(np.linspace(0, len(near) - 1, 4 * _NEAR_MOST).astype(int))]
-        steps = np.clip(np.round(amounts[chosen] / _STEPS), self._least, self._most)
+        nearest = amounts[chosen] / _STEPS
+        # Less relief over a greater length presses less: what rounding puts above the bound is rounded the other way.
+        softer = np.where(_STEPS < 1, np.ceil(nearest), np.floor(nearest))
+        steps = np.clip(np.concatenate([np.round(nearest), softer]), self._least, self._most)
         # The sum makes -0.0 a plain zero.
         rounded = np.unique(np.round(steps * _STEPS, _DECIMALS) + 0.0, axis=0)
-        again = self.scores(self.outcomes(rounded), bound, edges=edges)
-        kept = np.flatnonzero(again <= _near(again.min()))
+        found = self.outcomes(rounded)
+        again = self.scores(found, bound, edges=edges)
+        within = found.pressures <= bound * (1 + _WITHIN)
+        permitted = within if within.any() else np.ones_like(within)
+        kept = np.flatnonzero(permitted & (again <= _near(again[permitted].min())))
         kept = kept[np.argsort(again[kept], kind="stable")][:_NEAR_MOST]
         others = [each for each in conditions(self.torque) if abs(each.torque) >= abs(self.torque) / 2]
         burden = np.sum([self.outcomes(rounded[kept], each).peak_to_peak for each in others], axis=0)
-        best: Floats = rounded[kept[np.argmin(burden * self.outcomes(rounded[kept]).pressures)]]
+        best: Floats = rounded[kept[np.argmin(burden * found.pressures[kept])]]
         return best
 
     def peak_to_peak(self, pair: GearPair, condition: Condition) -> float:

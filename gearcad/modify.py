@@ -1,0 +1,241 @@
+"""Modify: tip relief and crowning for the load of a design, for least transmission error at a bounded pressure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gearcad.check.options import CheckOptions, Model
+from gearcad.check.solid import loaded_left
+from gearcad.check.solid_summary import worst_cell
+from gearcad.errors import GeometryError, ParameterError, require_number
+from gearcad.geometry import GearPair, ReliefShape
+from gearcad.ltca.search import Found, Search, conditions, start_search
+from gearcad.ltca.solid_cycle import SolidCycle, run_solid_cycle
+from gearcad.ltca.solid_pair import SolidPair, SolidSizes, solid_pair
+from gearcad.ltca.variants import Condition, with_amounts
+from gearcad.material import Material
+from gearcad.mounting import Mounting
+from gearcad.spec.design import Design
+
+__all__ = ["Figures", "Proposal", "Robustness", "propose"]
+
+Progress = Callable[[str, int, int], None]
+"""Called with what is being done, how many steps are done, and how many there are."""
+
+_STEPS = ("body of the pinion", "body of the wheel", "mesh cycle", "search", "proposal", "robustness")
+
+_MORE_PRESSURE = 1.05
+"""Share of the pressure of the plain flanks that a proposal may reach where the material's limit is out of reach."""
+
+_BESIDE = 1.02
+"""Share of the bound from which on a pressure, solved in full, is worth a warning."""
+
+_SUFFIX = "-modified"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Figures:
+    """What a mesh cycle comes to: transmission error in µm, stresses in MPa, and at how many positions a tip's edge carries."""
+
+    transmission_error_peak_to_peak: float
+    transmission_error_harmonics: tuple[float, float, float]
+    contact_pressure: float
+    root_tension_pinion: float
+    root_tension_wheel: float
+    face_load_factor: float
+    edge_positions: int
+
+    @classmethod
+    def of(cls, cycle: SolidCycle) -> Figures:
+        """Those of a cycle."""
+        worst = worst_cell(cycle)
+        first, second, third = cycle.harmonics[:3].tolist()
+        pinion, wheel = (cycle.worst_position(gear).tension[gear].stress for gear in (0, 1))
+        return cls(
+            transmission_error_peak_to_peak=float(np.ptp(cycle.values("transmission_error"))),
+            transmission_error_harmonics=(first, second, third),
+            contact_pressure=float(worst.contact.pressures[worst.cell]),
+            root_tension_pinion=pinion,
+            root_tension_wheel=wheel,
+            face_load_factor=cycle.face_load_factor,
+            edge_positions=sum(any(contact.edge for contact in position.contacts) for position in cycle.positions),
+        )
+
+
+class Robustness(NamedTuple):
+    """Transmission error, peak to peak (µm), as the pair is and as proposed, under another condition than the load."""
+
+    condition: Condition
+    before: float
+    after: float
+
+    def to_dict(self) -> dict[str, float]:
+        """Flat."""
+        return {**asdict(self.condition), "before": self.before, "after": self.after}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Proposal:
+    """Modifications for a design at a torque (N·m on the pinion), and what they do; `pair` is the design's with them."""
+
+    design: Design
+    pair: GearPair
+    torque: float
+    found: Found
+    variants: int
+    before: Figures
+    after: Figures
+    robustness: tuple[Robustness, ...]
+
+    @property
+    def name(self) -> str:
+        """Of the modified design."""
+        return self.design.name + _SUFFIX
+
+    @cached_property
+    def changes(self) -> dict[str, float | str]:
+        """The keys of the spec that change, with their values."""
+        assert self.design.pair is not None  # propose saw to it
+        found: dict[str, float | str] = {"pair.name": self.name}
+        for owner in ("pinion", "wheel"):
+            old, new = (getattr(pair, owner).modification for pair in (self.design.pair, self.pair))
+            for name, value in new.to_dict().items():
+                if value != old.to_dict()[name] and (name in new.in_use or not name.endswith(("_length", "_shape"))):
+                    found[f"{owner}.modification.{name}"] = value
+        return found
+
+    @property
+    def notes(self) -> dict[str, str]:
+        """Units, to stand behind new keys."""
+        numbers = [key for key, value in self.changes.items() if not isinstance(value, str)]
+        return {key: "mm of roll" if key.endswith("_length") else "µm" for key in numbers}
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What an engineer should know before making this."""
+        after, bound, found = self.after, self.found.bound, []
+        if not self.found.bounded or after.contact_pressure > _BESIDE * bound:
+            found.append(f"the contact pressure is {after.contact_pressure:.0f} MPa, above the bound of {bound:.0f} MPa")
+        if after.edge_positions:
+            found.append(
+                f"a tip edge still touches at {after.edge_positions} positions: to free it would cost transmission error or "
+                "pressure above the bound"
+            )
+        if after.transmission_error_peak_to_peak > self.before.transmission_error_peak_to_peak:
+            found.append("the transmission error is not less than it was: the flanks as they are break the bounds")
+        return tuple(found)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The document that `gearcad modify --json` prints."""
+        return {
+            "torque": self.torque,
+            "pressure_bound": self.found.bound,
+            "variants": self.variants,
+            "changes": self.changes,
+            "before": asdict(self.before),
+            "after": asdict(self.after),
+            "robustness": [each.to_dict() for each in self.robustness],
+            "warnings": list(self.warnings),
+        }
+
+
+def propose(
+    design: Design,
+    *,
+    torque: float | None = None,
+    pressure: float | None = None,
+    shape: ReliefShape = ReliefShape.LINEAR,
+    progress: Progress | None = None,
+) -> Proposal:
+    """Search tip relief and crowning for a design; `torque` (N·m on the pinion) None stands for its load's, `pressure` (MPa)
+    None for the material's limit or, where that is out of reach, a little more than without modifications.
+
+    Raises ParameterError for a design without pair or load, and what `gearcad.ltca` does.
+    """
+    pair, torque = _task(design, torque, pressure)
+    from threadpoolctl import threadpool_limits
+
+    options = design.check or CheckOptions()
+    with threadpool_limits(1):
+        model = _model(design, pair, torque, options, progress)
+        _tell(progress, "mesh cycle")
+        before = run_solid_cycle(model, torque, options.positions_of(Model.SOLID))
+        _tell(progress, "search")
+        search = start_search(model, torque, shape)
+        found = search.best(_bounds(design.material or Material(), pressure, search))
+        _tell(progress, "proposal")
+        after = run_solid_cycle(
+            model.remade(with_amounts(model.pair, found.amounts, shape), model.mounting), torque, len(before.positions)
+        )
+        _tell(progress, "robustness")
+        pairs = (model.pair, after.model.pair)
+        robustness = tuple(Robustness(each, *(search.peak_to_peak(of, each) for of in pairs)) for each in conditions(torque))
+    return Proposal(
+        design=design,
+        pair=with_amounts(pair, _unmirrored(found, pair, torque), shape),
+        torque=torque,
+        found=found,
+        variants=sum(search.tried),
+        before=Figures.of(before),
+        after=Figures.of(after),
+        robustness=robustness,
+    )
+
+
+def _tell(progress: Progress | None, step: str) -> None:
+    if progress is not None:
+        progress(step, _STEPS.index(step), len(_STEPS))
+
+
+def _task(design: Design, torque: float | None, pressure: float | None) -> tuple[GearPair, float]:
+    """Pair and torque; raises for what cannot be searched."""
+    if design.pair is None:
+        raise ParameterError("kind", design.kind.value, "must be a pair: flanks are modified for those of a mate")
+    if torque is not None:
+        require_number("torque", torque, "N·m")
+    elif design.load is None:
+        raise ParameterError("load.torque", None, "must be given, in N·m on the pinion, here or as --torque")
+    else:
+        torque = design.load.torque * design.load.application_factor
+    if not torque:
+        raise ParameterError("load.torque", torque, "must not be 0: without torque flanks need no modification", "N·m")
+    if pressure is not None:
+        require_number("pressure", pressure, "MPa", above=0)
+    if design.pair.total_contact_ratio < 1:
+        ratio = design.pair.total_contact_ratio
+        raise GeometryError("pair.total_contact_ratio", ratio, "must be at least 1: the teeth lose each other")
+    replace(design, name=design.name + _SUFFIX)  # a name that gets too long is told before the work
+    return design.pair, torque
+
+
+def _model(design: Design, pair: GearPair, torque: float, options: CheckOptions, progress: Progress | None) -> SolidPair:
+    """The solid bodies, as `gearcad check --model 3d` makes them."""
+    mounting = design.mounting or Mounting()
+    return solid_pair(
+        loaded_left(mounting.mounted(pair), torque),
+        design.material or Material(),
+        body=options.body,
+        sizes=SolidSizes().refined(options.refinement),
+        mounting=replace(mounting, centre_distance_change=0.0),
+        progress=lambda gear: _tell(progress, f"body of the {gear}"),
+    )
+
+
+def _bounds(material: Material, pressure: float | None, search: Search) -> list[float]:
+    """The pressures (MPa) to keep to, the first that can be."""
+    if pressure is not None:
+        return [pressure]
+    limit = material.contact_limit
+    limits = [] if limit is None else [limit[0] if isinstance(limit, tuple) else limit]
+    return [*limits, _MORE_PRESSURE * float(search.plain.pressures[0])]
+
+
+def _unmirrored(found: Found, pair: GearPair, torque: float) -> Any:
+    """The amounts for the pair as it is, where the model is its mirror image: a spur gear's helix turns over."""
+    turned = torque < 0 and not pair.pinion.helix_angle
+    return found.amounts * np.where(np.arange(len(found.amounts)) == 5, -1, 1) if turned else found.amounts

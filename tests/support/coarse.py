@@ -1,0 +1,39 @@
+"""Pairs as coarse solid bodies, made once for all tests: enough to compare methods with each other, not with nature."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+from threadpoolctl import threadpool_limits
+
+from gearcad import Body, Gear, GearPair, Material
+from gearcad.fea.flexible_pair import BodyModel
+from gearcad.ltca.solid_pair import SolidPair, SolidSizes, solid_pair
+from gearcad.spec import read_spec
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+
+PAIRS = ("FZG C", "helical")
+
+TORQUES = {"FZG C": 302.0, "helical": 60.0}
+"""N·m on the pinion."""
+
+
+def coarse_pair(name: str) -> GearPair:
+    """FZG C, or one of module 2 with 20 and 30 teeth at 20 degrees."""
+    if name == "FZG C":
+        pair = read_spec(TEMPLATES / "fzg-c.toml").pair
+        assert pair is not None
+        return pair
+    pinion = Gear(teeth=20, normal_module=2, face_width=10, helix_angle=20, tooth_thinning=0.05, body=Body(bore=28))
+    wheel = Gear(teeth=30, normal_module=2, face_width=10, helix_angle=-20, tooth_thinning=0.05, body=Body(bore=48))
+    return GearPair(pinion=pinion, wheel=wheel)
+
+
+@cache
+def coarse_model(name: str) -> SolidPair:
+    """Three teeth of each gear, elements twice as long as usual."""
+    with threadpool_limits(1):
+        body, sizes = BodyModel(teeth=3), SolidSizes().refined(0.5)
+        return solid_pair(coarse_pair(name), Material(), body=body, sizes=sizes)
