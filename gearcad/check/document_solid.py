@@ -27,13 +27,14 @@ def load_distribution(cycle: SolidCycle) -> list[list[dict[str, Any]]]:
 
 
 def _line(contact: SolidContact) -> dict[str, Any]:
-    """`across` (mm) from the middle of the common face width, roll lengths in mm, loads in N/mm, half widths in mm."""
+    """`across` (mm) from the middle of the common face width, lengths in mm, loads in N/mm, pressures in MPa."""
     line = contact.line
     return {
         "tooth": contact.tooth,
         "across": line.across.tolist(),
         "pinion_roll_length": line.pinion[0].tolist(),
         "wheel_roll_length": line.wheel[0].tolist(),
+        "length": line.lengths.tolist(),
         "line_load": contact.line_loads.tolist(),
         "pressure": contact.pressures.tolist(),
         "half_width": contact.half_widths.tolist(),

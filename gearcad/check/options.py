@@ -15,6 +15,7 @@ __all__ = ["CheckOptions", "Model"]
 
 _PLANES = {"strain": Plane.STRAIN, "stress": Plane.STRESS}
 _AUTO = "auto"
+_SWITCH = {"on": True, "off": False}
 
 _LEAST_POSITIONS = 12
 
@@ -38,7 +39,7 @@ class CheckOptions:
 
     `model` is "2d", "3d", or "auto": solid bodies for helical gears, a plane for spur gears. `positions` over one base pitch,
     0 for the model's own number (60 in the plane, 24 of solids); `refinement` makes the edges of all elements that many times
-    shorter; `convergence` False leaves out the other meshes, and with them the estimate of the error. `body_teeth` of each
+    shorter; `convergence` "off" leaves out the other meshes, and with them the estimate of the error. `body_teeth` of each
     body, 0 for the full ring, and what holds its `cuts`: "fixed", "sliding" or "free". `pinion_inner_diameter`,
     `wheel_inner_diameter` (mm): where the bodies are held, instead of the bore or 4 m_n below the root circle. `torques` (N·m
     on the pinion) of the sweep, () for five up to the load's. `root_band`, `stiffness_band` and `contact_band` (%): how far
@@ -50,7 +51,7 @@ class CheckOptions:
     plane: str = "strain"
     positions: int = 0
     refinement: float = 1.0
-    convergence: bool = True
+    convergence: str = "on"
     body_teeth: int = 0
     cuts: str = "fixed"
     pinion_inner_diameter: float | None = None
@@ -66,8 +67,8 @@ class CheckOptions:
             raise ParameterError("model", self.model, 'must be "2d", "3d" or "auto"')
         if self.plane not in _PLANES:
             raise ParameterError("plane", self.plane, 'must be "strain" or "stress"')
-        if not isinstance(self.convergence, bool):
-            raise ParameterError("convergence", self.convergence, "must be true or false")
+        if self.convergence not in _SWITCH:
+            raise ParameterError("convergence", self.convergence, 'must be "on" or "off"')
         as_choice("cuts", self.cuts, Cuts)
         if self.positions != 0:
             require_whole("positions", self.positions, at_least=_LEAST_POSITIONS, at_most=1000)
@@ -99,6 +100,11 @@ class CheckOptions:
     def positions_of(self, model: Model) -> int:
         """Positions over one base pitch."""
         return self.positions or _POSITIONS[model]
+
+    @property
+    def refines(self) -> bool:
+        """True if other meshes tell the error."""
+        return _SWITCH[self.convergence]
 
     @property
     def plane_state(self) -> Plane:

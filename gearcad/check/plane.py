@@ -27,7 +27,7 @@ def check_plane(task: Task, tell: Callable[[str], None]) -> PlaneCheck:
     cycle = run_cycle(model, task.torque, task.options.positions_of(Model.PLANE))
     summary = summarise(cycle, single_stiffness(model, task.torque))
     tell("convergence")
-    convergence = three_meshes(_refined(task, model)) if task.options.convergence else ()
+    convergence = three_meshes(_refined(task, model)) if task.options.refines else ()
     tell("torque sweep")
     sweep = tuple(sweep_point(run_cycle(model, torque, FEW_POSITIONS)) for torque in task.torques)
     tell("rating")

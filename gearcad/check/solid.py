@@ -38,7 +38,7 @@ def check_solid(task: Task, tell: Callable[[str], None]) -> SolidCheck:
     tell("torque sweep")
     sweep = tuple(sweep_point(run_solid_cycle(model, torque, FEW_POSITIONS)) for torque in task.torques)
     tell("convergence")
-    models = (model, _model(task, FINER)) if task.options.convergence else ()
+    models = (model, _model(task, FINER)) if task.options.refines else ()
     convergence = two_meshes([run_solid_cycle(each, task.torque, FEW_POSITIONS) for each in models]) if models else ()
     tell("rating")
     comparisons = compare_solid(task, cycle, summary, convergence)

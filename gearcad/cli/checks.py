@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 __all__ = ["check"]
 
+_FIELDS = ("stress_pinion.vtu", "stress_wheel.vtu")
+
 _WIDE = 130
 """Console width from which the column of sources fits."""
 
@@ -54,6 +56,9 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
         write_report(result, design.name, staging / "report.html")
         _write_fields(result, staging)
         files = sorted(file.name for file in staging.iterdir())
+    for file in _FIELDS:
+        if file not in files:  # those of a former check of solid bodies would belong to another result
+            (folder / file).unlink(missing_ok=True)
     if as_json:
         click.echo(json_text(document), nl=False)
     else:
@@ -69,8 +74,8 @@ def _write_fields(result: CheckResult, folder: Path) -> None:
     from gearcad.ltca.solid_field import worst_field, write_vtu
 
     if isinstance(result, SolidCheck):
-        for gear, name in enumerate(("pinion", "wheel")):
-            write_vtu(worst_field(result.cycle, gear), folder / f"stress_{name}.vtu")
+        for gear, name in enumerate(_FIELDS):
+            write_vtu(worst_field(result.cycle, gear), folder / name)
 
 
 def _print_verdict(design: Design, result: CheckResult) -> None:

@@ -12,12 +12,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.ltca.flank import SolidCompliance
 from gearcad.ltca.hexahedra import PLACES, lame, slopes_at
 from gearcad.ltca.solid_cycle import SolidCycle, SolidPosition, tooth_loads
 from gearcad.material import Material
 
-__all__ = ["SolidField", "solid_field", "worst_field", "write_vtu"]
+__all__ = ["SolidField", "nodal_stress", "solid_field", "worst_field", "write_vtu"]
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -106,7 +105,7 @@ def solid_field(cycle: SolidCycle, position: SolidPosition, gear: int, tooth: in
             moved += body.taken_off @ force
     displacement = mesh.to_space(moved.reshape(-1, 3))
     hexahedra = np.concatenate([mesh.elements(mesh.section.quads, layer) for layer in range(mesh.layers)])
-    return SolidField(mesh.points, hexahedra, displacement, _nodal_stress(mesh.points, hexahedra, displacement, body))
+    return SolidField(mesh.points, hexahedra, displacement, nodal_stress(mesh.points, hexahedra, displacement, body.material))
 
 
 def write_vtu(field: SolidField, path: Path) -> None:
@@ -117,13 +116,13 @@ def write_vtu(field: SolidField, path: Path) -> None:
     meshio.Mesh(field.points, [("hexahedron20", field.hexahedra[:, _VTK])], point_data=data).write(path)
 
 
-def _nodal_stress(points: Floats, hexahedra: Indices, displacement: Floats, body: SolidCompliance) -> Floats:
+def nodal_stress(points: Floats, hexahedra: Indices, displacement: Floats, material: Material) -> Floats:
     """Stresses (n, 6) at the nodes: from 2 x 2 x 2 points of each element, outward, and the mean of all elements around."""
     slopes, outward = _slopes(), _outward()
     jacobian = np.einsum("qak,mai->mqik", slopes, points[hexahedra], optimize=True)
     by_local = np.einsum("qak,mai->mqik", slopes, displacement[hexahedra], optimize=True)
     gradient = by_local @ np.linalg.inv(jacobian)
-    at_nodes = np.einsum("aq,mqs->mas", outward, _stress(gradient, body.material), optimize=True)
+    at_nodes = np.einsum("aq,mqs->mas", outward, _stress(gradient, material), optimize=True)
     total, times = np.zeros((len(points), 6)), np.zeros(len(points))
     np.add.at(total, hexahedra, at_nodes)
     np.add.at(times, hexahedra, 1.0)

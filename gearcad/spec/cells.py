@@ -40,7 +40,9 @@ _TEXT_FIELDS = (
     "body.hub_side",
     *(f"modification.{relief}_shape" for relief in ("tip_relief", "root_relief", "end_relief")),
     "profile_shift_split",
+    "model",
     "plane",
+    "convergence",
     "cuts",
 )
 _TEXTS = frozenset(f"{table}.{field}" for table, fields in COLUMNS.items() for field in fields if field in _TEXT_FIELDS) | {

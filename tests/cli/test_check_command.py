@@ -123,7 +123,7 @@ def test_limits_that_are_passed_over_are_exit_status_1_and_json_is_one_document(
         ),
         (
             SPUR.replace("positions = 12", "convergence = 1"),
-            "pair.toml line 15: check.convergence = 1: must be true or false",
+            'pair.toml line 15: check.convergence = 1: must be "on" or "off"',
         ),
         (
             SPUR.replace("positions = 12", "postions = 12"),
