@@ -109,9 +109,11 @@ def tooth_outline(gear: Gear, cuts: Sequence[float] = ()) -> tuple[Piece, ...]:
 
 def _cut(curve: Curve, radii: Sequence[float]) -> list[float]:
     """Parameters from 0 to 1, with those between where a curve crosses one of the radii (mm)."""
-    start, end = (float(curve.polar(s)[0]) for s in (0.0, 1.0))
-    inside = sorted({radius for radius in radii if start + _SAME < radius < end - _SAME})
-    return [0.0, *(_crossing(lambda s: float(curve.polar(s)[0]), radius, 0.0, 1.0) for radius in inside), 1.0]
+    radius = [float(curve.polar(s)[0]) for s in (0.0, 1.0)]
+    for cut in sorted(radii):
+        if radius[-2] + _SAME < cut < radius[-1] - _SAME:
+            radius.insert(-1, cut)
+    return [0.0, *(_crossing(lambda s: float(curve.polar(s)[0]), cut, 0.0, 1.0) for cut in radius[1:-1]), 1.0]
 
 
 def _fitted(curve: FlankCurve, first: float, last: float, tolerance: float) -> list[Span]:

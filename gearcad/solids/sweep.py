@@ -125,13 +125,13 @@ class ModifiedSweep(Sweep):
         angle = angle + self.turn(piece, u[:, None], z)
         return np.stack([radius * np.cos(angle), radius * np.sin(angle)], -1)
 
-    def _degree(self, function: Callable[[Floats], Floats], most: int) -> int | None:
-        """Least degree of a function of [0, 1] -> (n, k), in mm."""
+    def _degree(self, function: Callable[[Floats], Floats], least: int, most: int) -> int | None:
+        """Degree, from `least` to `most`, that a function of [0, 1] -> (n, k), in mm, needs; None if that is not enough."""
 
         def error(values: Floats, t: Floats) -> Floats:
             return np.asarray(np.abs(values - function(t)).max(-1))
 
-        poles = bezier.fit(function, error, _SHARE * self.tolerance, most=most)
+        poles = bezier.fit(function, error, _SHARE * self.tolerance, least=least, most=most)
         return None if poles is None else len(poles) - 1
 
     def _stretches(self, spans: list[Span], low: float, high: float) -> list[tuple[float, float, int]]:
@@ -141,7 +141,7 @@ class ModifiedSweep(Sweep):
             z = low + t * (high - low)
             return np.concatenate([np.swapaxes(self._points(span, _PROBES, z), 0, 1).reshape(len(t), -1) for span in spans], 1)
 
-        degree = self._degree(along, _SPLIT_DEGREE)
+        degree = self._degree(along, 2, _SPLIT_DEGREE)
         if degree is not None:
             return [(low, high, degree)]
         middle = (low + high) / 2
@@ -167,7 +167,7 @@ class ModifiedSweep(Sweep):
         def across(u: Floats) -> Floats:
             return self._points(piece, u, places).reshape(len(u), -1)
 
-        degree = self._degree(across, bezier.MOST_DEGREE)
+        degree = self._degree(across, len(piece.poles) - 1, bezier.MOST_DEGREE)
         if degree is None:
             raise SolverError(f"a modified flank needs a higher degree than the CAD kernel has ({bezier.MOST_DEGREE})")
         return [self._patch(piece, degree, stretch) for stretch in range(len(self._degrees))]

@@ -46,6 +46,7 @@ class _Ring:
         self.vertices = [self._vertices(which) for which in (0, 1)]
         self.drawn = [[layout.draw(end, s) for s in layout.segments[e][0]] for e, end in enumerate(layout.ends)]
         self.edges = [self._end_edges(which) for which in (0, 1)]
+        self.chains = [self._chains(which) for which in (0, 1)]
         self.columns = self._columns()
         self.side_curves = [layout.sides(k) for k in range(len(layout.pieces))]
         self.side_edges = self._side_edges()
@@ -76,6 +77,11 @@ class _Ring:
             ]
             for place, vertices in zip(self.places, self.vertices[which], strict=True)
         ]
+
+    def _chains(self, which: int) -> list[list[int]]:
+        """Segments of an end by piece."""
+        segments = self.layout.segments[which][0]
+        return [[j for j, segment in enumerate(segments) if segment.piece == k] for k in range(len(self.layout.pieces))]
 
     def _columns(self) -> list[list[list[Any]]]:
         """Vertices along the teeth, upwards, by tooth and junction."""
@@ -157,15 +163,15 @@ class _Ring:
 
     def _lay_end(self, which: int, i: int, k: int, surface: Any) -> Edges:
         """The edges of an end on a piece of a tooth, laid on its surface."""
-        chain = [j for j, segment in enumerate(self.layout.segments[which][0]) if segment.piece == k]
+        chain = self.chains[which][k]
         for j in chain:
             self.kernel.lay(self.edges[which][i][j], surface, self.drawn[which][j].on_face, place=self.places[i])
         return [(self.edges[which][i][j], True) for j in chain]
 
     def _rise(self, i: int, k: int, stretch: int) -> Edges:
         """The edge at a junction of a tooth on a stretch of the face width; none where an end chamfer has taken it."""
-        edges = zip(self.layout.rises[k], self.side_edges[i][k], strict=True)
-        return [(edge, True) for rise, edge in edges if rise.stretch == stretch]
+        edges, place = self.side_edges[i][k], stretch - self.layout.rises[k][0].stretch
+        return [(edges[place], True)] if 0 <= place < len(edges) else []
 
     def _vertex(self, i: int, k: int, height: int) -> Any:
         """The vertex at a junction of a tooth where a stretch begins or the one before ends."""
