@@ -1,4 +1,4 @@
-"""A solid gear body: the loaded tooth in full, all others condensed to the cuts beside it.
+"""A solid gear body: equal tooth sectors, each condensed to its cuts, the loaded one and its neighbours expanded again.
 
 The inner circle, and a cut that is held, belong to a rigid hub with one dof, its turn: the row of that dof is the torque.
 """
@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.fea.chain import Chain, Cuts, cut_held
-from gearcad.ltca.direct import Factor, factorise
+from gearcad.ltca.condensation import Condensed, condense, parts_of
 from gearcad.ltca.hexahedra import layer_matrices
 from gearcad.ltca.swept import SweptMesh
 from gearcad.material import Material
 from gearcad.meshing.outline import Side
 
-__all__ = ["Moved", "SolidBody", "SolidSector", "assemble_body", "chain_of"]
+__all__ = ["Moved", "SolidBody", "SolidSector", "assemble_body"]
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -51,11 +51,6 @@ class SolidSector:
     def hub(self) -> Indices:
         """Dofs on the inner circle."""
         return _dofs(self.mesh.over(self.mesh.side(Side.INNER)))
-
-    @cached_property
-    def inside(self) -> Indices:
-        """All other dofs."""
-        return np.setdiff1d(np.arange(self.dofs), np.r_[self.behind, self.ahead, self.hub])
 
     @property
     def cut_radii(self) -> Floats:
@@ -103,9 +98,47 @@ class SolidSector:
             yield layer, known[key]
 
     @cached_property
-    def matrix(self) -> Any:
-        """The whole matrix (scipy CSR) with polar cuts."""
-        return (self.cut_turn.T @ self.stiffness() @ self.cut_turn).tocsr()
+    def condensed(self) -> Condensed:
+        """The sector with its hub held, condensed to its cuts."""
+        section, held = self.mesh.section, self.mesh.side(Side.INNER)
+        part = parts_of(section.points, section.quads, np.r_[section.behind, section.ahead, held])
+        layers = list(self._layers(section.quads))
+        local = np.full(self.dofs, -1)
+
+        def matrix_of(quads: Indices) -> tuple[Indices, Floats]:
+            elements = [_dofs(self.mesh.elements(section.quads[quads], layer)) for layer, _ in layers]
+            dofs = np.setdiff1d(np.concatenate(elements), self.hub)
+            local[dofs] = np.arange(len(dofs))
+            size = len(dofs) + 1  # the last row and column collect what is held
+            matrix = np.zeros(size * size)
+            for numbers, (_, matrices) in zip(elements, layers, strict=True):
+                place = local[numbers] % size
+                np.add.at(matrix, (place[:, :, None] * size + place[:, None, :]).ravel(), matrices[quads].ravel())
+            local[dofs] = -1
+            turn = self.cut_turn[dofs][:, dofs]
+            return dofs, turn.T @ (turn.T @ matrix.reshape(size, size)[:-1, :-1]).T
+
+        return condense(part, lambda nodes: np.sort(_dofs(self.mesh.over(nodes))), matrix_of, np.r_[self.behind, self.ahead])
+
+    @cached_property
+    def chain(self) -> Chain:
+        """The sector alone as a chain: on its cuts and the turn of its hub."""
+        condensed = self.condensed
+        solved, arriving = condensed.forward(self.hub_forces[:, None])
+        count = len(condensed.kept)
+        matrix = np.zeros((count + 1, count + 1))
+        matrix[:-1, :-1] = condensed.matrix
+        matrix[:-1, -1:] = arriving
+        matrix[-1:, :-1] = arriving.T
+        matrix[-1, -1] = self.hub_turn @ self.hub_forces - sum(float((each**2).sum()) for each in solved)
+        return Chain(matrix)
+
+    @cached_property
+    def hub_forces(self) -> Floats:
+        """Forces (dofs,) by the hub's turn of 1 rad with all else held (N)."""
+        near = np.flatnonzero(np.isin(self.mesh.section.quads, self.mesh.side(Side.INNER)).any(axis=1))
+        result: Floats = self.cut_turn.T @ (self.stiffness(near) @ (self.cut_turn @ self.hub_turn))
+        return result
 
     @cached_property
     def hub_turn(self) -> Floats:
@@ -122,51 +155,6 @@ def _dofs(nodes: Indices) -> Indices:
     return (3 * nodes[..., None] + np.arange(3)).reshape(*nodes.shape[:-1], -1)
 
 
-def chain_of(sector: SolidSector) -> Chain:
-    """One sector condensed to its cuts and the hub: eliminated slab by slab along the axis, by dense blocks."""
-    import scipy.linalg
-
-    mesh, matrix = sector.mesh, sector.matrix
-    kept = np.r_[sector.behind, sector.ahead]
-    count = len(kept) + 1
-    motions = np.zeros((sector.dofs, 1))
-    motions[:, 0] = sector.hub_turn
-    hub = matrix @ motions
-    reduced = np.zeros((count, count))
-    reduced[:-1, :-1] = matrix[kept][:, kept].toarray()
-    reduced[:-1, -1:] = hub[kept]
-    reduced[-1:, :-1] = hub[kept].T
-    reduced[-1, -1] = (motions.T @ hub).item()
-    slab = np.full(sector.dofs, -1)
-    slab[sector.inside] = np.repeat(_slabs(mesh), 3)[sector.inside]
-    carried: Floats | None = None  # what the slabs so far have left on the next one: [its own block, on the kept dofs]
-    coupling = np.zeros((0, count))
-    for k in range(mesh.layers + 1):
-        own, after = np.flatnonzero(slab == k), np.flatnonzero(slab == k + 1)
-        block = matrix[own][:, own].toarray()
-        aside = np.c_[matrix[own][:, kept].toarray(), hub[own]]
-        if carried is not None:
-            block += carried
-            aside += coupling
-        # [block aside; aside.T reduced]: with block = L L.T what stays is reduced - (L^-1 aside).T (L^-1 aside).
-        lower = scipy.linalg.cholesky(block, lower=True, overwrite_a=True)
-        across = matrix[own][:, after].toarray()
-        both = scipy.linalg.solve_triangular(lower, np.c_[across, aside], lower=True, overwrite_b=True)
-        change = both.T @ both
-        inner = len(after)
-        carried, coupling = -change[:inner, :inner], -change[:inner, inner:]
-        reduced -= change[inner:, inner:]
-    return Chain((reduced + reduced.T) / 2)
-
-
-def _slabs(mesh: SweptMesh) -> Indices:
-    """The slab (n,) of each node: a plane and the nodes half-way up to the next."""
-    section = mesh.section
-    planes = np.repeat(np.arange(mesh.layers + 1), len(section.points))
-    result: Indices = np.r_[planes, np.repeat(np.arange(mesh.layers), section.vertices)]
-    return result
-
-
 class Moved(NamedTuple):
     """Displacements of teeth -k ... k (2 k + 1, dofs, m) in mm, in each tooth's turning axes, and torques on the hub (N mm)."""
 
@@ -176,13 +164,12 @@ class Moved(NamedTuple):
 
 @dataclass(frozen=True)
 class SolidBody:
-    """A body, factorised: tooth 0 in full, and `neighbours` on each side whose displacements are wanted.
+    """A body of equal sectors: tooth 0, and `neighbours` on each side whose displacements are wanted too.
 
     `rest` sectors beside tooth 0 make up the ring or, `held`, stand half on each side of it, their outer cuts as `cuts` says.
     """
 
     sector: SolidSector
-    chain: Chain
     rest: int
     held: bool
     cuts: Cuts
@@ -191,85 +178,61 @@ class SolidBody:
     @cached_property
     def _around(self) -> Floats:
         """What stands beside tooth 0: matrix on [its cut behind, its cut ahead, turn of the hub]."""
-        n = self.chain.cut
+        n = self.sector.chain.cut
         if not self.held:
             swap = np.r_[n : 2 * n, 0:n, 2 * n]
-            result: Floats = self.chain.repeated(self.rest).matrix[np.ix_(swap, swap)]
+            result: Floats = self.sector.chain.repeated(self.rest).matrix[np.ix_(swap, swap)]
             return result
-        side = self.chain.repeated(self.rest // 2)
+        side = self.sector.chain.repeated(self.rest // 2)
         both = np.zeros((2 * n + 1, 2 * n + 1))
         for dofs, ahead in ((np.r_[n : 2 * n], True), (np.r_[0:n], False)):
             place = np.r_[dofs, 2 * n]
             both[np.ix_(place, place)] += side.ended(self.cuts, self.sector.cut_radii, ahead=ahead)
         return both
 
-    @cached_property
-    def _free(self) -> Indices:
-        sector = self.sector
-        return np.sort(np.r_[sector.inside, sector.behind, sector.ahead])
-
-    @cached_property
-    def _hub_row(self) -> Floats:
-        """Torque on the hub by displacements of the free dofs, negative."""
-        row = self.sector.matrix @ self.sector.hub_turn
-        row[np.r_[self.sector.behind, self.sector.ahead]] += self._around[:-1, -1]
-        result: Floats = row[self._free]
-        return result
-
-    @cached_property
-    def _coupled(self) -> Factor:
-        """Tooth 0 with the others beside it."""
-        import scipy.sparse
-
-        cuts, size = np.r_[self.sector.behind, self.sector.ahead], self.sector.dofs
-        around = self._around[:-1, :-1]
-        beside = scipy.sparse.csr_matrix(
-            (around.ravel(), (np.repeat(cuts, len(cuts)), np.tile(cuts, len(cuts)))), shape=(size, size)
-        )
-        return factorise((self.sector.matrix + beside)[self._free][:, self._free])
-
-    @cached_property
-    def _inner(self) -> Factor:
-        """A tooth whose cuts are held."""
-        inside = self.sector.inside
-        return factorise(self.sector.matrix[inside][:, inside])
-
     def solve(self, loads: Floats) -> Moved:
         """Displacements and torques by loads (dofs, m) in N on tooth 0, in its turning axes."""
-        sector, turn = self.sector, self.sector.cut_turn
-        solved = self._coupled.solve((turn.T @ loads)[self._free])
-        moved = np.zeros((2 * self.neighbours + 1, sector.dofs, loads.shape[1]))
-        moved[self.neighbours][self._free] = solved
-        torques = -(self._hub_row @ solved)
-        own = moved[self.neighbours]
+        sector, condensed = self.sector, self.sector.condensed
+        n = sector.chain.cut
+        solved, arriving = condensed.forward(sector.cut_turn.T @ loads)
+        cuts = np.asarray(np.linalg.solve(condensed.matrix + self._around[:-1, :-1], arriving), float)
+        found = {0: condensed.backward(solved, self._placed(cuts))}
+        torques = -(sector.hub_forces @ found[0] + self._around[-1, :-1] @ cuts)
         for sense in (1, -1):
-            near, far = own[sector.ahead if sense > 0 else sector.behind], own[sector.behind if sense > 0 else sector.ahead]
+            near, far = (cuts[n:], cuts[:n]) if sense > 0 else (cuts[:n], cuts[n:])
             for k in range(1, self.neighbours + 1):
                 beyond = self._next_cut(near, far, k, sense)
-                behind, ahead = (near, beyond) if sense > 0 else (beyond, near)
-                moved[self.neighbours + sense * k] = self._interior(behind, ahead)
+                both = np.concatenate([near, beyond] if sense > 0 else [beyond, near])
+                found[sense * k] = condensed.backward(None, self._placed(both))
                 near = beyond
-        return Moved(np.stack([turn @ each for each in moved]), torques)
+        ordered = [sector.cut_turn @ found[tooth] for tooth in range(-self.neighbours, self.neighbours + 1)]
+        return Moved(np.stack(ordered), torques)
+
+    def _placed(self, cuts: Floats) -> Floats:
+        """Displacements (dofs, m) of nothing but the cuts."""
+        moved = np.zeros((self.sector.dofs, cuts.shape[1]))
+        moved[self.sector.condensed.kept] = cuts
+        return moved
 
     def _next_cut(self, near: Floats, far: Floats, k: int, sense: int) -> Floats:
         """Displacements of the far cut of the k-th tooth ahead (or behind), from those of its near cut.
 
         `far` is the other cut of tooth 0, at which a full ring ends.
         """
-        n = self.chain.cut
+        chain = self.sector.chain
+        n = chain.cut
         before, after = slice(0, n), slice(n, 2 * n)
         if sense < 0:
             before, after = after, before
-        single = self.chain.matrix
-        stiffness, force = single[after, after].copy(), -single[after, before] @ near
+        stiffness, force = chain.matrix[after, after].copy(), -chain.matrix[after, before] @ near
         left = self.rest - k if not self.held else self.rest // 2 - k
         free = np.ones(n, bool)
         if left and not self.held:
-            onward = self.chain.repeated(left).matrix
+            onward = chain.repeated(left).matrix
             stiffness += onward[before, before]
             force -= onward[before, after] @ far
         elif left:
-            stiffness += self.chain.repeated(left).ended(self.cuts, self.sector.cut_radii, ahead=sense > 0)[:-1, :-1]
+            stiffness += chain.repeated(left).ended(self.cuts, self.sector.cut_radii, ahead=sense > 0)[:-1, :-1]
         elif not self.held:
             return far
         else:
@@ -278,24 +241,9 @@ class SolidBody:
         moved[free] = np.linalg.solve(stiffness[np.ix_(free, free)], force[free])
         return moved
 
-    def _interior(self, behind: Floats, ahead: Floats) -> Floats:
-        """Displacements (dofs, m) of a tooth without load, from those of its cuts."""
-        sector = self.sector
-        moved = np.zeros((sector.dofs, behind.shape[1]))
-        moved[sector.behind], moved[sector.ahead] = behind, ahead
-        moved[sector.inside] = -self._inner.solve((sector.matrix @ moved)[sector.inside])
-        return moved
 
-
-def assemble_body(
-    fine: SweptMesh, coarse: SweptMesh, teeth: int, neighbours: int, material: Material, held: int | None, cuts: Cuts
-) -> SolidBody:
-    """Tooth 0 from the fine mesh, the other teeth of the ring condensed from the coarse one.
-
-    `held` None makes the full ring, else a body of so many teeth (odd, 3 or more), its outer cuts as `cuts` says.
-    """
+def assemble_body(mesh: SweptMesh, teeth: int, neighbours: int, material: Material, held: int | None, cuts: Cuts) -> SolidBody:
+    """A ring of `teeth` equal sectors, or a body of `held` teeth (odd, at least 3), its outer cuts as `cuts` says."""
     rest = (teeth if held is None else held) - 1
     # Where the ring has fewer teeth than are asked for, those on both sides would be the same.
-    neighbours = min(neighbours, rest // 2)
-    chain = chain_of(SolidSector(coarse, material))
-    return SolidBody(SolidSector(fine, material), chain, rest, held is not None, cuts, neighbours)
+    return SolidBody(SolidSector(mesh, material), rest, held is not None, cuts, min(neighbours, rest // 2))

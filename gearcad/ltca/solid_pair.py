@@ -38,18 +38,14 @@ _STEP = 0.05
 """Step (mm) of that bound, so that loads and modifications that differ little share their responses."""
 
 
-_LOADED = MeshSizes(flank=0.6, corner=0.25, fillet=0.24, outline=0.8, cut=1.0, rim=4.0, growth=0.6)
-_OTHER = MeshSizes(flank=1.6, corner=1.6, fillet=1.2, outline=1.6, cut=1.0, rim=4.0, growth=0.6)
+_SECTION = MeshSizes(flank=0.6, corner=0.25, fillet=0.24, outline=0.8, cut=1.0, rim=4.0, growth=0.6)
 
 
 @dataclass(frozen=True, kw_only=True)
 class SolidSizes:
-    """Mesh of the solid bodies: twice the edge lengths in the section of the `loaded` tooth and of every `other`, and the
-    mean thickness of a `layer`, all in normal modules.
-    """
+    """Mesh of the solid bodies: twice the edge lengths in the `section`, mean thickness of a `layer`, in normal modules."""
 
-    loaded: MeshSizes = _LOADED
-    other: MeshSizes = _OTHER
+    section: MeshSizes = _SECTION
     layer: float = 0.9
     fewest_layers: int = 6
 
@@ -60,8 +56,7 @@ class SolidSizes:
     def refined(self, factor: float) -> SolidSizes:
         """All edges shorter by `factor`."""
         return SolidSizes(
-            loaded=self.loaded.refined(factor),
-            other=self.other.refined(factor),
+            section=self.section.refined(factor),
             layer=self.layer / factor,
             fewest_layers=round(self.fewest_layers * factor),
         )
@@ -199,8 +194,8 @@ def solid_pair(
         except (ParameterError, GeometryError) as error:
             raise error.within(owner) from error
         held = body.teeth if body.teeth is not None and body.teeth < gear.teeth else None
-        fine, coarse = (sweep(gear, mesh_quads(gear, radius, each), sizes.layers(gear)) for each in (sizes.loaded, sizes.other))
-        solid = assemble_body(fine, coarse, gear.teeth, neighbours, material, held, body.cuts)
+        mesh = sweep(gear, mesh_quads(gear, radius, sizes.section), sizes.layers(gear))
+        solid = assemble_body(mesh, gear.teeth, neighbours, material, held, body.cuts)
         bodies.append(solid_compliance(gear, solid, material, start))
     mounted = mounting.mounted(pair)
     return SolidPair(mounted, mounting, mesh_line(mounted), bodies[0], bodies[1], cells)
