@@ -180,10 +180,12 @@ def plot_load_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
     axes = prepared(ax, _ACROSS, "load per width in N/mm")
     across, load = result.cycle.load_along_face
     factor = result.summary.face_load_factor
-    axes.step(across, load, where="mid", color=SERIES[0], label=rf"mean of all positions, $K_{{H\beta}}$ = {factor:.2f}")
-    axes.axhline(load.mean(), color=DARK, linestyle="--", linewidth=1.2, label=f"mean: {short(float(load.mean()))} N/mm")
+    axes.step(across, load, where="mid", color=SERIES[0], label="mean of all positions")
+    mean = float(load.mean())
+    axes.axhline(mean, color=DARK, linestyle="--", linewidth=1.2, label=f"over the width: {short(mean)} N/mm")
+    axes.axhline(factor * mean, color=DARK, linestyle=":", linewidth=1.2, label=rf"$K_{{H\beta}}$ = {factor:.3f} times that")
     axes.set_ylim(bottom=0)
-    legend_above(axes, 2)
+    legend_above(axes, 3)
     return axes
 
 

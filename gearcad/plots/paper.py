@@ -56,7 +56,7 @@ def draw_limit(axes: Axes, limit: float | tuple[float, float] | None) -> None:
     lowest, highest = limit if isinstance(limit, tuple) else (limit, limit)
     axes.axhline(lowest, color=DARK, linestyle="-.", linewidth=1.2, label=f"limit, {short(lowest)} MPa")
     if highest > lowest:
-        axes.axhspan(lowest, highest, color=MARKED, alpha=0.25, label=f"range of the limit, up to {short(highest)} MPa")
+        axes.axhspan(lowest, highest, color=MARKED, alpha=0.25, label=f"up to {short(highest)} MPa")
     axes.set_ylim(top=max(axes.get_ylim()[1], 1.08 * highest))
 
 

@@ -77,12 +77,15 @@ def harmonics(result: SolidCheck) -> str:
 def load_along_face(result: SolidCheck) -> str:
     """Caption of the load over the face width."""
     across, load = result.cycle.load_along_face
+    factor = result.summary.face_load_factor
     return (
-        "Load per width, transverse, of all pairs of teeth and on the mean of all positions. Its greatest, "
-        f"{short(float(load.max()))} N/mm at {short(float(across[load.argmax()]))} mm, is K_Hβ = "
-        f"{result.summary.face_load_factor:.3f} times the mean. The last cells belong to the ends of the faces, where load "
-        "gathers "
-        "at acute corners of helical teeth."
+        "Load per width, transverse, of all pairs of teeth and on the mean of all positions. Away from the ends its "
+        "greatest is "
+        f"{short(factor * float(load.mean()))} N/mm, K_Hβ = {factor:.3f} times the mean. The last cells belong to the ends "
+        "of the "
+        f"faces, where an edge presses whatever the alignment: {short(float(load[0]))} N/mm at {short(float(across[0]))} "
+        "mm and "
+        f"{short(float(load[-1]))} N/mm at {short(float(across[-1]))} mm."
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from gearcad.check.face import face_factors
 from gearcad.check.result import SolidCheck
 from gearcad.check.solid_summary import worst_cell
@@ -50,7 +52,7 @@ def face_reasons(result: SolidCheck) -> list[str]:
     mean = rating.normal_force * rating.application_factor / length
     position, contact, cell = worst_cell(result.cycle)
     across, load = result.cycle.load_along_face
-    greatest = across[load.argmax()]
+    greatest = across[np.abs(load - summary.face_load_factor * load.mean()).argmin()]
     return [
         f"Pressure: {short(summary.contact_pressure)} MPa at roll angle {position.roll_angle:.2f}°, "
         f"{short(summary.contact_pressure_across)} mm from the middle of the common width, where the line load is "

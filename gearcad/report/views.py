@@ -40,7 +40,7 @@ def tooth_views(result: CheckResult) -> list[ToothView]:
 def _view(result: SolidCheck, gear: int) -> ToothView:
     surface, name = tooth_surface(result, gear), ("pinion", "wheel")[gear]
     return ToothView(
-        title=f"Stress in a tooth of the {name}, turned by hand",
+        title=f"Stress in a tooth of the {name}",
         address=picture_address(partial(plot_tooth, surface), "png"),
         data=_data(surface),
         colours=[f"rgb({red}, {green}, {blue})" for red, green, blue in _colours(_STOPS)],

@@ -67,7 +67,7 @@ def small_solid_check() -> SolidCheck:
     plain, torque = coarse_model("helical"), 120.0
     crowned = FlankModification(lead_crowning=4.0, tip_relief=10.0, tip_relief_length=0.8, helix_angle_modification=6.0)
     pair = replace(plain.pair, pinion=replace(plain.pair.pinion, modification=crowned))
-    material, mounting = Material(name=NASTY_NAME, root_limit=300.0, yield_strength=900.0), Mounting(misalignment=10.0)
+    material, mounting = Material(name=NASTY_NAME, root_limit=300.0, yield_strength=2000.0), Mounting(misalignment=10.0)
     options = CheckOptions(model="3d", positions=12, body_teeth=3, refinement=0.5)
     task = Task(pair=pair, material=material, load=Load(torque=torque), mounting=mounting, options=options)
     model = plain.remade(pair, mounting)
