@@ -22,7 +22,7 @@ __all__ = ["modify"]
 @click.option("-o", "--output", type=click.Path(path_type=Path), metavar="FILE", help="[default: NAME-modified.toml here]")
 @click.option("--torque", type=float, metavar="N·m", help="On the pinion.  [default: that of the load, times its factor]")
 @click.option("--pressure", type=float, metavar="MPa", help="Most contact pressure.  [default: the material's limit]")
-@click.option("--shape", default="linear", show_default=True, metavar="SHAPE", help="Of the tip relief; or parabolic.")
+@click.option("--shape", metavar="SHAPE", help="Of the tip relief: linear or parabolic.  [default: the better one]")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document and nothing else.")
 @click.option("--quiet", is_flag=True, help="No progress and no warnings on the screen.")
 @click.option("--force", is_flag=True, help="Replace a file that exists.")
@@ -32,7 +32,7 @@ def modify(
     output: Path | None,
     torque: float | None,
     pressure: float | None,
-    shape: str,
+    shape: str | None,
     as_json: bool,
     quiet: bool,
     force: bool,
@@ -51,7 +51,8 @@ def modify(
     from gearcad.spec import read_spec
     from gearcad.spec.edit import edit_spec
 
-    wanted, design = as_choice("shape", shape, ReliefShape), read_spec(spec)
+    wanted = None if shape is None else as_choice("shape", shape, ReliefShape)
+    design = read_spec(spec)
     path = output or Path(f"{design.name}-modified.toml")
     require_new_file(path, force)
     with file_progress(shown=not quiet) as progress:

@@ -69,7 +69,7 @@ def test_the_written_spec_does_what_the_proposal_says(here: Path) -> None:
     assert document["torque"] == 50.0
     before, after = document["before"], document["after"]
     assert after["transmission_error_peak_to_peak"] < 0.8 * before["transmission_error_peak_to_peak"]
-    assert after["contact_pressure"] < 1.02 * document["pressure_bound"]
+    assert after["contact_pressure"] < 1.01 * document["pressure_bound"]
     conditions = [(each["torque"], each["misalignment"], each["pitch_error"]) for each in document["robustness"]]
     assert conditions == [(12.5, 0, 0), (25, 0, 0), (37.5, 0, 0), (50, 0, 0), (50, 10, 0), (50, -10, 0), (50, 0, 10)]
     text = Path("pair-modified.toml").read_text(encoding="utf-8")
@@ -106,7 +106,7 @@ def told(figures: dict[str, Any], cycle: SolidCycle) -> None:
 
 
 def test_it_prints_before_and_after_and_warns(here: Path) -> None:
-    result = run("modify", spec(SPEC), "-o", "other.toml", "--torque", "-30", "--pressure", "150")
+    result = run("modify", spec(SPEC), "-o", "other.toml", "--torque", "-30", "--pressure", "150", "--shape", "linear")
     assert result.exit_code == 0, result.output
     lines = result.stdout.splitlines()
     assert lines[0].startswith("pair at -30 N·m, ")
@@ -117,7 +117,7 @@ def test_it_prints_before_and_after_and_warns(here: Path) -> None:
     assert len(row.split()) == 5
     assert "bound of the contact pressure: 150 MPa" in lines
     assert "MPa, above the bound of 150 MPa" in result.stderr
-    assert "[6/6] robustness" in result.stderr
+    assert "[5/5] robustness" in result.stderr
 
 
 @pytest.mark.parametrize(
