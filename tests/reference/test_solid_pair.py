@@ -1,0 +1,164 @@
+"""Solid pairs in mesh against the plane model, Hertz's ellipse, equilibrium and symmetry."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.hertz import hertz_ellipse
+
+from gearcad import FlankModification, Gear, GearPair, Material, Mounting
+from gearcad.fea.chain import Cuts
+from gearcad.fea.cycle import run_cycle
+from gearcad.fea.elasticity import Plane
+from gearcad.fea.flexible_pair import BodyModel, flexible_pair
+from gearcad.ltca.solid_cycle import run_solid_cycle
+from gearcad.ltca.solid_pair import SolidPair, SolidSizes, solid_pair
+from gearcad.meshing import MeshSizes
+
+STEEL = Material()
+SECTORS = BodyModel(teeth=3, cuts=Cuts.FIXED)
+QUICK = SolidSizes(
+    section=MeshSizes(flank=1.0, corner=0.4, fillet=0.45, outline=1.2, cut=1.2, rim=4.0, growth=0.8), layer=1.4, fewest_layers=5
+)
+"""Coarse: 8 to 12 thousand dofs a gear."""
+
+POSITIONS = 8
+
+FZG = GearPair(
+    pinion=Gear(teeth=16, normal_module=4.5, profile_shift=0.1817, face_width=20),
+    wheel=Gear(teeth=24, normal_module=4.5, profile_shift=0.1715, face_width=20),
+)
+FZG_TORQUE = 300.0
+
+HELICAL = GearPair(
+    pinion=Gear(teeth=17, normal_module=3.0, face_width=22, helix_angle=18.0, profile_shift=0.2),
+    wheel=Gear(teeth=31, normal_module=3.0, face_width=18, helix_angle=-18.0, profile_shift=0.1),
+    axial_offset=1.0,
+)
+HELICAL_TORQUE = 180.0
+
+
+@pytest.fixture(scope="module")
+def spur() -> SolidPair:
+    return solid_pair(FZG, STEEL, body=SECTORS, sizes=QUICK)
+
+
+@pytest.fixture(scope="module")
+def helical() -> SolidPair:
+    return solid_pair(HELICAL, STEEL, body=SECTORS, sizes=QUICK)
+
+
+def test_spur_gear_lies_between_the_plane_states(spur: SolidPair) -> None:
+    """Thin gears are in plane stress, wide ones in plane strain. Root stress is the same in both, but varies over the face."""
+    solid = run_solid_cycle(spur, FZG_TORQUE, POSITIONS)
+    stress, strain = (
+        run_cycle(flexible_pair(FZG, STEEL, body=SECTORS, plane=plane), FZG_TORQUE, POSITIONS)
+        for plane in (Plane.STRESS, Plane.STRAIN)
+    )
+    soft, stiff = (cycle.values("stiffness").mean() for cycle in (stress, strain))
+    assert soft < solid.values("stiffness").mean() < stiff
+    for gear in (0, 1):
+        plane = max(position.tension[gear].stress for position in strain.positions)
+        heights, along = solid.root_along_face(gear)
+        across = np.linspace(0, 20, 401)
+        assert np.interp(across, heights, along).mean() == pytest.approx(plane, rel=0.04)
+        assert along.max() == pytest.approx(plane, rel=0.12)
+
+
+def test_reactions_are_the_torques(spur: SolidPair, helical: SolidPair) -> None:
+    """On both hubs at every position: 0.5 % is asked."""
+    for model, torque in ((spur, FZG_TORQUE), (helical, HELICAL_TORQUE)):
+        ratio = model.pair.wheel.teeth / model.pair.pinion.teeth
+        for position in run_solid_cycle(model, torque, POSITIONS).positions:
+            assert position.torques == pytest.approx((torque, torque * ratio), rel=0.003)
+
+
+def test_small_helix_angles_are_continuous(spur: SolidPair) -> None:
+    pair = replace(
+        FZG, pinion=replace(FZG.pinion, helix_angle=0.02), wheel=replace(FZG.wheel, helix_angle=-0.02), centre_distance=None
+    )
+    tilted = solid_pair(pair, STEEL, body=SECTORS, sizes=QUICK)
+    one, other = (run_solid_cycle(model, FZG_TORQUE, POSITIONS) for model in (spur, tilted))
+    assert other.values("stiffness") == pytest.approx(one.values("stiffness"), rel=5e-3)
+    assert other.values("stiffness").mean() == pytest.approx(one.values("stiffness").mean(), rel=5e-4)
+    for gear in (0, 1):
+        stresses = [max(position.tension[gear].stress for position in cycle.positions) for cycle in (one, other)]
+        assert stresses[1] == pytest.approx(stresses[0], rel=2e-3)
+
+
+def test_hand_does_not_matter(helical: SolidPair) -> None:
+    """The mirror image in a plane across the axes has the same figures to rounding."""
+    pair = replace(
+        HELICAL,
+        pinion=replace(HELICAL.pinion, helix_angle=-18.0),
+        wheel=replace(HELICAL.wheel, helix_angle=18.0),
+        axial_offset=-1.0,
+    )
+    mirrored = solid_pair(pair, STEEL, body=SECTORS, sizes=QUICK)
+    one, other = (run_solid_cycle(model, HELICAL_TORQUE, 3) for model in (helical, mirrored))
+    for name in ("stiffness", "transmission_error", "approach_parts", "torques"):
+        assert other.values(name) == pytest.approx(one.values(name), rel=1e-6)
+    assert other.load_along_face[1] == pytest.approx(one.load_along_face[1][::-1], rel=1e-4)
+    for gear in (0, 1):
+        assert other.root_along_face(gear)[1] == pytest.approx(one.root_along_face(gear)[1][::-1], rel=1e-5)
+
+
+def test_driver_and_wheel_may_be_exchanged(helical: SolidPair) -> None:
+    """The same flanks at the same places: only the names are others."""
+    pair = replace(HELICAL, pinion=HELICAL.wheel, wheel=HELICAL.pinion, axial_offset=-1.0)
+    exchanged = solid_pair(pair, STEEL, body=SECTORS, sizes=QUICK)
+    torque = HELICAL_TORQUE * 31 / 17
+    for angle in (-4.0, 0.0, 6.0):
+        one = helical.solve(angle, HELICAL_TORQUE)
+        other = exchanged.solve(-angle * 17 / 31, torque)
+        assert other.approach == pytest.approx(one.approach, rel=1e-4)
+        assert other.parts[::-1] == pytest.approx(one.parts, rel=1e-4)
+        assert other.forces.max() == pytest.approx(one.forces.max(), rel=1e-3)
+
+
+def test_crowned_flanks_touch_in_hertzs_ellipse(spur: SolidPair) -> None:
+    """One pair at the pitch point, its ellipse well inside the face: 2 % is asked."""
+    for amount in (60.0, 150.0):
+        crowned = replace(FZG, pinion=replace(FZG.pinion, modification=FlankModification(lead_crowning=amount)))
+        solved = spur.remade(crowned, Mounting()).solve(0.0, FZG_TORQUE, single=True)
+        along = 20.0**2 / (8 * amount / 1000)
+        path = FZG.path_of_contact
+        whole = math.sqrt(FZG.centre_distance**2 - ((FZG.pinion.base_diameter + FZG.wheel.base_diameter) / 2) ** 2)
+        across = path.C * (whole - path.C) / whole
+        modulus = STEEL.youngs_modulus / (1 - STEEL.poisson_ratio**2) / 2
+        pressure, _, lesser = hertz_ellipse(float(solved.forces.sum()), across, along, modulus)
+        assert solved.pressures.max() == pytest.approx(pressure, rel=0.02)
+        assert solved.half_widths.max() == pytest.approx(lesser, rel=0.02)
+
+
+def test_misalignment_moves_the_load_and_the_helix_brings_it_back(helical: SolidPair) -> None:
+    """Where the gap grows towards larger z the load goes to smaller z; a helix turned after the wheel's axis brings it back.
+
+    In the plane of action the axis turns by m/b; seen along the line of contact that is m/(b cos^2 beta_b) in the transverse
+    section, which a helix angle modification of the pinion over its own width must give. What stays is that the turned axis
+    also moves the wheel along itself, which parts the lines of contact.
+    """
+
+    def tilt(model: SolidPair) -> float:
+        """How much more is carried at large z, over all."""
+        across, load = run_solid_cycle(model, HELICAL_TORQUE, 4).load_along_face
+        return float((load * np.sign(across)).sum() / load.sum())
+
+    mounting = Mounting(misalignment=30.0)
+    even, askew = tilt(helical), tilt(helical.remade(HELICAL, mounting))
+    assert askew < even - 0.2
+    pinion, flat = HELICAL.pinion, math.cos(math.radians(HELICAL.pinion.base_helix_angle))
+    needed = mounting.misalignment / HELICAL.common_width.width * pinion.face_width / flat**2
+    turned = replace(pinion, modification=FlankModification(helix_angle_modification=needed))
+    assert np.diff(turned.flank_form.depth(10.0, np.array([0.0, 22.0])))[0] == pytest.approx(-needed / 1000)
+    back = tilt(helical.remade(replace(HELICAL, pinion=turned), mounting))
+    assert abs(back - even) < 0.2 * abs(askew - even)
+
+
+def test_linear_in_the_load_but_for_the_contact(spur: SolidPair) -> None:
+    """Teeth bend in proportion; the contact is a little stiffer under more load, as Hertz's is."""
+    few, many = (run_solid_cycle(spur, torque, 4).values("stiffness").mean() for torque in (60.0, 300.0))
+    assert 1.0 < many / few < 1.12
