@@ -81,11 +81,15 @@ class ToothGrid:
     def falling_cells(self) -> NDArray[np.bool_]:
         """(layers, period): true where a cell is cut from its lower right to its upper left, seen from outside.
 
-        On a land the diagonal goes against the helix.
+        On a land the diagonal is the one that spans less about the axis: against the helix.
         """
         right, left = self.falling
-        lands = [np.full((self.screw.layers, steps), self.screw.kappa > 0) for steps in (self.tip_steps, self.root_steps)]
-        return np.concatenate([right, lands[0], left[:, ::-1], lands[1]], axis=1)
+        _, setback, angle = self.outline
+        angle = angle + self.screw.kappa * self.screw.heights(setback)
+        angle = np.column_stack([angle, angle[:, 0] + 2 * math.pi / self.teeth])
+        shorter = np.abs(angle[1:, :-1] - angle[:-1, 1:]) < np.abs(angle[1:, 1:] - angle[:-1, :-1])
+        tip, space = self.flank_steps, self.period - self.root_steps
+        return np.concatenate([right, shorter[:, tip : tip + self.tip_steps], left[:, ::-1], shorter[:, space:]], axis=1)
 
 
 def tooth_grid(gear: Gear, chord_error: float) -> ToothGrid:
@@ -108,8 +112,8 @@ def tooth_grid(gear: Gear, chord_error: float) -> ToothGrid:
             radius[face_level] = cone.face_radius
     setback = cone.setback(radius)
     right, left = turns = _turns(gear, pieces, samples, screw.heights(setback))
-    root_half = math.pi / gear.teeth - angle[0] + _opening(left[:, 0], right[:, 0])
-    tip_half = angle[-1] + _opening(right[:, -1], left[:, -1])
+    root_half = math.pi / gear.teeth - angle[0] + (right[:, 0] - left[:, 0]).max() / 2
+    tip_half = angle[-1] + (left[:, -1] - right[:, -1]).max() / 2
     # Ends that turn stay apart, however near they are.
     root_near, tip_near = (0.0 if np.any([right[:, k], left[:, k]]) else near for k in (0, -1))
     root_steps = _land_steps(root_half, radius[0], chord_error, root_near)
@@ -162,12 +166,6 @@ def _turns(gear: Gear, pieces: list[FlankCurve], samples: list[Floats], heights:
         for side in (False, True)
     )
     return right, left
-
-
-def _opening(first: Floats, last: Floats) -> float:
-    """Half of the most by which a land widens (rad) when its ends turn, from one layer to another across a diagonal."""
-    across = np.maximum(last[1:], last[:-1]) - np.minimum(first[1:], first[:-1])
-    return float(across.max()) / 2
 
 
 def _land_steps(half_angle: float, radius: float, chord_error: float, near: float) -> int:

@@ -140,7 +140,7 @@ def _check_random(seed: int) -> None:
     assert _off_side(gear, points[_on_teeth(gear, points)]).max() <= CHORD_ERROR, gear
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", [*range(6), 91, 126])  # the last two have been wrong once
 def test_random_modifications(seed: int) -> None:
     _check_random(seed)
 
