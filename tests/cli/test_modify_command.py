@@ -52,7 +52,7 @@ def run(*arguments: str) -> Result:
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("gearcad.ltca.search._GENERATIONS", 6)
+    monkeypatch.setattr("gearcad.ltca.search._GENERATIONS", 4)
     return tmp_path
 
 
@@ -105,7 +105,8 @@ def told(figures: dict[str, Any], cycle: SolidCycle) -> None:
     assert figures["edge_positions"] == sum(any(each.edge for each in position.contacts) for position in cycle.positions)
 
 
-def test_it_prints_before_and_after_and_warns(here: Path) -> None:
+def test_it_prints_before_and_after_and_warns(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gearcad.ltca.search._GENERATIONS", 1)
     result = run("modify", spec(SPEC), "-o", "other.toml", "--torque", "-30", "--pressure", "150", "--shape", "linear")
     assert result.exit_code == 0, result.output
     lines = result.stdout.splitlines()

@@ -83,7 +83,8 @@ def test_a_bound_of_the_pressure_is_kept_and_one_that_cannot_be_gives_way_to_the
     assert found.peak_to_peak < 0.6 * search.plain.peak_to_peak[0]
 
 
-def test_the_helix_is_turned_after_a_misaligned_wheel() -> None:
+def test_the_helix_is_turned_after_a_misaligned_wheel(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gearcad.ltca.search._GENERATIONS", 5)
     model = coarse_model("FZG C")
     mounting = Mounting(misalignment=30.0)
     with threadpool_limits(1):
