@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.solid import loaded_left
@@ -17,12 +18,14 @@ from gearcad.geometry import GearPair, ReliefShape
 from gearcad.ltca.search import Found, Search, conditions, start_search
 from gearcad.ltca.solid_cycle import SolidCycle, run_solid_cycle
 from gearcad.ltca.solid_pair import SolidPair, SolidSizes, solid_pair
-from gearcad.ltca.variants import Condition, with_amounts
+from gearcad.ltca.variants import AMOUNTS, Condition, with_amounts
 from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.spec.design import Design
 
-__all__ = ["Figures", "Proposal", "Robustness", "propose"]
+__all__ = ["Figures", "Proposal", "Robustness", "propose", "unmirrored"]
+
+Floats = NDArray[np.float64]
 
 Progress = Callable[[str, int, int], None]
 """Called with what is being done, how many steps are done, and how many there are."""
@@ -171,7 +174,7 @@ def propose(
         tried = [
             _tried(model, torque, each, limits, count, pressure is not None) for each in ([shape] if shape else ReliefShape)
         ]
-        best = min(tried, key=lambda each: (not each.found.bounded, each.found.bound not in limits, each.found.peak_to_peak))
+        best = min(tried, key=lambda each: (not each.found.bounded, each.found.bound not in limits, each.peak_to_peak))
         _tell(progress, "robustness")
         pairs = (model.pair, best.cycle.model.pair)
         robustness = tuple(
@@ -179,7 +182,7 @@ def propose(
         )
     return Proposal(
         design=design,
-        pair=with_amounts(pair, _unmirrored(best.found, pair, torque), best.search.variants.shape),
+        pair=with_amounts(pair, unmirrored(best.found.amounts, pair, torque), best.search.variants.shape),
         torque=torque,
         found=best.found,
         variants=sum(sum(each.search.tried) for each in tried),
@@ -243,6 +246,11 @@ class _Tried(NamedTuple):
     found: Found
     cycle: SolidCycle
 
+    @property
+    def peak_to_peak(self) -> float:
+        """Of the transmission error (µm), solved in full."""
+        return Figures.of(self.cycle).transmission_error_peak_to_peak
+
 
 def _tried(model: SolidPair, torque: float, shape: ReliefShape, limits: list[float], count: int, given: bool) -> _Tried:
     """Search with one shape of the tip relief, and solve what is found in full at `count` positions."""
@@ -263,7 +271,8 @@ def _cycle(model: SolidPair, found: Found, shape: ReliefShape, torque: float, co
     return run_solid_cycle(modified, torque, count)
 
 
-def _unmirrored(found: Found, pair: GearPair, torque: float) -> Any:
-    """The amounts for the pair as it is, where the model is its mirror image: a spur gear's helix turns over."""
+def unmirrored(amounts: Floats, pair: GearPair, torque: float) -> Floats:
+    """Amounts (6,) for the pair as it is, from those for the one that `loaded_left` makes of it: a spur gear's helix turns."""
     turned = torque < 0 and not pair.pinion.helix_angle
-    return found.amounts * np.where(np.arange(len(found.amounts)) == 5, -1, 1) if turned else found.amounts
+    helix = np.array([name.endswith("helix_angle_modification") for name in AMOUNTS])
+    return np.where(helix & turned, 0.0 - amounts, amounts)

@@ -9,11 +9,13 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from gearcad import Mounting
+from gearcad.check.solid import loaded_left
 from gearcad.geometry import ReliefShape
 from gearcad.ltca.search import Found, Search, start_search
 from gearcad.ltca.solid_cycle import run_solid_cycle
 from gearcad.ltca.variants import Condition, with_amounts
-from tests.support.coarse import TORQUES, coarse_model
+from gearcad.modify import unmirrored
+from tests.support.coarse import PAIRS, TORQUES, coarse_model, coarse_pair
 
 TORQUE = TORQUES["FZG C"]
 
@@ -97,3 +99,14 @@ def test_the_helix_is_turned_after_a_misaligned_wheel(monkeypatch: pytest.Monkey
     without = replace(found, amounts=found.amounts * [1, 1, 1, 1, 1, 0]).amounts
     pressures = search.outcomes(np.stack([found.amounts, without]), Condition(TORQUE)).pressures
     assert pressures[1] > 1.15 * pressures[0]
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_amounts_found_on_the_mirror_image_are_those_of_the_pair(name: str) -> None:
+    pair, amounts = coarse_pair(name), np.array([20.0, 2.0, 18.0, 1.5, 3.0, 7.0])
+    modified = with_amounts(pair, unmirrored(amounts, pair, -1.0), ReliefShape.LINEAR)
+    mirrored = with_amounts(loaded_left(pair, -1.0), amounts, ReliefShape.LINEAR)
+    assert loaded_left(modified, -1.0) == mirrored
+    assert with_amounts(pair, unmirrored(amounts, pair, 1.0), ReliefShape.LINEAR) == with_amounts(
+        pair, amounts, ReliefShape.LINEAR
+    )
