@@ -38,7 +38,7 @@ _STEP = 0.05
 """Step (mm) of that bound, so that loads and modifications that differ little share their responses."""
 
 
-_SECTION = MeshSizes(flank=0.7, corner=0.27, fillet=0.28, outline=0.9, cut=1.0, rim=4.0, growth=0.6)
+_SECTION = MeshSizes(flank=0.7, corner=0.27, fillet=0.24, outline=0.9, cut=1.0, rim=4.0, growth=0.6)
 
 
 @dataclass(frozen=True, kw_only=True)

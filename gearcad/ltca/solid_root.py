@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _GAUSS = 0.5 / np.sqrt(3)
-"""Places, from the middle of a face, at which strains of quadratic elements are most accurate."""
+"""Places along the axis, from the middle of a face, at which strains of quadratic elements are most accurate."""
 
 _LEAST_ANGLE = 12.0
 """Tangent angle (deg) from which on the fillet counts as the root, as in the plane model."""
@@ -83,26 +83,28 @@ class SolidFillet:
 
     @cached_property
     def _shape(self) -> tuple[Floats, Floats]:
-        """Shape functions (4, 8) and slopes (2, 4, 8) at the points of a face: lower row, upper row."""
+        """Shape functions (2, 8) and slopes (2, 2, 8) at the points of a face: half-way along the profile, below and above.
+
+        There the strain along the profile is the mean of the edge, whatever the shape of the elements behind it.
+        """
         from skfem import ElementQuadS2
 
-        element, low, high = ElementQuadS2(), 0.5 - _GAUSS, 0.5 + _GAUSS
-        places = np.array([[low, high, low, high], [low, low, high, high]])
+        element = ElementQuadS2()
+        places = np.array([[0.5, 0.5], [0.5 - _GAUSS, 0.5 + _GAUSS]])
         found = [element.lbasis(places, k) for k in range(8)]
         return np.stack([each[0] for each in found], -1), np.stack([each[1] for each in found], -1)
 
     def _at_points(self, values: Floats) -> Floats:
-        """Values (layers, edges, 4 points, ...) as (heights, along the profile, ...)."""
+        """Values (layers, edges, 2 points, ...) as (heights, along the profile, ...)."""
         layers, edges, _, *rest = values.shape
-        split = values.reshape(layers, edges, 2, 2, *rest)
-        return np.moveaxis(split, 2, 1).reshape(2 * layers, 2 * edges, *rest)
+        return np.moveaxis(values, 2, 1).reshape(2 * layers, edges, *rest)
 
     @cached_property
     def _geometry(self) -> tuple[Floats, Floats, Floats]:
         mesh = self.body.body.sector.mesh
         values, slopes = self._shape
         where = self._at_points(np.einsum("qa,leac->leqc", values, mesh.points[self._faces]))
-        along = np.einsum("qa,eac->eqc", slopes[0][:2], mesh.in_section[self._faces[0]]).reshape(-1, 2)
+        along = np.einsum("a,eac->ec", slopes[0][0], mesh.in_section[self._faces[0]])
         angles = np.degrees(np.arctan2(along[:, 1], np.abs(along[:, 0])))
         return where[:, 0, 2], np.hypot(*np.moveaxis(where[0, :, :2], -1, 0)), angles
 
@@ -117,7 +119,7 @@ class SolidFillet:
 
     @cached_property
     def _bases(self) -> tuple[list[Floats], Floats, Floats]:
-        """Slopes of the faces both ways, and unit vectors along the profile and square to it, (layers, edges, 4, 3) each."""
+        """Slopes of the faces both ways, and unit vectors along the profile and square to it, (layers, edges, 2, 3) each."""
         mesh = self.body.body.sector.mesh
         bases = [np.einsum("qa,leac->leqc", slope, mesh.points[self._faces]) for slope in self._shape[1]]
         first = bases[0] / np.linalg.norm(bases[0], axis=-1, keepdims=True)
