@@ -82,7 +82,7 @@ def test_a_view_holds_the_surface_of_the_tooth(document: lxml.html.HtmlElement, 
     colours = unpacked("colours", "u1").reshape(256, 3)
     legend = re.findall(r"rgb\((\d+), (\d+), (\d+)\)", figure.xpath(".//div[@class='colours']/@style")[0])
     assert [tuple(map(int, colour)) for colour in (legend[0], legend[-1])] == [tuple(colours[0]), tuple(colours[-1])]
-    assert figure.xpath(".//span")[-1].text_content() == f"{short(round(surface.most))} MPa and above"
+    assert figure.xpath(".//div[@class='numbers']/span")[-1].text_content() == f"{short(round(surface.most))} MPa and above"
 
 
 def test_reasons_tell_width_unevenness_and_the_rest(document: lxml.html.HtmlElement) -> None:
