@@ -183,7 +183,7 @@ def plot_load_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
     axes.step(across, load, where="mid", color=SERIES[0], label="mean of all positions")
     mean = float(load.mean())
     axes.axhline(mean, color=DARK, linestyle="--", linewidth=1.2, label=f"over the width: {short(mean)} N/mm")
-    axes.axhline(factor * mean, color=DARK, linestyle=":", linewidth=1.2, label=rf"$K_{{H\beta}}$ = {factor:.3f} times that")
+    axes.axhline(factor * mean, color=DARK, linestyle=":", linewidth=1.2, label=rf"$K_{{H\beta}}$ = {factor:.3f}")
     axes.set_ylim(bottom=0)
     legend_above(axes, 3)
     return axes
