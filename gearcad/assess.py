@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from gearcad.check.options import CheckOptions, Model
 from gearcad.check.result import CheckResult
 from gearcad.check.run import Progress, check_pair
 from gearcad.errors import ParameterError
@@ -12,10 +11,9 @@ from gearcad.spec.design import Design
 __all__ = ["assess"]
 
 
-def assess(design: Design, progress: Progress | None = None, *, threads: int | None = 1) -> CheckResult:
+def assess(design: Design, progress: Progress | None = None) -> CheckResult:
     """Check the design's pair as mounted, under its load, with the options of its [check].
 
-    Solid bodies are solved by so many `threads`, None for as many as there are cores; a plane always by one.
     Raises ParameterError for a design without pair or load, and what `check_pair` raises.
     """
     if design.pair is None:
@@ -24,9 +22,7 @@ def assess(design: Design, progress: Progress | None = None, *, threads: int | N
         raise ParameterError("load.torque", None, "must be given, in N·m on the pinion: without it there is no stress")
     from threadpoolctl import threadpool_limits
 
-    options = design.check or CheckOptions()
-    # The dense systems of a plane are small: threads cost more than they bring.
-    limit = threads if options.model_for(design.pair) is Model.SOLID else 1
-    with threadpool_limits(limit):
+    # The dense systems are small, and solid bodies are solved side by side: more threads cost more than they bring.
+    with threadpool_limits(1):
         material = design.material or Material()
-        return check_pair(design.pair, material, design.load, options, progress, design.mounting)
+        return check_pair(design.pair, material, design.load, design.check, progress, design.mounting)

@@ -25,7 +25,7 @@ LEAST_ORDER = 1.0
 _SAFETY = 1.25
 """Factor on the change to the finest mesh where the changes are too small or too uneven to show an order (Roache)."""
 
-FINER = 1.3
+FINER = 1.26
 """Refinement of the second of two solid meshes: twice the dofs."""
 
 SOLID_ORDER = 2.0
@@ -42,6 +42,11 @@ class Convergence:
     factors: tuple[float, ...]
     order: float | None
     error: float
+
+    @property
+    def last_change(self) -> float:
+        """Relative change from the last mesh but one to the last."""
+        return abs(self.values[-2] / self.values[-1] - 1)
 
     def to_dict(self) -> dict[str, Any]:
         """As `check.json` has it."""

@@ -48,7 +48,7 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
     if model is not None:
         design = replace(design, check=replace(design.check or CheckOptions(), model=model))
     with file_progress(shown=not quiet) as progress:
-        result = assess(design, progress, threads=None)
+        result = assess(design, progress)
     document = check_document(result)
     folder = output if output is not None else Path("output") / design.name
     with staged_files(folder) as staging:

@@ -91,7 +91,7 @@ def pair() -> GearPair:
 def test_only_the_coarse_mesh_is_at_fault(document: dict) -> None:
     assert document["model"] == "3d"
     failed = [each["quantity"] for each in document["comparisons"] if each["role"] == "gate" and not each["passed"]]
-    assert failed and all(quantity.startswith("discretisation error") for quantity in failed)
+    assert failed and all(quantity.startswith("change on a finer mesh") for quantity in failed)
     for each in document["convergence"]:
         coarse, fine = each["values"]
         assert each["factors"] == [1.0, 1.3]
