@@ -19,7 +19,7 @@ __all__ = ["Condensed", "condense", "parts_of"]
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_SMALLEST = 4
+_SMALLEST = 8
 """Quadrangles of a part that is not divided further."""
 
 _DIRECTIONS, _SHARES = 16, (0.42, 0.46, 0.5, 0.54, 0.58)
@@ -141,17 +141,23 @@ def _eliminated(
 
     given = [_eliminated(half, dofs_of, matrix_of, fronts) for half in part.halves] or [matrix_of(part.quads)]
     every = np.unique(np.concatenate([dofs for dofs, _ in given]))
+    goes = np.isin(every, dofs_of(part.own), assume_unique=True)
+    own, aside = every[goes], every[~goes]
+    # Those that go come first, so that the parts of the matrix are slices.
+    place = np.empty(len(every), int)
+    place[goes], place[~goes] = np.arange(len(own)), len(own) + np.arange(len(aside))
     matrix = np.zeros((len(every), len(every)))
     for dofs, block in given:
-        place = np.searchsorted(every, dofs)
-        matrix[np.ix_(place, place)] += block
-    own = np.intersect1d(dofs_of(part.own), every, assume_unique=True)
-    goes = np.isin(every, own, assume_unique=True)
-    aside = every[~goes]
+        here = place[np.searchsorted(every, dofs)]
+        for row, values in zip(here, block, strict=True):  # an order of magnitude faster than all rows at once
+            matrix[row, here] += values
+    count = len(own)
     try:
-        lower = scipy.linalg.cholesky(matrix[np.ix_(goes, goes)], lower=True, check_finite=False)
+        lower = scipy.linalg.cholesky(matrix[:count, :count], lower=True, check_finite=False)
     except np.linalg.LinAlgError as error:
         raise SolverError(f"the stiffness matrix of a gear body could not be factorised ({error})") from error
-    across = scipy.linalg.solve_triangular(lower, matrix[np.ix_(goes, ~goes)], lower=True, check_finite=False)
+    across = scipy.linalg.solve_triangular(lower, matrix[:count, count:], lower=True, check_finite=False)
     fronts.append(_Front(own, aside, lower, across))
-    return aside, matrix[np.ix_(~goes, ~goes)] - across.T @ across
+    rest = matrix[count:, count:]
+    rest -= across.T @ across
+    return aside, rest

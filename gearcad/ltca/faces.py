@@ -16,7 +16,7 @@ __all__ = ["Faces", "boundary_faces"]
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_FAR, _NEAR = 4, 12
+_FAR, _NEAR = 3, 12
 """Gauss points each way on a face, far from a singular point and near it."""
 
 _CLOSE = 1.5
