@@ -1,0 +1,70 @@
+"""Timings of solid pairs: `pytest -m benchmark_suite tests/benchmarks/test_solid_speed.py`
+
+Each case runs in a process of its own, which tells its peak memory; times are after imports, and of the same run.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from typing import Any
+
+import pytest
+
+pytestmark = pytest.mark.benchmark_suite
+
+_CODE = """
+import json, resource, time
+import gmsh, skfem, scipy.interpolate, scipy.linalg, scipy.sparse
+from dataclasses import replace
+from threadpoolctl import threadpool_limits
+from gearcad import FlankModification, Material, Mounting
+from gearcad.fea.chain import Cuts
+from gearcad.fea.flexible_pair import BodyModel
+from gearcad.ltca.solid_cycle import run_solid_cycle
+from gearcad.ltca.solid_pair import solid_pair
+from gearcad.spec import read_spec
+from gearcad.spec.starters import starter_text
+import tempfile, pathlib
+with tempfile.TemporaryDirectory() as folder:
+    spec = pathlib.Path(folder) / "volvo-13-44.toml"
+    spec.write_text(starter_text("volvo")[1])
+    pair = read_spec(spec).pair
+gears = (pair.pinion, pair.wheel)
+held = tuple(gear.root_diameter - 4 * gear.normal_module for gear in gears)
+sectors = BodyModel(teeth=3, cuts=Cuts.FREE, inner_diameters=held)
+modified = replace(pair, pinion=replace(pair.pinion, modification=FlankModification(tip_relief=15, tip_relief_length=2.0)))
+with threadpool_limits(1):
+    start = time.perf_counter()
+    model = solid_pair(pair, Material(youngs_modulus=205e3), body=BODY)
+    run_solid_cycle(model, 220.0, 24)
+    first = time.perf_counter()
+    run_solid_cycle(model, 150.0, 24)
+    load = time.perf_counter()
+    run_solid_cycle(model.remade(modified, Mounting()), 220.0, 24)
+    modification = time.perf_counter()
+print(json.dumps({
+    "bodies and 24 positions": first - start, "new load": load - first, "new modification": modification - load,
+    "peak_GB": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e9,
+}))
+"""
+
+CASES = {"3 teeth": ("sectors", 15.0, 2.0), "full rings": ("None", 60.0, 5.0)}
+"""Bodies, and how many seconds and GB (10^9 bytes, imports included) the Volvo pair may take."""
+
+_AGAIN = 1.0
+"""s: a new load or modification on the same bodies."""
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_volvo_pair(name: str, record_property: Any) -> None:
+    body, seconds, memory = CASES[name]
+    done = subprocess.run([sys.executable, "-c", _CODE.replace("BODY", body)], check=True, capture_output=True, text=True)
+    found = json.loads(done.stdout)
+    for key, value in found.items():
+        record_property(key, value)
+    print(f"\n{name}: " + ", ".join(f"{key} {value:.2f}" for key, value in found.items()))
+    assert found["bodies and 24 positions"] < seconds
+    assert found["peak_GB"] < memory
+    assert max(found["new load"], found["new modification"]) < _AGAIN
