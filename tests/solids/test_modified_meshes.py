@@ -12,7 +12,7 @@ import pytest
 import trimesh
 from support.exact import distance_to_section
 from support.modified import depth_off, removed_volume, unturned
-from support.modifying import AMOUNTS, GEARS, modified, random_gear
+from support.modifying import AMOUNTS, GEARS, crossed, modified, random_gear
 
 from gearcad import BasicRack, Gear
 from gearcad.geometry.modification import FlankModification
@@ -68,8 +68,7 @@ def _off_side(gear: Gear, points: np.ndarray) -> np.ndarray:
     return np.min([np.hypot(d, distance_to_section(gear, back + np.array([0, 0, d]))) for d in shifts], axis=0)
 
 
-@pytest.mark.parametrize("amount", CASES)
-@pytest.mark.parametrize("name", GEARS)
+@pytest.mark.parametrize(("name", "amount"), crossed(CASES))
 def test_meshes_are_closed_and_on_the_modified_flanks(name: str, amount: str) -> None:
     gear = _modified(name, amount)
     facets = tessellate(gear, CHORD_ERROR)
@@ -84,8 +83,7 @@ def test_meshes_are_closed_and_on_the_modified_flanks(name: str, amount: str) ->
     assert abs(removed - removed_volume(gear)) < CHORD_ERROR * mesh.area / 10
 
 
-@pytest.mark.parametrize("amount", CASES)
-@pytest.mark.parametrize("name", GEARS)
+@pytest.mark.parametrize(("name", "amount"), crossed(CASES))
 def test_no_triangle_leaves_the_modified_teeth_by_more_than_the_chord_error(name: str, amount: str) -> None:
     gear = _modified(name, amount)
     points = _samples(tessellate(gear, CHORD_ERROR))

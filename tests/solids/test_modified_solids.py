@@ -17,7 +17,7 @@ from OCP.gp import gp_Pnt2d
 from OCP.TopAbs import TopAbs_IN
 from support.exact import distance_to_section
 from support.modified import depth_off, folded, removed_volume, specified, unturned
-from support.modifying import AMOUNTS, GEARS, modified, random_gear
+from support.modifying import AMOUNTS, GEARS, crossed, modified, random_gear
 
 from gearcad import BasicRack, Gear
 from gearcad.geometry.modification import FlankModification
@@ -85,8 +85,7 @@ def _measure(gear: Gear, shape: cadquery.Shape) -> None:
     assert distance_to_section(gear, unturned(gear, rest)).max() < ON_FLANK
 
 
-@pytest.mark.parametrize("amount", AMOUNTS)
-@pytest.mark.parametrize("name", GEARS)
+@pytest.mark.parametrize(("name", "amount"), crossed(AMOUNTS))
 def test_each_modification_is_measured_on_the_solid(name: str, amount: str) -> None:
     gear = modified(GEARS[name], amount)
     solid = gear_solid(gear)
@@ -104,8 +103,7 @@ def test_all_modifications_before_and_after_step(name: str, shape: str, tmp_path
         _measure(gear, made)
 
 
-@pytest.mark.parametrize("amount", [*AMOUNTS, "all"])
-@pytest.mark.parametrize("name", GEARS)
+@pytest.mark.parametrize(("name", "amount"), crossed([*AMOUNTS, "all"]))
 def test_the_volume_taken_off(name: str, amount: str) -> None:
     gear = modified(GEARS[name], *(() if amount == "all" else (amount,)))
     exact = gear_solid(GEARS[name])

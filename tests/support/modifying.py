@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+import pytest
 
 from gearcad import BasicRack, Body, Gear, GeometryError
 from gearcad.geometry.modification import FlankModification
 from support.modified import roll_ends
 
-__all__ = ["AMOUNTS", "GEARS", "modified", "random_gear"]
+__all__ = ["AMOUNTS", "GEARS", "crossed", "modified", "random_gear"]
 
 _KEYED = {"bore": 12, "keyway_width": 4, "keyway_depth": 1.5, "hub_diameter": 20, "hub_length": 3, "hub_side": "both"}
 _PLAIN = {"teeth": 20, "normal_module": 2.0, "face_width": 12.2}
@@ -86,3 +89,12 @@ def _draw(rng: np.random.Generator) -> Gear:
     chosen = [name for name in AMOUNTS if rng.random() < 0.6]
     amounts = {name: module * rng.uniform(0 if name.endswith("relief") else -6, 12) for name in chosen}
     return replace(gear, modification=FlankModification(**shapes, **lengths, **amounts))
+
+
+def crossed(amounts: Iterable[str]) -> list[Any]:
+    """Every gear with every amount, as parameters "name", "amount": a third of them by default, the others long."""
+    return [
+        pytest.param(name, amount, id=f"{name}-{amount}", marks=() if (row + column) % 3 == 0 else pytest.mark.long)
+        for row, name in enumerate(GEARS)
+        for column, amount in enumerate(amounts)
+    ]
