@@ -67,6 +67,7 @@ class SolidSizes:
 class SolidPair:
     """The bodies of pinion and wheel, factorised and solved for loads on the flank.
 
+    `fillets` are, for pinion and wheel, the one under the loaded flank and the one behind it.
     Modifications and mounting may be changed by `remade`: the bodies are those of the exact gears. Left flanks carry.
     """
 
@@ -76,6 +77,7 @@ class SolidPair:
     pinion: SolidCompliance
     wheel: SolidCompliance
     cells: int
+    fillets: tuple[tuple[SolidFillet, SolidFillet], tuple[SolidFillet, SolidFillet]] = field(repr=False)
     known: dict[Any, Responses] = field(default_factory=dict, repr=False)
 
     def remade(self, pair: GearPair, mounting: Mounting) -> SolidPair:
@@ -111,14 +113,6 @@ class SolidPair:
         """Roll angles (deg) over one base pitch, as many before the pitch point as after it."""
         pitch = 360 / self.pair.pinion.teeth
         return (np.arange(count) + 0.5) / count * pitch - pitch / 2
-
-    @cached_property
-    def fillets(self) -> tuple[tuple[SolidFillet, SolidFillet], tuple[SolidFillet, SolidFillet]]:
-        """For pinion and wheel: the fillet under the loaded flank, and the one behind it."""
-        pinion, wheel = (
-            (SolidFillet(body, Side.LEFT_FILLET), SolidFillet(body, Side.RIGHT_FILLET)) for body in (self.pinion, self.wheel)
-        )
-        return pinion, wheel
 
     def common_heights(self, gear: int) -> tuple[float, float]:
         """Where the common face width begins and ends on the pinion (0) or the wheel (1): z in mm."""
@@ -207,4 +201,5 @@ def solid_pair(
             progress(owner)
             solved.append(job.result())
     mounted = mounting.mounted(pair)
-    return SolidPair(mounted, mounting, mesh_line(mounted), solved[0], solved[1], cells)
+    pinion, wheel = ((SolidFillet(each, Side.LEFT_FILLET), SolidFillet(each, Side.RIGHT_FILLET)) for each in solved)
+    return SolidPair(mounted, mounting, mesh_line(mounted), solved[0], solved[1], cells, (pinion, wheel))

@@ -50,7 +50,7 @@ print(json.dumps({
 }))
 """
 
-CASES = {"3 teeth": ("sectors", 15.0, 2.0), "full rings": ("None", 60.0, 5.0)}
+CASES = {"3 teeth": ("sectors", 60.0, 2.0), "full rings": ("None", 60.0, 5.0)}
 """Bodies, and how many seconds and GB (10^9 bytes, imports included) the Volvo pair may take."""
 
 _AGAIN = 1.0
