@@ -15,7 +15,16 @@ from gearcad.fea.flexible_pair import FlexiblePair
 from gearcad.fea.root import Fillets, FilletStress
 from gearcad.meshing.outline import Side
 
-__all__ = ["Cycle", "PairContact", "Position", "pitch_point_contact", "root_loads", "run_cycle", "single_stiffness"]
+__all__ = [
+    "Cycle",
+    "LoadedPosition",
+    "PairContact",
+    "Position",
+    "pitch_point_contact",
+    "root_loads",
+    "run_cycle",
+    "single_stiffness",
+]
 
 Floats = NDArray[np.float64]
 
@@ -81,10 +90,11 @@ class PairContact:
 
 
 @dataclass(frozen=True)
-class Position:
-    """One position of the mesh: contacts, approach and each gear's part of it (mm), and the root stresses of both gears.
+class LoadedPosition:
+    """One position of a mesh under load: approach and each gear's part of it along the line of action (mm).
 
     `rigid_approach` (mm) is what of the approach needs no load: until teeth touch whose flanks are modified or out of place.
+    `force` is the normal force in the transverse section (N per mm of common face width).
     """
 
     roll_angle: float
@@ -92,9 +102,6 @@ class Position:
     approach_parts: tuple[float, float]
     rigid_approach: float
     force: float
-    contacts: tuple[PairContact, ...]
-    tension: tuple[FilletStress, FilletStress]
-    compression: tuple[FilletStress, FilletStress]
 
     @property
     def stiffness(self) -> float:
@@ -105,6 +112,15 @@ class Position:
     def transmission_error(self) -> float:
         """um along the line of action by which the wheel lags."""
         return self.approach * 1000
+
+
+@dataclass(frozen=True)
+class Position(LoadedPosition):
+    """A position of the plane model: its contacts, and the root stresses of both gears."""
+
+    contacts: tuple[PairContact, ...]
+    tension: tuple[FilletStress, FilletStress]
+    compression: tuple[FilletStress, FilletStress]
 
 
 @dataclass(frozen=True)

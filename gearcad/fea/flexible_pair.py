@@ -19,7 +19,7 @@ from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material
 from gearcad.meshing import MeshSizes, mesh_sector
 
-__all__ = ["BodyModel", "FlexiblePair", "flexible_pair"]
+__all__ = ["BodyModel", "FlexiblePair", "PairInMesh", "flexible_pair"]
 
 Floats = NDArray[np.float64]
 
@@ -77,18 +77,10 @@ def inner_radius(gear: Gear, inner_diameter: float | None) -> float:
 
 
 @dataclass(frozen=True)
-class FlexiblePair:
-    """The bodies of pinion and wheel, factorised and solved for loads on the flank; any position and torque is quick."""
+class PairInMesh:
+    """A pair as it rolls: where it touches at a roll angle, and the force of a torque."""
 
     pair: GearPair
-    line: MeshLine
-    pinion: FlankCompliance
-    wheel: FlankCompliance
-
-    @property
-    def modulus(self) -> float:
-        """Reduced modulus of the contact (MPa): 1/E* = 1/E'_1 + 1/E'_2."""
-        return 1 / (1 / self.pinion.elasticity.modulus + 1 / self.wheel.elasticity.modulus)
 
     @property
     def width(self) -> float:
@@ -105,13 +97,27 @@ class FlexiblePair:
         return abs(torque) * 1000 / self.base_radius / self.width
 
     def roll_length(self, roll_angle: float) -> float:
-        """Place of the middle pair's contact on the line of action (mm from T1) at a roll angle of the pinion (deg)."""
+        """Where the middle pair touches in the middle of the common width (mm from T1) at a roll angle of the pinion (deg)."""
         return self.pair.path_of_contact.C + math.radians(roll_angle) * self.base_radius
 
     def roll_angles(self, count: int) -> Floats:
         """Roll angles (deg) over one base pitch, as many before the pitch point as after it."""
         pitch = 360 / self.pair.pinion.teeth
         return (np.arange(count) + 0.5) / count * pitch - pitch / 2
+
+
+@dataclass(frozen=True)
+class FlexiblePair(PairInMesh):
+    """The bodies of pinion and wheel, factorised and solved for loads on the flank; any position and torque is quick."""
+
+    line: MeshLine
+    pinion: FlankCompliance
+    wheel: FlankCompliance
+
+    @property
+    def modulus(self) -> float:
+        """Reduced modulus of the contact (MPa): 1/E* = 1/E'_1 + 1/E'_2."""
+        return 1 / (1 / self.pinion.elasticity.modulus + 1 / self.wheel.elasticity.modulus)
 
     def rigid_approach(self, roll_angle: float, *, single: bool = False) -> float:
         """How far (mm) the gears would approach at a roll angle (deg) before the first pair of teeth touches, unloaded."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,12 +68,15 @@ class _Flank:
         """
         return self.form.depth(lengths - self.form.depth(lengths, self.height), self.height)
 
-    def along_tangent(self, contact: float, length: float) -> float:
-        """Where the flank's point at roll length `length` lies along the common tangent, if it touches at `contact` (mm)."""
-        turn = (length - contact) / self.base_radius
-        return self.base_radius * math.cos(turn) + length * math.sin(turn) - self.base_radius
+    def along_tangent(self, contact: Any, length: float) -> Any:
+        """Where the flank's point at roll length `length` lies along the common tangent, if it touches at `contact` (mm).
 
-    def facing(self, contact: float, place: Floats) -> tuple[Floats, Floats]:
+        Scalar or array, as `contact` is.
+        """
+        turn = (length - contact) / self.base_radius
+        return self.base_radius * np.cos(turn) + length * np.sin(turn) - self.base_radius
+
+    def facing(self, contact: float | Floats, place: Floats) -> tuple[Floats, Floats]:
         """Roll lengths at places along the tangent (towards the tip), and how far the flank lies behind the tangent (mm)."""
         base = self.base_radius
         turn = (np.sqrt(np.maximum(contact**2 + 2 * base * place, 1e-12)) - contact) / base

@@ -119,28 +119,12 @@ def _facing(line: MeshLine, nominal: Floats) -> tuple[Bools, tuple[Floats, Float
     least = _LEAST_LENGTH * line.module
     usable = (nominal > least) & (line.whole - nominal > least)
     first, second = np.clip(nominal, least, line.whole - least), np.clip(line.whole - nominal, least, line.whole - least)
-    high = np.minimum(_along_tangent(one.base_radius, first, one.last), -_along_tangent(other.base_radius, second, other.first))
-    low = np.maximum(_along_tangent(one.base_radius, first, one.first), -_along_tangent(other.base_radius, second, other.last))
+    high = np.minimum(one.along_tangent(first, one.last), -other.along_tangent(second, other.first))
+    low = np.maximum(one.along_tangent(first, one.first), -other.along_tangent(second, other.last))
     aside = np.clip(0.0, low, high)
-    lengths, behind = _behind_tangent(one.base_radius, first, aside)
-    wheel_lengths, wheel_behind = _behind_tangent(other.base_radius, second, -aside)
+    lengths, behind = one.facing(first, aside)
+    wheel_lengths, wheel_behind = other.facing(second, -aside)
     return usable & (low < high), (lengths, wheel_lengths, aside, behind + wheel_behind, np.minimum(high, -low))
-
-
-def _along_tangent(base: float, contact: Floats, length: float) -> Floats:
-    """Where the flank's point at roll length `length` lies along the common tangent, if it touches at `contact` (mm)."""
-    turn = (length - contact) / base
-    return np.asarray(base * np.cos(turn) + length * np.sin(turn) - base)
-
-
-def _behind_tangent(base: float, contact: Floats, place: Floats) -> tuple[Floats, Floats]:
-    """Roll lengths at places along the tangent (towards the tip), and how far the flank lies behind the tangent (mm)."""
-    turn = (np.sqrt(np.maximum(contact**2 + 2 * base * place, 1e-12)) - contact) / base
-    for _ in range(6):
-        length = contact + base * turn
-        turn = turn - (base * np.cos(turn) + length * np.sin(turn) - base - place) / (length * np.cos(turn))
-    length = contact + base * turn
-    return length, contact - (length * np.cos(turn) - base * np.sin(turn))
 
 
 class Gaps(NamedTuple):

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from gearcad.fea.cycle import LoadedPosition
 from gearcad.ltca.contact_lines import ContactLine
 from gearcad.ltca.line_contact import LineSolution
 from gearcad.ltca.solid_pair import SolidPair
@@ -89,32 +90,13 @@ class RootPeak:
 
 
 @dataclass(frozen=True)
-class SolidPosition:
-    """One position of the mesh: contacts, approach and each gear's part of it along the line of action (mm), root stresses.
+class SolidPosition(LoadedPosition):
+    """A position of solid gears: its contacts, the root stresses of both gears, and the torques (N m) on their hubs."""
 
-    `force` is the normal force in the transverse section (N per mm of common width), `rigid_approach` what of the approach
-    needs no load, `torques` (N m) those on the hubs of pinion and wheel.
-    """
-
-    roll_angle: float
-    approach: float
-    approach_parts: tuple[float, float]
-    rigid_approach: float
-    force: float
     contacts: tuple[SolidContact, ...]
     tension: tuple[RootPeak, RootPeak]
     compression: tuple[RootPeak, RootPeak]
     torques: tuple[float, float]
-
-    @property
-    def stiffness(self) -> float:
-        """N/(mm um): normal force over the approach under load, per mm of common face width."""
-        return self.force / ((self.approach - self.rigid_approach) * 1000)
-
-    @property
-    def transmission_error(self) -> float:
-        """um along the line of action by which the wheel lags."""
-        return self.approach * 1000
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.errors import GeometryError, ParameterError
-from gearcad.fea.flexible_pair import BodyModel, inner_radius
+from gearcad.fea.flexible_pair import BodyModel, PairInMesh, inner_radius
 from gearcad.fea.mesh_positions import MeshLine, mesh_line
 from gearcad.geometry import Gear, GearPair
 from gearcad.ltca.body import assemble_body
@@ -64,14 +64,13 @@ class SolidSizes:
 
 
 @dataclass(frozen=True)
-class SolidPair:
+class SolidPair(PairInMesh):
     """The bodies of pinion and wheel, factorised and solved for loads on the flank.
 
     `fillets` are, for pinion and wheel, the one under the loaded flank and the one behind it.
     Modifications and mounting may be changed by `remade`: the bodies are those of the exact gears. Left flanks carry.
     """
 
-    pair: GearPair
     mounting: Mounting
     line: MeshLine
     pinion: SolidCompliance
@@ -87,32 +86,9 @@ class SolidPair:
         return replace(self, pair=mounted, mounting=mounting, line=mesh_line(mounted), known=known)
 
     @property
-    def width(self) -> float:
-        """Common face width (mm), on which all of the load is."""
-        return self.pair.common_width.width
-
-    @property
-    def base_radius(self) -> float:
-        """The pinion's (mm)."""
-        return self.pair.pinion.base_diameter / 2
-
-    @property
     def helix(self) -> float:
         """Base helix angle of the pinion (rad), signed."""
         return self.pinion.flank.helix
-
-    def force(self, torque: float) -> float:
-        """Normal force in the transverse section (N per mm of common width) at a torque on the pinion (N m)."""
-        return abs(torque) * 1000 / self.base_radius / self.width
-
-    def roll_length(self, roll_angle: float) -> float:
-        """Where the middle pair touches in the middle of the common width (mm from T1) at a roll angle of the pinion (deg)."""
-        return self.pair.path_of_contact.C + math.radians(roll_angle) * self.base_radius
-
-    def roll_angles(self, count: int) -> Floats:
-        """Roll angles (deg) over one base pitch, as many before the pitch point as after it."""
-        pitch = 360 / self.pair.pinion.teeth
-        return (np.arange(count) + 0.5) / count * pitch - pitch / 2
 
     def common_heights(self, gear: int) -> tuple[float, float]:
         """Where the common face width begins and ends on the pinion (0) or the wheel (1): z in mm."""
