@@ -31,12 +31,12 @@ _SLACK = 1e-9
 class ToothProfile:
     """Exact transverse outline of one external tooth: root land, trochoid, involute, tip chamfer, tip land.
 
-    Tooth 0 is centred on +x. Diameters in mm, `base_half_angle` (half tooth angle on the base circle) in degrees, `tool`
+    Tooth 0 is centred on +x. `teeth` is any number for the virtual gear of a helical one. Diameters in mm, `base_half_angle` (half tooth angle on the base circle) in degrees, `tool`
     the tip of the hob, `tip_chamfer` its radial height in mm. Normally obtained as `gear.profile`.
     Raises GeometryError where these make no tooth: pointed, cut off by undercut, or with no involute left.
     """
 
-    teeth: int
+    teeth: float
     reference_diameter: float
     base_diameter: float
     tip_diameter: float
@@ -290,6 +290,6 @@ class ToothProfile:
         return math.radians(self.base_half_angle) - (tangent - np.arctan(tangent))
 
 
-def base_half_angle(teeth: int, normal_thickness: float, normal_module: float, transverse_pressure_angle: float) -> float:
+def base_half_angle(teeth: float, normal_thickness: float, normal_module: float, transverse_pressure_angle: float) -> float:
     """Half tooth angle on the base circle in degrees: s_n/(m_n z) + inv alpha_t (ISO 21771)."""
     return math.degrees(normal_thickness / (normal_module * teeth) + involute(transverse_pressure_angle))

@@ -1,0 +1,197 @@
+"""The two methods that take a tooth for a beam on an elastic body: potential energy, and Weber and Banaschek.
+
+In a helical pair a slice is cut across the lines of contact: the tooth's normal section under F_n/l = F_bt/b, whose
+deflection delta_n is delta_t = delta_n/cos beta_b along the transverse line of action. Compliances of the section over
+cos beta_b are so those of the transverse section - the factor cos beta of ISO 6336-1 (80).
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.load import Load
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.stiffness.foundation import sainsot_foundation, sainsot_range, weber_foundation
+from gearcad.stiffness.method import StiffnessMethod
+from gearcad.stiffness.section import BeamLoad, BeamTooth
+from gearcad.stiffness.slices import SinglePair, Slices
+
+__all__ = ["BeamMethod", "PotentialEnergy", "WeberBanaschek"]
+
+Floats = NDArray[np.float64]
+
+_OWNERS = ("pinion", "wheel")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BeamMethod(StiffnessMethod):
+    """A method in closed form: compliances of both teeth and of their contact at any place on the line of action."""
+
+    @cached_property
+    def slices(self) -> Slices:
+        """The zone of contact."""
+        return Slices(self.mounted)
+
+    @cached_property
+    def teeth(self) -> tuple[BeamTooth, BeamTooth]:
+        """Pinion and wheel."""
+        return BeamTooth.of(self.mounted.pinion), BeamTooth.of(self.mounted.wheel)
+
+    @property
+    def whole(self) -> float:
+        """T1T2 (mm)."""
+        return self.mounted.centre_distance * math.sin(math.radians(self.mounted.working_transverse_pressure_angle))
+
+    def curvatures(self, lengths: Floats) -> tuple[Floats, Floats]:
+        """Radii of curvature (n,) of both flanks in the section across the line of contact (mm)."""
+        return lengths / self.lean, (self.whole - lengths) / self.lean
+
+    def single(self, lengths: Floats, load: Load) -> SinglePair:
+        """One pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
+        parts: dict[str, Floats] = {}
+        loads = [tooth.load_at(at) for tooth, at in zip(self.teeth, self.curvatures(lengths), strict=True)]
+        for gear, owner in enumerate(_OWNERS):
+            parts |= {f"{owner} {name}": part for name, part in self.tooth_parts(gear, loads[gear]).items()}
+        parts["contact"] = self.contact(lengths, (loads[0], loads[1]), load)
+        factor = 1000 / self.lean
+        return SinglePair(lengths, {name: factor * part for name, part in parts.items()}, factor * self.tangent_less)
+
+    @abstractmethod
+    def tooth_parts(self, gear: int, load: BeamLoad) -> dict[str, Floats]:
+        """Compliances (n,) of a tooth of the pinion (0) or wheel (1) in its section, per width (mm²/N)."""
+
+    @abstractmethod
+    def contact(self, lengths: Floats, loads: tuple[BeamLoad, BeamLoad], load: Load) -> Floats:
+        """Compliance (n,) of the contact of both flanks, per width (mm²/N)."""
+
+    @property
+    def tangent_less(self) -> float:
+        """By how much the tangent compliance is below the secant one, per width (mm²/N)."""
+        return 0.0
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What to know before trusting the method with this pair."""
+        return self.left_out
+
+    def _cycle(self, load: Load) -> MeshCycle:
+        curves = self.slices.curves(self.single(self.slices.lengths, load), self.count)
+        force = self.force(load)
+        return MeshCycle(
+            method=self.name,
+            holds=self.holds,
+            torque=self.torque(load),
+            force=force,
+            width=self.width,
+            transmission_error=force / curves.mesh_stiffness,
+            notes=self.notes,
+            **curves._asdict(),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class PotentialEnergy(BeamMethod):
+    """Bending, shear and axial energy of the true tooth (Yang and Lin 1987, Tian 2004) on Sainsot's elastic ring (2004).
+
+    1/k_b = 12/(8 E b) int (u - x)^2 cos^2 a_F/h^3 dx,  1/k_s = 1.2 cos^2 a_F/(2 G b) int dx/h,
+    1/k_a = sin^2 a_F/(2 E b) int dx/h, from the root circle along trochoid and involute to the contact,
+    and 1/k_h = 4 (1 - nu^2)/(pi E b) whatever the load.
+    """
+
+    name = "potential-energy"
+    title = "Potential energy"
+    holds = ("contact, whatever the load", "bending", "shear", "axial", "foundation in an elastic ring")
+    load_dependent: ClassVar[bool] = False
+
+    @cached_property
+    def rims(self) -> tuple[float, float]:
+        """h_f = r_f/r_i: root radius over that where the body is held."""
+        pair, held = self.mounted, self.inner_radii
+        return pair.pinion.root_diameter / 2 / held[0], pair.wheel.root_diameter / 2 / held[1]
+
+    def tooth_parts(self, gear: int, load: BeamLoad) -> dict[str, Floats]:
+        e, nu = self.material.youngs_modulus, self.material.poisson_ratio
+        tooth = self.teeth[gear]
+        across, along = np.cos(load.angle) ** 2, np.sin(load.angle) ** 2
+        cubic, plain = tooth.integrals(load.x, load.crossing)
+        return {
+            "bending": 1.5 / e * across * cubic,
+            "shear": 1.2 * (1 + nu) / e * across * plain,
+            "axial": along / (2 * e) * plain,
+            "foundation": sainsot_foundation(tooth, load, self.material, self.rims[gear]),
+        }
+
+    def contact(self, lengths: Floats, loads: tuple[BeamLoad, BeamLoad], load: Load) -> Floats:
+        return np.full(len(lengths), _hertz(self))
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        found = [
+            f"{owner}: {text}"
+            for owner, tooth, rim in zip(_OWNERS, self.teeth, self.rims, strict=True)
+            for text in sainsot_range(tooth, rim)
+        ]
+        return (*found, *super().notes)
+
+
+@dataclass(frozen=True, kw_only=True)
+class WeberBanaschek(BeamMethod):
+    """Tooth on its root chord, an elastic half-plane below it, and Hertz's flattening (Weber and Banaschek 1953).
+
+    Beam: (1 - nu^2) cos^2 a_F/E [12 int (u - y)^2/(2 h)^3 dy + (2.4/(1 - nu) + tan^2 a_F) int dy/(2 h)] from the root chord to
+    where the force crosses the centre line; contact, once for both teeth: 4 (1 - nu^2)/(pi E)
+    [ln(2 sqrt(k_1 k_2)/a) - nu/(2 (1 - nu))] with the half width a under all of the load.
+    """
+
+    name = "weber-banaschek"
+    title = "Weber-Banaschek"
+    holds = ("contact under all of the load", "bending", "shear", "axial", "foundation in a half-plane")
+
+    def tooth_parts(self, gear: int, load: BeamLoad) -> dict[str, Floats]:
+        e, nu = self.material.youngs_modulus, self.material.poisson_ratio
+        tooth = self.teeth[gear]
+        across, along = np.cos(load.angle) ** 2, np.sin(load.angle) ** 2
+        cubic, plain = tooth.integrals(load.crossing, load.crossing)
+        factor = (1 - nu**2) / e
+        return {
+            "bending": 1.5 * factor * across * cubic,
+            "shear": 1.2 * (1 + nu) / e * across * plain,
+            "axial": 0.5 * factor * along * plain,
+            "foundation": weber_foundation(tooth, load, self.material),
+        }
+
+    def contact(self, lengths: Floats, loads: tuple[BeamLoad, BeamLoad], load: Load) -> Floats:
+        nu = self.material.poisson_ratio
+        first, second = self.curvatures(lengths)
+        radius = first * second / (first + second)
+        # a^2 = 8 F rho (1 - nu^2)/(pi E b): the load per length of the line is F_bt/b
+        half_width = np.sqrt(2 * self.force(load) / self.width * radius * _hertz(self))
+        depth = np.sqrt(loads[0].to_centre_line * loads[1].to_centre_line)
+        result: Floats = _hertz(self) * (np.log(2 * depth / half_width) - nu / (2 * (1 - nu)))
+        return result
+
+    @property
+    def tangent_less(self) -> float:
+        """d(F ln(1/sqrt F))/dF: half of the factor before the logarithm."""
+        return _hertz(self) / 2
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        low = []
+        ends = np.array(self.slices.path)
+        for owner, tooth, at in zip(_OWNERS, self.teeth, self.curvatures(ends), strict=True):
+            if (tooth.load_at(at).crossing < tooth.root_chord[0]).any():
+                low.append(f"{owner}: near the root the force crosses the centre line below the root chord: no beam there")
+        return (*low, *super().notes)
+
+
+def _hertz(method: BeamMethod) -> float:
+    """4 (1 - nu^2)/(pi E) in mm²/N."""
+    return 4 * (1 - method.material.poisson_ratio**2) / (math.pi * method.material.youngs_modulus)

@@ -1,0 +1,115 @@
+"""What all methods share: a pair, its material and bodies, in the form `method(load) -> MeshCycle`."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import ClassVar
+
+from gearcad.errors import GeometryError, ParameterError, require_whole
+from gearcad.fea.flexible_pair import BodyModel, inner_radius
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.material import Material
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.mounting import Mounting
+
+__all__ = ["StiffnessMethod"]
+
+FEWEST_POSITIONS, MOST_POSITIONS = 12, 5000
+
+
+@dataclass(frozen=True, kw_only=True)
+class StiffnessMethod(ABC):
+    """A method for the mesh stiffness of a pair of gears of one material: called with a load, it gives the MeshCycle.
+
+    `body` says where the bodies are held, `mounting` how the gears stand; `positions` over one base pitch, 0 for the method's own
+    number. Raises ParameterError and GeometryError for what the method cannot treat.
+    """
+
+    pair: GearPair
+    material: Material = field(default_factory=Material)
+    body: BodyModel = field(default_factory=BodyModel)
+    mounting: Mounting = field(default_factory=Mounting)
+    positions: int = 0
+
+    name: ClassVar[str]
+    title: ClassVar[str]
+    holds: ClassVar[tuple[str, ...]]
+    default_positions: ClassVar[int] = 200
+    load_dependent: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        if self.positions != 0:
+            require_whole("positions", self.positions, at_least=FEWEST_POSITIONS, at_most=MOST_POSITIONS)
+        ratio = self.mounted.usable_contact_ratio
+        if ratio < 1:
+            whole = self.mounted.transverse_contact_ratio
+            reason = "the teeth lose each other" if whole < 1 else f"fillets take away what the tips' {whole:.4f} promise"
+            raise GeometryError("pair.usable_contact_ratio", ratio, f"must be at least 1 for a mesh stiffness: {reason}")
+
+    def __call__(self, load: Load) -> MeshCycle:
+        """The mesh cycle under a load. Raises ParameterError without a torque, and what the method's solver raises."""
+        if not load.torque:
+            raise ParameterError("load.torque", load.torque, "must not be 0: stiffness depends on the load", "N·m")
+        return self._cycle(load)
+
+    @abstractmethod
+    def _cycle(self, load: Load) -> MeshCycle: ...
+
+    @cached_property
+    def mounted(self) -> GearPair:
+        """The pair at the centre distance of its mounting."""
+        return self.mounting.mounted(self.pair)
+
+    @property
+    def count(self) -> int:
+        """Positions over one base pitch."""
+        return self.positions or self.default_positions
+
+    @property
+    def width(self) -> float:
+        """Common face width (mm), on which all of the load is."""
+        return self.mounted.common_width.width
+
+    @cached_property
+    def inner_radii(self) -> tuple[float, float]:
+        """Where the bodies of pinion and wheel are held (mm)."""
+        found = []
+        for owner, gear, inner in self._bodies:
+            try:
+                found.append(inner_radius(gear, inner))
+            except (ParameterError, GeometryError) as error:
+                raise error.within(owner) from error
+        return found[0], found[1]
+
+    @property
+    def _bodies(self) -> tuple[tuple[str, object, float | None], ...]:
+        pair, inner = self.mounted, self.body.inner_diameters
+        return (("pinion", pair.pinion, inner[0]), ("wheel", pair.wheel, inner[1]))
+
+    def torque(self, load: Load) -> float:
+        """What the pinion carries, application factor included (N·m, positive)."""
+        return abs(load.torque) * load.application_factor
+
+    def force(self, load: Load) -> float:
+        """F_bt: what all flanks carry together along the line of action (N)."""
+        return 2000 * self.torque(load) / self.mounted.pinion.base_diameter
+
+    @property
+    def lean(self) -> float:
+        """cos beta_b."""
+        return math.cos(math.radians(self.mounted.pinion.base_helix_angle))
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """What of this pair a method of nominal teeth does not see."""
+        found = []
+        for owner, gear in (("pinion", self.mounted.pinion), ("wheel", self.mounted.wheel)):
+            if gear.modification.present:
+                found.append(f"the {owner}'s flank modifications")
+        if self.mounting.misalignment or self.mounting.misalignment_across or self.mounting.pitch_error:
+            found.append("misalignment and pitch errors")
+        return (f"leaves out {' and '.join(found)}",) if found else ()
