@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -72,7 +73,7 @@ class MeshCycle:
         arrays = [self.roll_angle, self.mesh_stiffness, self.tangent_stiffness, self.transmission_error]
         arrays += [self.load_share, *self.compliance_parts.values()]
         if not all(np.isfinite(array).all() for array in arrays) or self.mesh_stiffness.min() <= 0:
-            raise SolverError(f"the mesh stiffness by method {self.method} came out without a positive value at some roll angles")
+            raise SolverError(f"the mesh stiffness by method {self.method} has no positive value at some roll angles")
         for array in arrays:
             array.flags.writeable = False
 
@@ -87,7 +88,7 @@ class MeshCycle:
         angle = self.roll_angle
         cuts = [0, *(np.flatnonzero(np.diff(angle) == 0) + 1).tolist(), len(angle)]
         weights = np.zeros(len(angle))
-        for start, end in zip(cuts[:-1], cuts[1:], strict=True):
+        for start, end in pairwise(cuts):
             steps = np.diff(angle[start:end])
             if len(cuts) > 2 and len(steps) % 2 == 0 and np.allclose(steps, steps[0], rtol=1e-6):
                 weights[start:end] = steps[0] / 3 * np.r_[1, np.tile([4, 2], len(steps) // 2 - 1), 4, 1]
@@ -157,7 +158,7 @@ class MeshCycle:
         return result
 
     def fourier(self, harmonics: int = 10, *, tangent: bool = False) -> FourierSeries:
-        """The first `harmonics` of the tooth frequency in the stiffness. Raises ParameterError for more than the curve can tell."""
+        """The first `harmonics` of the tooth frequency. Raises ParameterError for more than the curve can tell."""
         require_whole("harmonics", harmonics, at_least=1, at_most=max(1, (len(self.roll_angle) - 1) // 4))
         values = self.tangent_stiffness if tangent else self.mesh_stiffness
         turns = np.arange(1, harmonics + 1)[:, None] * (2 * np.pi * self.roll_angle / self.pitch_angle)
@@ -166,12 +167,16 @@ class MeshCycle:
 
     def to_dict(self) -> dict[str, Any]:
         """Figures and curves as `stiffness.json` has them: N/µm, µm/N, µm, degrees; per face width N/(mm µm)."""
-        course: dict[str, Any] = {} if self.mean_only else {
-            "maximum": self.maximum,
-            "minimum": self.minimum,
-            "pitch_point": self.pitch_point,
-            "transmission_error_peak_to_peak": self.error_peak_to_peak,
-        }
+        course: dict[str, Any] = (
+            {}
+            if self.mean_only
+            else {
+                "maximum": self.maximum,
+                "minimum": self.minimum,
+                "pitch_point": self.pitch_point,
+                "transmission_error_peak_to_peak": self.error_peak_to_peak,
+            }
+        )
         return {
             "holds": list(self.holds),
             "width": self.width,

@@ -11,13 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.check.options import CheckOptions, Model
-from gearcad.check.solid import loaded_left
 from gearcad.check.solid_summary import worst_cell
 from gearcad.errors import GeometryError, ParameterError, require_number
 from gearcad.geometry import GearPair, ReliefShape
 from gearcad.ltca.search import Found, Search, conditions, start_search
 from gearcad.ltca.solid_cycle import SolidCycle, run_solid_cycle
-from gearcad.ltca.solid_pair import SolidPair, SolidSizes, solid_pair
+from gearcad.ltca.solid_pair import SolidPair, SolidSizes, loaded_left, solid_pair
 from gearcad.ltca.variants import AMOUNTS, Condition, with_amounts
 from gearcad.material import Material
 from gearcad.mounting import Mounting

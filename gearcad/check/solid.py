@@ -12,11 +12,10 @@ from gearcad.check.result import SolidCheck, Task
 from gearcad.check.solid_summary import SolidSummary, summarise_solid
 from gearcad.check.sweep import sweep_point
 from gearcad.check.warnings import corner_warnings, general_warnings
-from gearcad.geometry import Gear, GearPair
 from gearcad.ltca.solid_cycle import SolidCycle, run_solid_cycle, solid_single_stiffness
-from gearcad.ltca.solid_pair import SolidPair, SolidSizes, solid_pair
+from gearcad.ltca.solid_pair import SolidPair, SolidSizes, loaded_left, solid_pair
 
-__all__ = ["SOLID_STEPS", "check_solid", "loaded_left"]
+__all__ = ["SOLID_STEPS", "check_solid"]
 
 SOLID_STEPS = ("body of the pinion", "body of the wheel", "mesh cycle", "torque sweep", "convergence", "rating")
 
@@ -63,19 +62,6 @@ def _model(task: Task, factor: float, progress: Callable[[str], None] = lambda _
     sizes = SolidSizes().refined(factor * task.options.refinement)
     pair, mounting = loaded_left(task.pair, task.torque), replace(task.mounting, centre_distance_change=0.0)
     return solid_pair(pair, task.material, body=task.options.body, sizes=sizes, mounting=mounting, progress=progress)
-
-
-def loaded_left(pair: GearPair, torque: float) -> GearPair:
-    """The pair if a torque on its pinion loads left flanks, else its mirror image."""
-    return pair if torque > 0 else replace(pair, pinion=_mirrored(pair.pinion), wheel=_mirrored(pair.wheel))
-
-
-def _mirrored(gear: Gear) -> Gear:
-    if gear.helix_angle:
-        return replace(gear, helix_angle=-gear.helix_angle)
-    # A spur gear has no hand of its own, so that of its modification turns over.
-    change = replace(gear.modification, helix_angle_modification=-gear.modification.helix_angle_modification)
-    return replace(gear, modification=change)
 
 
 def _edge_warnings(cycle: SolidCycle, summary: SolidSummary) -> list[str]:

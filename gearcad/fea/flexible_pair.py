@@ -19,7 +19,7 @@ from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material
 from gearcad.meshing import MeshSizes, mesh_sector
 
-__all__ = ["BodyModel", "FlexiblePair", "PairInMesh", "flexible_pair"]
+__all__ = ["BodyModel", "FlexiblePair", "PairInMesh", "flank_body", "flexible_pair"]
 
 Floats = NDArray[np.float64]
 
@@ -55,6 +55,16 @@ class BodyModel:
         require_whole("teeth", self.teeth, at_least=3, at_most=999)
         if self.teeth % 2 == 0:
             raise ParameterError("teeth", self.teeth, "must be odd: the loaded tooth stands in the middle")
+
+    def inner_radii(self, pair: GearPair) -> tuple[float, float]:
+        """Where the bodies of pinion and wheel are held (mm). Raises ParameterError and GeometryError."""
+        found = []
+        for owner, gear, inner in zip(("pinion", "wheel"), (pair.pinion, pair.wheel), self.inner_diameters, strict=True):
+            try:
+                found.append(inner_radius(gear, inner))
+            except (ParameterError, GeometryError) as error:
+                raise error.within(owner) from error
+        return found[0], found[1]
 
     def describe(self, gear: Gear, inner_diameter: float | None) -> str:
         """The body in words."""
@@ -169,16 +179,27 @@ def flexible_pair(
     elasticity, body, sizes = PlaneElasticity(material, plane), body or BodyModel(), sizes or MeshSizes()
     # As many neighbours as can touch at once, with one more place for a corner that touches early or late.
     neighbours = max(1, math.floor(pair.transverse_contact_ratio + 0.2))
-    bodies = []
-    for owner, gear, inner in zip(("pinion", "wheel"), (pair.pinion, pair.wheel), body.inner_diameters, strict=True):
-        try:
-            radius = inner_radius(gear, inner)
-        except (ParameterError, GeometryError) as error:
-            raise error.within(owner) from error
-        held = body.teeth if body.teeth is not None and body.teeth < gear.teeth else None
-        if held is not None:
-            held = max(held, 2 * neighbours + 1)
-        fine, coarse = mesh_sector(gear, radius, sizes), mesh_sector(gear, radius, sizes.coarse())
-        ring = assemble(fine, coarse, gear.teeth, min(neighbours, (gear.teeth - 1) // 2), elasticity, held, body.cuts)
-        bodies.append(solve(gear, ring, elasticity))
+    bodies = [
+        flank_body(gear, radius, elasticity, body, neighbours, sizes, solve)
+        for gear, radius in zip((pair.pinion, pair.wheel), body.inner_radii(pair), strict=True)
+    ]
     return FlexiblePair(pair, mesh_line(pair, pitch_error), *bodies)
+
+
+def flank_body(
+    gear: Gear,
+    inner_radius: float,
+    elasticity: PlaneElasticity,
+    body: BodyModel,
+    neighbours: int,
+    sizes: MeshSizes | None = None,
+    solve: Callable[[Gear, Ring, PlaneElasticity], FlankCompliance] = flank_compliance,
+) -> FlankCompliance:
+    """One gear, held at `inner_radius` (mm), with so many `neighbours` in full on each side of the loaded tooth."""
+    sizes = sizes or MeshSizes()
+    held = body.teeth if body.teeth is not None and body.teeth < gear.teeth else None
+    if held is not None:
+        held = max(held, 2 * neighbours + 1)
+    fine, coarse = mesh_sector(gear, inner_radius, sizes), mesh_sector(gear, inner_radius, sizes.coarse())
+    ring = assemble(fine, coarse, gear.teeth, min(neighbours, (gear.teeth - 1) // 2), elasticity, held, body.cuts)
+    return solve(gear, ring, elasticity)

@@ -31,8 +31,9 @@ _SLACK = 1e-9
 class ToothProfile:
     """Exact transverse outline of one external tooth: root land, trochoid, involute, tip chamfer, tip land.
 
-    Tooth 0 is centred on +x. `teeth` is any number for the virtual gear of a helical one. Diameters in mm, `base_half_angle` (half tooth angle on the base circle) in degrees, `tool`
-    the tip of the hob, `tip_chamfer` its radial height in mm. Normally obtained as `gear.profile`.
+    Tooth 0 is centred on +x. `teeth` is any number for the virtual gear of a helical one. Diameters in mm, `base_half_angle`
+    (half tooth angle on the base circle) in degrees, `tool` the tip of the hob, `tip_chamfer` its radial height in mm.
+    Normally obtained as `gear.profile`.
     Raises GeometryError where these make no tooth: pointed, cut off by undercut, or with no involute left.
     """
 

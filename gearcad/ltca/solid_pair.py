@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.errors import GeometryError, ParameterError
-from gearcad.fea.flexible_pair import BodyModel, PairInMesh, inner_radius
+from gearcad.errors import GeometryError
+from gearcad.fea.flexible_pair import BodyModel, PairInMesh
 from gearcad.fea.mesh_positions import MeshLine, mesh_line
 from gearcad.geometry import Gear, GearPair
 from gearcad.ltca.body import assemble_body
@@ -28,7 +28,7 @@ from gearcad.meshing.outline import Side
 from gearcad.meshing.quads import mesh_quads
 from gearcad.mounting import Mounting
 
-__all__ = ["SolidPair", "SolidSizes", "solid_pair"]
+__all__ = ["SolidPair", "SolidSizes", "loaded_left", "solid_pair"]
 
 Floats = NDArray[np.float64]
 
@@ -157,11 +157,7 @@ def solid_pair(
     neighbours = max(1, math.floor(pair.total_contact_ratio + 0.2))
     gears = {"pinion": pair.pinion, "wheel": pair.wheel}
     bodies = []
-    for (owner, gear), inner in zip(gears.items(), body.inner_diameters, strict=True):
-        try:
-            radius = inner_radius(gear, inner)
-        except (ParameterError, GeometryError) as error:
-            raise error.within(owner) from error
+    for gear, radius in zip(gears.values(), body.inner_radii(pair), strict=True):
         held = body.teeth if body.teeth is not None and body.teeth < gear.teeth else None
         mesh = sweep(gear, mesh_quads(gear, radius, sizes.section), sizes.layers(gear))
         bodies.append(assemble_body(mesh, gear.teeth, neighbours, material, held, body.cuts))
@@ -179,3 +175,16 @@ def solid_pair(
     mounted = mounting.mounted(pair)
     pinion, wheel = ((SolidFillet(each, Side.LEFT_FILLET), SolidFillet(each, Side.RIGHT_FILLET)) for each in solved)
     return SolidPair(mounted, mounting, mesh_line(mounted), solved[0], solved[1], cells, (pinion, wheel))
+
+
+def loaded_left(pair: GearPair, torque: float) -> GearPair:
+    """The pair if a torque on its pinion loads left flanks, else its mirror image."""
+    return pair if torque > 0 else replace(pair, pinion=_mirrored(pair.pinion), wheel=_mirrored(pair.wheel))
+
+
+def _mirrored(gear: Gear) -> Gear:
+    if gear.helix_angle:
+        return replace(gear, helix_angle=-gear.helix_angle)
+    # A spur gear has no hand of its own, so that of its modification turns over.
+    change = replace(gear.modification, helix_angle_modification=-gear.modification.helix_angle_modification)
+    return replace(gear, modification=change)

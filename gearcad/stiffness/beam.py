@@ -81,8 +81,8 @@ class BeamMethod(StiffnessMethod):
         """What to know before trusting the method with this pair."""
         return self.left_out
 
-    def _cycle(self, load: Load) -> MeshCycle:
-        curves = self.slices.curves(self.single(self.slices.lengths, load), self.count)
+    def _cycle(self, load: Load, count: int) -> MeshCycle:
+        curves = self.slices.curves(self.single(self.slices.lengths, load), count)
         force = self.force(load)
         return MeshCycle(
             method=self.name,
@@ -113,7 +113,7 @@ class PotentialEnergy(BeamMethod):
     @cached_property
     def rims(self) -> tuple[float, float]:
         """h_f = r_f/r_i: root radius over that where the body is held."""
-        pair, held = self.mounted, self.inner_radii
+        pair, held = self.mounted, self.body.inner_radii(self.mounted)
         return pair.pinion.root_diameter / 2 / held[0], pair.wheel.root_diameter / 2 / held[1]
 
     def tooth_parts(self, gear: int, load: BeamLoad) -> dict[str, Floats]:

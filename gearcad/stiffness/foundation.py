@@ -1,4 +1,4 @@
-"""How the body gives way under its tooth, by formulas. Compliances per face width in mm²/N, lengths in mm, angles in radians."""
+"""How a body gives way under its tooth, by formulas. Compliances per face width in mm²/N, lengths in mm, angles in radians."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import ClassVar
 
 from gearcad.errors import GeometryError, ParameterError, require_whole
-from gearcad.fea.flexible_pair import BodyModel, inner_radius
+from gearcad.fea.flexible_pair import BodyModel
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
@@ -25,8 +25,8 @@ FEWEST_POSITIONS, MOST_POSITIONS = 12, 5000
 class StiffnessMethod(ABC):
     """A method for the mesh stiffness of a pair of gears of one material: called with a load, it gives the MeshCycle.
 
-    `body` says where the bodies are held, `mounting` how the gears stand; `positions` over one base pitch, 0 for the method's own
-    number. Raises ParameterError and GeometryError for what the method cannot treat.
+    `body` says where the bodies are held, `mounting` how the gears stand; `positions` over one base pitch, 0 for the
+    method's own number. Raises ParameterError and GeometryError for what the method cannot treat.
     """
 
     pair: GearPair
@@ -50,14 +50,17 @@ class StiffnessMethod(ABC):
             reason = "the teeth lose each other" if whole < 1 else f"fillets take away what the tips' {whole:.4f} promise"
             raise GeometryError("pair.usable_contact_ratio", ratio, f"must be at least 1 for a mesh stiffness: {reason}")
 
-    def __call__(self, load: Load) -> MeshCycle:
-        """The mesh cycle under a load. Raises ParameterError without a torque, and what the method's solver raises."""
+    def __call__(self, load: Load, positions: int = 0) -> MeshCycle:
+        """The mesh cycle under a load, at so many `positions` for once if any are given.
+
+        Raises ParameterError without a torque, and what the method's solver raises.
+        """
         if not load.torque:
             raise ParameterError("load.torque", load.torque, "must not be 0: stiffness depends on the load", "N·m")
-        return self._cycle(load)
+        return self._cycle(load, positions or self.positions or self.default_positions)
 
     @abstractmethod
-    def _cycle(self, load: Load) -> MeshCycle: ...
+    def _cycle(self, load: Load, count: int) -> MeshCycle: ...
 
     @cached_property
     def mounted(self) -> GearPair:
@@ -65,30 +68,9 @@ class StiffnessMethod(ABC):
         return self.mounting.mounted(self.pair)
 
     @property
-    def count(self) -> int:
-        """Positions over one base pitch."""
-        return self.positions or self.default_positions
-
-    @property
     def width(self) -> float:
         """Common face width (mm), on which all of the load is."""
         return self.mounted.common_width.width
-
-    @cached_property
-    def inner_radii(self) -> tuple[float, float]:
-        """Where the bodies of pinion and wheel are held (mm)."""
-        found = []
-        for owner, gear, inner in self._bodies:
-            try:
-                found.append(inner_radius(gear, inner))
-            except (ParameterError, GeometryError) as error:
-                raise error.within(owner) from error
-        return found[0], found[1]
-
-    @property
-    def _bodies(self) -> tuple[tuple[str, object, float | None], ...]:
-        pair, inner = self.mounted, self.body.inner_diameters
-        return (("pinion", pair.pinion, inner[0]), ("wheel", pair.wheel, inner[1]))
 
     def torque(self, load: Load) -> float:
         """What the pinion carries, application factor included (N·m, positive)."""

@@ -104,7 +104,7 @@ class BeamTooth:
     # ------------------------------------------------------------------ integrals along the centre line
 
     def integrals(self, upper: Floats, crossing: Floats) -> tuple[Floats, Floats]:
-        """int (crossing - x)^2/h^3 dx (1/mm, per unit of length squared) and int dx/h, each (n,), from the root to `upper` (n,).
+        """int (crossing - x)^2/h^3 dx and int dx/h, each (n,), from the root to `upper` (n,) in mm.
 
         Both are 0 for an upper end below the root.
         """
@@ -120,9 +120,7 @@ class BeamTooth:
     @cached_property
     def _fillet_slope(self) -> Slope:
         """dx/ds of the fillet."""
-        fit: Slope = Chebyshev.interpolate(
-            lambda s: self.fillet.points(s)[..., 0], _DEGREE, domain=[0, 1]
-        ).deriv()
+        fit: Slope = Chebyshev.interpolate(lambda s: self.fillet.points(s)[..., 0], _DEGREE, domain=[0, 1]).deriv()
         return fit
 
     def _flank_slope(self, s: Floats) -> Floats:

@@ -1,4 +1,4 @@
-"""From one pair of teeth to the mesh: all pairs in contact side by side, helical ones as thin slices along their lines of contact.
+"""From one pair of teeth to the mesh: all pairs in contact side by side, helical ones as thin slices.
 
 Slices are springs between the two gears that know nothing of each other. A slice at height y of a helical pair touches at
 s + y tan beta_b on the line of action, so over the width of a line the single stiffness k(s) is integrated, exactly.
@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -40,7 +41,7 @@ class SinglePair:
     @property
     def stiffness(self) -> Floats:
         """k (n,) in N/(mm µm)."""
-        result: Floats = 1 / sum(self.parts.values())
+        result: Floats = 1 / np.sum(list(self.parts.values()), axis=0)
         return result
 
     @property
@@ -99,13 +100,13 @@ class Slices:
         first, last = self.path[0] - self.reach / 2, self.path[1] + self.reach / 2
         pairs = range(math.ceil((first - places[-1]) / self.pitch), math.floor((last - places[0]) / self.pitch) + 1)
         # Which pairs touch is that of the middle of each piece: at its ends a spur pair would be in doubt.
-        at = np.stack([np.where(self._inside(active + pair * self.pitch), places + pair * self.pitch, np.nan) for pair in pairs])
+        at = np.stack(
+            [np.where(self._inside(active + pair * self.pitch), places + pair * self.pitch, np.nan) for pair in pairs]
+        )
         stiffness = self._over_width(single.stiffness, at)
         total = stiffness.sum(0)
         squared = single.stiffness**2
-        parts = {
-            name: self._over_width(squared * part, at).sum(0) / total**2 for name, part in single.parts.items()
-        }
+        parts = {name: self._over_width(squared * part, at).sum(0) / total**2 for name, part in single.parts.items()}
         used = stiffness.max(1) > 0
         roll = np.degrees((places - self.pair.path_of_contact.C) / (self.pair.pinion.base_diameter / 2))
         alone = self._over_width(single.stiffness, np.linspace(first, last, 4 * _NODES)[None])
@@ -132,7 +133,7 @@ class Slices:
         inner = {round(float(np.mod(corner - start, pitch)), 12) for corner in corners}
         edges = np.array(sorted({0.0, pitch} | {place for place in inner if 1e-9 * pitch < place < (1 - 1e-9) * pitch}))
         places, middles = [], []
-        for low, high in zip(edges[:-1], edges[1:], strict=True):
+        for low, high in pairwise(edges.tolist()):
             # Odd numbers, for Simpson's rule.
             number = 2 * max(2, round(count * (high - low) / pitch / 2)) + 1
             places.append(start + np.linspace(low, high, number))

@@ -15,8 +15,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad import FlankModification, Gear, GearPair
-from gearcad.check.solid import loaded_left
 from gearcad.cli import main
+from gearcad.ltca.solid_pair import loaded_left
 
 HELICAL = """
 [pair]

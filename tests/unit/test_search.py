@@ -9,10 +9,10 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from gearcad import Mounting
-from gearcad.check.solid import loaded_left
 from gearcad.geometry import ReliefShape
 from gearcad.ltca.search import Found, Search, start_search
 from gearcad.ltca.solid_cycle import run_solid_cycle
+from gearcad.ltca.solid_pair import loaded_left
 from gearcad.ltca.variants import Condition, with_amounts
 from gearcad.modify import unmirrored
 from tests.support.coarse import PAIRS, TORQUES, coarse_model, coarse_pair

@@ -1,0 +1,197 @@
+"""Mesh stiffness by finite element contact, as in the structural check: of a plane section, and of solid bodies."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.errors import GeometryError
+from gearcad.fea.cycle import single_stiffness
+from gearcad.fea.elasticity import Plane
+from gearcad.fea.flexible_pair import FlexiblePair, PairInMesh, flexible_pair
+from gearcad.load import Load
+from gearcad.ltca.solid_cycle import solid_single_stiffness
+from gearcad.ltca.solid_pair import SolidPair, loaded_left, solid_pair
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.stiffness.method import StiffnessMethod
+
+__all__ = ["ContactMethod", "PlaneStrainContact", "PlaneStressContact", "SolidContact"]
+
+Floats = NDArray[np.float64]
+
+_STEP = 0.02
+"""Relative change of the torque on both sides of the load between which the tangent stiffness is taken."""
+
+
+class _Loaded(NamedTuple):
+    """A position under load: approach, its rigid part and the parts of pinion and wheel (mm), forces of the pairs (N)."""
+
+    approach: float
+    rigid: float
+    parts: tuple[float, float]
+    forces: Mapping[int, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactMethod(StiffnessMethod):
+    """Flexible gears pressed together at every position; pairs of teeth share the load as their bodies and gaps make them."""
+
+    holds = ("contact under each pair's own load", "teeth", "bodies down to where they are held", "neighbouring teeth")
+
+    @abstractmethod
+    def _at(self, roll_angle: float, torque: float) -> _Loaded:
+        """The mesh at a roll angle (deg) under a torque on the pinion (N·m), signed."""
+
+    @abstractmethod
+    def _single(self, torque: float) -> float:
+        """Greatest stiffness of one pair alone (N/(mm µm))."""
+
+    def _cycle(self, load: Load, count: int) -> MeshCycle:
+        torque, force = math.copysign(self.torque(load), load.torque), self.force(load)
+        angles = PairInMesh(self.mounted).roll_angles(count)
+        found = [self._at(angle, torque) for angle in angles.tolist()]
+        softer, harder = (
+            np.array([self._at(angle, torque * (1 + sign * _STEP)).approach for angle in angles.tolist()]) for sign in (-1, 1)
+        )
+        approach, rigid = (np.array([getattr(each, name) for each in found]) for name in ("approach", "rigid"))
+        parts = np.array([each.parts for each in found])
+        pairs = tuple(sorted(set().union(*(each.forces for each in found))))
+        shares = np.array([[each.forces.get(pair, 0.0) for pair in pairs] for each in found])
+        gaps = approach - rigid - parts.sum(1)
+        um = 1000 / force
+        return MeshCycle(
+            method=self.name,
+            holds=self.holds,
+            torque=abs(torque),
+            force=force,
+            width=self.width,
+            roll_angle=np.r_[angles, angles[0] + 360 / self.mounted.pinion.teeth],
+            mesh_stiffness=_closed(1 / (um * (approach - rigid))),
+            tangent_stiffness=_closed(2 * _STEP / (um * (harder - softer))),
+            transmission_error=_closed(1000 * approach),
+            pairs=pairs,
+            load_share=_closed(shares / shares.sum(1, keepdims=True)),
+            compliance_parts={
+                "pinion": _closed(um * parts[:, 0]),
+                "wheel": _closed(um * parts[:, 1]),
+                "gaps closed": _closed(um * gaps),
+            },
+            single_stiffness=self._single(torque) * self.width,
+            notes=self.notes,
+        )
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What to know before trusting the method with this pair."""
+        return ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaneContact(ContactMethod):
+    """Contact in the transverse section, for spur gears."""
+
+    bodies: FlexiblePair | None = field(default=None, repr=False)
+    """Those of a check, if there was one; else they are made."""
+
+    plane: ClassVar[Plane]
+    default_positions: ClassVar[int] = 120
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if helix := self.pair.pinion.helix_angle:
+            permitted = f"must be 0 for {self.name}: lines of contact of helical teeth run across the flank, as 3d has them"
+            raise GeometryError("pair.helix_angle", helix, permitted, "deg")
+
+    @cached_property
+    def model(self) -> FlexiblePair:
+        """The bodies, factorised."""
+        if self.bodies is not None:
+            return self.bodies
+        error = self.mounting.pitch_error
+        return flexible_pair(self.mounted, self.material, plane=self.plane, body=self.body, pitch_error=error)
+
+    def _at(self, roll_angle: float, torque: float) -> _Loaded:
+        found = self.model.solve(roll_angle, torque)
+        forces = {
+            pair.tooth: float(force) * self.width for pair, force in zip(found.pairs, found.forces, strict=True) if force > 0
+        }
+        return _Loaded(found.approach, self.model.rigid_approach(roll_angle), found.parts, forces)
+
+    def _single(self, torque: float) -> float:
+        return single_stiffness(self.model, torque)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        along = self.mounted.pinion.modification.along_face or self.mounted.wheel.modification.along_face
+        tilted = self.mounting.misalignment or self.mounting.misalignment_across
+        found = [*(["modifications along the face width"] if along else []), *(["misalignment"] if tilted else [])]
+        return (f"leaves out {' and '.join(found)}",) if found else ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaneStressContact(PlaneContact):
+    """FE contact in plane stress: a section that is free to change its thickness."""
+
+    name = "plane-stress"
+    title = "FE contact, plane stress"
+    plane = Plane.STRESS
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaneStrainContact(PlaneContact):
+    """FE contact in plane strain: a section of a gear that is wide."""
+
+    name = "plane-strain"
+    title = "FE contact, plane strain"
+    plane = Plane.STRAIN
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolidContact(ContactMethod):
+    """FE contact of solid bodies over their face widths, along the lines of contact."""
+
+    name = "3d"
+    title = "FE contact, solid bodies"
+    default_positions: ClassVar[int] = 60
+
+    bodies: SolidPair | None = field(default=None, repr=False)
+    """Those of a check, if there was one, for the sign of torque that it had; else they are made."""
+
+    @cached_property
+    def _models(self) -> dict[bool, SolidPair]:
+        return {}
+
+    def model(self, torque: float) -> SolidPair:
+        """The bodies, condensed; under a negative torque on the pinion those of the mirrored pair."""
+        if self.bodies is not None:
+            return self.bodies
+        left = torque > 0
+        if left not in self._models:
+            mounting = replace(self.mounting, centre_distance_change=0.0)
+            pair = loaded_left(self.mounted, torque)
+            self._models[left] = solid_pair(pair, self.material, body=self.body, mounting=mounting)
+        return self._models[left]
+
+    def _at(self, roll_angle: float, torque: float) -> _Loaded:
+        model = self.model(torque)
+        found = model.solve(roll_angle, torque)
+        flat, forces = math.cos(model.helix), dict[int, float]()
+        for line, cells in zip(found.given.lines, found.given.split(found.forces), strict=True):
+            if cells.sum() > 0:
+                forces[line.tooth] = float(cells.sum()) * flat
+        return _Loaded(found.approach / flat, found.rigid / flat, (found.parts[0] / flat, found.parts[1] / flat), forces)
+
+    def _single(self, torque: float) -> float:
+        return solid_single_stiffness(self.model(torque), torque)
+
+
+def _closed(values: Floats) -> Floats:
+    """Values (n, ...) over a base pitch, and the first again at its end."""
+    return np.concatenate([values, values[:1]])

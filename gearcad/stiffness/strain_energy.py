@@ -1,0 +1,157 @@
+"""Strain energy after Pedersen and Jorgensen: what a body stores under the pressure of Hertz's width, 1/K = 2 U/F².
+
+2 U/F is the mean displacement of the flank under the pressure, weighted with it. The bodies are those of the FE contact:
+a spline of unit loads for what is smooth, Flamant's straight edge in closed form for the rest.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.fea.elasticity import Plane, PlaneElasticity
+from gearcad.fea.flank import FlankCompliance
+from gearcad.fea.flexible_pair import flank_body
+from gearcad.geometry import Gear
+from gearcad.load import Load
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.stiffness.method import StiffnessMethod
+from gearcad.stiffness.slices import SinglePair, Slices
+
+__all__ = ["StrainEnergy", "weighted_displacement"]
+
+Floats = NDArray[np.float64]
+
+_POINTS = 7
+"""Of Gauss's rule for an ellipse, across the width of contact."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class StrainEnergy(StiffnessMethod):
+    """Elastic energy of both bodies, each under an ellipse of Hertz's width (Pedersen and Jorgensen 2014).
+
+    In plane strain; of a helical gear it takes the normal section, between the virtual spur gears of whole numbers of teeth.
+    The tangent stiffness is that of the energy: dU = F d(delta).
+    """
+
+    name = "strain-energy"
+    title = "Strain energy"
+    holds = ("contact under all of the load, by energy", "teeth", "bodies down to where they are held")
+    plane: ClassVar[Plane] = Plane.STRAIN
+
+    @cached_property
+    def slices(self) -> Slices:
+        """The zone of contact."""
+        return Slices(self.mounted)
+
+    @cached_property
+    def bodies(self) -> tuple[list[tuple[float, FlankCompliance]], list[tuple[float, FlankCompliance]]]:
+        """For pinion and wheel: bodies of the section, with their weights."""
+        pair = self.mounted
+        held = self.body.inner_radii(pair)
+        elasticity = PlaneElasticity(self.material, self.plane)
+        pinion, wheel = (
+            [
+                (weight, flank_body(section, radius, elasticity, self.body, 1))
+                for weight, section, radius in _sections(gear, inner)
+            ]
+            for gear, inner in zip((pair.pinion, pair.wheel), held, strict=True)
+        )
+        return pinion, wheel
+
+    def single(self, lengths: Floats, load: Load) -> SinglePair:
+        """One pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
+        pair, lean = self.mounted, self.lean
+        whole = pair.centre_distance * math.sin(math.radians(pair.working_transverse_pressure_angle))
+        first, second = lengths / lean, (whole - lengths) / lean
+        modulus = PlaneElasticity(self.material, self.plane).modulus / 2
+        half_widths = np.sqrt(4 * self.force(load) / self.width * first * second / (first + second) / (math.pi * modulus))
+        factor = 1000 / lean
+        parts = {
+            owner: factor * _displacements(gear, bodies, curvatures, half_widths)
+            for owner, gear, bodies, curvatures in zip(
+                ("pinion", "wheel"), (pair.pinion, pair.wheel), self.bodies, (first, second), strict=True
+            )
+        }
+        # U = F^2 c/2 with dc/dF = -1/(pi E* F), so dU/dF = F (c - 1/(2 pi E*)).
+        return SinglePair(lengths, parts, factor / (2 * math.pi * modulus))
+
+    def _cycle(self, load: Load, count: int) -> MeshCycle:
+        curves = self.slices.curves(self.single(self.slices.lengths, load), count)
+        force = self.force(load)
+        return MeshCycle(
+            method=self.name,
+            holds=self.holds,
+            torque=self.torque(load),
+            force=force,
+            width=self.width,
+            transmission_error=force / curves.mesh_stiffness,
+            notes=self.left_out,
+            **curves._asdict(),
+        )
+
+
+def weighted_displacement(body: FlankCompliance, length: float, half_width: float) -> float:
+    """2 U/F² (mm²/N): displacement of the flank under an ellipse of pressure around a roll length (mm), weighted with it."""
+    place = np.arange(_POINTS, 0, -1) * math.pi / (_POINTS + 1)
+    weight = 2 / (_POINTS + 1) * np.sin(place) ** 2
+    flank = body.flank
+    # A distance along the tangent is that much of arc: d(arc) = (length/r_b) d(length).
+    arc = flank.arc(np.array([length])) + half_width * np.cos(place)
+    lengths = np.sqrt(2 * flank.base_radius * np.maximum(arc, 0.0))
+    regular = weight @ body.response(0)(lengths, lengths) @ weight
+    elasticity = body.elasticity
+    # The mean of ln|x - y| over two ellipses of half width a is ln(a/2) - 1/4.
+    edge = -(2 * (math.log(half_width / 2) - 0.25) + 1 + elasticity.ratio) / (math.pi * elasticity.modulus)
+    return float(regular + edge)
+
+
+def _displacements(gear: Gear, bodies: list[tuple[float, FlankCompliance]], curvatures: Floats, half_widths: Floats) -> Floats:
+    """2 U/F² (n,) in mm²/N where the flank's radius of curvature in the section is `curvatures` (n,) in mm."""
+    total = np.zeros(len(curvatures))
+    for weight, body in bodies:
+        section = body.flank.gear
+        lengths = curvatures
+        if section is not gear:
+            # As high over the reference circle as on the virtual gear, whose number of teeth is between these.
+            virtual = gear.normal_module * gear.virtual_teeth / 2
+            base = virtual * math.cos(math.radians(gear.rack.pressure_angle))
+            radius = np.hypot(base, curvatures) - virtual + section.reference_diameter / 2
+            lengths = np.sqrt(np.maximum(radius**2 - (section.base_diameter / 2) ** 2, 0.0))
+        ends = body.flank.lengths
+        within = np.clip(lengths, ends.min(), ends.max())
+        total += weight * np.array(
+            [
+                weighted_displacement(body, length, half)
+                for length, half in zip(within.tolist(), half_widths.tolist(), strict=True)
+            ]
+        )
+    return total
+
+
+def _sections(gear: Gear, inner_radius: float) -> list[tuple[float, Gear, float]]:
+    """Weights, spur gears and inner radii (mm) for the gear's section: itself, or the neighbours of its virtual gear."""
+    if not gear.helix_angle:
+        return [(1.0, gear, inner_radius)]
+    low = math.floor(gear.virtual_teeth)
+    # Compliance goes with 1/z.
+    share = (1 / low - 1 / gear.virtual_teeth) / (1 / low - 1 / (low + 1))
+    depth = gear.root_diameter / 2 - inner_radius
+    found = []
+    for weight, teeth in ((1 - share, low), (share, low + 1)):
+        size = gear.normal_module * teeth - gear.reference_diameter
+        section = replace(
+            gear,
+            teeth=teeth,
+            helix_angle=0.0,
+            tip_diameter=gear.tip_diameter + size,
+            root_diameter=gear.root_diameter + size,
+            body=replace(gear.body, bore=0.0),
+        )
+        found.append((weight, section, section.root_diameter / 2 - depth))
+    return found
