@@ -33,7 +33,7 @@ SECONDS = 0.1
 """What all methods in closed form may take together. They take 0.02 to 0.04 s."""
 
 RATIO = 20.0
-"""How many times as long as our potential energy ROSS must take: it takes 55 to 80 times as long."""
+"""How many times as long as our potential energy ROSS must take: it takes 35 times (on a busy machine) to 95 times as long."""
 
 SAME_TOOTH = 1e-9
 """Relative difference in bending, shear and axial stiffness: both integrate them along the same involute and trochoid."""
