@@ -7,6 +7,10 @@ from typing import Any, NamedTuple
 
 from gearcad import symbols
 from gearcad.check.result import CheckResult
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.material import Material
+from gearcad.mounting import Mounting
 
 __all__ = ["Row", "gear_rows", "load_rows", "pair_rows", "rating_rows"]
 
@@ -33,25 +37,25 @@ class Row(NamedTuple):
     source: str
 
 
-def gear_rows(result: CheckResult) -> list[Row]:
-    """What describes the gears."""
-    gears = (result.pair.pinion, result.pair.wheel)
+def gear_rows(pair: GearPair, keys: str = _GEAR) -> list[Row]:
+    """What describes the gears: their fields `keys`, and the modifications of their flanks."""
+    gears = (pair.pinion, pair.wheel)
     values = [_flat(gear.to_dict() | {"modification": gear.modification.in_use}) for gear in gears]
     present = [key for key in symbols.GEAR if key.startswith("modification.") and any(key in gear for gear in values)]
-    return [_row(symbols.GEAR[key], *(gear.get(key) for gear in values)) for key in (*_GEAR.split(), *present)]
+    return [_row(symbols.GEAR[key], *(gear.get(key) for gear in values)) for key in (*keys.split(), *present)]
 
 
-def pair_rows(result: CheckResult) -> list[Row]:
+def pair_rows(pair: GearPair) -> list[Row]:
     """What describes the pair."""
-    values = _flat(result.pair.to_dict())
+    values = _flat(pair.to_dict())
     return [_row(symbols.PAIR[key], values[key]) for key in _PAIR.split()]
 
 
-def load_rows(result: CheckResult) -> list[Row]:
+def load_rows(material: Material, load: Load, mounting: Mounting) -> list[Row]:
     """Material and load, and the mounting where it is not that of the drawing."""
-    rows = [(symbols.MATERIAL[key], value) for key, value in vars(result.material).items()]
-    rows += [(symbols.LOAD[key], value) for key, value in vars(result.load).items()]
-    rows += [(symbols.MOUNTING[key], value) for key, value in vars(result.mounting).items() if value]
+    rows = [(symbols.MATERIAL[key], value) for key, value in vars(material).items()]
+    rows += [(symbols.LOAD[key], value) for key, value in vars(load).items()]
+    rows += [(symbols.MOUNTING[key], value) for key, value in vars(mounting).items() if value]
     return [_row(symbol, value) for symbol, value in rows if value is not None]
 
 

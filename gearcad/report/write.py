@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from gearcad import __version__
 from gearcad.check.comparison import Comparison, Role
 from gearcad.check.convergence import SOLID_ORDER
 from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
 from gearcad.plots.paper import short
 from gearcad.report.figures import make_figures
+from gearcad.report.page import page_html
 from gearcad.report.reasons import stiffness_reasons
 from gearcad.report.reasons_plane import plane_root_reasons
 from gearcad.report.reasons_solid import face_reasons, solid_root_reasons
 from gearcad.report.tables import gear_rows, load_rows, pair_rows, rating_rows
 from gearcad.report.views import tooth_views
-
-if TYPE_CHECKING:
-    from markupsafe import Markup
 
 __all__ = ["report_html", "write_report"]
 
@@ -31,28 +27,7 @@ def write_report(result: CheckResult, design_name: str, path: Path) -> None:
 
 def report_html(result: CheckResult, design_name: str) -> str:
     """The report as one HTML document without links: pictures and styles are inside."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    loader = FileSystemLoader(_templates())
-    environment = Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=StrictUndefined)
-    environment.filters |= {"short": short, "indexed": _indexed}
-    return environment.get_template("report.html").render(
-        name=design_name, version=__version__, result=result, **_sections(result)
-    )
-
-
-def _indexed(text: str) -> Markup:
-    """Symbols with their indices lowered: Y_F, F_t K_A/b."""
-    from markupsafe import Markup, escape
-
-    return Markup(re.sub(r"_([^\s*/,;)]+)", r"<sub>\1</sub>", str(escape(text))))
-
-
-def _templates() -> Path:
-    """The wheel carries the templates inside the package; a checkout has them beside it."""
-    package = Path(__file__).parent.parent
-    installed = package / "templates"
-    return installed if installed.is_dir() else package.parent / "templates"
+    return page_html("report.html", design_name, result=result, **_sections(result))
 
 
 def _sections(result: CheckResult) -> dict[str, Any]:
@@ -64,9 +39,9 @@ def _sections(result: CheckResult) -> dict[str, Any]:
         "information": [_row(each) for each in information],
         "failed": [_row(each) for each in gates if not each.passed],
         "outside": [_row(each) for each in information if not each.passed],
-        "gear_rows": gear_rows(result),
-        "pair_rows": pair_rows(result),
-        "load_rows": load_rows(result),
+        "gear_rows": gear_rows(result.pair),
+        "pair_rows": pair_rows(result.pair),
+        "load_rows": load_rows(result.material, result.load, result.mounting),
         "rating_rows": rating_rows(result),
         "figures": make_figures(result),
         "views": tooth_views(result),
