@@ -12,6 +12,7 @@ from gearcad.cli.checks import check
 from gearcad.cli.designs import build, data, new
 from gearcad.cli.group import Commands, debug_option
 from gearcad.cli.modifications import modify
+from gearcad.cli.stiffness import stiffness
 from gearcad.cli.studies import plot, study
 from gearcad.cli.tables import batch
 
@@ -38,5 +39,5 @@ def main() -> None:
             stream.reconfigure(errors="replace")  # an old terminal shows ? for a Greek letter, and goes on
 
 
-for _command in (new, data, build, check, modify, study, batch, plot):
+for _command in (new, data, build, check, stiffness, modify, study, batch, plot):
     main.add_command(_command)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from gearcad.fea.contact import ContactPair, ContactSolution
 from gearcad.fea.flexible_pair import FlexiblePair
 from gearcad.fea.root import Fillets, FilletStress
+from gearcad.geometry.contact import usable_path
 from gearcad.meshing.outline import Side
 
 __all__ = [
@@ -172,9 +173,8 @@ def pitch_point_contact(model: FlexiblePair, torque: float) -> PairContact:
 
 def single_stiffness(model: FlexiblePair, torque: float, count: int = 25) -> float:
     """Greatest stiffness (N/(mm um)) of one pair of teeth alone, over its path of contact."""
-    path = model.pair.path_of_contact
-    lengths = np.linspace(path.A, path.E, count + 2)[1:-1]
-    angles = np.degrees((lengths - path.C) / model.base_radius)
+    lengths = np.linspace(*usable_path(model.pair), count + 2)[1:-1]
+    angles = np.degrees((lengths - model.pair.path_of_contact.C) / model.base_radius)
     approaches = [
         model.solve(angle, torque, single=True).approach - model.rigid_approach(angle, single=True) for angle in angles.tolist()
     ]

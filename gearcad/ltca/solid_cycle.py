@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.fea.cycle import LoadedPosition
+from gearcad.geometry.contact import usable_path
 from gearcad.ltca.contact_lines import ContactLine
 from gearcad.ltca.line_contact import LineSolution
 from gearcad.ltca.solid_pair import SolidPair
@@ -184,9 +185,9 @@ def run_solid_cycle(
 
 def solid_single_stiffness(model: SolidPair, torque: float, count: int = 15) -> float:
     """Greatest stiffness (N/(mm um)) of one pair of teeth alone, while its line of contact crosses the flanks."""
-    path, reach = model.pair.path_of_contact, model.width * abs(math.tan(model.helix)) / 2
-    lengths = np.linspace(path.A - reach, path.E + reach, count + 2)[1:-1]
-    angles = np.degrees((lengths - path.C) / model.base_radius).tolist()
+    (first, last), reach = usable_path(model.pair), model.width * abs(math.tan(model.helix)) / 2
+    lengths = np.linspace(first - reach, last + reach, count + 2)[1:-1]
+    angles = np.degrees((lengths - model.pair.path_of_contact.C) / model.base_radius).tolist()
     solved = (model.solve(angle, torque, single=True) for angle in angles)
     # Transverse: F cos(beta_b) over the approach delta/cos(beta_b), per mm of width.
     factor = math.cos(model.helix) / 1000

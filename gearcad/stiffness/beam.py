@@ -16,6 +16,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gearcad.errors import GeometryError, ParameterError
 from gearcad.load import Load
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.stiffness.foundation import sainsot_foundation, sainsot_range, weber_foundation
@@ -60,8 +61,19 @@ class BeamMethod(StiffnessMethod):
         for gear, owner in enumerate(_OWNERS):
             parts |= {f"{owner} {name}": part for name, part in self.tooth_parts(gear, loads[gear]).items()}
         parts["contact"] = self.contact(lengths, (loads[0], loads[1]), load)
+        self._refuse_negative(parts, load)
         factor = 1000 / self.lean
         return SinglePair(lengths, {name: factor * part for name, part in parts.items()}, factor * self.tangent_less)
+
+    def _refuse_negative(self, parts: dict[str, Floats], load: Load) -> None:
+        """Raise where a formula, far outside its range, gives less than nothing."""
+        if (parts["contact"] <= 0).any():
+            permitted = "must be lower: Hertz's contact would be as wide as the teeth are thick"
+            raise ParameterError("load.torque", load.torque, permitted, "N·m")
+        for owner, gear in zip(_OWNERS, (self.mounted.pinion, self.mounted.wheel), strict=True):
+            if (parts[f"{owner} foundation"] <= 0).any():
+                permitted = "must leave another ring below the teeth: Sainsot's series gives less than nothing for this one"
+                raise GeometryError(f"{owner}.body.bore", gear.body.bore, permitted, "mm")
 
     @abstractmethod
     def tooth_parts(self, gear: int, load: BeamLoad) -> dict[str, Floats]:

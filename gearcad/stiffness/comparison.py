@@ -6,6 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gearcad.errors import GearcadError, ParameterError
 from gearcad.fea.flexible_pair import BodyModel
 from gearcad.geometry import GearPair
@@ -18,11 +21,10 @@ from gearcad.stiffness.methods import METHODS
 
 __all__ = ["LoadPoint", "StiffnessComparison", "compare_methods"]
 
+Floats = NDArray[np.float64]
+
 _PARTS = (0.1, 0.3, 0.55, 0.77)
 """Of the load, at which the stiffness is wanted beside that at the load."""
-
-_FEW = 48
-"""Positions for them."""
 
 
 class LoadPoint(NamedTuple):
@@ -54,6 +56,11 @@ class StiffnessComparison:
     def deviation(self, cycle: MeshCycle) -> float | None:
         """Of the mean from that of the 3D contact (1 is 100 %)."""
         return cycle.mean / self.reference.mean - 1 if self.reference is not None else None
+
+    def path_position(self, roll_angle: Floats) -> Floats:
+        """Where the middle pair touches in the middle plane (n,) in mm from T1, at roll angles (n,) in degrees."""
+        result: Floats = self.pair.path_of_contact.C + np.radians(roll_angle) * self.pair.pinion.base_diameter / 2
+        return result
 
     @property
     def bodies(self) -> dict[str, str]:
@@ -132,5 +139,6 @@ def compare_methods(
 
 def _over_load(method: StiffnessMethod, load: Load, at_load: MeshCycle) -> list[LoadPoint]:
     """Means at parts of the load, and at the load itself."""
-    cycles = [method(replace(load, torque=part * load.torque), _FEW) for part in _PARTS] if method.load_dependent else []
+    loads = [replace(load, torque=part * load.torque) for part in _PARTS] if method.load_dependent else []
+    cycles = [method(each, method.load_positions) for each in loads]
     return [LoadPoint(method.name, cycle.torque, cycle.mean, cycle.tangent_mean) for cycle in (*cycles, at_load)]

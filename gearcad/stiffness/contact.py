@@ -160,6 +160,7 @@ class SolidContact(ContactMethod):
     name = "3d"
     title = "FE contact, solid bodies"
     default_positions: ClassVar[int] = 60
+    load_positions: ClassVar[int] = 0  # the bodies' responses are known there
 
     bodies: SolidPair | None = field(default=None, repr=False)
     """Those of a check, if there was one, for the sign of torque that it had; else they are made."""

@@ -40,6 +40,8 @@ class StiffnessMethod(ABC):
     holds: ClassVar[tuple[str, ...]]
     default_positions: ClassVar[int] = 200
     load_dependent: ClassVar[bool] = True
+    load_positions: ClassVar[int] = 48
+    """Positions, 0 for as many as ever, at which other loads than that of the pair are tried."""
 
     def __post_init__(self) -> None:
         if self.positions != 0:

@@ -95,8 +95,11 @@ class BeamTooth:
     # ------------------------------------------------------------------ the load
 
     def load_at(self, curvature: Floats) -> BeamLoad:
-        """The load where the involute's radius of curvature is `curvature` (n,) in mm."""
-        roll = curvature / self.base_radius
+        """The load where the involute's radius of curvature is `curvature` (n,) in mm, at the tip for one beyond it.
+
+        At the tip circle a helical flank has a radius of curvature up to 1 % larger than that of its virtual gear.
+        """
+        roll = np.minimum(curvature / self.base_radius, self.flank.last)
         half = self.base_half_angle - (roll - np.arctan(roll))
         radius = self.base_radius * np.hypot(1.0, roll)
         return BeamLoad(radius * np.cos(half), radius * np.sin(half), np.arctan(roll) - half)

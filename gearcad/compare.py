@@ -1,0 +1,83 @@
+"""Compare: the mesh stiffness of what a spec describes, by every method."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from typing import Any
+
+from gearcad import __version__
+from gearcad.check.options import CheckOptions
+from gearcad.check.run import Progress
+from gearcad.errors import ParameterError
+from gearcad.material import Material
+from gearcad.spec.design import Design
+from gearcad.stiffness.comparison import StiffnessComparison, compare_methods
+from gearcad.stiffness.methods import METHODS
+
+__all__ = ["compare", "curves_csv", "stiffness_document"]
+
+_COLUMNS = ("method", "roll_angle", "path_position", "mesh_stiffness", "tangent_stiffness", "transmission_error")
+
+
+def compare(
+    design: Design, methods: Sequence[str] = tuple(METHODS), positions: int = 0, progress: Progress | None = None
+) -> StiffnessComparison:
+    """Mesh stiffness of the design's pair as mounted, under its load, its bodies held as its [check] says.
+
+    Raises ParameterError for a design without pair or load, and what `compare_methods` raises.
+    """
+    if design.pair is None:
+        raise ParameterError("kind", design.kind.value, "must be a pair: a single gear has no mesh")
+    if design.load is None:
+        raise ParameterError("load.torque", None, "must be given, in N·m on the pinion: stiffness depends on it")
+    from threadpoolctl import threadpool_limits
+
+    # The dense systems are small, and solid bodies are solved side by side: more threads cost more than they bring.
+    with threadpool_limits(1):
+        return compare_methods(
+            design.pair,
+            design.material or Material(),
+            design.load,
+            methods,
+            body=(design.check or CheckOptions()).body,
+            mounting=design.mounting,
+            positions=positions,
+            progress=progress or (lambda _method, _done, _all: None),
+        )
+
+
+def stiffness_document(comparison: StiffnessComparison, name: str, harmonics: int = 0) -> dict[str, Any]:
+    """Everything under the names of stiffness.json, with so many Fourier coefficients of each curve."""
+    return {"kind": "stiffness", "name": name, "gearcad": __version__, **comparison.to_dict(harmonics)}
+
+
+def curves_csv(comparison: StiffnessComparison) -> str:
+    """The curves of all methods, one row for each roll angle of each: degrees, mm from T1, N/µm, µm, µm/N.
+
+    Load shares stand under `load_share.PAIR`, compliances under `compliance.PART`; blank where a method has none.
+    """
+    cycles = comparison.cycles
+    pairs = sorted({pair for cycle in cycles for pair in cycle.pairs})
+    parts = list(dict.fromkeys(part for cycle in cycles for part in cycle.compliance_parts))
+    headings = [*_COLUMNS, *(f"load_share.{pair}" for pair in pairs), *(f"compliance.{part}" for part in parts)]
+    text = io.StringIO()
+    writer = csv.DictWriter(text, headings, lineterminator="\n", restval="")
+    writer.writeheader()
+    for cycle in cycles:
+        places = comparison.path_position(cycle.roll_angle)
+        for row, (angle, place) in enumerate(zip(cycle.roll_angle.tolist(), places.tolist(), strict=True)):
+            writer.writerow(
+                {
+                    "method": cycle.method,
+                    "roll_angle": angle,
+                    "path_position": place,
+                    "mesh_stiffness": cycle.mesh_stiffness[row],
+                    "tangent_stiffness": cycle.tangent_stiffness[row],
+                    "transmission_error": cycle.transmission_error[row],
+                    **{f"load_share.{pair}": cycle.load_share[row, at] for at, pair in enumerate(cycle.pairs)},
+                    **{f"compliance.{name}": part[row] for name, part in cycle.compliance_parts.items()},
+                }
+            )
+    return text.getvalue()
