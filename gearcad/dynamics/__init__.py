@@ -1,0 +1,1 @@
+"""Dynamics of gear pairs and trains."""
