@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.check.result import CheckResult, PlaneCheck
+from gearcad.geometry import GearPair
 from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, legend_above, prepared
 
 if TYPE_CHECKING:
@@ -55,7 +56,7 @@ def plot_contact_pressure(result: PlaneCheck, ax: Axes | None = None) -> Axes:
             across = axes.get_xaxis_transform()
             axes.plot(lengths[places], height + 0.03, marker, color=DARK, markersize=5, transform=across, label=words)
     draw_limit(axes, result.material.contact_limit)
-    mark_path(axes, result)
+    mark_path(axes, result.pair)
     legend_above(axes, 3)
     return axes
 
@@ -71,7 +72,7 @@ def plot_load_share(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     if corner.any():
         axes.plot(lengths[corner], shares[corner], "x", color=DARK, markersize=5, label="a corner touches")
     axes.set_ylim(0, 1.05)
-    mark_path(axes, result)
+    mark_path(axes, result.pair)
     legend_above(axes, 2)
     return axes
 
@@ -129,9 +130,9 @@ def _along_path(result: PlaneCheck) -> list[PairContact]:
     return sorted(contacts, key=lambda contact: contact.pair.pinion)
 
 
-def mark_path(axes: Axes, result: CheckResult) -> None:
+def mark_path(axes: Axes, pair: GearPair) -> None:
     """The points A to E of the path of contact, by name."""
     across = axes.get_xaxis_transform()
-    for name, place in result.pair.path_of_contact._asdict().items():
+    for name, place in pair.path_of_contact._asdict().items():
         axes.axvline(place, color=MARKED, linewidth=0.9, zorder=0.5)
         axes.text(place, 0.985, f" {name}", transform=across, ha="left", va="top", fontsize=9, color=DARK)

@@ -100,7 +100,7 @@ def plot_line_loads(result: SolidCheck, ax: Axes | None = None) -> Axes:
         axes.plot(contact.line.nominal, contact.line.across, color="white", linewidth=1.2, linestyle="--")
     axes.set_xlabel(PATH)
     axes.set_ylabel("across the face in mm")
-    mark_path(axes, result)
+    mark_path(axes, result.pair)
     return axes
 
 
@@ -159,7 +159,7 @@ def plot_lines_share(result: SolidCheck, ax: Axes | None = None) -> Axes:
     contacts = middle_contacts(result.cycle)
     axes.plot([each.place for each in contacts], [each.share for each in contacts], color=SERIES[0], label="finite elements")
     axes.set_ylim(0, 1.05)
-    mark_path(axes, result)
+    mark_path(axes, result.pair)
     legend_above(axes, 1)
     return axes
 

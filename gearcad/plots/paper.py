@@ -9,7 +9,19 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["DARK", "GEARS", "MARKED", "PALE", "SERIES", "draw_limit", "legend_above", "new_figure", "prepared", "short"]
+__all__ = [
+    "DARK",
+    "FIGURE_INCHES",
+    "GEARS",
+    "MARKED",
+    "PALE",
+    "SERIES",
+    "draw_limit",
+    "legend_above",
+    "new_figure",
+    "prepared",
+    "short",
+]
 
 GEARS = (("pinion", "#0072b2", "o"), ("wheel", "#d55e00", "s"))
 """Name, colour and marker of the gears. Colours are those of Okabe and Ito, which the colour-blind can tell apart."""
@@ -22,14 +34,14 @@ PALE = "#eaa873"
 MARKED = "#999999"
 """Colour of lines that only mark a place."""
 
-_INCHES = (6.6, 3.7)
+FIGURE_INCHES = (6.6, 3.7)
 
 
-def new_figure() -> Figure:
+def new_figure(inches: tuple[float, float] = FIGURE_INCHES) -> Figure:
     """An empty figure as wide as the text of a report."""
     from matplotlib.figure import Figure
 
-    return Figure(figsize=_INCHES, layout="constrained")
+    return Figure(figsize=inches, layout="constrained")
 
 
 def prepared(ax: Axes | None, x: str, y: str) -> Axes:

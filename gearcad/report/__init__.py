@@ -1,5 +1,6 @@
-"""The report of a check: one HTML file that needs nothing else."""
+"""The reports of a check and of a comparison of stiffness: HTML files that need nothing else."""
 
+from gearcad.report.stiffness import stiffness_html, write_stiffness_report
 from gearcad.report.write import report_html, write_report
 
-__all__ = ["report_html", "write_report"]
+__all__ = ["report_html", "stiffness_html", "write_report", "write_stiffness_report"]

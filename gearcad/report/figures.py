@@ -24,15 +24,16 @@ from gearcad.plots.lines import (
     plot_load_along_face,
     plot_root_along_face,
 )
-from gearcad.plots.paper import new_figure
+from gearcad.plots.paper import FIGURE_INCHES, new_figure
 from gearcad.plots.stresses import plot_contact_zone, plot_depth_profile, plot_fillets, plot_stress_field, worst_fields
 from gearcad.plots.trends import plot_convergence, plot_sweep_pressure, plot_sweep_stiffness
 from gearcad.report import captions, captions_plane, captions_solid
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-__all__ = ["Picture", "make_figures", "picture_address"]
+__all__ = ["Picture", "figure_address", "make_figures", "picture_address"]
 
 Checked = TypeVar("Checked", bound=CheckResult)
 
@@ -114,13 +115,18 @@ def _trends(of: Checked, convergence: Callable[[Checked], str]) -> list[_Drawing
     return found
 
 
-def picture_address(draw: Callable[[Axes], Axes], kind: str) -> str:
-    """What is drawn, as a data: URL of an "svg" or "png"."""
+def picture_address(draw: Callable[[Axes], Axes], kind: str, inches: tuple[float, float] = FIGURE_INCHES) -> str:
+    """What is drawn on axes, as a data: URL of an "svg" or "png"."""
+    return figure_address(lambda figure: draw(figure.subplots()), kind, inches)
+
+
+def figure_address(draw: Callable[[Figure], object], kind: str, inches: tuple[float, float] = FIGURE_INCHES) -> str:
+    """What is drawn on a figure, as a data: URL of an "svg" or "png"."""
     from matplotlib import style
 
     with style.context(["default", {"svg.hashsalt": "gearcad"}]):
-        figure, stream = new_figure(), io.BytesIO()
-        draw(figure.subplots())
+        figure, stream = new_figure(inches), io.BytesIO()
+        draw(figure)
         nothing = {"Date": None} if kind == "svg" else {"Software": None}
         figure.savefig(stream, format=kind, dpi=_DOTS_PER_INCH, metadata=nothing)
     media = {"svg": "image/svg+xml", "png": "image/png"}[kind]

@@ -14,6 +14,7 @@ from gearcad.report.page import page_html
 from gearcad.report.reasons import stiffness_reasons
 from gearcad.report.reasons_plane import plane_root_reasons
 from gearcad.report.reasons_solid import face_reasons, solid_root_reasons
+from gearcad.report.stiffness import section_of_check
 from gearcad.report.tables import gear_rows, load_rows, pair_rows, rating_rows
 from gearcad.report.views import tooth_views
 
@@ -45,6 +46,7 @@ def _sections(result: CheckResult) -> dict[str, Any]:
         "rating_rows": rating_rows(result),
         "figures": make_figures(result),
         "views": tooth_views(result),
+        "stiffness": section_of_check(result),
         "stiffness_reasons": stiffness_reasons(result),
         **_of_model(result),
     }

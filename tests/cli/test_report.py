@@ -14,7 +14,7 @@ from gearcad.plots.paper import short
 from gearcad.report import report_html, write_report
 from gearcad.report.reasons_plane import root_at_single_contact
 
-_PICTURES = 12
+_PICTURES = 13
 
 
 @pytest.fixture(scope="module")

@@ -18,7 +18,7 @@ from gearcad.plots.paper import short
 from gearcad.plots.tooth import tooth_surface
 from gearcad.report import report_html
 
-_FIGURES, _VIEWS = 13, 2
+_FIGURES, _VIEWS = 14, 2
 
 
 @pytest.fixture(scope="module")
