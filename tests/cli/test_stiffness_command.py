@@ -1,0 +1,114 @@
+"""`gearcad stiffness` as a user meets it."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from gearcad.cli import main
+
+PAIR = """
+[pair]
+normal_module = 2.0
+face_width = 20.0
+[pinion]
+teeth = 20
+body.bore = 12.0
+[wheel]
+teeth = 30
+body.bore = 20.0
+[load]
+torque = 50.0
+"""
+
+QUICK = ("--method", "potential-energy", "--method", "weber-banaschek", "--method", "iso6336")
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(main, list(arguments))
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def spec(text: str = PAIR) -> str:
+    Path("pair.toml").write_text(text, encoding="utf-8")
+    return "pair.toml"
+
+
+def test_table_and_files(here: Path) -> None:
+    result = run("stiffness", spec(), *QUICK, "--fourier", "4")
+    assert result.exit_code == 0, result.output
+    lines = result.stdout.splitlines()
+    assert lines[-3:] == [f"output/pair/stiffness.{kind}" for kind in ("csv", "html", "json")]
+    document = json.loads((here / "output/pair/stiffness.json").read_text(encoding="utf-8"))
+    assert (document["kind"], document["name"], document["common_width"]) == ("stiffness", "pair", 20.0)
+    assert list(document["methods"]) == ["potential-energy", "weber-banaschek", "iso6336"]
+    energy = document["methods"]["potential-energy"]
+    row = next(line for line in lines if line.startswith("Potential energy "))
+    assert row.split()[2:4] == [f"{energy['mean']:.5g}", f"{energy['maximum']:.5g}"]
+    assert len(energy["fourier"]["cosine"]) == 4
+    assert energy["fourier"]["mean"] == pytest.approx(energy["mean"])
+    assert "fourier" not in document["methods"]["iso6336"] and "maximum" not in document["methods"]["iso6336"]
+    assert {point["method"] for point in document["load_dependence"]} == set(document["methods"])
+    with (here / "output/pair/stiffness.csv").open(encoding="utf-8", newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["method"] == "potential-energy"]
+    assert [float(row["mesh_stiffness"]) for row in rows] == energy["mesh_cycle"]["mesh_stiffness"]
+    parts = [sum(float(row[key]) for key in row if key.startswith("compliance.") and row[key]) for row in rows]
+    assert [1 / part for part in parts] == pytest.approx([float(row["mesh_stiffness"]) for row in rows], rel=1e-6)
+
+
+def test_json_is_one_document(here: Path) -> None:
+    result = run("stiffness", spec(), *QUICK, "--json", "--quiet", "--positions", "40")
+    assert result.exit_code == 0 and result.stderr == ""
+    document = json.loads(result.stdout)
+    assert len(document["methods"]["weber-banaschek"]["mesh_cycle"]["roll_angle"]) < 60
+
+
+def test_a_method_that_cannot_treat_the_pair_is_left_out_with_its_reason(here: Path) -> None:
+    helical = spec(PAIR.replace("[pinion]", "helix_angle = 20.0\n[pinion]"))
+    result = run("stiffness", helical, *QUICK, "--method", "plane-strain")
+    assert result.exit_code == 0, result.output
+    assert "FE contact, plane strain: left out: pair.helix_angle = 20 deg: must be 0 for plane-strain" in result.stdout
+    alone = run("stiffness", helical, "--method", "plane-strain", "-o", "other")
+    assert alone.exit_code == 2
+    assert alone.stderr.splitlines()[-1].startswith("Error: pair.helix_angle = 20 deg: must be 0 for plane-strain")
+    assert not Path("other").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--method", "tian"], "method = 'tian': must be one of all, potential-energy, weber-banaschek, iso6336,"),
+        (["--positions", "3"], "positions = 3: must be a whole number from 12 to 5000"),
+        ([*QUICK, "--fourier", "80"], "fourier = 80: must be a whole number from 0 to 50"),
+        (["--fourier", "20"], "fourier = 20: must be a whole number from 0 to 15"),
+    ],
+)
+def test_wrong_options(here: Path, arguments: list[str], message: str) -> None:
+    result = run("stiffness", spec(), *arguments)
+    assert result.exit_code == 2
+    assert message in result.stderr and "Traceback" not in result.stderr
+    assert not Path("output").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (PAIR.replace("[load]\ntorque = 50.0\n", ""), "load.torque = None: must be given"),
+        (PAIR.replace("torque = 50.0", "torque = 0.0"), "load.torque = 0 N·m: must not be 0"),
+        ("[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 10.0\n", "must be a pair"),
+        (PAIR.replace("teeth = 30", "teeth = -60"), "teeth"),
+    ],
+)
+def test_specs_without_a_mesh(here: Path, text: str, message: str) -> None:
+    result = run("stiffness", spec(text), *QUICK)
+    assert result.exit_code == 2
+    assert message in result.stderr and result.stdout == ""
