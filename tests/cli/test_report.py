@@ -11,7 +11,7 @@ from support.checks import NASTY_NAME, small_check
 
 from gearcad.check.comparison import Role
 from gearcad.plots.paper import short
-from gearcad.report import report_html, write_report
+from gearcad.report import report_html, write, write_report
 from gearcad.report.reasons_plane import root_at_single_contact
 
 _PICTURES = 13
@@ -62,11 +62,16 @@ def test_verdict_comes_first_and_names_what_failed(document):
     assert verdict.xpath(".//ul")[0].text_content().strip().startswith("contact pressure: ")
 
 
-def test_passes_where_every_gate_does():
+def test_passes_where_every_gate_does(monkeypatch):
+    monkeypatch.setattr(write, "section_of_check", lambda _result: "pairs like <this> have none")
     inside = tuple(each for each in small_check().comparisons if each.quantity != "contact pressure")
-    verdict = lxml.html.document_fromstring(report_html(replace(small_check(), comparisons=inside), "good")).xpath("//div")[0]
+    document = lxml.html.document_fromstring(report_html(replace(small_check(), comparisons=inside), "good"))
+    verdict = document.xpath("//div")[0]
     assert verdict.get("class") == "verdict good"
     assert verdict.text_content().strip().startswith("Passed.")
+    # Other methods can fail where the check does not.
+    assert document.xpath("//p[text()='There are none for this pair: pairs like <this> have none']")
+    assert len(document.xpath("//figure")) == _PICTURES - 1
 
 
 def test_needs_nothing_from_elsewhere(document, text):
@@ -116,7 +121,8 @@ def test_reasons_separate_sharing_width_and_fillet(document):
     assert "ISO spreads" not in wheel
 
 
-def test_a_single_torque_shows_no_trend():
+def test_a_single_torque_shows_no_trend(monkeypatch):
+    monkeypatch.setattr(write, "section_of_check", lambda _result: "not wanted here")
     captions = report_html(replace(small_check(), sweep=small_check().sweep[:1]), "one")
     assert "Only 302 N·m was asked for" in captions
     assert "to the power" not in captions
