@@ -106,7 +106,7 @@ def plain_numbers(instance: Any) -> None:
         value = getattr(instance, each.name)
         if isinstance(value, bool) or not isinstance(value, Real):
             continue
-        if isinstance(value, Integral) and (each.type == "int" or abs(int(value)) > _MOST_EXACT):
+        if isinstance(value, Integral) and (each.type in ("int", "int | None") or abs(int(value)) > _MOST_EXACT):
             object.__setattr__(instance, each.name, int(value))
         elif not isinstance(value, float):
             object.__setattr__(instance, each.name, float(value))

@@ -1,0 +1,170 @@
+"""Natural frequencies without discretisation: dynamic stiffness, and the count of Wittrick and Williams. In SI units.
+
+W. H. Wittrick, F. W. Williams, A general algorithm for computing natural frequencies of elastic structures, Quart. J. Mech.
+Appl. Math. 24 (1971): as many natural frequencies are below omega as the dynamic stiffness matrix has negative eigenvalues, and
+the members with both ends clamped have natural frequencies below it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.dynamics.parts import Parts
+from gearcad.dynamics.shafts import clamped_modes_below, dynamic_inertia, dynamic_stiffness, shaft_inertia, shaft_stiffness
+from gearcad.errors import SolverError
+
+__all__ = ["SPLIT", "DynamicTrain", "Piece", "dynamic_train", "natural_frequencies", "natural_shapes"]
+
+Floats = NDArray[np.float64]
+
+SPLIT = (3 - math.sqrt(5)) / 2
+"""A shaft with mass is cut here, so that no mode has all nodes at rest: whole half waves on both sides are impossible."""
+
+_SAME = 1e-10
+"""Relative: frequencies that are one, of several modes."""
+
+_DOUBLINGS = 200
+_HALVINGS = 200
+"""More than any start needs to reach, or to tell, neighbouring floats."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A shaft, or a part of the one at place `shaft`: nodes at its ends (-1: ground), stiffness and inertia."""
+
+    shaft: int
+    start: int
+    end: int
+    stiffness: float
+    inertia: float
+
+    @property
+    def inside(self) -> list[int]:
+        """Which of the two ends can turn."""
+        return [place for place, node in enumerate((self.start, self.end)) if node >= 0]
+
+    @property
+    def nodes(self) -> list[int]:
+        """Those that can turn."""
+        return [node for node in (self.start, self.end) if node >= 0]
+
+
+@dataclass(frozen=True, eq=False)
+class DynamicTrain:
+    """Nodes - the inertias, then the cuts of shafts - with `inertia` (n,), `meshes` (n, m), and the pieces between them."""
+
+    parts: Parts
+    pieces: tuple[Piece, ...]
+    inertia: Floats
+    meshes: Floats
+    free: Floats
+
+    def stiffness(self, omega: Floats) -> Floats:
+        """Dynamic stiffness (q, n, n) at each of omega (q,)."""
+        result = np.multiply.outer(-(omega**2), np.diag(self.inertia))
+        result += (self.meshes * self.parts.stiffness) @ self.meshes.T
+        for piece in self.pieces:
+            own = dynamic_stiffness(piece.stiffness, piece.inertia, omega)
+            for i, row in zip(piece.inside, piece.nodes, strict=True):
+                for j, column in zip(piece.inside, piece.nodes, strict=True):
+                    result[:, row, column] += own[:, i, j]
+        return result
+
+    def moving_inertia(self, omega: float) -> Floats:
+        """(n, n): its quadratic form is the modal mass of a shape, the shafts' own motion included."""
+        result = np.diag(self.inertia)
+        for piece in self.pieces:
+            own = dynamic_inertia(piece.stiffness, piece.inertia, omega)
+            result[np.ix_(piece.nodes, piece.nodes)] += own[np.ix_(piece.inside, piece.inside)]
+        return result
+
+    def count_below(self, omega: Floats) -> NDArray[np.int64]:
+        """(q,): how many natural frequencies are below each of omega (q,), above 0."""
+        clamped = sum(clamped_modes_below(piece.stiffness, piece.inertia, omega) for piece in self.pieces)
+        negative: NDArray[np.int64] = (np.linalg.eigvalsh(self.stiffness(omega)) < 0).sum(axis=1) + clamped
+        return negative
+
+
+def dynamic_train(parts: Parts, *, massless: bool = False) -> DynamicTrain:
+    """Of the parts, with the mass of their shafts or without."""
+    pieces: list[Piece] = []
+    nodes = len(parts.inertias)
+    free = list(parts.free)
+    for place, (shaft, ends) in enumerate(zip(parts.shafts, parts.ends.tolist(), strict=True)):
+        k, inertia = shaft_stiffness(shaft), 0.0 if massless else shaft_inertia(shaft)
+        start, end = ends
+        if not inertia:
+            pieces.append(Piece(place, start, end, k, 0.0))
+            continue
+        pieces.append(Piece(place, start, nodes, k / SPLIT, inertia * SPLIT))
+        pieces.append(Piece(place, nodes, end, k / (1 - SPLIT), inertia * (1 - SPLIT)))
+        free.append(parts.free[max(ends)])
+        nodes += 1
+    cuts = nodes - len(parts.inertias)
+    return DynamicTrain(
+        parts=parts,
+        pieces=tuple(pieces),
+        inertia=np.concatenate([parts.inertia, np.zeros(cuts)]),
+        meshes=np.concatenate([parts.approach, np.zeros((cuts, parts.approach.shape[1]))]),
+        free=np.array(free),
+    )
+
+
+def natural_frequencies(train: DynamicTrain, count: int) -> Floats:
+    """The first natural frequencies (1/s), as many as there are up to `count`, those that are 0 among them.
+
+    Bisection by the count finds every one, multiple ones too, to neighbouring floats.
+    """
+    rigid = train.free.shape[1]
+    if not any(piece.inertia for piece in train.pieces):
+        count = min(count, len(train.inertia))
+    ranks = np.arange(rigid, count)
+    if not len(ranks):
+        return np.zeros(min(rigid, count))
+    low, high = np.zeros(len(ranks)), np.full(len(ranks), _above(train, count))
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        if ((middle <= low) | (middle >= high)).all():
+            return np.concatenate([np.zeros(rigid), high])
+        below = train.count_below(middle) > ranks
+        low, high = np.where(below, low, middle), np.where(below, middle, high)
+    raise SolverError("bisection of natural frequencies did not end")
+
+
+def _above(train: DynamicTrain, count: int) -> float:
+    """A frequency (1/s) with `count` natural frequencies below it."""
+    k = np.trace((train.meshes * train.parts.stiffness) @ train.meshes.T) + sum(piece.stiffness for piece in train.pieces)
+    omega = math.sqrt(float(k) / train.inertia.sum())
+    for _ in range(_DOUBLINGS):
+        if int(train.count_below(np.array([omega]))[0]) >= count:
+            return omega
+        omega *= 2
+    raise SolverError(f"no {count} natural frequencies were found below {omega:g} 1/s")
+
+
+def natural_shapes(train: DynamicTrain, omega: Floats) -> Floats:
+    """Turns of the nodes (n, modes) at natural frequencies that `natural_frequencies` found, each of modal mass 1."""
+    rigid = int((omega == 0).sum())
+    shapes = np.zeros((len(train.inertia), len(omega)))
+    if rigid:
+        shapes[:, :rigid] = _of_mass_one(train.free, train.moving_inertia(0.0))
+    first = rigid
+    while first < len(omega):
+        last = first + int((omega[first:] <= omega[first] * (1 + _SAME)).sum())
+        mean = float(omega[first:last].mean())
+        values, vectors = np.linalg.eigh(train.stiffness(np.array([mean]))[0])
+        null = vectors[:, np.argsort(np.abs(values))[: last - first]]
+        shapes[:, first:last] = _of_mass_one(null, train.moving_inertia(mean))
+        first = last
+    return shapes
+
+
+def _of_mass_one(shapes: Floats, inertia: Floats) -> Floats:
+    """Shapes of the same space (n, r), orthogonal by the inertia and of modal mass 1."""
+    lower = np.linalg.cholesky(shapes.T @ inertia @ shapes)
+    result: Floats = np.linalg.solve(lower, shapes.T).T
+    return result
