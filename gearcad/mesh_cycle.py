@@ -13,9 +13,20 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearcad.errors import SolverError, require_whole
 
-__all__ = ["FourierSeries", "MeshCycle"]
+__all__ = ["METHOD_NAMES", "FourierSeries", "MeshCycle"]
 
 Floats = NDArray[np.float64]
+
+METHOD_NAMES = (
+    "potential-energy",
+    "weber-banaschek",
+    "iso6336",
+    "strain-energy",
+    "plane-stress",
+    "plane-strain",
+    "3d",
+)
+"""What makes mesh cycles, the quick ones first: the methods of `gearcad.stiffness`."""
 
 
 class FourierSeries(NamedTuple):

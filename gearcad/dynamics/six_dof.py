@@ -54,7 +54,9 @@ class PairOnBearings:
         angle = math.radians(self.working_transverse_pressure_angle)
         first, second = (radius / 1000 for radius in self.base_radii)
         approach = np.array([math.sin(angle), math.cos(angle), first, -math.sin(angle), -math.cos(angle), second])
-        masses = np.array([value for mass, turn in zip(self.masses, self.inertias, strict=True) for value in (mass, mass, turn)])
+        masses = np.array(
+            [value for mass, turn in zip(self.masses, self.inertias, strict=True) for value in (mass, mass, turn)]
+        )
         springs, dampers, turns = np.zeros(6), np.zeros(6), np.zeros((6, 2))
         for gear in (0, 1):
             springs[3 * gear : 3 * gear + 2] = [1e6 * each for each in self.bearing_stiffness[gear]]

@@ -7,6 +7,7 @@ from enum import Enum
 from typing import Any
 
 from gearcad.check.options import CheckOptions
+from gearcad.dynamics.options import DynamicsOptions
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load
@@ -46,6 +47,7 @@ class Design:
     load: Load | None = None
     mounting: Mounting | None = None
     check: CheckOptions | None = None
+    dynamics: DynamicsOptions | None = None
 
     def __post_init__(self) -> None:
         require_plain_name(self.name)
@@ -86,6 +88,8 @@ class Design:
             document["mounting"] = asdict(self.mounting)
         if self.check is not None:
             document["check"] = asdict(self.check)
+        if self.dynamics is not None:
+            document["dynamics"] = asdict(self.dynamics)
         return document
 
 

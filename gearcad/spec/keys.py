@@ -7,6 +7,7 @@ from dataclasses import fields
 
 from gearcad import symbols
 from gearcad.check.options import CheckOptions
+from gearcad.dynamics.options import DynamicsOptions
 from gearcad.geometry import BasicRack, Body, FlankModification, Gear
 from gearcad.load import Load
 from gearcad.material import Material
@@ -45,6 +46,7 @@ KEYS = {
     "load": tuple(field.name for field in fields(Load)),
     "mounting": tuple(field.name for field in fields(Mounting)),
     "check": tuple(field.name for field in fields(CheckOptions)),
+    "dynamics": tuple(field.name for field in fields(DynamicsOptions)),
 }
 """Permitted keys of each table, flattened with dots. `rack` alone is the name of a rack."""
 

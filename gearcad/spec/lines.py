@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections import Counter
 
 __all__ = ["explain_syntax", "find_lines", "nearest_line"]
 
@@ -23,10 +24,12 @@ def _plain(dotted: str) -> str:
 def find_lines(text: str) -> dict[str, int]:
     """Line number (from 1) of every table header and key, under its full dotted name.
 
-    Follows headers, dotted keys and inline tables on one line; skips texts over several lines. The first mention wins.
+    Follows headers, dotted keys and inline tables on one line, counts tables in lists from 0 (`mesh[0].teeth`); skips texts
+    over several lines. The first mention wins.
     The text is taken to be valid TOML: what a stranger layout hides has no line, which only costs the message its number.
     """
     lines: dict[str, int] = {}
+    lists: Counter[str] = Counter()
     table, closing = "", ""
     for number, line in enumerate(text.split("\n"), start=1):
         if closing:
@@ -35,6 +38,10 @@ def find_lines(text: str) -> dict[str, int]:
         if header := _HEADER.match(line):
             table = _plain(header[1])
             lines.setdefault(table, number)
+            if line.lstrip().startswith("[["):
+                lists[table] += 1
+                table = f"{table}[{lists[table] - 1}]"
+                lines.setdefault(table, number)
         elif assignment := _ASSIGNMENT.match(line):
             key = ".".join(filter(None, (table, _plain(assignment[1]))))
             lines.setdefault(key, number)

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from gearcad.check.options import CheckOptions
+from gearcad.dynamics.options import DynamicsOptions
 from gearcad.errors import (
     GeometryError,
     InputError,
@@ -32,13 +33,22 @@ from gearcad.spec.design import Design, DesignKind, require_plain_name
 from gearcad.spec.keys import KEYS, LISTS, PARTS, SHARED, explain_unknown_key, explain_unknown_table
 from gearcad.spec.lines import explain_syntax, find_lines, nearest_line
 
-__all__ = ["Cell", "design_from_tables", "read_spec", "spec_values"]
+__all__ = ["Cell", "Where", "design_from_tables", "read_spec", "read_tables", "spec_values"]
 
 Where = Callable[[str], str]
 """Says where a key stands, such as `pair.toml line 7`, for the beginning of a message."""
 
 _DERIVED = ("tip_diameter", "root_diameter", "centre_distance")
-WHOLE_FIELDS = ("teeth", "body_teeth", "positions")
+WHOLE_FIELDS = (
+    "teeth",
+    "body_teeth",
+    "positions",
+    "speeds",
+    "harmonics",
+    "frequencies",
+    "accuracy_grade",
+    "seed",
+)
 """Fields that are whole numbers; elsewhere 2 means 2.0."""
 
 _MOST_WHOLE = 10**15
@@ -46,7 +56,7 @@ _MOST_WHOLE = 10**15
 Cell = int | float | str | tuple[float, ...]
 """What a spec and a cell of a design table can both hold."""
 
-Simple = TypeVar("Simple", Material, Load, Mounting, CheckOptions)
+Simple = TypeVar("Simple", Material, Load, Mounting, CheckOptions, DynamicsOptions)
 
 
 class _Given(NamedTuple):
@@ -62,7 +72,7 @@ def read_spec(path: Path | str) -> Design:
 
     Raises SpecError, one line that names the file, the line, the key and what is permitted.
     """
-    tables, where = _read_tables(path)
+    tables, where = read_tables(path)
     return design_from_tables(tables, where=where, default_name=Path(path).stem)
 
 
@@ -71,7 +81,7 @@ def spec_values(path: Path | str) -> tuple[DesignKind, str, dict[str, Cell]]:
 
     The values need not make a gear. Raises SpecError, for a value that no cell can hold too.
     """
-    tables, where = _read_tables(path)
+    tables, where = read_tables(path)
     kind = _kind(tables, where)
     spec = _Spec(_flatten(tables, where), where)
     name = spec.name(kind.value, Path(path).stem)
@@ -84,7 +94,7 @@ def spec_values(path: Path | str) -> tuple[DesignKind, str, dict[str, Cell]]:
     return kind, name, values
 
 
-def _read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
+def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
     """The tables of a TOML spec as they are written, and what locates a key of theirs for messages. Raises SpecError."""
     path = Path(path)
     try:
@@ -121,15 +131,28 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
     load = spec.simple("load", Load) if "load" in tables else None
     mounting = spec.simple("mounting", Mounting) if "mounting" in tables else None
     check = spec.simple("check", CheckOptions) if "check" in tables else None
+    dynamics = spec.simple("dynamics", DynamicsOptions) if "dynamics" in tables else None
     main = kind.value
     name = spec.name(main, default_name)
     gear = spec.gear(name) if kind is DesignKind.GEAR else None
     pair = spec.pair(name) if kind is DesignKind.PAIR else None
     with spec.blame(main):
-        return Design(kind=kind, name=name, gear=gear, pair=pair, material=material, load=load, mounting=mounting, check=check)
+        return Design(
+            kind=kind,
+            name=name,
+            gear=gear,
+            pair=pair,
+            material=material,
+            load=load,
+            mounting=mounting,
+            check=check,
+            dynamics=dynamics,
+        )
 
 
 def _kind(tables: Mapping[str, Any], where: Where) -> DesignKind:
+    if "train" in tables:
+        raise SpecError(f"{where('train')}: [train] describes a train, which only `gearcad dynamics` can treat")
     for table, content in tables.items():
         if table not in KEYS:
             raise SpecError(f"{where(table)}: {_printable(table)}: {explain_unknown_table(table)}")
@@ -244,7 +267,7 @@ class _Spec:
         return {key.partition(".")[2]: given.value for key, given in self.values.items() if key.startswith(owner + ".")}
 
     def simple(self, owner: str, kind: type[Simple]) -> Simple:
-        """A Material, a Load, a Mounting or the options of a check."""
+        """A Material, a Load, a Mounting, or the options of a check or of the dynamics."""
         values = self.fields_of(owner)
         with self.blame(owner):
             if not isinstance(values.get("name", ""), str):

@@ -15,7 +15,8 @@ from gearcad.spec import read_spec
 from gearcad.spec.starters import starters
 
 VOLVO = "volvo-13-44"
-STARTERS = ["alm-18-161", "fzg-c", "spur", VOLVO]
+STARTERS = ["alm-18-161", "fzg-c", "spur", "uhlir-19-23", VOLVO]
+TRAINS = ["train-1-stage", "train-2-stage"]
 TABLES = ["gears", "pairs"]
 
 RATIO = 1e-9
@@ -51,7 +52,7 @@ def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
 
 def test_new_without_a_kind_lists_the_starters() -> None:
     lines = run("new").stdout.splitlines()
-    assert [line.split()[0] for line in lines] == sorted(STARTERS + TABLES)
+    assert [line.split()[0] for line in lines] == sorted(STARTERS + TRAINS + TABLES)
     assert all(len(line.split()) > 5 for line in lines)
 
 
@@ -79,7 +80,8 @@ def test_new_refuses_what_it_does_not_have() -> None:
     result = run("new", "bevel", status=2)
     assert (
         result.stderr
-        == "Error: kind = 'bevel': must be one of alm-18-161, fzg-c, gears, pairs, spur, volvo-13-44 (or gear, pair)\n"
+        == "Error: kind = 'bevel': must be one of alm-18-161, fzg-c, gears, pairs, spur, train-1-stage, "
+        "train-2-stage, uhlir-19-23, volvo-13-44 (or gear, pair)\n"
     )
 
 

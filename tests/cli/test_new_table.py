@@ -47,7 +47,17 @@ def test_one_pair_or_gear_is_a_spec_still(kind: str, file: str) -> None:
 
 def test_new_lists_tables_beside_specs() -> None:
     lines = run("new").stdout.splitlines()
-    assert [line.split()[0] for line in lines] == ["alm-18-161", "fzg-c", "gears", "pairs", "spur", "volvo-13-44"]
+    assert [line.split()[0] for line in lines] == [
+        "alm-18-161",
+        "fzg-c",
+        "gears",
+        "pairs",
+        "spur",
+        "train-1-stage",
+        "train-2-stage",
+        "uhlir-19-23",
+        "volvo-13-44",
+    ]
     assert lines[2:4] == [
         "gears         A design table of single gears: each row below the heading is one gear",
         "pairs         A design table of gear pairs: each row below the heading is one pair",

@@ -26,7 +26,7 @@ def _hz(stiffness: float, mass: float) -> float:
 
 
 def _along_the_line_of_action(pair: PairOnBearings) -> np.ndarray:
-    """Frequencies (Hz) of the 3-DOF chain bearing - pinion - mesh - wheel - bearing and the gears' turning against each other."""
+    """Frequencies (Hz) of the chain bearing - pinion - mesh - wheel - bearing with the gears' turning in it."""
     r1, r2 = (radius / 1000 for radius in pair.base_radii)
     turning = 1 / (r1**2 / pair.inertias[0] + r2**2 / pair.inertias[1])
     masses = np.array([*pair.masses, turning])

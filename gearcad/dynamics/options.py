@@ -1,0 +1,96 @@
+"""What a study of the dynamics looks at: the [dynamics] table of a spec."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_number, require_whole
+from gearcad.mesh_cycle import METHOD_NAMES
+
+__all__ = ["DynamicsOptions", "PairModel"]
+
+_UNRESOLVED = "iso6336"
+"""The one method that knows no course over the mesh."""
+
+
+class PairModel(Enum):
+    """What a pair's teeth are to its dynamics."""
+
+    MESH = "mesh"
+    """One spring whose stiffness varies over the mesh, with backlash."""
+
+    CONTACT = "contact"
+    """A spring for each pair of teeth in the zone of contact (Uhlir's thesis)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DynamicsOptions:
+    """Options of a study of the dynamics. Raises ParameterError and GeometryError.
+
+    Of trains and pairs: chart over `speeds` speeds of the (first) pinion from `speed_from` to `speed_to` (rpm; None: up to half
+    as much again as its last resonance), with so many `harmonics` of the tooth frequency; `frequencies` natural frequencies of
+    a train; `accuracy_grade` (ISO 1328) puts random pitch deviations of that grade on all teeth, drawn with `seed`, and is the
+    grade of K_v by ISO 6336-1.
+
+    Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh, `damping_ratio` that
+    of the pair alone, `pinion_inertia` and `wheel_inertia` in kg·m² (None: of their own solids). Of the contact model
+    `tooth_stiffness` (N/µm) of one pair of teeth (None: mean mesh stiffness over the contact ratio), `tooth_damping` (N·s/m;
+    None: by the damping ratio); every speed runs for `duration` (s), sampled at `sampling` (Hz).
+    """
+
+    speed_from: float | None = None
+    speed_to: float | None = None
+    speeds: int = 1000
+    harmonics: int = 6
+    frequencies: int = 8
+    accuracy_grade: int | None = None
+    seed: int = 0
+    model: str = PairModel.MESH.value
+    stiffness: str = "potential-energy"
+    damping_ratio: float = 0.07
+    pinion_inertia: float | None = None
+    wheel_inertia: float | None = None
+    tooth_stiffness: float | None = None
+    tooth_damping: float | None = None
+    duration: float = 1.0
+    sampling: float = 200_000.0
+
+    def __post_init__(self) -> None:
+        plain_numbers(self)
+        require_whole("speeds", self.speeds, at_least=2, at_most=20_000)
+        require_whole("harmonics", self.harmonics, at_least=1, at_most=40)
+        require_whole("frequencies", self.frequencies, at_least=1, at_most=200)
+        require_whole("seed", self.seed, at_least=0, at_most=2**32 - 1)
+        if self.accuracy_grade is not None:
+            require_whole("accuracy_grade", self.accuracy_grade, at_least=0, at_most=12)
+        as_choice("model", self.model, PairModel)
+        if self.stiffness not in METHOD_NAMES or self.stiffness == _UNRESOLVED:
+            permitted = f"must be one of {', '.join(name for name in METHOD_NAMES if name != _UNRESOLVED)}"
+            raise ParameterError("stiffness", self.stiffness, permitted)
+        require_number("damping_ratio", self.damping_ratio, above=0, below=1)
+        for name, unit in (
+            ("speed_from", "rpm"),
+            ("speed_to", "rpm"),
+            ("pinion_inertia", "kg·m²"),
+            ("wheel_inertia", "kg·m²"),
+            ("tooth_stiffness", "N/µm"),
+            ("tooth_damping", "N·s/m"),
+            ("duration", "s"),
+            ("sampling", "Hz"),
+        ):
+            value = getattr(self, name)
+            if value is not None and name == "speed_from":
+                require_number(name, value, unit, at_least=0)
+            elif value is not None:
+                require_number(name, value, unit, above=0)
+        if self.speed_from is not None and self.speed_to is not None and self.speed_to <= self.speed_from:
+            raise GeometryError("speed_to", self.speed_to, f"must be above speed_from, {self.speed_from:g} rpm", "rpm")
+        if self.duration * self.sampling > 5e7:
+            permitted = f"must be at most {5e7 / self.sampling:g} s at this sampling: 50 million samples a speed"
+            raise ParameterError("duration", self.duration, permitted, "s")
+
+    @property
+    def pair_model(self) -> PairModel:
+        """The model as an enum."""
+        return PairModel(self.model)
