@@ -1,0 +1,128 @@
+"""The equations of harmonic balance of a train whose flanks part, and Newton's method on them. SI units.
+
+What the teeth carry is found in time and taken back to orders by FFT, its derivative likewise, so the Jacobian is exact.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.dynamics.excitation import Excitation
+from gearcad.dynamics.flexibility import StaticState, senses, static_state
+from gearcad.dynamics.periodic import at_orders, both_sides
+from gearcad.dynamics.response import pressed
+from gearcad.dynamics.system import System
+
+__all__ = ["TOLERANCE", "Balance", "real_course"]
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Wholes = NDArray[np.intp]
+
+_MOST_NEWTON = 30
+TOLERANCE = 1e-10
+"""Last step of Newton's method, in static deflections."""
+
+
+@dataclass(frozen=True, eq=False)
+class Balance:
+    """The equations y - y_static - G (K y - N(y) + c e') = 0 of all orders, N what the teeth carry. Orders are signed here."""
+
+    system: System
+    excitation: Excitation
+    orders: Wholes
+
+    @cached_property
+    def static(self) -> StaticState:
+        return static_state(self.system)
+
+    @cached_property
+    def sense(self) -> Floats:
+        return senses(self.system)
+
+    @cached_property
+    def signed(self) -> Wholes:
+        return np.concatenate([-self.orders[:0:-1], self.orders])
+
+    @cached_property
+    def scale(self) -> float:
+        """Static deflection (m)."""
+        return float(np.abs(self.static.approach).max())
+
+    @cached_property
+    def count(self) -> int:
+        """Samples in time: products of the highest orders must not be mistaken for lower ones."""
+        return int(max(256, 2 ** int(np.ceil(np.log2(8 * max(int(self.orders[-1]), 1))))))
+
+    @cached_property
+    def stiffness(self) -> Floats:
+        """(t, m) in N/m, without the orders that the samples cannot tell."""
+        coefficients = self.excitation.ratio_coefficients(self.count // 2 - 1) * self.system.stiffness
+        return np.asarray(np.fft.irfft(coefficients * self.count, self.count, axis=0), float)
+
+    @cached_property
+    def errors(self) -> Floats:
+        """(t, m) in m."""
+        return self.excitation.errors(2 * np.pi * np.arange(self.count) / self.count)
+
+    @cached_property
+    def error_rates(self) -> Complexes:
+        """(q, m): coefficients of c de/dtheta."""
+        half = self.excitation.error_coefficients(int(self.orders[-1]))[self.orders]
+        return np.asarray(both_sides(half[None])[0] * 1j * self.signed[:, None] * self.system.mesh_damping, complex)
+
+    def gaps(self, approach: Complexes) -> Floats:
+        """y - e (..., t, m) in m."""
+        spectrum = np.zeros((*approach.shape[:-2], self.count, approach.shape[-1]), complex)
+        spectrum[..., self.signed, :] = approach
+        return np.asarray(np.fft.ifft(spectrum, axis=-2).real * self.count - self.errors, float)
+
+    def slopes(self, approach: Complexes) -> Floats:
+        """k(t) g'(y - e) (..., t, m) in N/m."""
+        gap, backlash = self.sense * self.gaps(approach), self.excitation.backlashes
+        apart = (gap <= 0) & ~(gap <= -backlash) & ~np.isnan(backlash)
+        return np.asarray(np.where(apart, 0.0, self.stiffness), float)
+
+    def forces(self, approach: Complexes, omega: Floats | float) -> tuple[Complexes, Complexes]:
+        """K y - N(y) + c e' (..., q, m), and its derivative with respect to omega."""
+        carried = self.stiffness * pressed(self.gaps(approach), self.excitation.backlashes, self.sense)
+        spectrum = np.fft.fft(carried, axis=-2)[..., self.signed, :] / self.count
+        rate = self.error_rates
+        return approach * self.system.stiffness - spectrum + np.asarray(omega)[..., None, None] * rate, rate
+
+    def equations(self, approach: Complexes, omega: float) -> tuple[Complexes, Complexes, Complexes]:
+        """Residual (qm,), its derivatives (qm, qm) with respect to the approach and (qm,) to omega."""
+        step = 1e-6 * omega
+        mesh = both_sides(at_orders(self.system, self.static, omega + np.array([0.0, step, -step]), self.orders).mesh)
+        forces, rate = self.forces(approach, omega)
+        residual = approach - np.einsum("hij,hj->hi", mesh[0], forces)
+        residual[len(self.orders) - 1] -= self.static.approach
+        bend = (mesh[1] - mesh[2]) / (2 * step)
+        with_omega = -np.einsum("hij,hj->hi", bend, forces) - np.einsum("hij,hj->hi", mesh[0], rate)
+        spectrum = np.fft.fft(self.slopes(approach), axis=0) / self.count
+        spectrum = spectrum - np.where(np.arange(self.count)[:, None] == 0, self.system.stiffness, 0.0)
+        coupling = spectrum[np.mod(self.signed[:, None] - self.signed, self.count)]
+        size = approach.size
+        jacobian = np.eye(size) + np.einsum("hij,hlj->hilj", mesh[0], coupling).reshape(size, size)
+        return residual.ravel(), jacobian, with_omega.ravel()
+
+    def solve(self, approach: Complexes, omega: float) -> Complexes | None:
+        """The motion at a frequency, by Newton's method; `None` where it does not converge."""
+        for _ in range(_MOST_NEWTON):
+            residual, jacobian, _unused = self.equations(approach, omega)
+            change = np.linalg.solve(jacobian, residual).reshape(approach.shape)
+            approach = real_course(approach - change)
+            if not np.isfinite(approach).all():
+                return None
+            if np.abs(change).max() <= TOLERANCE * self.scale:
+                return approach
+        return None
+
+
+def real_course(approach: Complexes) -> Complexes:
+    """Coefficients (q, m) of signed orders without what rounding adds that no real motion has: Newton would let it grow."""
+    return np.asarray((approach + approach[::-1].conj()) / 2, complex)
