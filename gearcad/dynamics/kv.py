@@ -74,14 +74,14 @@ class KvChart:
 
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it: 1/s, N, N·m; no value (null) where a shaft has no factor."""
-        shafts = np.where(np.isnan(self.shaft_factors), None, self.shaft_factors)
+        shafts = [[None if np.isnan(value) else float(value) for value in row] for row in self.shaft_factors.T]
         return {
             "frequency": self.frequencies.tolist(),
             "definition": self.definition.value,
             "kv": dict(zip(self.mesh_names, self.factors.T.tolist(), strict=True)),
             "least_force": dict(zip(self.mesh_names, (self.least * self.static_forces).T.tolist(), strict=True)),
             "static_force": dict(zip(self.mesh_names, self.static_forces.tolist(), strict=True)),
-            "shaft_overload": dict(zip(self.shaft_names, shafts.T.tolist(), strict=True)),
+            "shaft_overload": dict(zip(self.shaft_names, shafts, strict=True)),
             "peaks": {name: [each._asdict() for each in self.peaks(j)] for j, name in enumerate(self.mesh_names)},
             "kv_iso6336": None if self.standard is None else self.standard.tolist(),
             "stable": self.stable.tolist(),

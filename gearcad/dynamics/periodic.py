@@ -136,7 +136,7 @@ def at_orders(system: System, static: StaticState, omega: Floats, orders: Wholes
     moving = flexibility(system, omega[:, None] * orders[1:])
     still = (np.broadcast_to(each, (len(omega), 1, *each.shape)) for each in (static.unit_mesh, static.unit_others))
     mesh, others = (np.concatenate(pair, axis=1) for pair in zip(still, (moving.mesh, moving.others), strict=True))
-    return Flexibility(mesh, others)
+    return Flexibility(np.asarray(mesh, complex), np.asarray(others, complex))
 
 
 def both_sides(coefficients: Complexes) -> Complexes:

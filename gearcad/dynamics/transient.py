@@ -75,7 +75,7 @@ class Transient:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Motion:
-    """The equations on a stretch without jumps, each mesh in one state: 1 in front contact, 0 apart, -1 in contact at the back."""
+    """The equations on a stretch without jumps, each mesh in one state: 1 in contact, 0 apart, -1 in contact at the back."""
 
     system: System
     excitation: Excitation
@@ -87,19 +87,19 @@ class _Motion:
         """Which flanks (m,) the load presses."""
         return senses(self.system)
 
-    def phase(self, time: Any) -> Any:
+    def phase(self, time: ArrayLike) -> Floats:
         """Of the common period, while the speed rises evenly."""
-        return self.excitation.fundamental * (self.start * time + self.acceleration / 2 * np.square(time))
+        t = np.asarray(time, float)
+        return np.asarray(self.excitation.fundamental * (self.start * t + self.acceleration / 2 * t**2), float)
 
-    def frequency(self, time: Any) -> Any:
+    def frequency(self, time: ArrayLike) -> Floats:
         """Circular tooth frequency of the first mesh."""
-        return self.start + self.acceleration * time
+        return np.asarray(self.start + self.acceleration * np.asarray(time, float), float)
 
     def gaps(self, time: float, state: Floats) -> Floats:
         """y - e (m,), counted from the flanks that carry the load."""
-        return self.sense * (
-            self.system.mesh.T @ state[: self.system.size] - self.excitation.errors(np.float64(self.phase(time)))
-        )
+        gaps = self.system.mesh.T @ state[: self.system.size] - self.excitation.errors(self.phase(time))
+        return np.asarray(self.sense * gaps, float)
 
     def contact(self, gap: Floats) -> Wholes:
         """State of each mesh at these gaps (m,)."""
@@ -115,7 +115,7 @@ class _Motion:
 
         def derivative(time: float, state: Floats) -> Floats:
             # A breath inside the stretch: at its ends the stiffness has the value of the stretch.
-            phase = np.float64(self.phase(time + 1e-9 * (inside - time)))
+            phase = self.phase(time + 1e-9 * (inside - time))
             y, rate = system.mesh.T @ state[:n], system.mesh.T @ state[n:]
             if not still:
                 y = y - excitation.errors(phase)
@@ -189,8 +189,8 @@ def integrate(
         system=system,
         excitation=excitation,
         time=wanted,
-        phase=np.asarray(motion.phase(wanted), float),
-        frequency=np.broadcast_to(np.asarray(motion.frequency(wanted), float), wanted.shape),
+        phase=motion.phase(wanted),
+        frequency=motion.frequency(wanted),
         modal=modal[:, : system.size],
         modal_speed=modal[:, system.size :],
         events=events,
