@@ -10,6 +10,8 @@ from gearcad.mesh_cycle import METHOD_NAMES
 
 __all__ = ["DynamicsOptions", "PairModel"]
 
+_SWITCH = {"on": True, "off": False}
+
 _UNRESOLVED = "iso6336"
 """The one method that knows no course over the mesh."""
 
@@ -30,8 +32,8 @@ class DynamicsOptions:
 
     Of trains and pairs: chart over `speeds` speeds of the (first) pinion from `speed_from` to `speed_to` (rpm; None: up to half
     as much again as its last resonance), with so many `harmonics` of the tooth frequency; `frequencies` natural frequencies of
-    a train; `accuracy_grade` (ISO 1328) puts random pitch deviations of that grade on all teeth, drawn with `seed`, and is the
-    grade of K_v by ISO 6336-1.
+    a train; `accuracy_grade` (ISO 1328) is that of K_v by ISO 6336-1 and, with `tooth_errors` "on", of random pitch deviations
+    of the pinions' teeth, drawn with `seed`.
 
     Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh, `damping_ratio` that
     of the pair alone, `pinion_inertia` and `wheel_inertia` in kg·m² (None: of their own solids). Of the contact model
@@ -44,7 +46,8 @@ class DynamicsOptions:
     speeds: int = 1000
     harmonics: int = 6
     frequencies: int = 8
-    accuracy_grade: int | None = None
+    accuracy_grade: int = 6
+    tooth_errors: str = "off"
     seed: int = 0
     model: str = PairModel.MESH.value
     stiffness: str = "potential-energy"
@@ -62,8 +65,9 @@ class DynamicsOptions:
         require_whole("harmonics", self.harmonics, at_least=1, at_most=40)
         require_whole("frequencies", self.frequencies, at_least=1, at_most=200)
         require_whole("seed", self.seed, at_least=0, at_most=2**32 - 1)
-        if self.accuracy_grade is not None:
-            require_whole("accuracy_grade", self.accuracy_grade, at_least=0, at_most=12)
+        require_whole("accuracy_grade", self.accuracy_grade, at_least=1, at_most=11)
+        if self.tooth_errors not in _SWITCH:
+            raise ParameterError("tooth_errors", self.tooth_errors, 'must be "on" or "off"')
         as_choice("model", self.model, PairModel)
         if self.stiffness not in METHOD_NAMES or self.stiffness == _UNRESOLVED:
             permitted = f"must be one of {', '.join(name for name in METHOD_NAMES if name != _UNRESOLVED)}"
@@ -89,6 +93,11 @@ class DynamicsOptions:
         if self.duration * self.sampling > 5e7:
             permitted = f"must be at most {5e7 / self.sampling:g} s at this sampling: 50 million samples a speed"
             raise ParameterError("duration", self.duration, permitted, "s")
+
+    @property
+    def errors(self) -> bool:
+        """Whether teeth have deviations."""
+        return _SWITCH[self.tooth_errors]
 
     @property
     def pair_model(self) -> PairModel:

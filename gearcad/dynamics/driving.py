@@ -1,0 +1,148 @@
+"""What a train or a pair of gears brings to its dynamics: the excitation of its meshes, and a pair as a train."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+
+from gearcad.dynamics.excitation import Excitation, MeshExcitation, cycle_excitation
+from gearcad.dynamics.graph import turning_pieces
+from gearcad.dynamics.mesh_curves import CosineStiffness, StiffnessShape, square_stiffness
+from gearcad.dynamics.tooth_errors import TransmissionError, flank_tolerances, random_deviations, tooth_errors
+from gearcad.dynamics.train import Inertia, Mesh, StiffnessWave, Train, TrainModel
+from gearcad.errors import GeometryError
+from gearcad.geometry import GearPair
+from gearcad.mesh_cycle import MeshCycle
+
+__all__ = ["pair_errors", "pair_excitation", "pair_train", "train_excitation"]
+
+_PRESSURE_ANGLE = 20.0
+"""Of gears of which a train tells only base radii and teeth (deg)."""
+
+_CONTACT_RATIO = 1.6
+"""Of such gears, where no square wave tells it."""
+
+
+def train_excitation(train: Train, *, grade: int | None = None, seed: int = 0, harmonics: int = 6) -> Excitation:
+    """Stiffness waves and backlashes of a train's meshes, in its order; random pitch deviations of an ISO 1328 `grade`.
+
+    The deviations are those of the pinions' teeth, drawn with `seed`: with the wheels' the period would be that of both.
+    """
+    ratios = _tooth_ratios(train)
+    meshes = []
+    for number, (mesh, ratio) in enumerate(zip(train.meshes, ratios, strict=True)):
+        error = None if grade is None else _mesh_errors(mesh, grade, seed + number, harmonics)
+        meshes.append(
+            MeshExcitation(
+                stiffness=_wave(mesh), phase=-360 * mesh.phase, frequency_ratio=ratio, error=error, backlash=mesh.backlash
+            )
+        )
+    return Excitation(meshes=tuple(meshes))
+
+
+def _wave(mesh: Mesh) -> StiffnessShape:
+    if mesh.shape is StiffnessWave.COSINE:
+        return CosineStiffness(variation=mesh.variation)
+    assert mesh.contact_ratio is not None  # a square wave has one
+    return square_stiffness(mesh.contact_ratio)
+
+
+def _mesh_errors(mesh: Mesh, grade: int, seed: int, harmonics: int) -> TransmissionError:
+    """Of the pinion's teeth, taken to have a pressure angle of 20 degrees."""
+    diameter = 2 * mesh.base_radii[0] / math.cos(math.radians(_PRESSURE_ANGLE))
+    tolerances = flank_tolerances(grade, diameter, diameter / mesh.teeth)
+    ratio = mesh.contact_ratio or _CONTACT_RATIO
+    return tooth_errors(random_deviations(mesh.teeth, tolerances, seed), contact_ratio=ratio, harmonics=harmonics)
+
+
+def _tooth_ratios(train: Train) -> list[Fraction]:
+    """Tooth frequency of every mesh over that of the first, by whole numbers of teeth: z3/z2 for a second stage."""
+    whole = [_wheel_teeth(mesh) for mesh in train.meshes]
+    exact = [
+        Mesh(
+            name=mesh.name,
+            pinion=mesh.pinion,
+            wheel=mesh.wheel,
+            base_radii=(float(mesh.teeth), float(wheel)),
+            stiffness=mesh.stiffness,
+            teeth=mesh.teeth,
+            internal=mesh.internal,
+        )
+        for mesh, wheel in zip(train.meshes, whole, strict=True)
+    ]
+    (speeds,) = turning_pieces([inertia.name for inertia in train.inertias], train.shafts, exact)
+    most = math.prod(mesh.teeth * wheel for mesh, wheel in zip(train.meshes, whole, strict=True))
+    first = speeds[train.meshes[0].pinion]
+    return [
+        Fraction(abs(speeds[mesh.pinion] / first)).limit_denominator(most) * Fraction(mesh.teeth, train.meshes[0].teeth)
+        for mesh in train.meshes
+    ]
+
+
+def _wheel_teeth(mesh: Mesh) -> int:
+    """z_2 = z_1 r_b2/r_b1. Raises GeometryError where that is far from a whole number."""
+    teeth = mesh.teeth * mesh.base_radii[1] / mesh.base_radii[0]
+    if abs(teeth - round(teeth)) > 0.2 or round(teeth) < 1:
+        permitted = f"must be in the ratio of whole numbers of teeth: with {mesh.teeth} of the pinion the wheel has {teeth:.3f}"
+        raise GeometryError(f"{mesh.name}.base_radii", mesh.base_radii[1], permitted, "mm")
+    return round(teeth)
+
+
+def pair_train(
+    pair: GearPair, cycle: MeshCycle, inertias: tuple[float, float], *, torque: float, speed: float, damping_ratio: float
+) -> Train:
+    """A pair by itself: its inertias (kg·m²), the mean tangent stiffness of its cycle, its backlash, a torque (N·m) on it."""
+    radii = (pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2)
+    across = math.cos(math.radians(pair.working_transverse_pressure_angle))
+    return Train(
+        name=pair.name,
+        model=TrainModel.ISOLATED,
+        inertias=tuple(Inertia(name=name, inertia=each) for name, each in zip(("pinion", "wheel"), inertias, strict=True)),
+        meshes=(
+            Mesh(
+                name="mesh",
+                pinion="pinion",
+                wheel="wheel",
+                base_radii=radii,
+                stiffness=cycle.tangent_mean,
+                teeth=pair.pinion.teeth,
+                damping_ratio=damping_ratio,
+                backlash=max(1000 * pair.circumferential_backlash * across, 0.0),
+            ),
+        ),
+        torques={"pinion": abs(torque), "wheel": abs(torque) * radii[1] / radii[0]},
+        speed=abs(speed),
+    )
+
+
+def pair_excitation(
+    train: Train, cycle: MeshCycle, errors: TransmissionError | None = None, *, harmonics: int = 6
+) -> Excitation:
+    """The course of a pair's stiffness and transmission error, with the errors of its teeth."""
+    of = cycle_excitation(cycle, backlash=train.meshes[0].backlash, harmonics=min(harmonics, 10))
+    if errors is not None:
+        of = MeshExcitation(
+            stiffness=of.stiffness, phase=of.phase, error=_together(of.error, errors), backlash=of.backlash
+        )
+    return Excitation(meshes=(of,))
+
+
+def _together(first: TransmissionError | None, second: TransmissionError) -> TransmissionError:
+    """The sum of an error that is the same for all teeth and one that is not."""
+    if first is None:
+        return second
+    teeth, own = second.teeth, np.asarray(first.coefficients)
+    total = np.zeros(max(len(second.coefficients), teeth * (len(own) - 1) + 1), complex)
+    total[: len(second.coefficients)] += second.coefficients
+    total[: teeth * len(own) : teeth] += own
+    return TransmissionError(coefficients=total, teeth=teeth)
+
+
+def pair_errors(pair: GearPair, grade: int, seed: int, harmonics: int) -> TransmissionError:
+    """Random pitch deviations of an ISO 1328 grade on the pinion's teeth, drawn with `seed`."""
+    gear = pair.pinion
+    tolerances = flank_tolerances(grade, gear.reference_diameter, gear.normal_module)
+    deviations = random_deviations(gear.teeth, tolerances, seed)
+    return tooth_errors(deviations, contact_ratio=max(pair.transverse_contact_ratio, 1.001), harmonics=harmonics)

@@ -1,0 +1,199 @@
+"""The dynamics of a pair of gears by itself: as a mesh of varying stiffness, or as springs between its teeth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.dynamics.campbell import CampbellStudy, campbell
+from gearcad.dynamics.contact_model import ContactModel
+from gearcad.dynamics.driving import pair_errors, pair_excitation, pair_train
+from gearcad.dynamics.dynamic_factor import DynamicFactor, reduced_mass
+from gearcad.dynamics.options import DynamicsOptions
+from gearcad.dynamics.pair_history import TimeHistory, time_history
+from gearcad.dynamics.study import TrainStudy, study_train
+from gearcad.dynamics.tooth_errors import flank_tolerances
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.material import Material
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.rating import rate
+
+__all__ = ["ContactStudy", "PairStudy", "study_contact", "study_pair"]
+
+Floats = NDArray[np.float64]
+
+_RUN_IN = 0.075
+"""y_alpha of case-hardened and nitrided steels (ISO 6336-1:2006, 8.3.5): share of the base pitch deviation that wears off."""
+
+_SPEEDS = 41
+_SPAN = 3.0
+"""Default speeds of a Campbell study: up to so many times the speed of the main resonance."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PairStudy:
+    """A pair as mounted, its mesh cycle and inertias (kg·m²), and the study of both as a train of one mesh."""
+
+    pair: GearPair
+    cycle: MeshCycle
+    inertias: tuple[float, float]
+    study: TrainStudy
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What to know before trusting it."""
+        return (*self.study.warnings, *self.cycle.notes)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it."""
+        return {
+            "model": "mesh",
+            "stiffness_method": self.cycle.method,
+            "mesh_stiffness_mean": self.cycle.mean,
+            "mesh_stiffness_tangent_mean": self.cycle.tangent_mean,
+            "pinion_inertia": self.inertias[0],
+            "wheel_inertia": self.inertias[1],
+            **{key: value for key, value in self.study.to_dict().items() if key != "model"},
+            "warnings": list(self.warnings),
+        }
+
+    def arrays(self) -> dict[str, Floats]:
+        """As the .npz file has them."""
+        return self.study.arrays()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ContactStudy:
+    """A pair as mounted, its contact model, the Campbell study of it and the time history at one speed."""
+
+    pair: GearPair
+    model: ContactModel
+    study: CampbellStudy
+    history: TimeHistory
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What to know before trusting it."""
+        return self.study.warnings
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it."""
+        model = self.model
+        return {
+            "model": "contact",
+            "tooth_stiffness": model.pair_stiffness,
+            "tooth_damping": model.damping,
+            "pinion_inertia": model.inertias[0],
+            "wheel_inertia": model.inertias[1],
+            "natural_frequency": model.natural_frequency(),
+            "damping_ratio": model.damping_ratio,
+            "static_approach": model.static_approach,
+            "contact_ratio": model.contact_ratio,
+            "campbell": self.study.to_dict(),
+            "history_speed": self.history.speed,
+        }
+
+    def arrays(self) -> dict[str, Floats]:
+        """As the .npz file has them."""
+        return {
+            "speed": self.study.speeds,
+            "frequency": self.study.frequency,
+            "pinion_speed_amplitude": self.study.pinion_speed,
+            "approach_amplitude": self.study.approach,
+            "history_time": self.history.time,
+            "history_approach": self.history.approach,
+            "history_pinion_speed": self.history.pinion_speed,
+            "history_wheel_speed": self.history.wheel_speed,
+        }
+
+
+def study_pair(
+    pair: GearPair,
+    material: Material,
+    load: Load,
+    cycle: MeshCycle,
+    inertias: tuple[float, float],
+    options: DynamicsOptions | None = None,
+    *,
+    tell: Callable[[str], None] = lambda _step: None,
+) -> PairStudy:
+    """K_v over speed of a pair by itself, beside ISO 6336-1 Method B, and the course at the load's speed.
+
+    `cycle` is the pair's mesh cycle under the load, `inertias` (kg·m²) those of pinion and wheel.
+    """
+    options = options or DynamicsOptions()
+    train = pair_train(
+        pair, cycle, inertias, torque=cycle.torque, speed=load.speed, damping_ratio=options.damping_ratio
+    )
+    errors = pair_errors(pair, options.accuracy_grade, options.seed, options.harmonics) if options.errors else None
+    excitation = pair_excitation(train, cycle, errors, harmonics=options.harmonics)
+    factor = method_b(pair, material, load, inertias, options.accuracy_grade)
+    study = study_train(train, options, excitation=excitation, method_b=factor, tell=tell)
+    return PairStudy(pair=pair, cycle=cycle, inertias=inertias, study=study)
+
+
+def method_b(pair: GearPair, material: Material, load: Load, inertias: tuple[float, float], grade: int) -> DynamicFactor:
+    """Inputs of K_v by ISO 6336-1:2006, Method B: deviations of a grade of ISO 1328, less what running-in of hard steel takes.
+
+    The tip relief counts where both gears have one.
+    """
+    rating = rate(pair, material, load)
+    tolerances = [flank_tolerances(grade, gear.reference_diameter, gear.normal_module) for gear in (pair.pinion, pair.wheel)]
+    kept = 1 - _RUN_IN
+    across = math.cos(math.radians(pair.pinion.transverse_pressure_angle))
+    reliefs = [gear.modification.tip_relief for gear in (pair.pinion, pair.wheel)]
+    return DynamicFactor(
+        teeth=pair.pinion.teeth,
+        total_contact_ratio=pair.total_contact_ratio,
+        single_stiffness=rating.stiffness.single,
+        mesh_stiffness=rating.stiffness.mesh_alpha,
+        reduced_mass=reduced_mass(
+            inertias, (pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2), pair.common_width.width
+        ),
+        specific_load=rating.specific_load,
+        pitch_deviation=kept * across * max(each.single_pitch for each in tolerances),
+        profile_deviation=kept * max(each.profile_form for each in tolerances),
+        tip_relief=min(reliefs),
+    )
+
+
+def study_contact(
+    pair: GearPair,
+    load: Load,
+    cycle: MeshCycle | None,
+    inertias: tuple[float, float],
+    options: DynamicsOptions,
+    *,
+    tell: Callable[[str], None] = lambda _step: None,
+) -> ContactStudy:
+    """The Campbell study of a spur pair's contact model, and the time history at the load's speed (or at a middle one).
+
+    `cycle` gives the stiffness of a pair of teeth where the options do not.
+    """
+    ratio, torque = pair.usable_contact_ratio, abs(load.torque) * load.application_factor
+    stiffness = options.tooth_stiffness
+    if stiffness is None:
+        assert cycle is not None  # whoever calls has one then
+        stiffness = cycle.tangent_mean / ratio
+    radii = (pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2)
+    mass = 1 / sum((radius / 1000) ** 2 / inertia for radius, inertia in zip(radii, inertias, strict=True))
+    damping = options.tooth_damping
+    if damping is None:
+        damping = 2 * options.damping_ratio * math.sqrt(1e6 * stiffness * ratio * mass)
+    model = ContactModel.from_pair(pair, inertias=inertias, pair_stiffness=stiffness, damping=damping, torque=torque)
+    resonance = 60 * model.natural_frequency(ratio) / pair.pinion.teeth
+    last = options.speed_to or _SPAN * resonance
+    count = options.speeds if options.speeds != DynamicsOptions.speeds else _SPEEDS
+    speeds = np.linspace(options.speed_from or 0.0, last, count)
+    tell("campbell")
+    study = campbell(model, speeds, duration=options.duration, sampling=options.sampling)
+    tell("history")
+    speed = abs(load.speed) or float(speeds[len(speeds) // 2])
+    history = time_history(model, speed, duration=options.duration, sampling=options.sampling)
+    return ContactStudy(pair=pair, model=model, study=study, history=history)
