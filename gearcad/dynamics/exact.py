@@ -17,7 +17,7 @@ from gearcad.dynamics.parts import Parts
 from gearcad.dynamics.shafts import clamped_modes_below, dynamic_inertia, dynamic_stiffness, shaft_inertia, shaft_stiffness
 from gearcad.errors import SolverError
 
-__all__ = ["SPLIT", "DynamicTrain", "Piece", "dynamic_train", "natural_frequencies", "natural_shapes"]
+__all__ = ["SPLIT", "DynamicTrain", "dynamic_train", "natural_frequencies", "natural_shapes"]
 
 Floats = NDArray[np.float64]
 
@@ -32,84 +32,77 @@ _HALVINGS = 200
 """More than any start needs to reach, or to tell, neighbouring floats."""
 
 
-@dataclass(frozen=True)
-class Piece:
-    """A shaft, or a part of the one at place `shaft`: nodes at its ends (-1: ground), stiffness and inertia."""
-
-    shaft: int
-    start: int
-    end: int
-    stiffness: float
-    inertia: float
-
-    @property
-    def inside(self) -> list[int]:
-        """Which of the two ends can turn."""
-        return [place for place, node in enumerate((self.start, self.end)) if node >= 0]
-
-    @property
-    def nodes(self) -> list[int]:
-        """Those that can turn."""
-        return [node for node in (self.start, self.end) if node >= 0]
-
-
 @dataclass(frozen=True, eq=False)
 class DynamicTrain:
-    """Nodes - the inertias, then the cuts of shafts - with `inertia` (n,), `meshes` (n, m), and the pieces between them."""
+    """Nodes - the inertias, then the cuts of shafts - with `inertia` (n,), `meshes` (n, m), and the pieces of shafts between.
+
+    `pieces` (p, 2) are the places of each piece's shaft, and of the piece on it: 0 or 1, or 0 for a shaft of one piece.
+    `ends` (p, 2, n) pick the nodes at both ends of a piece, none for ground. `free` (n, r) are the turns of what nothing holds.
+    """
 
     parts: Parts
-    pieces: tuple[Piece, ...]
     inertia: Floats
     meshes: Floats
+    pieces: tuple[tuple[int, int], ...]
+    ends: Floats
+    piece_stiffness: Floats
+    piece_inertia: Floats
     free: Floats
 
     def stiffness(self, omega: Floats) -> Floats:
         """Dynamic stiffness (q, n, n) at each of omega (q,)."""
-        result = np.multiply.outer(-(omega**2), np.diag(self.inertia))
+        own = dynamic_stiffness(self.piece_stiffness, self.piece_inertia, omega[:, None])
+        result: Floats = self._joined(own)
+        result -= np.multiply.outer(omega**2, np.diag(self.inertia))
         result += (self.meshes * self.parts.stiffness) @ self.meshes.T
-        for piece in self.pieces:
-            own = dynamic_stiffness(piece.stiffness, piece.inertia, omega)
-            for i, row in zip(piece.inside, piece.nodes, strict=True):
-                for j, column in zip(piece.inside, piece.nodes, strict=True):
-                    result[:, row, column] += own[:, i, j]
         return result
 
     def moving_inertia(self, omega: float) -> Floats:
         """(n, n): its quadratic form is the modal mass of a shape, the shafts' own motion included."""
-        result = np.diag(self.inertia)
-        for piece in self.pieces:
-            own = dynamic_inertia(piece.stiffness, piece.inertia, omega)
-            result[np.ix_(piece.nodes, piece.nodes)] += own[np.ix_(piece.inside, piece.inside)]
+        own = dynamic_inertia(self.piece_stiffness, self.piece_inertia, omega)
+        return np.diag(self.inertia) + self._joined(own)
+
+    def _joined(self, own: Floats) -> Floats:
+        """(..., n, n): the matrices (..., p, 2, 2) of all pieces, put together."""
+        result: Floats = (self.ends.transpose(0, 2, 1) @ own @ self.ends).sum(axis=-3)
         return result
 
     def count_below(self, omega: Floats) -> NDArray[np.int64]:
         """(q,): how many natural frequencies are below each of omega (q,), above 0."""
-        clamped = sum(clamped_modes_below(piece.stiffness, piece.inertia, omega) for piece in self.pieces)
-        negative: NDArray[np.int64] = (np.linalg.eigvalsh(self.stiffness(omega)) < 0).sum(axis=1) + clamped
-        return negative
+        clamped = clamped_modes_below(self.piece_stiffness, self.piece_inertia, omega[:, None]).sum(axis=1)
+        negative = (np.linalg.eigvalsh(self.stiffness(omega)) < 0).sum(axis=1)
+        count: NDArray[np.int64] = clamped + negative
+        return count
 
 
 def dynamic_train(parts: Parts, *, massless: bool = False) -> DynamicTrain:
     """Of the parts, with the mass of their shafts or without."""
-    pieces: list[Piece] = []
     nodes = len(parts.inertias)
-    free = list(parts.free)
-    for place, (shaft, ends) in enumerate(zip(parts.shafts, parts.ends.tolist(), strict=True)):
+    pieces, joined, matrices, free = [], [], [], list(parts.free)
+    for place, (shaft, (start, end)) in enumerate(zip(parts.shafts, parts.ends.tolist(), strict=True)):
         k, inertia = shaft_stiffness(shaft), 0.0 if massless else shaft_inertia(shaft)
-        start, end = ends
         if not inertia:
-            pieces.append(Piece(place, start, end, k, 0.0))
+            pieces.append((place, 0))
+            joined.append((start, end))
+            matrices.append((k, 0.0))
             continue
-        pieces.append(Piece(place, start, nodes, k / SPLIT, inertia * SPLIT))
-        pieces.append(Piece(place, nodes, end, k / (1 - SPLIT), inertia * (1 - SPLIT)))
-        free.append(parts.free[max(ends)])
+        pieces += [(place, 0), (place, 1)]
+        joined += [(start, nodes), (nodes, end)]
+        matrices += [(k / SPLIT, inertia * SPLIT), (k / (1 - SPLIT), inertia * (1 - SPLIT))]
+        free.append(parts.free[max(start, end)])
         nodes += 1
     cuts = nodes - len(parts.inertias)
+    stiffness, inertias = np.array(matrices).reshape(-1, 2).T
+    # The row of ground, -1, is the last one and is left away.
+    ends = np.eye(nodes + 1)[np.array(joined, dtype=np.int64).reshape(-1, 2), :nodes]
     return DynamicTrain(
         parts=parts,
-        pieces=tuple(pieces),
         inertia=np.concatenate([parts.inertia, np.zeros(cuts)]),
         meshes=np.concatenate([parts.approach, np.zeros((cuts, parts.approach.shape[1]))]),
+        pieces=tuple(pieces),
+        ends=ends,
+        piece_stiffness=stiffness,
+        piece_inertia=inertias,
         free=np.array(free),
     )
 
@@ -120,7 +113,7 @@ def natural_frequencies(train: DynamicTrain, count: int) -> Floats:
     Bisection by the count finds every one, multiple ones too, to neighbouring floats.
     """
     rigid = train.free.shape[1]
-    if not any(piece.inertia for piece in train.pieces):
+    if not train.piece_inertia.any():
         count = min(count, len(train.inertia))
     ranks = np.arange(rigid, count)
     if not len(ranks):
@@ -137,7 +130,7 @@ def natural_frequencies(train: DynamicTrain, count: int) -> Floats:
 
 def _above(train: DynamicTrain, count: int) -> float:
     """A frequency (1/s) with `count` natural frequencies below it."""
-    k = np.trace((train.meshes * train.parts.stiffness) @ train.meshes.T) + sum(piece.stiffness for piece in train.pieces)
+    k = np.trace((train.meshes * train.parts.stiffness) @ train.meshes.T) + train.piece_stiffness.sum()
     omega = math.sqrt(float(k) / train.inertia.sum())
     for _ in range(_DOUBLINGS):
         if int(train.count_below(np.array([omega]))[0]) >= count:

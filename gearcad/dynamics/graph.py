@@ -94,7 +94,7 @@ def _check_names(train: Train) -> None:
                 raise ParameterError(f"{shaft.name}.{parameter}", end, f'{known}, or "{GROUND}"')
         if shaft.start == shaft.end:
             raise GeometryError(
-                f"{shaft.name}.end", shaft.end, "must differ from start: a shaft joins two inertias, or holds one"
+                f"{shaft.name}.end", shaft.end, "must differ from start: a shaft joins two inertias or holds one"
             )
     for mesh in train.meshes:
         for parameter in ("pinion", "wheel"):
@@ -117,13 +117,9 @@ def _check_pieces(train: Train) -> None:
             raise GeometryError("inertias", name, "has neither a shaft nor a mesh: give it one, or leave it out")
     pieces = turning_pieces(names, train.shafts, train.meshes)
     if len(pieces) > 1:
-        parts = " and ".join(", ".join(piece) for piece in pieces[:2])
-        permitted = (
-            f"the train falls into {len(pieces)} pieces ({parts} ...)"
-            if len(pieces) > 2
-            else f"the train falls in two ({parts})"
-        )
-        raise GeometryError("inertias", next(iter(pieces[1])), f"{permitted}: join them by a shaft or a mesh")
+        parts = " | ".join(", ".join(piece) for piece in pieces)
+        permitted = f"does not hang together with the rest ({parts}): join the pieces by a shaft or a mesh"
+        raise GeometryError("inertias", next(iter(pieces[1])), permitted)
 
 
 def _check_balance(train: Train) -> None:

@@ -28,13 +28,14 @@ _NEXT = 1 + 1e-9
 class NaturalModes:
     """n natural modes of a train at the mean stiffness of its meshes, without damping, by rising frequency.
 
-    `frequency` (n,) in Hz, `circular` in 1/s; `rpm` (n, m) is the speed of the train (its first mesh's pinion) at which the tooth
-    frequency of each mesh meets the mode. `shape` (n, i) are turns of the inertias in rad, scaled to a modal mass of 1 kg·m², the
-    first inertia that turns at least half as far as any being positive; `shaft_shape` (n, s, p) those at `places` (p,), 0 ... 1
-    from start to end of every shaft; `approach` (n, m) of the flanks in mm. `kinetic_inertias` (n, i) and `kinetic_shafts` (n, s)
-    are shares in the kinetic energy, `potential_shafts` (n, s) and `potential_meshes` (n, m) in the potential energy; each sum up
-    to 1, except that the first `rigid` modes, at 0 Hz, have no potential energy. `missed` counts natural frequencies below the
-    highest of these which the train has, with the full mass of its shafts unless the model leaves it away, but these do not tell.
+    `frequency` (n,) in Hz, `circular` in 1/s; `rpm` (n, m) is the speed of the train (of its first mesh's pinion) at which the
+    tooth frequency of each mesh meets the mode. `shape` (n, i) are turns of the inertias in rad, scaled to a modal mass of
+    1 kg·m²; the first inertia that turns at least half as far as any turns positively. `shaft_shape` (n, s, p) are turns at
+    `places` (p,), 0 ... 1 from start to end of every shaft; `approach` (n, m) is that of the flanks in mm, positive as the mean
+    torques press them. `kinetic_inertias` (n, i) and `kinetic_shafts` (n, s) are shares in the kinetic energy,
+    `potential_shafts` (n, s) and `potential_meshes` (n, m) in the potential energy. Each pair sums up to 1, but the first
+    `rigid` modes, at 0 Hz, have no potential energy. `missed` counts the natural frequencies below the highest of these that
+    the train has besides, with the full mass of its shafts unless the model leaves it away.
     """
 
     frequency: Floats
@@ -186,37 +187,30 @@ def _exact_modes(train: Train, count: int, limit: float, places: Floats) -> Natu
     )
 
 
-def _ends(nodes: Floats, start: int, end: int) -> Floats:
-    """(2, n): turns at the ends of a piece."""
-    return np.array([nodes[node] if node >= 0 else np.zeros(nodes.shape[1]) for node in (start, end)])
-
-
 def _piece_energies(dynamic: DynamicTrain, omega: Floats, nodes: Floats) -> tuple[Floats, Floats]:
     """(n, s) each: twice the kinetic energy of shafts over omega squared, and twice their potential energy."""
-    kinetic, energy = np.zeros((2, len(omega), len(dynamic.parts.shafts)))
-    for piece in dynamic.pieces:
-        ends = _ends(nodes, piece.start, piece.end)
-        moving = np.einsum("in,nij,jn->n", ends, dynamic_inertia(piece.stiffness, piece.inertia, omega), ends)
-        # The dynamic stiffness holds potential less kinetic energy.
-        both = np.einsum("in,nij,jn->n", ends, dynamic_stiffness(piece.stiffness, piece.inertia, omega), ends)
-        kinetic[:, piece.shaft] += moving
-        energy[:, piece.shaft] += both + omega**2 * moving
-    return kinetic, energy
+    ends = dynamic.ends @ nodes
+    each = dynamic.piece_stiffness, dynamic.piece_inertia, omega[:, None]
+    moving = np.einsum("pan,npab,pbn->np", ends, dynamic_inertia(*each), ends)
+    # The dynamic stiffness holds potential less kinetic energy.
+    potential = np.einsum("pan,npab,pbn->np", ends, dynamic_stiffness(*each), ends) + omega[:, None] ** 2 * moving
+    whole = np.zeros((len(dynamic.pieces), len(dynamic.parts.shafts)))
+    whole[range(len(dynamic.pieces)), [shaft for shaft, _ in dynamic.pieces]] = 1.0
+    return moving @ whole, potential @ whole
 
 
 def _piece_shapes(dynamic: DynamicTrain, omega: Floats, nodes: Floats, places: Floats) -> Floats:
     """(n, s, p): turns along the shafts, of which those with mass are in two pieces."""
     result = np.zeros((len(omega), len(dynamic.parts.shafts), len(places)))
-    for piece in dynamic.pieces:
+    ends = dynamic.ends @ nodes
+    for piece, (shaft, second) in enumerate(dynamic.pieces):
         inside, local = np.ones(len(places), dtype=bool), places
-        if piece.inertia:
-            first = piece.end >= len(dynamic.parts.inertias)
-            inside = places <= SPLIT if first else places > SPLIT
-            local = places / SPLIT if first else (places - SPLIT) / (1 - SPLIT)
-        ends = _ends(nodes, piece.start, piece.end)
+        if dynamic.piece_inertia[piece]:
+            inside = places > SPLIT if second else places <= SPLIT
+            local = (places - SPLIT) / (1 - SPLIT) if second else places / SPLIT
         for mode, each in enumerate(omega):
-            between = twist_between(piece.stiffness, piece.inertia, float(each), local[inside])
-            result[mode, piece.shaft, inside] = ends[:, mode] @ between
+            between = twist_between(dynamic.piece_stiffness[piece], dynamic.piece_inertia[piece], each, local[inside])
+            result[mode, shaft, inside] = ends[piece, :, mode] @ between
     return result
 
 

@@ -23,6 +23,8 @@ __all__ = [
 ]
 
 Floats = NDArray[np.float64]
+Each = float | Floats
+"""Of one shaft at one frequency, or arrays of them."""
 
 
 def _polar_moment(shaft: Shaft) -> float:
@@ -81,24 +83,24 @@ _SMALL = 1e-2
 """Wave number below which series are more accurate than differences of large terms: the first one left out is its 6th power."""
 
 
-def _wave_number(stiffness: float, inertia: float, omega: ArrayLike) -> Floats:
+def _wave_number(stiffness: Each, inertia: Each, omega: Each) -> Floats:
     """beta = omega L / c = omega sqrt(J / k)."""
-    result: Floats = np.asarray(omega, dtype=float) * math.sqrt(inertia / stiffness)
+    result: Floats = np.asarray(omega) * np.sqrt(np.asarray(inertia) / np.asarray(stiffness))
     return result
 
 
 def _two_by_two(diagonal: Floats, off: Floats) -> Floats:
-    return np.stack([np.stack([diagonal, off], -1), np.stack([off, diagonal], -1)], -2)
+    return np.moveaxis(np.array([[diagonal, off], [off, diagonal]]), (0, 1), (-2, -1))
 
 
-def dynamic_stiffness(stiffness: float, inertia: float, omega: ArrayLike) -> Floats:
+def dynamic_stiffness(stiffness: Each, inertia: Each, omega: Each) -> Floats:
     """(..., 2, 2): torques on the ends of a shaft that turn harmonically, k beta [[cot beta, -1/sin beta], [..., cot beta]]."""
     beta = _wave_number(stiffness, inertia, omega)
-    per_sine = 1 / np.sinc(beta / np.pi)
-    return stiffness * _two_by_two(np.cos(beta) * per_sine, -per_sine)
+    per_sine = np.asarray(stiffness) / np.sinc(beta / np.pi)
+    return _two_by_two(np.cos(beta) * per_sine, -per_sine)
 
 
-def dynamic_inertia(stiffness: float, inertia: float, omega: ArrayLike) -> Floats:
+def dynamic_inertia(stiffness: Each, inertia: Each, omega: Each) -> Floats:
     """(..., 2, 2): minus the derivative of `dynamic_stiffness` by omega squared; its quadratic form is twice the kinetic energy
     over omega squared, of the whole shaft."""
     beta = _wave_number(stiffness, inertia, omega)
@@ -109,10 +111,11 @@ def dynamic_inertia(stiffness: float, inertia: float, omega: ArrayLike) -> Float
     sine, cosine = np.sin(b), np.cos(b)
     diagonal = np.where(large, 1 / sine**2 - cosine / (sine * b), diagonal)
     off = np.where(large, 1 / (sine * b) - cosine / sine**2, off)
-    return inertia / 2 * _two_by_two(diagonal, off)
+    half = np.asarray(inertia) / 2
+    return _two_by_two(half * diagonal, half * off)
 
 
-def clamped_modes_below(stiffness: float, inertia: float, omega: ArrayLike) -> NDArray[np.int64]:
+def clamped_modes_below(stiffness: Each, inertia: Each, omega: Each) -> NDArray[np.int64]:
     """J_0 of Wittrick and Williams: how many natural frequencies of the shaft, both ends clamped, are below omega."""
     beta = _wave_number(stiffness, inertia, omega)
     count: NDArray[np.int64] = np.maximum(np.ceil(beta / np.pi) - 1, 0).astype(np.int64)

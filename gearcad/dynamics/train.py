@@ -11,7 +11,7 @@ from typing import Any
 from gearcad.dynamics.graph import GROUND, check_train, speed_ratios
 from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_name, require_number, require_whole
 
-__all__ = ["GROUND", "Inertia", "Mesh", "Shaft", "StiffnessShape", "Train", "TrainModel"]
+__all__ = ["GROUND", "Inertia", "Mesh", "Shaft", "StiffnessWave", "Train", "TrainModel"]
 
 
 class TrainModel(Enum):
@@ -24,12 +24,12 @@ class TrainModel(Enum):
     MODES = "modes"
     """Shafts have mass; each line of shafts and inertias keeps its first modes (the paper's quasi-normal coordinates)."""
     ELEMENTS = "elements"
-    """Shafts have mass; one hierarchical element of degree `order` each."""
+    """Shafts have mass; one hierarchical element of degree `order` each, which is good for order/3 half waves or so."""
     EXACT = "exact"
     """Natural frequencies of the wave equation itself; forced response as with elements."""
 
 
-class StiffnessShape(Enum):
+class StiffnessWave(Enum):
     """How the stiffness of a mesh varies over one tooth."""
 
     COSINE = "cosine"
@@ -144,7 +144,7 @@ class Mesh(_Part):
     damping: float | None = None
     damping_ratio: float | None = None
     variation: float = 0.0
-    shape: StiffnessShape = StiffnessShape.COSINE
+    shape: StiffnessWave = StiffnessWave.COSINE
     contact_ratio: float | None = None
     phase: float = 0.0
     backlash: float | None = None
@@ -153,7 +153,7 @@ class Mesh(_Part):
 
     def __post_init__(self) -> None:
         self._named()
-        object.__setattr__(self, "shape", as_choice(f"{self.name}.shape", self.shape, StiffnessShape))
+        object.__setattr__(self, "shape", as_choice(f"{self.name}.shape", self.shape, StiffnessWave))
         object.__setattr__(self, "base_radii", _two_radii(self.name, self.base_radii))
         require_whole(f"{self.name}.teeth", self.teeth, at_least=1, at_most=100_000)
         self._number("stiffness", "N/µm", above=0)
@@ -168,7 +168,7 @@ class Mesh(_Part):
             raise ParameterError(f"{self.name}.internal", self.internal, "must be true or false")
         if self.damping is not None and self.damping_ratio is not None:
             raise GeometryError(f"{self.name}.damping_ratio", self.damping_ratio, "not beside damping: one says the other")
-        if self.shape is StiffnessShape.SQUARE and self.contact_ratio is None:
+        if self.shape is StiffnessWave.SQUARE and self.contact_ratio is None:
             raise ParameterError(f"{self.name}.contact_ratio", None, "must be given for a square wave")
 
     @property
@@ -192,8 +192,8 @@ class Train:
     """Inertias, the shafts between them, the meshes of their teeth, and the torques on them.
 
     `model` says what is known of the shafts: one word changes it. `torques` in N·m by the names of inertias, counter-clockwise
-    positive; on a train that no shaft holds they must balance. `speed` in rpm is that of the first mesh's pinion. `order` is the
-    degree of the polynomials on a shaft with mass. Raises ParameterError and GeometryError.
+    positive; on a train that no shaft holds they must balance. `speed` in rpm is that of the first mesh's pinion. `order` is
+    the degree of the polynomials on a shaft with mass. Raises ParameterError and GeometryError.
     """
 
     name: str = "train"
