@@ -131,7 +131,7 @@ def test_more_modes_of_the_lines_come_down_to_the_elements() -> None:
     assert natural_modes(every, count=3).circular == pytest.approx(elements, rel=1e-12)
 
 
-@pytest.mark.parametrize("omega", [1e-3, 1.0, 120.0, 3e4])
+@pytest.mark.parametrize("omega", [1e-3, 1.0, 85.0, 120.0, 3e4])
 def test_elements_and_wave_equation_of_one_shaft(omega: float) -> None:
     """Condensed to its ends the element is the dynamic stiffness, and its derivative the inertia, for short waves too."""
     k, j = 1e5, 1.2e-3
@@ -172,6 +172,24 @@ def test_preload_presses_as_the_torques_do() -> None:
     ]
     isolated = static_forces(replace(train, model="isolated"))
     assert isolated == pytest.approx(static_forces(two_stages(1e7)) + 1000, rel=1e-9)
+
+
+def test_a_ring_turns_with_its_pinion() -> None:
+    """Its torque is against the pinion's, where that of an external wheel goes with it."""
+    train = _pair(mesh={"internal": True}, torques={"a": 10.0, "b": -20.0})
+    assert train.speed_ratios == pytest.approx({"a": 1, "b": 0.5})
+    assert _pair(torques={"a": 10.0, "b": 20.0}).speed_ratios == pytest.approx({"a": 1, "b": -0.5})
+    assert static_forces(train) == pytest.approx([500.0], rel=1e-12)
+    turn, twist = natural_modes(train).shape
+    assert turn[1] == pytest.approx(turn[0] / 2) and twist[1] == pytest.approx(-twist[0] * 0.1 * 2)
+
+
+def test_a_free_line_keeps_its_turn_beside_its_modes() -> None:
+    shafts = _shaft(start="a", end="b", modes=3)
+    train = _pair(model="modes", meshes=[], shafts=shafts)
+    exact = natural_modes(replace(train, model="exact"), count=4)
+    modes = natural_modes(train)
+    assert modes.rigid == 1 and modes.circular == pytest.approx(exact.circular, rel=1e-9)
 
 
 def test_limits_of_what_is_asked() -> None:

@@ -160,6 +160,7 @@ def test_modes_with_every_inertia_at_rest_are_found() -> None:
     # One shaft moves as a sine of modal mass 1/2, the other against it.
     amplitude = math.sqrt(2 / (2 * 7850 * math.pi / 32 * 0.03**4 * 0.5))
     assert np.abs(modes.shaft_shape[1, :, 10]) == pytest.approx([amplitude, amplitude], rel=1e-9)
+    assert np.abs(modes.shaft_shape[3][:, [5, 15]]) == pytest.approx(np.full((2, 2), amplitude), rel=1e-9)
     assert count_below(train, modes.frequency[1] * (1 - 1e-9)) == 1
     assert count_below(train, modes.frequency[1] * (1 + 1e-9)) == 2
 
