@@ -45,7 +45,9 @@ def simulate(design: Design | TrainDesign, progress: Progress | None = None) -> 
 
 def _of_pair(design: Design, progress: Progress | None) -> PairStudy | ContactStudy:
     if design.pair is None:
-        raise ParameterError("kind", design.kind.value, "must be a pair or a train: a single gear has nothing to vibrate against")
+        raise ParameterError(
+            "kind", design.kind.value, "must be a pair or a train: a single gear has no mesh"
+        )
     if design.load is None or not design.load.torque:
         given = None if design.load is None else design.load.torque
         raise ParameterError("load.torque", given, "must be given, in N·m on the pinion: flanks without load rattle")

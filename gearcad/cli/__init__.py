@@ -10,6 +10,7 @@ import click
 import gearcad
 from gearcad.cli.checks import check
 from gearcad.cli.designs import build, data, new
+from gearcad.cli.dynamics import dynamics
 from gearcad.cli.group import Commands, debug_option
 from gearcad.cli.modifications import modify
 from gearcad.cli.stiffness import stiffness
@@ -39,5 +40,5 @@ def main() -> None:
             stream.reconfigure(errors="replace")  # an old terminal shows ? for a Greek letter, and goes on
 
 
-for _command in (new, data, build, check, stiffness, modify, study, batch, plot):
+for _command in (new, data, build, check, stiffness, dynamics, modify, study, batch, plot):
     main.add_command(_command)

@@ -123,9 +123,7 @@ def pair_excitation(
     """The course of a pair's stiffness and transmission error, with the errors of its teeth."""
     of = cycle_excitation(cycle, backlash=train.meshes[0].backlash, harmonics=min(harmonics, 10))
     if errors is not None:
-        of = MeshExcitation(
-            stiffness=of.stiffness, phase=of.phase, error=_together(of.error, errors), backlash=of.backlash
-        )
+        of = MeshExcitation(stiffness=of.stiffness, phase=of.phase, error=_together(of.error, errors), backlash=of.backlash)
     return Excitation(meshes=(of,))
 
 

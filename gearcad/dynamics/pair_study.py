@@ -128,9 +128,7 @@ def study_pair(
     `cycle` is the pair's mesh cycle under the load, `inertias` (kg·m²) those of pinion and wheel.
     """
     options = options or DynamicsOptions()
-    train = pair_train(
-        pair, cycle, inertias, torque=cycle.torque, speed=load.speed, damping_ratio=options.damping_ratio
-    )
+    train = pair_train(pair, cycle, inertias, torque=cycle.torque, speed=load.speed, damping_ratio=options.damping_ratio)
     errors = pair_errors(pair, options.accuracy_grade, options.seed, options.harmonics) if options.errors else None
     excitation = pair_excitation(train, cycle, errors, harmonics=options.harmonics)
     factor = method_b(pair, material, load, inertias, options.accuracy_grade)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gearcad.dynamics.backlash import Direction, trace
 from gearcad.dynamics.driving import train_excitation
@@ -75,9 +75,9 @@ class TrainStudy:
         """Of the charts (s,): rpm of the first mesh's pinion."""
         return self.rpm(self.up.frequencies)
 
-    def rpm(self, frequencies: Floats) -> Floats:
+    def rpm(self, frequencies: ArrayLike) -> Floats:
         """Speed of the first mesh's pinion at circular tooth frequencies of that mesh (1/s)."""
-        result: Floats = np.asarray(frequencies) * 30 / (math.pi * self.train.meshes[0].teeth)
+        result: Floats = np.asarray(frequencies, float) * 30 / (math.pi * self.train.meshes[0].teeth)
         return result
 
     @property
@@ -134,7 +134,7 @@ def study_train(
 ) -> TrainStudy:
     """Modes, charts and the course at the train's speed (or at its highest resonance).
 
-    `excitation` is that of the train's own meshes unless given; `method_b` has the data of K_v by ISO 6336-1 for the first mesh.
+    `excitation` is that of the train's own meshes unless given; `method_b` holds the data of K_v by ISO 6336-1 of the first mesh.
     Raises ParameterError, GeometryError and SolverError.
     """
     options = options or DynamicsOptions()

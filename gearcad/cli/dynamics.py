@@ -1,0 +1,114 @@
+"""Dynamics of a pair or a train: dynamics."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from gearcad.cli.group import debug_option, spec_argument
+from gearcad.cli.progress import file_progress
+
+if TYPE_CHECKING:
+    from gearcad.dynamics.pair_study import ContactStudy
+    from gearcad.dynamics.study import TrainStudy
+    from gearcad.simulate import Study
+
+__all__ = ["dynamics"]
+
+_MOST_PEAKS = 8
+
+
+@click.command(short_help="Natural frequencies, dynamic factors and spectra of SPEC's pair or train.")
+@spec_argument
+@click.option("-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/NAME]")
+@click.option("--json", "as_json", is_flag=True, help="Print the document of dynamics.json and nothing else.")
+@click.option("--quiet", is_flag=True, help="No progress on the screen.")
+@debug_option
+def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
+    """Dynamics of the pair of SPEC, under its [load], or of its [train]: what the stiffness of the teeth does to the machine.
+
+    A train has its natural frequencies and modes, and the overload of its meshes and shafts over speed, for shafts that are
+    left out, springs or continua (model). A pair by itself has its dynamic factor K_v beside that of ISO 6336-1, with flanks
+    that part; with model "contact" in [dynamics] its Campbell diagram. Inertias come from the gears' own solids, mesh stiffness
+    from one of the methods of `gearcad stiffness`. Writes dynamics.json, dynamics.npz (the arrays) and dynamics.html.
+    """
+    import numpy as np
+
+    from gearcad.output import json_text, staged_files
+    from gearcad.report import write_dynamics_report
+    from gearcad.simulate import dynamics_document, simulate
+    from gearcad.spec import read_spec
+    from gearcad.spec.trains import holds_train, read_train
+
+    design = read_train(spec) if holds_train(spec) else read_spec(spec)
+    with file_progress(shown=not quiet) as progress:
+        study = simulate(design, progress)
+    document = dynamics_document(study, design.name)
+    folder = output if output is not None else Path("output") / design.name
+    with staged_files(folder) as staging:
+        (staging / "dynamics.json").write_text(json_text(document), encoding="utf-8")
+        with (staging / "dynamics.npz").open("wb") as file:
+            np.savez_compressed(file, allow_pickle=False, **study.arrays())
+        write_dynamics_report(study, design.name, staging / "dynamics.html")
+        files = sorted(file.name for file in staging.iterdir())
+    if as_json:
+        click.echo(json_text(document), nl=False)
+        return
+    for line in (*_lines(study), *(f"Warning: {warning}" for warning in study.warnings)):
+        click.echo(line)
+    click.echo("".join(f"{folder / file}\n" for file in files), nl=False)
+
+
+def _lines(study: Study) -> list[str]:
+    """What was found out, in a few lines."""
+    from gearcad.dynamics.pair_study import ContactStudy, PairStudy
+
+    if isinstance(study, ContactStudy):
+        return _contact_lines(study)
+    if not isinstance(study, PairStudy):
+        return _train_lines(study)
+    lines = [
+        f"inertias                    {study.inertias[0]:.5g} and {study.inertias[1]:.5g} kg·m²",
+        f"mesh stiffness              {study.cycle.mean:.5g} N/µm mean secant, {study.cycle.tangent_mean:.5g} tangent "
+        f"({study.cycle.method})",
+    ]
+    factor = study.study.method_b
+    if factor is not None:
+        lines.append(f"resonance speed, ISO 6336-1 {factor.resonance_speed:.5g} rpm")
+    return lines + _train_lines(study.study)
+
+
+def _train_lines(study: TrainStudy) -> list[str]:
+    modes, meshes = study.modes, study.up.mesh_names
+    heads = "".join(f"{name + ', rpm':>16}" for name in meshes)
+    lines = [f"{'natural frequency':<20}{'Hz':>10}{'1/s':>12}{heads}"]
+    for number, (hertz, circular, speeds) in enumerate(zip(modes.frequency, modes.circular, modes.rpm, strict=True), 1):
+        lines.append(f"{number:<20}{hertz:>10.6g}{circular:>12.6g}" + "".join(f"{speed:>16.5g}" for speed in speeds))
+    charts = [("up", study.up)] if study.down is None else [("running up", study.up), ("running down", study.down)]
+    for words, chart in charts:
+        for mesh, name in enumerate(meshes):
+            peaks = sorted(chart.peaks(mesh), key=lambda peak: -peak.factor)[:_MOST_PEAKS]
+            listed = ", ".join(f"{peak.factor:.3f} at {float(study.rpm(peak.frequency)):.5g} rpm" for peak in peaks)
+            sense = "" if study.down is None else f", {words}"
+            lines.append(f"K_v of {name}{sense}: {listed or 'no resonance in the chart'}")
+    return lines
+
+
+def _contact_lines(study: ContactStudy) -> list[str]:
+    model, found = study.model, study.study
+    lines = [
+        f"natural frequency           {model.natural_frequency():.6g} Hz with one pair of teeth, "
+        f"{model.natural_frequency(model.contact_ratio):.6g} Hz with {model.contact_ratio:.4g}",
+        f"damping ratio               {model.damping_ratio:.4g}",
+        f"approach at rest            {model.static_approach:.5g} µm with one pair",
+        f"{'rpm':>8}{'mean µm':>12}{'greatest µm':>14}{'parted %':>10}  highest peaks of the pinion's speed, Hz",
+    ]
+    for row, speed in enumerate(found.speeds.tolist()):
+        peaks = ", ".join(f"{peak.frequency:.5g}" for peak in found.peaks(speed, 3))
+        lines.append(
+            f"{speed:>8g}{found.mean_approach[row]:>12.5g}{found.greatest_approach[row]:>14.5g}"
+            f"{100 * found.out_of_contact[row]:>10.1f}  {peaks}{'  chaotic' if found.chaotic[row] else ''}"
+        )
+    return lines

@@ -1,0 +1,150 @@
+"""`gearcad dynamics` as a user meets it."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+from gearcad.cli import main
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+
+PAIR = """
+[pair]
+normal_module = 2.0
+face_width = 20.0
+tooth_thinning = 0.05
+[pinion]
+teeth = 20
+body.bore = 12.0
+[wheel]
+teeth = 30
+body.bore = 20.0
+[load]
+torque = 50.0
+speed = 6000.0
+[dynamics]
+speeds = 40
+"""
+
+TRAIN = (TEMPLATES / "train-1-stage.toml").read_text(encoding="utf-8") + "speeds = 160\n"
+FILES = [f"dynamics.{kind}" for kind in ("html", "json", "npz")]
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(main, list(arguments))
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def spec(text: str) -> str:
+    Path("it.toml").write_text(text, encoding="utf-8")
+    return "it.toml"
+
+
+def test_a_train(here: Path) -> None:
+    """Osinski's one stage: component modes of the paper, and the peak that an isolated pair does not have."""
+    result = run("dynamics", spec(TRAIN), "--quiet")
+    assert result.exit_code == 0, result.output
+    assert result.stdout.splitlines()[-3:] == [f"output/train-1-stage/{file}" for file in FILES]
+    document = json.loads(Path("output/train-1-stage/dynamics.json").read_text(encoding="utf-8"))
+    assert (document["kind"], document["model"]) == ("dynamics", "modes")
+    assert document["modes"]["circular"] == pytest.approx([1641.941, 12752.092, 19861.483], abs=1e-3)
+    peaks = document["chart"]["peaks"]["mesh"]
+    assert max(peak["factor"] for peak in peaks) == pytest.approx(1.55, abs=0.01)
+    assert min(abs(peak["frequency"] - 12650) for peak in peaks) < 150
+    with np.load("output/train-1-stage/dynamics.npz", allow_pickle=False) as arrays:
+        assert arrays["kv"].shape == (160, 1) and arrays["mode_shape"].shape == (3, 2)
+        assert arrays["kv"][:, 0].tolist() == document["chart"]["kv"]["mesh"]
+
+
+def test_one_word_changes_the_model(here: Path) -> None:
+    found = {}
+    for model in ("isolated", "massless", "elements", "exact"):
+        result = run("dynamics", spec(TRAIN.replace('model = "modes"', f'model = "{model}"')), "--quiet", "--json")
+        assert result.exit_code == 0, result.output
+        found[model] = json.loads(result.stdout)["modes"]["circular"]
+    assert found["isolated"][-1] == pytest.approx(19245.076, abs=1e-3)
+    assert found["massless"] == pytest.approx([1681.679, 19656.795], abs=1e-3)
+    assert found["exact"][:5] == pytest.approx(
+        [1641.12352431, 10077.48060731, 12708.28743912, 19523.94715846, 20154.95062324], rel=1e-9
+    )
+    assert found["elements"][:5] == pytest.approx(found["exact"][:5], rel=1e-9)
+
+
+def test_a_pair_without_further_data(here: Path) -> None:
+    """Inertias of its own solids, potential energy, K_v of ISO 6336 beside its own."""
+    result = run("dynamics", spec(PAIR), "--quiet")
+    assert result.exit_code == 0, result.output
+    document = json.loads(Path("output/it/dynamics.json").read_text(encoding="utf-8"))
+    radii = (20 * math.cos(math.radians(20)), 30 * math.cos(math.radians(20)))
+    inertias = (document["pinion_inertia"], document["wheel_inertia"])
+    # Steel discs of the reference diameters, less their bores, within what teeth make of them.
+    discs = [math.pi / 32 * (d**4 - b**4) * 20 * 7850e-15 for d, b in ((40, 12), (60, 20))]
+    assert inertias == pytest.approx(discs, rel=0.06)
+    mass = 1 / sum((radius / 1000) ** 2 / inertia for radius, inertia in zip(radii, inertias, strict=True))
+    natural = math.sqrt(1e6 * document["mesh_stiffness_tangent_mean"] / mass) / (2 * math.pi)
+    assert document["modes"]["frequency"] == pytest.approx([0.0, natural], rel=1e-6, abs=1e-6)
+    assert len(document["chart"]["kv_iso6336"]) == 40 and document["resonance_speed_iso6336"] > 1000
+    assert f"{document['resonance_speed_iso6336']:.5g} rpm" in result.stdout
+    assert document["course"]["speed"] == pytest.approx(6000, rel=0.1)
+
+
+def test_the_contact_model_of_the_thesis(here: Path) -> None:
+    text = (TEMPLATES / "uhlir-19-23.toml").read_text(encoding="utf-8")
+    short = text.replace("speeds = 41", "speeds = 3").replace("duration = 1.0", "duration = 0.2")
+    result = run("dynamics", spec(short), "--quiet")
+    assert result.exit_code == 0, result.output
+    document = json.loads(Path("output/uhlir-19-23/dynamics.json").read_text(encoding="utf-8"))
+    assert document["natural_frequency"] == pytest.approx(488.98723, abs=1e-3)
+    assert document["damping_ratio"] == pytest.approx(0.01536199, rel=1e-6)
+    assert document["campbell"]["speeds"] == [0.0, 10000.0, 20000.0]
+    assert re.search(r"Warning: .*1\.6 mm at rest", result.stdout)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (PAIR.replace("torque = 50.0", "torque = 0.0"), "load.torque = 0: must be given"),
+        ("[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 10.0\n", "must be a pair or a train"),
+        (PAIR.replace("speeds = 40", "stiffness = 'iso6336'"), "line 16: dynamics.stiffness = 'iso6336': must be one of"),
+        (PAIR.replace("speeds = 40", "damping_ratio = -0.1"), "line 16: dynamics.damping_ratio = -0.1: must be"),
+        (PAIR.replace("speeds = 40", "pinion_inertia = 0.0"), "line 16: dynamics.pinion_inertia = 0 kg·m²: must be"),
+        (
+            PAIR.replace("[pinion]", "helix_angle = 20.0\n[pinion]").replace("speeds = 40", "model = 'contact'"),
+            "helix_angle = 20 deg: must be 0",
+        ),
+        (TRAIN.replace("inertia = 0.0058 ", "inertia = 0.0 "), "line 16: pinion.inertia = 0 kg·m²: must be"),
+        (TRAIN.replace("stiffness = 705.0 ", "stiffness = -705.0 "), "mesh.stiffness = -705 N/µm: must be"),
+        (TRAIN.replace("variation = 0.206", "variation = 1.2"), "mesh.variation = 1.2: must be"),
+        (TRAIN.replace('wheel = "wheel"', 'wheel = "whel"'), "'whel'"),
+        (TRAIN.replace("teeth = 18 ", "tooth = 18 "), "train.mesh[0].tooth: unknown key; did you mean teeth?"),
+        (TRAIN.replace("teeth = 18 ", "# teeth = 18 "), "line 44: teeth is missing in [[train.mesh]]"),
+        (TRAIN.replace("[dynamics]", "[pair]\n[dynamics]"), "[pair] cannot stand beside [train]"),
+        (TRAIN.replace("speeds = 160", "stiffness = '3d'"), "dynamics.stiffness: unknown key"),
+        (TRAIN.replace('model = "modes" ', 'model = "modal" '), "train.model = 'modal'"),
+    ],
+)
+def test_what_makes_no_dynamics(here: Path, text: str, message: str) -> None:
+    result = run("dynamics", spec(text))
+    assert result.exit_code == 2, result.output
+    last = result.stderr.splitlines()[-1]
+    assert last.startswith("Error: ") and message in last
+    assert not Path("output").exists()
+
+
+@pytest.mark.parametrize("command", ["data", "build", "check", "stiffness", "modify"])
+def test_other_commands_send_a_train_here(here: Path, command: str) -> None:
+    result = run(command, spec(TRAIN))
+    assert result.exit_code == 2
+    assert "[train] describes a train, which only `gearcad dynamics` can treat" in result.stderr
