@@ -134,7 +134,7 @@ def study_train(
 ) -> TrainStudy:
     """Modes, charts and the course at the train's speed (or at its highest resonance).
 
-    `excitation` is that of the train's own meshes unless given; `method_b` holds the data of K_v by ISO 6336-1 of the first mesh.
+    `excitation` is that of the train's own meshes unless given; `method_b` is K_v by ISO 6336-1 of the first mesh.
     Raises ParameterError, GeometryError and SolverError.
     """
     options = options or DynamicsOptions()
