@@ -1,30 +1,58 @@
 """A pair whose teeth come, go and part, integrated from event to event in closed form.
 
 The approach y of the flanks obeys m y'' + b y' + f = F, f = k N y where the front flanks press (y > 0), f = k N (y + j) where
-the back flanks do (y < -j). The pinion's travel along the line of action is u = V t + share y: a uniform rotation and the motion y.
-A pair of teeth enters or leaves the zone of contact where u, or u - y, passes a fixed place, and again each base pitch.
-Compiled by numba: import this room inside functions only. SI units.
+the back flanks do (y < -j). The pinion's travel along the line of action is u = V t + share y: a uniform rotation and y's
+share. A pair of teeth enters or leaves the zone of contact where u, or u - y, passes a fixed place, and again each base pitch.
+
+Compiled by numba: import this room inside functions only. All of it is in one file, because numba looks only at the file of a
+function to see whether the code that it keeps on disk is still good, not at those of the functions it calls. SI units.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeVar
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.dynamics.closed_form import Spring, accelerated, advanced, compiled, next_turn, transition, zero
-
-__all__ = ["Motion", "Outcome", "Zone", "run"]
+__all__ = ["Motion", "Outcome", "Spring", "Zone", "accelerated", "advanced", "compiled", "next_turn", "run"]
 
 Floats = NDArray[np.float64]
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 _ANCHORED = 64
 """Samples taken by one step matrix in a row before the closed form is evaluated again, so that rounding does not add up."""
 
 _RESOLVED = 1e-10
 """Excursion, in base pitches, below which a pair of teeth that keeps entering and leaving stands on the end of the zone."""
+
+_LASTING = 500.0
+"""Time without events, in times of decay, that is looked at in one go: longer, and a disturbance would vanish altogether."""
+
+_ITERATIONS = 200
+"""Newton's steps, or halvings: a double has room for far fewer."""
+
+
+def compiled(function: Function) -> Function:
+    """Machine code that lets other threads run and rounds as written; kept on disk where that can be written."""
+    options = {"nogil": True, "error_model": "numpy"}
+    try:
+        made: Function = numba.njit(cache=True, **options)(function)
+    except RuntimeError:  # no folder for it
+        made = numba.njit(**options)(function)
+    return made
+
+
+class Spring(NamedTuple):
+    """y'' + 2 half y' + square (y - rest) = push: 1/s², 1/s, m/s², m. Where square is 0, rest is 0; elsewhere push is."""
+
+    square: float
+    half: float
+    push: float
+    rest: float
 
 
 class Zone(NamedTuple):
@@ -60,6 +88,102 @@ class Outcome(NamedTuple):
     events: int
     held: float
     """Time for which a pair stood on an end of the zone (s)."""
+
+
+@compiled
+def _transition(spring: Spring, tau: float) -> tuple[float, float, float, float, float, float]:
+    """(xx, xv, vx, vv, fx, fv): over a time tau, x = y - rest becomes xx x + xv v + fx, and v becomes vx x + vv v + fv."""
+    square, half = spring.square, spring.half
+    if square == 0.0:
+        a = 2.0 * half * tau
+        if a < 0.1:
+            second = 0.0  # (a - 1 + exp(-a))/a² by its series: the difference would cancel
+            for order in range(11, 1, -1):
+                second = (1.0 - a * second) / order
+            first = 1.0 - a * second
+        else:
+            first = -math.expm1(-a) / a
+            second = (1.0 - first) / a
+        return 1.0, tau * first, 0.0, 1.0 - a * first, tau * tau * second * spring.push, tau * first * spring.push
+    if square > half * half:
+        turns = math.sqrt(square - half * half)
+        decay = math.exp(-half * tau)
+        even, odd = decay * math.cos(turns * tau), decay * math.sin(turns * tau) / turns
+    elif square < half * half:
+        rate = math.sqrt(half * half - square)
+        slow, fast = math.exp(-square / (half + rate) * tau), math.exp(-(half + rate) * tau)
+        even, odd = 0.5 * (slow + fast), 0.5 * (slow - fast) / rate
+    else:
+        decay = math.exp(-half * tau)
+        even, odd = decay, decay * tau
+    return even + half * odd, odd, -square * odd, even - half * odd, 0.0, 0.0
+
+
+@compiled
+def advanced(spring: Spring, y: float, v: float, tau: float) -> tuple[float, float]:
+    """y and v after a time tau."""
+    xx, xv, vx, vv, fx, fv = _transition(spring, tau)
+    x = y - spring.rest
+    return spring.rest + (xx * x + xv * v + fx), vx * x + vv * v + fv
+
+
+@compiled
+def accelerated(spring: Spring, y: float, v: float) -> float:
+    """y''."""
+    return spring.push - spring.square * (y - spring.rest) - 2.0 * spring.half * v
+
+
+@compiled
+def next_turn(spring: Spring, y: float, v: float) -> tuple[float, float]:
+    """Time of the first zero of the acceleration, and from each to the next; infinite where there is none."""
+    a = accelerated(spring, y, v)
+    slope = -spring.square * v - spring.half * a  # of exp(half t) a(t)
+    if spring.square > spring.half * spring.half:
+        turns = math.sqrt(spring.square - spring.half * spring.half)
+        angle = math.atan2(slope / turns, a) + 0.5 * math.pi
+        if angle > math.pi:
+            angle -= math.pi
+        elif angle <= 0.0:
+            angle += math.pi
+        return angle / turns, math.pi / turns
+    if spring.square == 0.0 or a * slope >= 0.0:
+        return math.inf, math.inf
+    rate = math.sqrt(spring.half * spring.half - spring.square)
+    if rate == 0.0:
+        return -a / slope, math.inf
+    part = -a * rate / slope
+    return (math.atanh(part) / rate, math.inf) if part < 1.0 else (math.inf, math.inf)
+
+
+@compiled
+def _zero(
+    spring: Spring, y: float, v: float, drift: float, share: float, level: float, a: float, b: float, order: int
+) -> float:
+    """Where q(t) = drift t + share (y(t) - y) reaches `level` (order 0), or turns (order 1), in [a, b], to rounding.
+
+    One such time is in there: Newton's steps, and halvings where these leave the bracket or gain too little.
+    """
+    end_y, end_v = advanced(spring, y, v, b)
+    end = drift * b + share * (end_y - y) - level if order == 0 else drift + share * end_v
+    x, before = 0.5 * (a + b), math.inf
+    for _ in range(_ITERATIONS):
+        at_y, at_v = advanced(spring, y, v, x)
+        value, slope = drift * x + share * (at_y - y) - level, drift + share * at_v
+        if order == 1:
+            value, slope = slope, share * accelerated(spring, at_y, at_v)
+        if value == 0.0:
+            return x
+        if (value > 0.0) == (end > 0.0):
+            b = x
+        else:
+            a = x
+        following = x - value / slope if slope != 0.0 else a
+        if not a < following < b or abs(value) > 0.5 * before:
+            following = 0.5 * (a + b)
+        if abs(following - x) <= 2.3e-16 * b or not a < following < b:
+            return following
+        before, x = abs(value), following
+    return x
 
 
 @compiled
@@ -121,15 +245,15 @@ def _crossing(
     rising = start + end > 0.0
     if start * end < 0.0:
         rising = end > 0.0
-        middle = zero(spring, y, v, drift, share, 0.0, a, b, 1)
+        middle = _zero(spring, y, v, drift, share, 0.0, a, b, 1)
         ym, _ = advanced(spring, y, v, middle)
         reached = drift * middle + share * (ym - y)
         if (not rising and reached > above) or (rising and reached < below):
-            return zero(spring, y, v, drift, share, below if rising else above, a, middle, 0), not rising
+            return _zero(spring, y, v, drift, share, below if rising else above, a, middle, 0), not rising
         a = middle
     reached = drift * b + share * (yb - y)
     if (rising and reached > above) or (not rising and reached < below):
-        return zero(spring, y, v, drift, share, above if rising else below, a, b, 0), rising
+        return _zero(spring, y, v, drift, share, above if rising else below, a, b, 0), rising
     return np.inf, rising
 
 
@@ -158,7 +282,7 @@ def _sample(
     approach: Floats, rate: Floats, number: int, step: float, spring: Spring, y: float, v: float, t: float, end: float
 ) -> int:
     """Fill in the samples before `end` of a motion that is y, v at t, from `number` on; gives the first that is left."""
-    xx, xv, vx, vv, fx, fv = transition(spring, step)
+    xx, xv, vx, vv, fx, fv = _transition(spring, step)
     taken = 0
     at_y, at_v = y, v
     while number < approach.size and number * step < end:
@@ -224,9 +348,10 @@ def run(
     while t < end:
         spring, began = _spring(motion, side, first - last), t
         _watch(table, motion, side, first, last, drift, travel + drift * t, y)
-        tau, row, rising = _next_event(table, spring, y, v, (counted if t < counted else end) - t)
+        horizon = min((counted if t < counted else end) - t, _LASTING / motion.half)
+        tau, row, rising = _next_event(table, spring, y, v, horizon)
         number = _sample(approach, rate, number, step, spring, y, v, t, t + tau)
-        xx, xv, vx, vv, _, _ = transition(spring, tau)
+        xx, xv, vx, vv, _, _ = _transition(spring, tau)
         dy, dv = xx * dy + xv * dv, vx * dy + vv * dv
         y, v = advanced(spring, y, v, tau)
         t += tau
@@ -235,12 +360,15 @@ def run(
             events += 1
             side, first, last = _changed(motion, side, first, last, row, rising, travel + drift * t)
             after = _spring(motion, side, first - last)
-            dv = _disturbed(spring, after, table[row], y, v, dy, dv)
-            if row > 0 and _stands(table[row], spring, after, y, v, motion.pitch):
+            if not (row > 0 and _stands(table[row], spring, after, y, v, motion.pitch)):
+                dv = _disturbed(spring, after, table[row], y, v, dy, dv)
+            else:
                 # It leaves when the force between its two values no longer suffices: looked at again after one sample.
+                # Whatever was disturbed ends in the same place: a disturbance begins anew.
                 v, pause = -drift / table[row, 1], min(step, end - t)
                 number = _sample(approach, rate, number, step, Spring(0.0, 0.0, 0.0, 0.0), y, v, t, t + pause)
                 y, t, held = y + v * pause, t + pause, held + pause
+                least = math.inf
         size = math.hypot(scale * dy, dv)
         total, dy, dv = total + math.log(size), dy / size, dv / size
         least, gain = min(least, total), max(gain, total - least)

@@ -59,9 +59,10 @@ def amplitude_spectrum(signal: ArrayLike, sampling: float, highest: float | None
         kept = min(kept, int(highest * n / sampling * (1 + 1e-12)) + 1)
     # The mean apart: a great one would hide small amplitudes in its rounding.
     mean = values.mean()
-    amplitude: Floats = 2 / n * np.abs(scipy.fft.rfft(values - mean)[:kept])
+    amplitude = np.empty(kept)
+    np.abs(scipy.fft.rfft(values - mean)[:kept], out=amplitude)
+    amplitude *= 2 / n
     amplitude[0] = abs(mean)
     if n % 2 == 0 and kept == n // 2 + 1:
         amplitude[-1] /= 2
-    frequency: Floats = np.arange(kept) * (sampling / n)
-    return Spectrum(frequency, amplitude)
+    return Spectrum(np.arange(kept, dtype=np.float64) * (sampling / n), amplitude)

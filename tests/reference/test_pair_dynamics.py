@@ -1,0 +1,201 @@
+"""Pair models of J. Uhlir, Spur gear mesh model for dynamic simulations, CTU Prague 2021, chapter 3 (tables and figures there).
+
+Numbers marked "recomputed" are not printed in the thesis: they come from its equations, with the signs corrected, by two other
+programs. Its own 302 Hz for the contact model cannot be had from its equations.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+from support.pairs import THESIS_SPEEDS, Witness, thesis_model, thesis_pair
+
+from gearcad.dynamics.campbell import CampbellStudy, campbell
+from gearcad.dynamics.contact_model import ContactZone
+from gearcad.dynamics.pair_history import Start, time_history
+
+PRINTED = 0.5 / 489
+"""Relative: the thesis prints 489 Hz."""
+
+DIGITS = 1e-7
+"""Relative, for recomputed numbers with eight digits."""
+
+PEAKS = {
+    6000: ((1900, 21.0), (621, 4.15), (3800, 1.88), (5700, 1.73)),
+    10000: ((3167, 9.76), (613, 3.16), (6333, 0.985)),
+    20000: ((6333, 4.79), (612, 3.16)),
+}
+"""Recomputed: frequency (Hz) and amplitude (rad/s) of the pinion's speed over 1 s from y = 0."""
+
+PEAK = 0.01
+CHAOTIC = (1000, 2000, 3500, 4000)
+
+DOP853 = 1e-9
+"""Of the amplitude: found were 4e-12 to 1.2e-10, DOP853 itself having rtol 1e-10."""
+
+
+@pytest.fixture(scope="module")
+def study() -> CampbellStudy:
+    return campbell(thesis_model(), THESIS_SPEEDS)
+
+
+# ---------------------------------------------------------------------- parameters, simple model
+
+
+def test_parameters_of_table_3_1() -> None:
+    model = thesis_model()
+    assert model.inertias == pytest.approx((1.7399409e-05, 3.7362114e-05), rel=DIGITS)
+    assert model.base_radii[0] == pytest.approx(15.6224, rel=5e-6)
+    assert model.base_pitch == pytest.approx(5.16623, rel=1e-6)
+    assert model.contact_ratio == pytest.approx(1.567673, rel=4e-7)
+    assert model.static_approach == pytest.approx(1600.267, rel=4e-7)
+    assert model.natural_frequency() == pytest.approx(489, rel=PRINTED)
+    assert model.natural_frequency() == pytest.approx(488.98723, rel=1e-8)
+    assert model.damping_ratio == pytest.approx(0.01536199, abs=5e-9)
+    assert model.natural_frequency(model.contact_ratio) == pytest.approx(612.25, abs=0.005)
+    assert model.tooth_frequency(1000) == pytest.approx(316.67, abs=0.005)  # (3.56)
+
+
+def test_simple_model_is_the_matrix_exponential_of_its_equations() -> None:
+    """M phi'' + R (b phi' + k phi) = F, (3.14), where R has R_b1 R_b2 with a plus: both angles are counter-clockwise."""
+    model, speed, duration = replace(thesis_model(), zone=ContactZone.ONE_PAIR), 20000.0, 0.02
+    radii, inverse = 1e-3 * np.array(model.base_radii), np.diag(1 / np.array(model.inertias))
+    coupling = inverse @ np.outer(radii, radii)
+    matrix = np.zeros((5, 5))
+    matrix[:2, 2:4] = np.eye(2)
+    matrix[2:4, :2], matrix[2:4, 2:4] = -4e5 * coupling, -4 * coupling
+    matrix[2:4, 4] = inverse @ [10, 10 * 23 / 19]
+    rate = speed * math.pi / 30
+    start = np.array([0, 0, rate, -rate * 19 / 23, 1])
+    history = time_history(model, speed, duration=duration, sampling=1000.0)
+    found = np.column_stack(
+        [np.radians(history.pinion_angle), np.radians(history.wheel_angle), history.pinion_speed, history.wheel_speed]
+    )
+    expected = [(expm(matrix * time) @ start)[:4] for time in history.time]
+    np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-12)
+
+
+# ---------------------------------------------------------------------- contact model
+
+
+@pytest.mark.parametrize("speed", PEAKS)
+def test_peaks_of_the_contact_model(study: CampbellStudy, speed: int) -> None:
+    found = {round(peak.frequency): peak.amplitude for peak in study.peaks(speed, 12)}
+    for frequency, amplitude in PEAKS[speed]:
+        assert found[frequency] == pytest.approx(amplitude, rel=PEAK)
+
+
+def test_high_speed_leaves_the_frequency_of_the_mean_stiffness(study: CampbellStudy) -> None:
+    for speed in (16000, 18000, 20000):
+        free = max((peak for peak in study.peaks(speed) if peak.frequency < 1000), key=lambda peak: peak.amplitude)
+        assert free.frequency == pytest.approx(612.25, abs=1.0)  # lines of a spectrum of 1 s
+
+
+def test_chaotic_speeds_and_no_others_are_flagged(study: CampbellStudy) -> None:
+    assert tuple(study.speeds[study.chaotic]) == CHAOTIC
+    # Nothing is near the limit of 6 digits.
+    assert study.digits_lost[~study.chaotic].max() < 3.5
+    assert study.digits_lost[study.chaotic].min() > 15
+    # Where it settles, a disturbance dies with b/(2 m).
+    model = thesis_model()
+    decay = model.damping / (2 * model.reduced_mass)
+    assert study.growth[~study.chaotic] == pytest.approx(-decay, rel=0.07)
+    assert study.growth[study.speeds == 1000] > 0.2 * decay
+
+
+@pytest.mark.parametrize(("speed", "apart"), [(3000, False), (6000, False), (1000, True), (3500, True)])
+def test_two_motions_from_almost_one_start(speed: float, apart: bool) -> None:
+    """What the flag says, without it: 1e-9 of the static approach apart at the start, and in the last tenth of a second.
+
+    With the same place of contact the rotation differs by as much, for ever: the calm motions stay so little apart.
+    """
+    model = thesis_model()
+    there, beside = (
+        time_history(model, speed, start=Start(approach=approach * model.static_approach)).approach[-20000:]
+        for approach in (0.5, 0.5 + 1e-9)
+    )
+    difference = np.abs(there - beside).max() / np.ptp(there)
+    assert difference > 0.3 if apart else difference < 1e-8
+
+
+def test_statistics_at_a_chaotic_speed_hold_where_the_motion_does_not() -> None:
+    model = thesis_model()
+    runs = [time_history(model, 3500.0, duration=4.0, sampling=20000.0, start=Start(approach=a)) for a in (0.0, 1e-3)]
+    deviation = [np.std(run.settled) for run in runs]
+    assert deviation[0] == pytest.approx(deviation[1], rel=0.05)
+    assert runs[0].out_of_contact == pytest.approx(runs[1].out_of_contact, abs=0.02)
+
+
+def test_warnings_name_the_penetration_and_the_chaos(study: CampbellStudy) -> None:
+    soft, deep, chaotic = study.warnings
+    assert "0.4 N/µm" in soft and "1.6 mm" in soft
+    assert "more than the module of 1.75 mm" in deep and "3500 rpm" in deep
+    assert "1000, 2000, 3500, 4000 rpm" in chaotic
+    assert replace(thesis_model(), pair_stiffness=0.3).warnings[0].count("pass through each other") == 1
+    assert replace(thesis_model(), pair_stiffness=200.0).warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("changes", "frequency"),
+    [
+        # A small amplitude about y (eps - y/p_b) = F/k would have 513.8 Hz.
+        ({"zone": ContactZone.PENETRATING_TIPS}, 512),
+        ({"zone": ContactZone.PENETRATING_TIPS, "first_contact": 0.0, "last_contact": 12.56924}, 719),
+        ({"zone": ContactZone.ONE_PAIR}, 489),
+    ],
+)
+def test_other_readings_of_the_zone_do_not_give_302_hz(changes: dict[str, object], frequency: float) -> None:
+    """Recomputed; the second lets the whole line T1T2 carry. RK4 at 16 MHz has 512 Hz for the first, at 200 kHz 500."""
+    peaks = campbell(replace(thesis_model(), **changes), [20000.0]).peaks(20000)
+    assert max((peak for peak in peaks if peak.frequency < 1000), key=lambda peak: peak.amplitude).frequency == frequency
+
+
+# ---------------------------------------------------------------------- DOP853
+
+
+def _compare(model_changes: dict[str, object], speed: float, duration: float, sampling: float, limit: float) -> None:
+    back = bool(model_changes.get("back_flanks"))
+    pair = thesis_pair(tooth_thinning=0.6) if back else thesis_pair()
+    model = thesis_model(pair, **model_changes)
+    history = time_history(model, speed, duration=duration, sampling=sampling)
+    expected = Witness(model).run(speed, duration, len(history.approach))
+    approach = 1e6 * (expected[0] + expected[1])
+    assert np.abs(history.approach - approach).max() < limit * np.ptp(approach)
+    rotation = speed * math.pi / 30
+    pinion = expected[2] / (1e-3 * model.base_radii[0])
+    assert np.abs(history.pinion_speed - pinion).max() < limit * np.abs(pinion - rotation).max()
+    if back:
+        assert history.approach.min() < -1e3 * model.backlash < 0
+    wheel = expected[3] / (1e-3 * model.base_radii[1])
+    assert np.abs(history.wheel_speed - wheel).max() < limit * np.abs(pinion - rotation).max()
+
+
+@pytest.mark.parametrize(("speed", "duration"), [(6000.0, 0.03), (1500.0, 0.02), (3000.0, 0.02)])
+def test_motion_is_that_of_dop853(speed: float, duration: float) -> None:
+    """Contact is lost at 1500 rpm."""
+    _compare({}, speed, duration, 50_000.0, DOP853)
+
+
+def test_motion_between_both_flanks_is_that_of_dop853() -> None:
+    _compare({"back_flanks": True}, 3500.0, 0.01, 50_000.0, DOP853)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("speed", [3000.0, 6000.0, 20000.0])
+def test_a_whole_second_is_that_of_dop853(speed: float) -> None:
+    _compare({}, speed, 1.0, 200_000.0, DOP853)
+
+
+def test_back_flanks_touch_where_the_profile_has_them() -> None:
+    """A tooth of the pinion on the line of centres: its flanks are the same distance from their base tangent points."""
+    pair = thesis_pair(tooth_thinning=0.3)
+    model = thesis_model(pair, back_flanks=True)
+    assert model.back_place is not None and model.backlash == pytest.approx(pair.normal_backlash)
+    place, radius = model.back_place / 2, pair.pinion.base_diameter / 2
+    # The point of the line of action so far from T1, seen from the axis: its angle from the line of centres.
+    angle = math.degrees(math.atan(place / radius)) - pair.working_transverse_pressure_angle
+    assert angle == pytest.approx(float(pair.pinion.profile.half_angle(math.hypot(radius, place))), abs=1e-10)
