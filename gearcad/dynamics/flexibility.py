@@ -21,6 +21,11 @@ Complexes = NDArray[np.complex128]
 _LOSS = 1e-9
 """Least loss factor of a line's mode: keeps the sum finite just at the frequency of an undamped one."""
 
+_MOST_AMPLIFIED = 1e9
+"""Deflection over the static one beyond which rounding decides: resonance without damping."""
+
+_NO_DAMPING = "no finite periodic motion: a harmonic of one of the frequencies meets a resonance without damping"
+
 
 @dataclass(frozen=True, eq=False)
 class Flexibility:
@@ -45,8 +50,14 @@ def flexibility(system: System, frequencies: Floats) -> Flexibility:
     sums = ((1 / modes) @ products.reshape(system.size, -1)).reshape(*frequencies.shape, count + others, count)
     lines, rest = sums[..., :count, :], sums[..., count:, :]
     mesh = system.stiffness + 1j * w * system.mesh_damping
-    inverse = np.linalg.inv(np.eye(count) + mesh[..., None] * lines)
-    return Flexibility(lines @ inverse, rest @ inverse)
+    try:
+        inverse = np.linalg.inv(np.eye(count) + mesh[..., None] * lines)
+        result = Flexibility(lines @ inverse, rest @ inverse)
+    except np.linalg.LinAlgError:
+        raise SolverError(_NO_DAMPING) from None
+    if not np.abs(result.mesh).max(initial=0.0) * system.stiffness.max() < _MOST_AMPLIFIED:
+        raise SolverError(_NO_DAMPING)
+    return result
 
 
 @dataclass(frozen=True, eq=False)

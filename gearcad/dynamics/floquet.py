@@ -19,8 +19,11 @@ Complexes = NDArray[np.complex128]
 _COARSE = 16
 """Steps over the period of the stiffness that the extrapolation begins with."""
 
-_STEPS = 256
-"""Steps over the period of the stiffness where only growth matters."""
+_STEPS, _MOST_STEPS = 128, 4096
+"""Fewest and most steps over the period of the stiffness where only growth matters."""
+
+_LONGEST_STEP = 0.5
+"""Greatest turn (rad) of the fastest mode in such a step: longer ones would meet resonances of their own."""
 
 _BLOCK = 4_000_000
 """Numbers that one block of speeds may need at a time."""
@@ -94,31 +97,48 @@ def growth(system: System, excitation: Excitation, frequencies: Floats, slopes: 
     """Largest multiplier (s,) over one period at many frequencies: by splitting each step, of second order.
 
     `slopes` (s, t, m) are stiffnesses (N/m) over the common period where they are not those of the excitation: those of flanks
-    that part. Between two half steps of the mean system, solved exactly, what differs from the mean gives a push.
+    that part. Between two half steps of the mean system, solved exactly, what differs from the mean gives a push. Only modes
+    are looked at that have at least a thousandth of their energy in the meshes: no other can be driven there.
     """
-    if slopes is None:
-        step = int(np.gcd.reduce(excitation.orders))
-        theta = 2 * np.pi / step * (np.arange(_STEPS) + 0.5) / _STEPS
-        slopes = np.broadcast_to(system.stiffness * excitation.ratios(theta), (len(frequencies), _STEPS, len(system.stiffness)))
-        periods = 2 * np.pi / (excitation.fundamental * frequencies * step)
-    else:
-        periods = 2 * np.pi / (excitation.fundamental * frequencies)
-    block = max(1, _BLOCK // (2 * system.size) ** 2)
-    starts = range(0, len(frequencies), block)
-    return np.concatenate([_growth(system, periods[i : i + block], slopes[i : i + block]) for i in starts])
+    order = int(np.gcd.reduce(excitation.orders)) if slopes is None else 1
+    periods = 2 * np.pi / (excitation.fundamental * frequencies * order)
+    squares, damping, mesh = _driven_modes(system)
+    wanted = np.sqrt(squares.max()) * periods / _LONGEST_STEP
+    steps = 2 ** np.ceil(np.log2(np.clip(wanted, _STEPS if slopes is None else slopes.shape[1], _MOST_STEPS))).astype(int)
+    result = np.zeros(len(frequencies))
+    block = max(1, _BLOCK // (2 * len(squares)) ** 2)
+    for count in np.unique(steps):
+        alike = np.flatnonzero(steps == count)
+        for of in np.array_split(alike, -(-len(alike) // block)):
+            if slopes is None:
+                theta = 2 * np.pi / order * (np.arange(count) + 0.5) / count
+                course = (system.stiffness * excitation.ratios(theta))[None]
+            else:
+                course = np.repeat(slopes[of], max(1, count // slopes.shape[1]), axis=1)
+            result[of] = _growth(squares, damping, mesh, course - system.stiffness, periods[of])
+    return result
 
 
-def _growth(system: System, periods: Floats, slopes: Floats) -> Floats:
+def _driven_modes(system: System) -> tuple[Floats, Floats, Floats]:
+    """Squares (r,), damping (r, r) and approaches (r, m) of the mean system's modes that move the meshes."""
+    squares, modes = np.linalg.eigh(system.stiffness_matrix())
+    mesh = modes.T @ system.mesh
+    energy = (mesh**2 * system.stiffness).sum(axis=1)
+    # One at the least: the strongest of weakly driven ones.
+    driven = energy >= min(1e-3, energy.max() / squares.max()) * np.maximum(squares, 1e-9 * squares.max())
+    modes = modes[:, driven]
+    return squares[driven], modes.T @ system.damping_matrix() @ modes, mesh[driven]
+
+
+def _growth(squares: Floats, damping: Floats, mesh: Floats, excess: Floats, periods: Floats) -> Floats:
     from scipy.linalg import expm
 
-    n, steps = system.size, slopes.shape[1]
+    n, steps = len(squares), excess.shape[1]
     h = periods[:, None, None] / steps
-    half = expm(h / 2 * _generator(system, system.stiffness))
-    whole = half @ half
-    pushes = (slopes - system.stiffness) * h
-    total = half
+    half = expm(h / 2 * np.block([[np.zeros((n, n)), np.eye(n)], [-np.diag(squares), -damping]]))
+    whole, total = half @ half, half
     for k in range(steps):
-        approach = system.mesh.T @ total[:, :n]
-        total = np.concatenate([total[:, :n], total[:, n:] - (system.mesh * pushes[:, k, None, :]) @ approach], axis=1)
+        push = (mesh * (h * excess[:, k, None, :])) @ (mesh.T @ total[:, :n])
+        total = np.concatenate([total[:, :n], total[:, n:] - push], axis=1)
         total = (whole if k + 1 < steps else half) @ total
     return np.asarray(np.abs(np.linalg.eigvals(total)).max(axis=1), float)

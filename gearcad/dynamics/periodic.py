@@ -115,7 +115,7 @@ def _solve(
     except np.linalg.LinAlgError:
         approach = np.full(1, np.nan)
     if not np.isfinite(approach).all():
-        raise SolverError("no finite periodic response: undamped resonance at one of the frequencies")
+        raise SolverError("no finite periodic motion at one of the frequencies: it is at the limit of parametric instability")
     half = slice(len(orders) - 1, None)
     turns, torques = turns_and_torques(system, static, flexible, forces[:, half])
     return approach[:, half], turns, torques
