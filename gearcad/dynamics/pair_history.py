@@ -21,7 +21,7 @@ __all__ = ["CHAOTIC_DIGITS", "Start", "TimeHistory", "time_history"]
 Floats = NDArray[np.float64]
 
 CHAOTIC_DIGITS = 6.0
-"""Digits that a motion may lose before it is called chaotic. In the thesis's study four lose over 30, all others up to 3."""
+"""Digits that a motion may lose before it is called chaotic. In the thesis's study four lose 14 to 130, all others up to 3."""
 
 SETTLED = 0.5
 """Part of the time after which a motion is looked at for its means: the first half holds the start."""
