@@ -25,6 +25,10 @@ _PROMINENCE = 0.005
 """How far K_v must fall on both sides of a peak that counts as a resonance."""
 
 
+_IDLE = 50.0
+"""A shaft whose torque exceeds its static one so many times carries nothing at rest that a factor could refer to."""
+
+
 class ForceDefinition(Enum):
     """Which force between the teeth K_v compares with the static one."""
 
@@ -110,6 +114,8 @@ def kv_chart(
     means = static.others[response.system.inertias.shape[1] :]
     references, signs = _references(means, shaft_references)
     factors, least, torques = _extremes(response, definition, signs)
+    given = np.array([value is not None for value in shaft_references or [None] * len(means)], bool)
+    references = np.where(given | (torques.max(axis=0) < _IDLE * references), references, np.nan)
     standard = None
     if method_b is not None:
         standard = method_b.values(response.frequencies * 30 / (np.pi * method_b.teeth))

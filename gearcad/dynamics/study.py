@@ -21,7 +21,7 @@ from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.periodic import periodic_response
 from gearcad.dynamics.response import PeriodicResponse
 from gearcad.dynamics.system import System
-from gearcad.dynamics.train import Train
+from gearcad.dynamics.train import Train, TrainModel
 
 __all__ = ["Course", "TrainStudy", "study_train"]
 
@@ -84,10 +84,11 @@ class TrainStudy:
     def warnings(self) -> tuple[str, ...]:
         """What to know before trusting it."""
         found = list(dict.fromkeys((*self.up.warnings, *(self.down.warnings if self.down is not None else ()))))
-        if self.modes.rigid:
-            found.append(f"{self.modes.rigid} natural frequency is 0: the train turns as a whole, no shaft holds it")
-        if self.modes.missed:
-            found.append(f"{self.modes.missed} natural frequencies below the highest of these are not in this model")
+        if self.modes.missed and self.train.model is not TrainModel.MODES:
+            found.append(
+                f"natural frequencies below the highest listed that this model does not have: {self.modes.missed}; "
+                'the model "exact" has them all'
+            )
         return tuple(found)
 
     def to_dict(self) -> dict[str, Any]:
