@@ -45,9 +45,7 @@ def simulate(design: Design | TrainDesign, progress: Progress | None = None) -> 
 
 def _of_pair(design: Design, progress: Progress | None) -> PairStudy | ContactStudy:
     if design.pair is None:
-        raise ParameterError(
-            "kind", design.kind.value, "must be a pair or a train: a single gear has no mesh"
-        )
+        raise ParameterError("kind", design.kind.value, "must be a pair or a train: a single gear has no mesh")
     if design.load is None or not design.load.torque:
         given = None if design.load is None else design.load.torque
         raise ParameterError("load.torque", given, "must be given, in N·m on the pinion: flanks without load rattle")
@@ -69,7 +67,8 @@ def _of_pair(design: Design, progress: Progress | None) -> PairStudy | ContactSt
     if options.pair_model is PairModel.CONTACT:
         return study_contact(pair, design.load, cycle, inertias, options, tell=tell)
     assert cycle is not None  # made above
-    return study_pair(pair, material, design.load, cycle, inertias, options, tell=tell)
+    masses = _masses(pair, material) if options.pinion_bearing_stiffness is not None else None
+    return study_pair(pair, material, design.load, cycle, inertias, options, masses=masses, tell=tell)
 
 
 def _inertias(pair: GearPair, material: Material, options: DynamicsOptions) -> tuple[float, float]:
@@ -82,6 +81,14 @@ def _inertias(pair: GearPair, material: Material, options: DynamicsOptions) -> t
             given = mass_properties(gear, material.density).inertia
         found.append(given)
     return found[0], found[1]
+
+
+def _masses(pair: GearPair, material: Material) -> tuple[float, float]:
+    """Of pinion and wheel (kg), as solids."""
+    from gearcad.solids.inertia import mass_properties
+
+    pinion, wheel = (mass_properties(gear, material.density).mass for gear in (pair.pinion, pair.wheel))
+    return pinion, wheel
 
 
 def _teller(progress: Progress | None, kind: str) -> Callable[[str], None]:

@@ -10,7 +10,7 @@ import numpy as np
 from gearcad.dynamics.excitation import Excitation, MeshExcitation, cycle_excitation
 from gearcad.dynamics.graph import turning_pieces
 from gearcad.dynamics.mesh_curves import CosineStiffness, StiffnessShape, square_stiffness
-from gearcad.dynamics.tooth_errors import TransmissionError, flank_tolerances, random_deviations, tooth_errors
+from gearcad.dynamics.tooth_errors import ToothDeviations, TransmissionError, flank_tolerances, random_deviations, tooth_errors
 from gearcad.dynamics.train import Inertia, Mesh, StiffnessWave, Train, TrainModel
 from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair
@@ -26,14 +26,15 @@ _CONTACT_RATIO = 1.6
 
 
 def train_excitation(train: Train, *, grade: int | None = None, seed: int = 0, harmonics: int = 6) -> Excitation:
-    """Stiffness waves and backlashes of a train's meshes, in its order; random pitch deviations of an ISO 1328 `grade`.
+    """Stiffness waves, backlashes and pitch deviations of a train's meshes; random ones of an ISO 1328 `grade`, if given.
 
-    The deviations are those of the pinions' teeth, drawn with `seed`: with the wheels' the period would be that of both.
+    The deviations are those of the pinions' teeth, drawn with `seed` where a mesh has none given: with the wheels' the period
+    would be that of both.
     """
     ratios = _tooth_ratios(train)
     meshes = []
     for number, (mesh, ratio) in enumerate(zip(train.meshes, ratios, strict=True)):
-        error = None if grade is None else _mesh_errors(mesh, grade, seed + number, harmonics)
+        error = _mesh_errors(mesh, grade, seed + number, harmonics) if mesh.pitch_deviations or grade is not None else None
         meshes.append(
             MeshExcitation(
                 stiffness=_wave(mesh), phase=-360 * mesh.phase, frequency_ratio=ratio, error=error, backlash=mesh.backlash
@@ -49,8 +50,14 @@ def _wave(mesh: Mesh) -> StiffnessShape:
     return square_stiffness(mesh.contact_ratio)
 
 
-def _mesh_errors(mesh: Mesh, grade: int, seed: int, harmonics: int) -> TransmissionError:
-    """Of the pinion's teeth, taken to have a pressure angle of 20 degrees."""
+def _mesh_errors(mesh: Mesh, grade: int | None, seed: int, harmonics: int) -> TransmissionError:
+    """Of the pinion's teeth: as given, or random ones of a gear taken to have a pressure angle of 20 degrees."""
+    if mesh.pitch_deviations:
+        pitches = np.array(mesh.pitch_deviations)
+        # What is left after a turn would be no pitch deviation.
+        given = ToothDeviations(position=-np.cumsum(pitches - pitches.mean()))
+        return tooth_errors(given, contact_ratio=mesh.contact_ratio or _CONTACT_RATIO, harmonics=harmonics)
+    assert grade is not None  # one of the two is there
     diameter = 2 * mesh.base_radii[0] / math.cos(math.radians(_PRESSURE_ANGLE))
     tolerances = flank_tolerances(grade, diameter, diameter / mesh.teeth)
     ratio = mesh.contact_ratio or _CONTACT_RATIO

@@ -35,10 +35,13 @@ class DynamicsOptions:
     a train; `accuracy_grade` (ISO 1328) is that of K_v by ISO 6336-1 and, with `tooth_errors` "on", of random pitch deviations
     of the pinions' teeth, drawn with `seed`.
 
-    Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh, `damping_ratio` that
-    of the pair alone, `pinion_inertia` and `wheel_inertia` in kg·m² (None: of their own solids). Of the contact model
-    `tooth_stiffness` (N/µm) of one pair of teeth (None: mean mesh stiffness over the contact ratio), `tooth_damping` (N·s/m;
-    None: by the damping ratio); every speed runs for `duration` (s), sampled at `sampling` (Hz).
+    Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh, `damping_ratio`
+    that of the pair alone, `pinion_inertia` and `wheel_inertia` in kg·m² (None: of their own solids). With
+    `pinion_bearing_stiffness` and `wheel_bearing_stiffness` (N/µm across the axis) and a `bearing_damping` (N·s/m) the gears
+    travel as well as turn: six degrees of freedom.
+
+    Of the contact model: `tooth_stiffness` (N/µm) of one pair of teeth (None: mean mesh stiffness over the contact ratio),
+    `tooth_damping` (N·s/m; None: by the damping ratio); each speed runs for `duration` (s), sampled at `sampling` (Hz).
     """
 
     speed_from: float | None = None
@@ -54,6 +57,9 @@ class DynamicsOptions:
     damping_ratio: float = 0.07
     pinion_inertia: float | None = None
     wheel_inertia: float | None = None
+    pinion_bearing_stiffness: float | None = None
+    wheel_bearing_stiffness: float | None = None
+    bearing_damping: float = 0.0
     tooth_stiffness: float | None = None
     tooth_damping: float | None = None
     duration: float = 1.0
@@ -78,6 +84,8 @@ class DynamicsOptions:
             ("speed_to", "rpm"),
             ("pinion_inertia", "kg·m²"),
             ("wheel_inertia", "kg·m²"),
+            ("pinion_bearing_stiffness", "N/µm"),
+            ("wheel_bearing_stiffness", "N/µm"),
             ("tooth_stiffness", "N/µm"),
             ("tooth_damping", "N·s/m"),
             ("duration", "s"),
@@ -88,6 +96,11 @@ class DynamicsOptions:
                 require_number(name, value, unit, at_least=0)
             elif value is not None:
                 require_number(name, value, unit, above=0)
+        require_number("bearing_damping", self.bearing_damping, "N·s/m", at_least=0)
+        if (self.pinion_bearing_stiffness is None) != (self.wheel_bearing_stiffness is None):
+            permitted = "must be given together with that of the other gear: both stand on bearings, or neither"
+            given = "pinion" if self.wheel_bearing_stiffness is None else "wheel"
+            raise GeometryError(f"{given}_bearing_stiffness", getattr(self, f"{given}_bearing_stiffness"), permitted, "N/µm")
         if self.speed_from is not None and self.speed_to is not None and self.speed_to <= self.speed_from:
             raise GeometryError("speed_to", self.speed_to, f"must be above speed_from, {self.speed_from:g} rpm", "rpm")
         if self.duration * self.sampling > 5e7:

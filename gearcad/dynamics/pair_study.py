@@ -14,10 +14,14 @@ from gearcad.dynamics.campbell import CampbellStudy, campbell
 from gearcad.dynamics.contact_model import ContactModel
 from gearcad.dynamics.driving import pair_errors, pair_excitation, pair_train
 from gearcad.dynamics.dynamic_factor import DynamicFactor, reduced_mass
+from gearcad.dynamics.lines import system
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.pair_history import TimeHistory, time_history
+from gearcad.dynamics.six_dof import PairOnBearings
 from gearcad.dynamics.study import TrainStudy, study_train
 from gearcad.dynamics.tooth_errors import flank_tolerances
+from gearcad.dynamics.train import Train
+from gearcad.errors import ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
@@ -38,12 +42,16 @@ _SPAN = 3.0
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PairStudy:
-    """A pair as mounted, its mesh cycle and inertias (kg·m²), and the study of both as a train of one mesh."""
+    """A pair as mounted, its mesh cycle and inertias (kg·m²), and the study of both as a train of one mesh.
+
+    With `bearings` the charts are those of six degrees of freedom; the natural modes are still those of the turning alone.
+    """
 
     pair: GearPair
     cycle: MeshCycle
     inertias: tuple[float, float]
     study: TrainStudy
+    bearings: PairOnBearings | None
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -59,6 +67,7 @@ class PairStudy:
             "mesh_stiffness_tangent_mean": self.cycle.tangent_mean,
             "pinion_inertia": self.inertias[0],
             "wheel_inertia": self.inertias[1],
+            "frequencies_on_bearings": None if self.bearings is None else list(self.bearings.frequencies()),
             **{key: value for key, value in self.study.to_dict().items() if key != "model"},
             "warnings": list(self.warnings),
         }
@@ -121,19 +130,46 @@ def study_pair(
     inertias: tuple[float, float],
     options: DynamicsOptions | None = None,
     *,
+    masses: tuple[float, float] | None = None,
     tell: Callable[[str], None] = lambda _step: None,
 ) -> PairStudy:
     """K_v over speed of a pair by itself, beside ISO 6336-1 Method B, and the course at the load's speed.
 
-    `cycle` is the pair's mesh cycle under the load, `inertias` (kg·m²) those of pinion and wheel.
+    `cycle` is the pair's mesh cycle under the load, `inertias` (kg·m²) those of pinion and wheel; their `masses` (kg) are
+    needed where the options give bearings.
     """
     options = options or DynamicsOptions()
     train = pair_train(pair, cycle, inertias, torque=cycle.torque, speed=load.speed, damping_ratio=options.damping_ratio)
     errors = pair_errors(pair, options.accuracy_grade, options.seed, options.harmonics) if options.errors else None
     excitation = pair_excitation(train, cycle, errors, harmonics=options.harmonics)
     factor = method_b(pair, material, load, inertias, options.accuracy_grade)
-    study = study_train(train, options, excitation=excitation, method_b=factor, tell=tell)
-    return PairStudy(pair=pair, cycle=cycle, inertias=inertias, study=study)
+    bearings = _on_bearings(train, pair, options, masses)
+    of = None if bearings is None else bearings.system()
+    study = study_train(train, options, excitation=excitation, method_b=factor, of=of, tell=tell)
+    return PairStudy(pair=pair, cycle=cycle, inertias=inertias, study=study, bearings=bearings)
+
+
+def _on_bearings(
+    train: Train, pair: GearPair, options: DynamicsOptions, masses: tuple[float, float] | None
+) -> PairOnBearings | None:
+    """The pair's turning gears on the bearings of the options, if these have any."""
+    first, second = options.pinion_bearing_stiffness, options.wheel_bearing_stiffness
+    if first is None or second is None:
+        return None
+    if masses is None:
+        raise ParameterError("masses", None, "must be given for gears on bearings, in kg", "kg")
+    of, mesh = system(train), train.meshes[0]
+    return PairOnBearings(
+        masses=masses,
+        inertias=(train.inertias[0].inertia, train.inertias[1].inertia),
+        base_radii=mesh.base_radii,
+        working_transverse_pressure_angle=pair.working_transverse_pressure_angle,
+        mesh_stiffness=mesh.stiffness,
+        bearing_stiffness=((first, first), (second, second)),
+        mesh_damping=float(of.mesh_damping[0]),
+        bearing_damping=options.bearing_damping,
+        torque=train.torques["pinion"],
+    )
 
 
 def method_b(pair: GearPair, material: Material, load: Load, inertias: tuple[float, float], grade: int) -> DynamicFactor:

@@ -131,17 +131,19 @@ def study_train(
     *,
     excitation: Excitation | None = None,
     method_b: DynamicFactor | None = None,
+    of: System | None = None,
     tell: Callable[[str], None] = lambda _step: None,
 ) -> TrainStudy:
     """Modes, charts and the course at the train's speed (or at its highest resonance).
 
     `excitation` is that of the train's own meshes unless given; `method_b` is K_v by ISO 6336-1 of the first mesh.
+    `of` stands in for the train's system in the charts, with the same meshes.
     Raises ParameterError, GeometryError and SolverError.
     """
     options = options or DynamicsOptions()
     tell("modes")
     modes = natural_modes(train, count=options.frequencies)
-    of = system(train)
+    of = of or system(train)
     if excitation is None:
         grade = options.accuracy_grade if options.errors else None
         excitation = train_excitation(train, grade=grade, seed=options.seed, harmonics=options.harmonics)

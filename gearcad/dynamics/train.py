@@ -132,7 +132,8 @@ class Mesh(_Part):
     action in N/µm is the mean, about which it varies by `variation` (relative amplitude) in a `shape`, delayed by `phase` (in
     tooth periods); `contact_ratio` says how long a square wave stays high. `damping` in N·s/m, or `damping_ratio` of the pair
     alone on its two inertias. `preload` (N) presses the flanks by opposite torques on both gears, beside the train's torques.
-    `backlash` in µm along the line of action; None: flanks never part. Raises ParameterError, GeometryError.
+    `backlash` in µm along the line of action; None: flanks never part. `pitch_deviations` f_pt (µm, ISO 1328-1) of the pinion's
+    teeth, one each, in the order in which they come into mesh. Raises ParameterError, GeometryError.
     """
 
     name: str
@@ -149,6 +150,7 @@ class Mesh(_Part):
     phase: float = 0.0
     backlash: float | None = None
     preload: float = 0.0
+    pitch_deviations: tuple[float, ...] = ()
     internal: bool = False
 
     def __post_init__(self) -> None:
@@ -164,6 +166,7 @@ class Mesh(_Part):
         self._number("phase", at_least=-1, at_most=1)
         self._number("backlash", "µm", at_least=0)
         self._number("preload", "N", at_least=0)
+        object.__setattr__(self, "pitch_deviations", _deviations(self.name, self.pitch_deviations, self.teeth))
         if not isinstance(self.internal, bool):
             raise ParameterError(f"{self.name}.internal", self.internal, "must be true or false")
         if self.damping is not None and self.damping_ratio is not None:
@@ -176,6 +179,18 @@ class Mesh(_Part):
         """What the turns of pinion and wheel, both counter-clockwise, move along the line of action (m per rad)."""
         pinion, wheel = self.base_radii
         return pinion / 1000, (-wheel if self.internal else wheel) / 1000
+
+
+def _deviations(name: str, values: Any, teeth: int) -> tuple[float, ...]:
+    """Pitch deviations, checked: none, or one for each tooth."""
+    if not isinstance(values, list | tuple) or len(values) not in (0, teeth):
+        count = len(values) if isinstance(values, list | tuple) else values
+        raise ParameterError(
+            f"{name}.pitch_deviations", count, f"must be {teeth} numbers in µm: one for each tooth of the pinion"
+        )
+    for value in values:
+        require_number(f"{name}.pitch_deviations", value, "µm")
+    return tuple(float(value) for value in values)
 
 
 def _two_radii(name: str, values: Any) -> tuple[float, float]:

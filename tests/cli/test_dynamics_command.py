@@ -100,6 +100,41 @@ def test_a_pair_without_further_data(here: Path) -> None:
     assert document["course"]["speed"] == pytest.approx(6000, rel=0.1)
 
 
+def test_a_pair_on_bearings(here: Path) -> None:
+    """Stiff bearings leave the torsional pair; soft ones bring frequencies of their own."""
+    found = {}
+    for stiffness in ("1e7", "100.0"):
+        bearings = f"speeds = 40\npinion_bearing_stiffness = {stiffness}\nwheel_bearing_stiffness = {stiffness}"
+        result = run("dynamics", spec(PAIR.replace("speeds = 40", bearings)), "--quiet", "--json")
+        assert result.exit_code == 0, result.output
+        found[stiffness] = json.loads(result.stdout)
+    stiff, soft = found["1e7"], found["100.0"]
+    assert stiff["frequencies_on_bearings"][1] == pytest.approx(stiff["modes"]["frequency"][1], rel=1e-4)
+    assert soft["frequencies_on_bearings"][1] < 0.7 * soft["modes"]["frequency"][1]
+    alone = json.loads(run("dynamics", spec(PAIR), "--quiet", "--json").stdout)
+    assert stiff["chart"]["kv"]["mesh"] == pytest.approx(alone["chart"]["kv"]["mesh"], rel=1e-3)
+    assert soft["chart"]["kv"]["mesh"] != pytest.approx(alone["chart"]["kv"]["mesh"], rel=0.05)
+
+
+def test_pitch_deviations_given_or_drawn(here: Path) -> None:
+    """A tooth that stands proud by 40 µm shakes the train once a turn; one seed gives one gear."""
+    assert "preload" in TRAIN
+    given = [0.0] * 18
+    given[4], given[5] = 40.0, -40.0
+    found = []
+    for more in (f"pitch_deviations = {given}\n", "", "drawn", "drawn", "other"):
+        text = TRAIN.replace("speeds = 160", "speeds = 20")
+        if more in ("drawn", "other"):
+            text += f"tooth_errors = 'on'\naccuracy_grade = 7\nseed = {int(more == 'other')}\n"
+        else:
+            text = text.replace("[dynamics]", f"{more}[dynamics]")
+        result = run("dynamics", spec(text), "--quiet", "--json")
+        assert result.exit_code == 0, result.output
+        found.append(json.loads(result.stdout)["chart"]["kv"]["mesh"])
+    assert max(found[0]) > max(found[1]) + 0.05
+    assert found[2] == found[3] != found[4]
+
+
 def test_the_contact_model_of_the_thesis(here: Path) -> None:
     text = (TEMPLATES / "uhlir-19-23.toml").read_text(encoding="utf-8")
     short = text.replace("speeds = 41", "speeds = 3").replace("duration = 1.0", "duration = 0.2")
@@ -126,6 +161,14 @@ def test_the_contact_model_of_the_thesis(here: Path) -> None:
         ),
         (TRAIN.replace("inertia = 0.0058 ", "inertia = 0.0 "), "line 16: pinion.inertia = 0 kg·m²: must be"),
         (TRAIN.replace("stiffness = 705.0 ", "stiffness = -705.0 "), "mesh.stiffness = -705 N/µm: must be"),
+        (
+            TRAIN.replace("variation = 0.206", "pitch_deviations = [1.0, 2.0]"),
+            "mesh.pitch_deviations = 2: must be 18 numbers in µm",
+        ),
+        (
+            PAIR.replace("speeds = 40", "pinion_bearing_stiffness = 5.0"),
+            "line 16: dynamics.pinion_bearing_stiffness = 5 N/µm: must be given together",
+        ),
         (TRAIN.replace("variation = 0.206", "variation = 1.2"), "mesh.variation = 1.2: must be"),
         (TRAIN.replace('wheel = "wheel"', 'wheel = "whel"'), "'whel'"),
         (TRAIN.replace("teeth = 18 ", "tooth = 18 "), "train.mesh[0].tooth: unknown key; did you mean teeth?"),

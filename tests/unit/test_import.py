@@ -5,7 +5,10 @@ from __future__ import annotations
 import subprocess
 import sys
 
-HEAVY = ("scipy", "cadquery", "OCP", "gmsh", "matplotlib", "vtk", "vtkmodules", "trimesh", "ezdxf", "rich", "skfem", "meshio")
+HEAVY = (
+    *("scipy", "cadquery", "OCP", "gmsh", "matplotlib", "vtk", "vtkmodules"),
+    *("trimesh", "ezdxf", "rich", "skfem", "meshio", "numba"),
+)
 
 
 def test_import_pulls_in_no_heavy_library() -> None:
