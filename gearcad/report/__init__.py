@@ -1,6 +1,14 @@
-"""The reports of a check and of a comparison of stiffness: HTML files that need nothing else."""
+"""The reports of a check, of a comparison of stiffness and of dynamics: HTML files that need nothing else."""
 
+from gearcad.report.dynamics import dynamics_html, write_dynamics_report
 from gearcad.report.stiffness import stiffness_html, write_stiffness_report
 from gearcad.report.write import report_html, write_report
 
-__all__ = ["report_html", "stiffness_html", "write_report", "write_stiffness_report"]
+__all__ = [
+    "dynamics_html",
+    "report_html",
+    "stiffness_html",
+    "write_dynamics_report",
+    "write_report",
+    "write_stiffness_report",
+]

@@ -1,0 +1,228 @@
+"""Pictures of a train over speed: dynamic factors of meshes, overload of shafts; its course at one speed; a mesh cycle."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.dynamics.study import TrainStudy
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.plots.labels import plain
+from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, PALE, SERIES, legend_above, new_figure, prepared
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = [
+    "course_inches",
+    "plot_course",
+    "plot_cycle",
+    "plot_factors",
+    "plot_shaft_overload",
+    "shafts_with_reference",
+]
+
+Floats = NDArray[np.float64]
+
+_SPEED = "speed of the pinion in rpm"
+
+_TOP_AXIS = 36.0
+"""Points that a second axis above takes."""
+
+_NEAR = 0.035
+"""Part of the axis below which the names of two natural frequencies would lie on each other."""
+
+_ROOM = 1.16
+"""Above the curves, for those names."""
+
+_WIDE = 20.0
+"""Ratio of greatest to least overload above which the axis is logarithmic."""
+
+_LEAST_TEETH, _MOST_TEETH = 3.0, 24.0
+"""Tooth periods that a course shows: shorter ones come again, longer ones are cut."""
+
+_FELT = 0.02
+"""Share of a mode's potential energy that the meshes must hold for half its frequency to be named as well."""
+
+
+def plot_factors(study: TrainStudy, ax: Axes | None = None) -> Axes:
+    """K_v of every mesh over speed: running up, down dashed, with jumps; where tooth frequencies meet natural ones."""
+    axes = prepared(ax, _SPEED, "dynamic factor $K_{\\mathrm{v}}$")
+    up, down = study.up, study.down
+    if up.standard is not None:
+        axes.plot(study.speeds, up.standard, color=MARKED, linewidth=2.2, label="ISO 6336-1, Method B")
+    for mesh, name in enumerate(up.mesh_names):
+        colour, words = SERIES[mesh % len(SERIES)], plain(name) if len(up.mesh_names) > 1 else "this model"
+        for chart, style, sense in ((up, "-", ", running up"), (down, "--", ", running down")):
+            if chart is not None:
+                label = words + (sense if down is not None else "")
+                axes.plot(study.speeds, chart.factors[:, mesh], style, color=colour, linewidth=1.4, label=label)
+        _draw_jumps(axes, study, mesh)
+    factors = np.concatenate([chart.factors.ravel() for chart in (up, down) if chart is not None])
+    lowest, highest = min(1.0, float(factors.min())), float(max(factors.max(), 1.0))
+    axes.set_xlim(float(study.speeds[0]), float(study.speeds[-1]))
+    axes.set_ylim(lowest - 0.04 * (highest - lowest), lowest + _ROOM * max(highest - lowest, 0.02))
+    _shade_unstable(axes, study)
+    _mark_parting(axes, study)
+    _mark_modes(axes, study)
+    if study.train.speed:
+        axes.plot(abs(study.train.speed), 0, "^", color=DARK, transform=axes.get_xaxis_transform(), label="speed asked for")
+    _finish(axes, study)
+    return axes
+
+
+def plot_shaft_overload(study: TrainStudy, ax: Axes | None = None) -> Axes:
+    """Greatest torque of every shaft over its static one, where it has one, over speed."""
+    axes = prepared(ax, _SPEED, "greatest torque over the static one")
+    kept = shafts_with_reference(study)
+    for shaft in kept:
+        colour, words = SERIES[shaft % len(SERIES)], plain(study.up.shaft_names[shaft])
+        axes.plot(study.speeds, study.up.shaft_factors[:, shaft], color=colour, linewidth=1.4, label=words)
+        if study.down is not None:
+            axes.plot(study.speeds, study.down.shaft_factors[:, shaft], color=colour, linewidth=1.4, linestyle="--")
+    factors = study.up.shaft_factors[:, kept]
+    axes.set_xlim(float(study.speeds[0]), float(study.speeds[-1]))
+    if factors.size and factors.max() > _WIDE * factors.min() > 0:
+        axes.set_yscale("log")
+    _finish(axes, study)
+    return axes
+
+
+def shafts_with_reference(study: TrainStudy) -> list[int]:
+    """Shafts that have an overload: the others carry nothing at rest."""
+    return [shaft for shaft, column in enumerate(study.up.shaft_factors.T) if np.isfinite(column).all()]
+
+
+def _draw_jumps(axes: Axes, study: TrainStudy, mesh: int) -> None:
+    """An arrow from where a motion ends to where another takes over."""
+    for chart, jumps, before in ((study.up, study.jumps[0], -1), (study.down, study.jumps[1], 1)):
+        if chart is None:
+            continue
+        for jump in jumps:
+            after = int(np.abs(chart.frequencies - jump).argmin())
+            start, end = ((float(study.speeds[i]), float(chart.factors[i, mesh])) for i in (after + before, after))
+            axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": DARK, "linewidth": 1.0})
+
+
+def _shade_unstable(axes: Axes, study: TrainStudy) -> None:
+    """Ranges in which no periodic motion lasts."""
+    label = "unstable"
+    for start, end in _ranges(study.speeds, ~study.up.stable):
+        axes.axvspan(start, end, color=PALE, alpha=0.45, linewidth=0, label=label, zorder=0)
+        label = ""
+
+
+def _mark_parting(axes: Axes, study: TrainStudy) -> None:
+    """A bar along the axis where flanks part, or would if they could."""
+    apart = np.any(study.up.least <= 0, axis=1)
+    label = "flanks part" if study.excitation.parting else "flanks would part"
+    for start, end in _ranges(study.speeds, apart):
+        axes.plot([start, end], [0.012, 0.012], color=DARK, linewidth=3, transform=axes.get_xaxis_transform(), label=label)
+        label = ""
+
+
+def _ranges(speeds: Floats, marked: NDArray[np.bool_]) -> list[tuple[float, float]]:
+    """Runs of marked speeds, each with half the way to its neighbours."""
+    edges = np.concatenate([speeds[:1], (speeds[1:] + speeds[:-1]) / 2, speeds[-1:]])
+    turns = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]]).astype(int)))
+    return [(float(edges[start]), float(edges[end])) for start, end in turns.reshape(-1, 2)]
+
+
+def _mark_modes(axes: Axes, study: TrainStudy) -> None:
+    """Thin lines where the tooth frequency of a mesh is a natural frequency, or half of one; names where there is room."""
+    modes, (first, last) = study.modes, axes.get_xlim()
+    found: dict[float, tuple[str, str]] = {}
+    # Where meshes have frequencies of their own, a line has the colour of the mesh that meets the mode there.
+    several = len({mesh.frequency_ratio for mesh in study.excitation.meshes}) > 1
+    for mode in range(modes.rigid, len(modes)):
+        felt = modes.potential_meshes[mode].sum() > _FELT
+        for part in (1, 2) if felt else (1,):
+            for mesh, speed in enumerate(modes.rpm[mode] / part):
+                words = f"$f_{{{mode + 1}}}$" + ("/2" if part == 2 else "")
+                found.setdefault(round(float(speed), 6), (words, SERIES[mesh % len(SERIES)] if several else MARKED))
+    ends = {0: -math.inf, 1: -math.inf}
+    for speed, (words, colour) in sorted(found.items()):
+        if not first <= speed <= last:
+            continue
+        axes.axvline(speed, color=colour, linewidth=0.8, linestyle="--" if words.endswith("/2") else "-", zorder=0)
+        row = next((row for row, end in ends.items() if speed - end > _NEAR * (last - first)), None)
+        if row is not None:
+            ends[row] = speed
+            place = (speed, 0.985 - 0.06 * row)
+            axes.text(
+                *place, f" {words}", transform=axes.get_xaxis_transform(), va="top", fontsize=8, color=DARK, clip_on=True
+            )  # fmt: skip
+
+
+def _finish(axes: Axes, study: TrainStudy) -> None:
+    """The tooth frequency on a second axis, and a legend above it."""
+    from matplotlib.transforms import ScaledTranslation
+
+    teeth = study.train.meshes[0].teeth
+    functions = (lambda speed: np.asarray(speed) * teeth / 60, lambda hertz: np.asarray(hertz) * 60 / teeth)
+    above = axes.secondary_xaxis("top", functions=functions)
+    name = f" of {plain(study.train.meshes[0].name)}" if len(study.train.meshes) > 1 else ""
+    above.set_xlabel(f"tooth frequency{name} in Hz")
+    above.spines["top"].set_color(MARKED)
+    figure = axes.get_figure(root=True)
+    assert figure is not None  # prepared() has put them on one
+    raised = axes.transAxes + ScaledTranslation(0, _TOP_AXIS / 72, figure.dpi_scale_trans)
+    place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "bbox_transform": raised}
+    axes.legend(ncols=3, frameon=False, fontsize=9, borderaxespad=0.2, **place)
+
+
+# ---------------------------------------------------------------------- one speed
+
+
+def course_inches(study: TrainStudy) -> tuple[float, float]:
+    """Size of a figure of the course."""
+    return FIGURE_INCHES[0], 4.0 + 1.7 * bool(study.up.shaft_names)
+
+
+def plot_course(study: TrainStudy, figure: Figure | None = None) -> Figure:
+    """Approach of the flanks, force between them over the static one, and torques of the shafts over some tooth periods."""
+    of = new_figure(course_inches(study)) if figure is None else figure
+    course, shafts = study.course, study.up.shaft_names
+    panels = of.subplots(2 + bool(shafts), 1, sharex=True)
+    each = [
+        (course.approach, study.up.mesh_names, "approach in µm"),
+        (course.force / study.up.static_forces, study.up.mesh_names, "force / static one"),
+        (course.shaft_torque, shafts, "shaft torque in N·m"),
+    ]
+    for panel, (values, names, words) in zip(panels, each, strict=False):
+        prepared(panel, "", words)
+        for number, name in enumerate(names):
+            turn, drawn = _repeated(course.turn, values[:, number])
+            panel.plot(turn, drawn, color=SERIES[number % len(SERIES)], linewidth=1.3, label=plain(name))
+        if len(names) > 1:
+            panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
+    panels[1].axhline(0, color=MARKED, linewidth=0.8)
+    panels[1].axhline(1, color=MARKED, linewidth=0.8, linestyle="--")
+    name = f" of {plain(study.up.mesh_names[0])}" if len(study.up.mesh_names) > 1 else ""
+    panels[-1].set_xlabel(f"time in tooth periods{name}")
+    panels[0].set_xlim(0, float(_repeated(course.turn, course.turn)[0][-1]))
+    return of
+
+
+def _repeated(turn: Floats, values: Floats) -> tuple[Floats, Floats]:
+    """Some tooth periods of what comes again after `turn`, closed."""
+    step = float(turn[1] - turn[0])
+    times = math.ceil(_LEAST_TEETH / (step * len(turn)))
+    count = min(times * len(turn), round(_MOST_TEETH / step)) + 1
+    return np.asarray(step * np.arange(count), float), np.resize(values, count)
+
+
+def plot_cycle(cycle: MeshCycle, ax: Axes | None = None) -> Axes:
+    """Mesh stiffness over one base pitch, secant and tangent, with the mean that the dynamics refer to."""
+    axes = prepared(ax, "roll angle of the pinion in °, 0 at the pitch point", "mesh stiffness in N/µm")
+    for values, words, style in ((cycle.tangent_stiffness, "tangent", "-"), (cycle.mesh_stiffness, "secant", "--")):
+        axes.plot(cycle.roll_angle, values, color=SERIES[0], linewidth=1.5, linestyle=style, label=words)
+    axes.axhline(cycle.tangent_mean, color=MARKED, linewidth=1.2, label="mean tangent")
+    axes.set_xlim(float(cycle.roll_angle[0]), float(cycle.roll_angle[-1]))
+    axes.set_ylim(0, 1.08 * float(max(cycle.tangent_stiffness.max(), cycle.mesh_stiffness.max())))
+    legend_above(axes, 3)
+    return axes

@@ -1,0 +1,234 @@
+"""Pictures of a train's natural modes: their shapes along the train, and where their energy is."""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.dynamics.modes import NaturalModes
+from gearcad.dynamics.train import GROUND, Shaft, Train
+from gearcad.plots.labels import plain
+from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, SERIES, new_figure, prepared, short
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["MOST_SHAPES", "energies_inches", "plot_energies", "plot_shapes", "shapes_inches"]
+
+Floats = NDArray[np.float64]
+
+MOST_SHAPES = 12
+"""Modes that are drawn, the lowest."""
+
+_SHADES = {
+    "inertia": ("#0072b2", "#56b4e9", "#00334f", "#9fd0ec", "#3d5a80", "#b8c9d9"),
+    "shaft": ("#009e73", "#66c5ab", "#004d38", "#b3e2d5", "#5b8c2a", "#c5dba4"),
+    "mesh": ("#d55e00", "#f0b27a", "#8a3d00", "#e69f00", "#f7dcc0", "#b5651d"),
+}
+"""Blue stores the motion of bodies, green is of shafts, orange of teeth."""
+
+_GAP = 0.1
+"""Part of all shafts' length that a mesh takes, so that what it joins does not lie on each other."""
+
+_WORD = 0.018
+"""Share of a bar (of 1) that one letter takes."""
+
+_LETTERS = 30
+"""Of all names along the train, that have room below a panel of half the width."""
+
+_Node = tuple[str, str]
+"""("inertia", name), or ("ground", name of the shaft that ends there)."""
+
+
+class _Way(NamedTuple):
+    """A train laid out along x: `places` of inertias and of ends of shafts in the ground, in the length of shafts."""
+
+    places: dict[_Node, float]
+    shafts: list[tuple[Shaft, _Node, _Node]]
+
+
+# ---------------------------------------------------------------------- shapes
+
+
+def shapes_inches(train: Train, modes: NaturalModes) -> tuple[float, float]:
+    """Size of a figure of all shapes."""
+    rows = math.ceil(min(len(modes), MOST_SHAPES) / _columns(train, modes))
+    return FIGURE_INCHES[0], 0.9 + 1.35 * rows
+
+
+def plot_shapes(train: Train, modes: NaturalModes, figure: Figure | None = None) -> Figure:
+    """A panel per mode, of the first twelve: the turn along the train, its greatest 1, with a jump at every mesh."""
+    of = new_figure(shapes_inches(train, modes)) if figure is None else figure
+    count, columns, way = min(len(modes), MOST_SHAPES), _columns(train, modes), _laid_out(train, modes)
+    rows = math.ceil(count / columns)
+    panels = of.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
+    for mode, panel in enumerate(panels[:count]):
+        _draw_shape(panel, train, modes, mode, way)
+    panels[0].set_ylim(-1.25, 1.25)
+    panels[0].set_yticks([-1, 0, 1])
+    panels[0].set_xticks([])
+    for number, panel in enumerate(panels):
+        panel.set_visible(number < count)
+        if number < count <= number + columns:
+            _name_places(panel, train, way)
+    of.supylabel("turn, the greatest of a mode is 1", fontsize=9)
+    return of
+
+
+def _columns(train: Train, modes: NaturalModes) -> int:
+    return 2 if len(modes) > 1 and sum(map(len, (*modes.inertias, *modes.shafts))) <= _LETTERS else 1
+
+
+def _draw_shape(axes: Axes, train: Train, modes: NaturalModes, mode: int, way: _Way) -> None:
+    prepared(axes, "", "")
+    axes.grid(False, axis="x")
+    axes.axhline(0, color=MARKED, linewidth=0.7)
+    scale = 1 / np.abs(np.concatenate([modes.shape[mode], modes.shaft_shape[mode].ravel()])).max()
+    turn = {("inertia", name): scale * each for name, each in zip(modes.inertias, modes.shape[mode].tolist(), strict=True)}
+    for node, place in way.places.items():
+        axes.axvline(place, color="#dddddd", linewidth=0.6, zorder=0)
+        axes.plot(place, turn.get(node, 0.0), "o" if node in turn else "|", color=DARK, markersize=5 if node in turn else 9)
+    for (_, start, end), shape in zip(way.shafts, modes.shaft_shape[mode], strict=True):
+        along = way.places[start] + modes.places * (way.places[end] - way.places[start])
+        axes.plot(along, scale * shape, color=SERIES[0], linewidth=1.6, zorder=1)
+    for mesh in train.meshes:
+        ends: list[_Node] = [("inertia", mesh.pinion), ("inertia", mesh.wheel)]
+        axes.plot([way.places[end] for end in ends], [turn[end] for end in ends], color=SERIES[1], linewidth=1.2, linestyle=":")
+    axes.set_title(_title(modes, mode), fontsize=8, loc="left", pad=3)
+
+
+def _title(modes: NaturalModes, mode: int) -> str:
+    if mode < modes.rigid:
+        return f"{mode + 1}: 0 Hz, turns as a whole"
+    speeds = list(dict.fromkeys(short(speed) for speed in modes.rpm[mode]))
+    words = f"; met at {' / '.join(speeds)} rpm" if speeds else ""
+    return f"{mode + 1}: {short(modes.frequency[mode])} Hz, {short(modes.circular[mode])} 1/s{words}"
+
+
+def _name_places(axes: Axes, train: Train, way: _Way) -> None:
+    """Inertias below their places, gears on their own side of the mesh; shafts in a line of their own below those."""
+    names: dict[float, list[str]] = {}
+    for (kind, name), place in way.places.items():
+        if kind == "inertia":
+            names.setdefault(round(place, 9), []).append(name)
+    mates = [(mesh.pinion, mesh.wheel) for mesh in train.meshes]
+    for place, here in names.items():
+        there = [way.places["inertia", other] for each in mates for name, other in (each, each[::-1]) if name in here]
+        right, left = (any(sign * (other - place) > 0 for other in there) for sign in (1, -1))
+        side = "center" if right == left else "right" if right else "left"
+        _write_below(axes, place, " / ".join(map(plain, here)), 4, side, DARK)
+    for shaft, start, end in way.shafts:
+        _write_below(axes, (way.places[start] + way.places[end]) / 2, plain(shaft.name), 16, "center", SERIES[0])
+
+
+def _write_below(axes: Axes, place: float, words: str, points: float, side: str, colour: str) -> None:
+    across = axes.get_xaxis_transform()
+    offset: dict[str, Any] = {"xytext": (0, -points), "textcoords": "offset points", "annotation_clip": False}
+    axes.annotate(words, (place, 0), xycoords=across, ha=side, va="top", fontsize=8, color=colour, **offset)
+
+
+def _laid_out(train: Train, modes: NaturalModes) -> _Way:
+    """Every place is as far along x as the shortest way to it from one end of the train is long."""
+    shafts = [(each, _node(each, each.start), _node(each, each.end)) for each in train.shafts if each.name in modes.shafts]
+    known = [shaft.length for shaft, _, _ in shafts if shaft.length is not None]
+    unit = sum(known) / len(known) if known else 1.0
+    lengths = [shaft.length if shaft.length is not None else unit for shaft, _, _ in shafts]
+    gap = _GAP * sum(lengths) if lengths else unit
+    ways: dict[_Node, dict[_Node, float]] = {("inertia", name): {} for name in modes.inertias}
+    joined = [(start, end, length) for (_, start, end), length in zip(shafts, lengths, strict=True)]
+    joined += [(("inertia", mesh.pinion), ("inertia", mesh.wheel), gap) for mesh in train.meshes]
+    for start, end, length in joined:
+        for one, other in ((start, end), (end, start)):
+            ways.setdefault(one, {})[other] = length
+    places: dict[_Node, float] = {}
+    for node in ways:
+        if node not in places:
+            one = _farthest(_distances(ways, node))
+            other = _farthest(_distances(ways, one))
+            # Whichever end was written down first is on the left.
+            piece = _distances(ways, min(one, other, key=list(ways).index))
+            begin = max(places.values()) + gap if places else 0.0
+            places |= {each: begin + far for each, far in piece.items()}
+    return _Way(places, shafts)
+
+
+def _node(shaft: Shaft, end: str) -> _Node:
+    return ("ground", shaft.name) if end == GROUND else ("inertia", end)
+
+
+def _distances(ways: dict[_Node, dict[_Node, float]], start: _Node) -> dict[_Node, float]:
+    """From one node to all that hang together with it, the nearest first (Dijkstra)."""
+    found: dict[_Node, float] = {}
+    waiting = [(0.0, start)]
+    while waiting:
+        far, node = heapq.heappop(waiting)
+        if node not in found:
+            found[node] = far
+            for there, length in ways[node].items():
+                heapq.heappush(waiting, (far + length, there))
+    return found
+
+
+def _farthest(distances: dict[_Node, float]) -> _Node:
+    return max(distances, key=lambda node: distances[node])
+
+
+# ---------------------------------------------------------------------- energies
+
+
+def energies_inches(modes: NaturalModes) -> tuple[float, float]:
+    """Size of a figure of all energies."""
+    return FIGURE_INCHES[0], 1.4 + 0.32 * len(modes)
+
+
+def plot_energies(modes: NaturalModes, figure: Figure | None = None) -> Figure:
+    """Shares of the parts in the kinetic energy of every mode, on the left, and in the potential energy, on the right."""
+    of = new_figure(energies_inches(modes)) if figure is None else figure
+    left, right = of.subplots(1, 2, sharey=True)
+    kinetic = [("inertia", modes.inertias, modes.kinetic_inertias), ("shaft", modes.shafts, modes.kinetic_shafts)]
+    potential = [("shaft", modes.shafts, modes.potential_shafts), ("mesh", modes.meshes, modes.potential_meshes)]
+    known: dict[str, Any] = {}
+    for axes, title, parts in ((left, "kinetic energy", kinetic), (right, "potential energy", potential)):
+        prepared(axes, "share in %", "")
+        axes.grid(False, axis="y")
+        axes.set_title(title, fontsize=10, loc="left")
+        known |= _stack(axes, parts)
+    left.set_yticks(range(len(modes)), [f"{number}: {short(each)} Hz" for number, each in enumerate(modes.frequency, 1)])
+    left.set_ylim(len(modes) - 0.5, -0.5)
+    left.set_xlim(0, 100)
+    right.set_xlim(0, 100)
+    for mode in range(modes.rigid):
+        right.text(2, mode, "none: turns as a whole", va="center", fontsize=8, color=DARK)
+    of.legend(known.values(), known.keys(), loc="outside upper left", ncols=4, frameon=False, fontsize=8)
+    return of
+
+
+def _stack(axes: Axes, parts: Sequence[tuple[str, Sequence[str], Floats]]) -> dict[str, Any]:
+    """Bars, with the name where it has room; handles of the legend by the part's words. Parts without energy are left out."""
+    known: dict[str, Any] = {}
+    height = max(len(shares) for _, _, shares in parts)
+    below = np.zeros(height)
+    for kind, names, shares in parts:
+        for number, (name, share) in enumerate(zip(names, shares.T, strict=True)):
+            if not share.any():
+                continue
+            colour = _SHADES[kind][number % len(_SHADES[kind])]
+            bars = axes.barh(range(height), 100 * share, left=100 * below, height=0.7, color=colour, edgecolor="white")
+            words = plain(name)
+            known[f"{kind} {words}" if kind not in name else words] = bars
+            for mode in np.flatnonzero(share > _WORD * (len(words) + 2)):
+                _name_bar(axes, 100 * (below[mode] + share[mode] / 2), int(mode), words, colour)
+            below += share
+    return known
+
+
+def _name_bar(axes: Axes, place: float, mode: int, words: str, colour: str) -> None:
+    red, green, blue = (int(colour[i : i + 2], 16) for i in (1, 3, 5))
+    dark = 0.299 * red + 0.587 * green + 0.114 * blue < 140
+    axes.text(place, mode, words, ha="center", va="center", fontsize=7, color="white" if dark else DARK)
