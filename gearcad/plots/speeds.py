@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gearcad.dynamics.kv import KvChart
 from gearcad.dynamics.study import TrainStudy
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.plots.labels import plain
@@ -36,11 +38,14 @@ _TOP_AXIS = 36.0
 _NEAR = 0.035
 """Part of the axis below which the names of two natural frequencies would lie on each other."""
 
+_PAPER: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.85}
+"""Below those names, where a line passes through."""
+
 _ROOM = 1.16
 """Above the curves, for those names."""
 
 _WIDE = 20.0
-"""Ratio of greatest to least overload above which the axis is logarithmic."""
+"""Overload, or ratio of greatest to least overload, above which the axis is logarithmic."""
 
 _LEAST_TEETH, _MOST_TEETH = 3.0, 24.0
 """Tooth periods that a course shows: shorter ones come again, longer ones are cut."""
@@ -49,8 +54,11 @@ _FELT = 0.02
 """Share of a mode's potential energy that the meshes must hold for half its frequency to be named as well."""
 
 
-def plot_factors(study: TrainStudy, ax: Axes | None = None) -> Axes:
-    """K_v of every mesh over speed: running up, down dashed, with jumps; where tooth frequencies meet natural ones."""
+def plot_factors(study: TrainStudy, ax: Axes | None = None, frequencies: Sequence[float] = ()) -> Axes:
+    """K_v of every mesh over speed: running up, down dashed, with jumps; where tooth frequencies meet natural ones.
+
+    `frequencies` (Hz) are drawn in the place of the modes', where the charts are those of a system with others.
+    """
     axes = prepared(ax, _SPEED, "dynamic factor $K_{\\mathrm{v}}$")
     up, down = study.up, study.down
     if up.standard is not None:
@@ -62,13 +70,11 @@ def plot_factors(study: TrainStudy, ax: Axes | None = None) -> Axes:
                 label = words + (sense if down is not None else "")
                 axes.plot(study.speeds, chart.factors[:, mesh], style, color=colour, linewidth=1.4, label=label)
         _draw_jumps(axes, study, mesh)
-    factors = np.concatenate([chart.factors.ravel() for chart in (up, down) if chart is not None])
-    lowest, highest = min(1.0, float(factors.min())), float(max(factors.max(), 1.0))
     axes.set_xlim(float(study.speeds[0]), float(study.speeds[-1]))
-    axes.set_ylim(lowest - 0.04 * (highest - lowest), lowest + _ROOM * max(highest - lowest, 0.02))
+    _set_height(axes, [chart for chart in (up, down) if chart is not None])
     _shade_unstable(axes, study)
     _mark_parting(axes, study)
-    _mark_modes(axes, study)
+    _mark_modes(axes, _mode_lines(study, frequencies))
     if study.train.speed:
         axes.plot(abs(study.train.speed), 0, "^", color=DARK, transform=axes.get_xaxis_transform(), label="speed asked for")
     _finish(axes, study)
@@ -95,6 +101,18 @@ def plot_shaft_overload(study: TrainStudy, ax: Axes | None = None) -> Axes:
 def shafts_with_reference(study: TrainStudy) -> list[int]:
     """Shafts that have an overload: the others carry nothing at rest."""
     return [shaft for shaft, column in enumerate(study.up.shaft_factors.T) if np.isfinite(column).all()]
+
+
+def _set_height(axes: Axes, charts: list[KvChart]) -> None:
+    """From 1 or below to the greatest K_v, with room for names above; logarithmic where it is far above 1."""
+    drawn = [chart.factors.ravel() for chart in charts] + [each.standard for each in charts if each.standard is not None]
+    factors = np.concatenate(drawn)
+    lowest, highest = min(1.0, float(factors.min())), float(max(factors.max(), 1.0))
+    if highest > _WIDE and lowest > 0:
+        axes.set_yscale("log")
+        axes.set_ylim(lowest * (highest / lowest) ** -0.04, lowest * (highest / lowest) ** _ROOM)
+    else:
+        axes.set_ylim(lowest - 0.04 * (highest - lowest), lowest + _ROOM * max(highest - lowest, 0.02))
 
 
 def _draw_jumps(axes: Axes, study: TrainStudy, mesh: int) -> None:
@@ -132,30 +150,39 @@ def _ranges(speeds: Floats, marked: NDArray[np.bool_]) -> list[tuple[float, floa
     return [(float(edges[start]), float(edges[end])) for start, end in turns.reshape(-1, 2)]
 
 
-def _mark_modes(axes: Axes, study: TrainStudy) -> None:
-    """Thin lines where the tooth frequency of a mesh is a natural frequency, or half of one; names where there is room."""
-    modes, (first, last) = study.modes, axes.get_xlim()
+def _mode_lines(study: TrainStudy, frequencies: Sequence[float]) -> dict[float, tuple[str, str]]:
+    """Name and colour by speed (rpm) at which a tooth frequency is a natural frequency, or half of one that bends teeth."""
+    modes = study.modes
     found: dict[float, tuple[str, str]] = {}
+    if frequencies:
+        known = [(number, part) for number, each in enumerate(frequencies, 1) if each for part in (1, 2)]
+        speeds = [np.array([60 * frequencies[number - 1] / study.train.meshes[0].teeth / part]) for number, part in known]
+    else:
+        felt = modes.potential_meshes.sum(axis=1) > _FELT
+        known = [(mode + 1, part) for mode in range(modes.rigid, len(modes)) for part in ((1, 2) if felt[mode] else (1,))]
+        speeds = [modes.rpm[number - 1] / part for number, part in known]
     # Where meshes have frequencies of their own, a line has the colour of the mesh that meets the mode there.
     several = len({mesh.frequency_ratio for mesh in study.excitation.meshes}) > 1
-    for mode in range(modes.rigid, len(modes)):
-        felt = modes.potential_meshes[mode].sum() > _FELT
-        for part in (1, 2) if felt else (1,):
-            for mesh, speed in enumerate(modes.rpm[mode] / part):
-                words = f"$f_{{{mode + 1}}}$" + ("/2" if part == 2 else "")
-                found.setdefault(round(float(speed), 6), (words, SERIES[mesh % len(SERIES)] if several else MARKED))
-    ends = {0: -math.inf, 1: -math.inf}
-    for speed, (words, colour) in sorted(found.items()):
+    for (number, part), each in zip(known, speeds, strict=True):
+        for mesh, speed in enumerate(each.tolist()):
+            words = f"$f_{{{number}}}$" + ("/2" if part == 2 else "")
+            found.setdefault(round(speed, 6), (words, SERIES[mesh % len(SERIES)] if several else MARKED))
+    return found
+
+
+def _mark_modes(axes: Axes, lines: Mapping[float, tuple[str, str]]) -> None:
+    """Thin lines, named where there is room."""
+    first, last = axes.get_xlim()
+    ends = [-math.inf, -math.inf]
+    for speed, (words, colour) in sorted(lines.items()):
         if not first <= speed <= last:
             continue
         axes.axvline(speed, color=colour, linewidth=0.8, linestyle="--" if words.endswith("/2") else "-", zorder=0)
-        row = next((row for row, end in ends.items() if speed - end > _NEAR * (last - first)), None)
+        row = next((row for row, end in enumerate(ends) if speed - end > _NEAR * (last - first)), None)
         if row is not None:
             ends[row] = speed
-            place = (speed, 0.985 - 0.06 * row)
-            axes.text(
-                *place, f" {words}", transform=axes.get_xaxis_transform(), va="top", fontsize=8, color=DARK, clip_on=True
-            )  # fmt: skip
+            place, across = (speed, 0.985 - 0.06 * row), axes.get_xaxis_transform()
+            axes.annotate(words, place, (3, 0), across, "offset points", va="top", fontsize=8, color=DARK, bbox=_PAPER)
 
 
 def _finish(axes: Axes, study: TrainStudy) -> None:
@@ -219,9 +246,12 @@ def _repeated(turn: Floats, values: Floats) -> tuple[Floats, Floats]:
 def plot_cycle(cycle: MeshCycle, ax: Axes | None = None) -> Axes:
     """Mesh stiffness over one base pitch, secant and tangent, with the mean that the dynamics refer to."""
     axes = prepared(ax, "roll angle of the pinion in °, 0 at the pitch point", "mesh stiffness in N/µm")
-    for values, words, style in ((cycle.tangent_stiffness, "tangent", "-"), (cycle.mesh_stiffness, "secant", "--")):
+    curves = [(cycle.tangent_stiffness, "tangent", "-"), (cycle.mesh_stiffness, "secant", "--")]
+    if np.allclose(cycle.tangent_stiffness, cycle.mesh_stiffness, rtol=1e-9):
+        curves = [(cycle.mesh_stiffness, "tangent and secant", "-")]
+    for values, words, style in curves:
         axes.plot(cycle.roll_angle, values, color=SERIES[0], linewidth=1.5, linestyle=style, label=words)
-    axes.axhline(cycle.tangent_mean, color=MARKED, linewidth=1.2, label="mean tangent")
+    axes.axhline(cycle.tangent_mean, color=MARKED, linewidth=1.2, label="mean of the tangent")
     axes.set_xlim(float(cycle.roll_angle[0]), float(cycle.roll_angle[-1]))
     axes.set_ylim(0, 1.08 * float(max(cycle.tangent_stiffness.max(), cycle.mesh_stiffness.max())))
     legend_above(axes, 3)

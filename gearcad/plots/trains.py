@@ -39,6 +39,9 @@ _GAP = 0.1
 _WORD = 0.018
 """Share of a bar (of 1) that one letter takes."""
 
+_LETTER = 0.011
+"""Part of the figure's width that a letter below a panel takes."""
+
 _LETTERS = 30
 """Of all names along the train, that have room below a panel of half the width."""
 
@@ -71,12 +74,13 @@ def plot_shapes(train: Train, modes: NaturalModes, figure: Figure | None = None)
     for mode, panel in enumerate(panels[:count]):
         _draw_shape(panel, train, modes, mode, way)
     panels[0].set_ylim(-1.25, 1.25)
+    panels[0].margins(x=0.05 if way.shafts else 0.25)
     panels[0].set_yticks([-1, 0, 1])
     panels[0].set_xticks([])
     for number, panel in enumerate(panels):
         panel.set_visible(number < count)
         if number < count <= number + columns:
-            _name_places(panel, train, way)
+            _name_places(panel, train, way, _LETTER * columns)
     of.supylabel("turn, the greatest of a mode is 1", fontsize=9)
     return of
 
@@ -111,26 +115,45 @@ def _title(modes: NaturalModes, mode: int) -> str:
     return f"{mode + 1}: {short(modes.frequency[mode])} Hz, {short(modes.circular[mode])} 1/s{words}"
 
 
-def _name_places(axes: Axes, train: Train, way: _Way) -> None:
-    """Inertias below their places, gears on their own side of the mesh; shafts in a line of their own below those."""
+def _name_places(axes: Axes, train: Train, way: _Way, letter: float) -> None:
+    """Inertias below their places, gears on their own side of the mesh; shafts below those. Rows as many as have room.
+
+    `letter` is the width of one, in parts of the axis.
+    """
+    first, last = axes.get_xlim()
+    across, row = axes.get_xaxis_transform(), 0
+    for labels, colour in ((_gears(train, way), DARK), (_middles(way), SERIES[0])):
+        ends: list[float] = []
+        for place, words, side in sorted(labels):
+            width = letter * len(words) * (last - first)
+            start = place - {"left": 0.0, "center": 0.5, "right": 1.0}[side] * width
+            free = next((number for number, end in enumerate(ends) if end < start), len(ends))
+            ends[free : free + 1] = [start + width]
+            offset = (0, -4 - 12 * (row + free))
+            axes.annotate(
+                plain(words), (place, 0), offset, across, "offset points", ha=side, va="top", fontsize=8, color=colour
+            ).set_annotation_clip(False)
+        row += len(ends)
+
+
+def _gears(train: Train, way: _Way) -> list[tuple[float, str, str]]:
+    """Place, names and side of all inertias."""
     names: dict[float, list[str]] = {}
     for (kind, name), place in way.places.items():
         if kind == "inertia":
             names.setdefault(round(place, 9), []).append(name)
     mates = [(mesh.pinion, mesh.wheel) for mesh in train.meshes]
+    found = []
     for place, here in names.items():
         there = [way.places["inertia", other] for each in mates for name, other in (each, each[::-1]) if name in here]
         right, left = (any(sign * (other - place) > 0 for other in there) for sign in (1, -1))
-        side = "center" if right == left else "right" if right else "left"
-        _write_below(axes, place, " / ".join(map(plain, here)), 4, side, DARK)
-    for shaft, start, end in way.shafts:
-        _write_below(axes, (way.places[start] + way.places[end]) / 2, plain(shaft.name), 16, "center", SERIES[0])
+        side = "center" if right == left or not way.shafts else "right" if right else "left"
+        found.append((place, " / ".join(here), side))
+    return found
 
 
-def _write_below(axes: Axes, place: float, words: str, points: float, side: str, colour: str) -> None:
-    across = axes.get_xaxis_transform()
-    offset: dict[str, Any] = {"xytext": (0, -points), "textcoords": "offset points", "annotation_clip": False}
-    axes.annotate(words, (place, 0), xycoords=across, ha=side, va="top", fontsize=8, color=colour, **offset)
+def _middles(way: _Way) -> list[tuple[float, str, str]]:
+    return [((way.places[start] + way.places[end]) / 2, shaft.name, "center") for shaft, start, end in way.shafts]
 
 
 def _laid_out(train: Train, modes: NaturalModes) -> _Way:

@@ -9,6 +9,7 @@ from gearcad.dynamics.study import TrainStudy
 from gearcad.plots.paper import short
 from gearcad.plots.speeds import shafts_with_reference
 from gearcad.plots.trains import MOST_SHAPES
+from gearcad.report.dynamics_tables import factor_text
 from gearcad.stiffness import METHODS
 
 __all__ = ["campbell", "course", "cycle", "energies", "factors", "greatest", "history", "shaft_overload", "shapes"]
@@ -76,7 +77,9 @@ def greatest(study: TrainStudy) -> str:
     sense, chart = max(charts, key=lambda each: float(each[1].factors.max()))
     row, mesh = np.unravel_index(int(chart.factors.argmax()), chart.factors.shape)
     where = f" in {chart.mesh_names[mesh]}" if len(chart.mesh_names) > 1 else ""
-    return f"Its greatest value is {chart.factors.max():.3f}{where} at {short(study.speeds[row])} rpm{sense}."
+    last = "" if chart.stable[row] else ", where the motion is unstable"
+    value = factor_text(float(chart.factors.max()))
+    return f"Its greatest value is {value}{where} at {short(study.speeds[row])} rpm{sense}{last}."
 
 
 def shaft_overload(study: TrainStudy) -> str:
@@ -106,9 +109,8 @@ def cycle(study: PairStudy) -> str:
     """Caption of the mesh stiffness."""
     of = study.cycle
     return (
-        f"Stiffness of the mesh by the method {METHODS[of.method].title} over one base pitch. The tangent is what small "
-        f"vibrations see: its mean {short(of.tangent_mean)} N/µm makes the natural frequency, and its course excites. The "
-        f"secant is {short(of.mean)} N/µm on the mean."
+        f"Stiffness of the mesh over one base pitch; method: {METHODS[of.method].title}. The tangent is what small vibrations "
+        f"see: its mean, {short(of.tangent_mean)} N/µm, makes the natural frequency, and its course excites."
     )
 
 

@@ -21,12 +21,12 @@ from gearcad.plots.speeds import (
 )
 from gearcad.plots.trains import energies_inches, plot_energies, plot_shapes, shapes_inches
 from gearcad.report import captions_dynamics as captions
+from gearcad.report.dynamics_rows import contact_rows, natural_frequencies, pair_dynamics_rows
 from gearcad.report.dynamics_tables import (
-    contact_rows,
+    MOST_PEAKS,
     inertia_table,
     mesh_table,
     mode_table,
-    pair_dynamics_rows,
     peak_table,
     shaft_table,
     speed_table,
@@ -83,6 +83,7 @@ def _train_html(study: TrainStudy, name: str) -> str:
         model=_MODELS[train.model],
         greatest=captions.greatest(study),
         modes=mode_table(modes),
+        most=MOST_PEAKS,
         peaks=peak_table(study),
         shape_figures=[
             _figure("Natural modes", shapes, shapes_inches(train, modes), captions.shapes(study)),
@@ -96,17 +97,20 @@ def _train_html(study: TrainStudy, name: str) -> str:
 def _pair_html(study: PairStudy, name: str) -> str:
     of = study.study
     curve = picture_address(partial(plot_cycle, study.cycle), "svg")
+    frequencies = () if study.bearings is None else natural_frequencies(study.bearings)
     return page_html(
         "dynamics_pair.html",
         name,
         of=of,
+        on_bearings=study.bearings is not None,
         greatest=captions.greatest(of),
         gear_rows=gear_rows(study.pair, _GEAR),
         pair_rows=pair_rows(study.pair),
         rows=pair_dynamics_rows(study),
         curve=Picture("Mesh stiffness", curve, captions.cycle(study)),
-        peaks=peak_table(of),
-        speed_figures=_speed_figures(of),
+        most=MOST_PEAKS,
+        peaks=peak_table(of, frequencies),
+        speed_figures=_speed_figures(of, frequencies),
         warnings=study.warnings,
     )
 
@@ -129,9 +133,9 @@ def _contact_html(study: ContactStudy, name: str) -> str:
     )
 
 
-def _speed_figures(study: TrainStudy) -> list[Picture]:
+def _speed_figures(study: TrainStudy, frequencies: tuple[float, ...] = ()) -> list[Picture]:
     """Over speed and at one speed; none that would show nothing."""
-    chart = picture_address(partial(plot_factors, study), "svg", _WIDE)
+    chart = picture_address(partial(plot_factors, study, frequencies=frequencies), "svg", _WIDE)
     found = [Picture("Dynamic factor over speed", chart, captions.factors(study))]
     if shafts_with_reference(study):
         address = picture_address(partial(plot_shaft_overload, study), "svg", _WIDE)

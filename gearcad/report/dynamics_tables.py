@@ -9,21 +9,18 @@ import numpy as np
 
 from gearcad.dynamics.campbell import CampbellStudy
 from gearcad.dynamics.modes import NaturalModes
-from gearcad.dynamics.pair_study import ContactStudy, PairStudy
 from gearcad.dynamics.shafts import shaft_inertia, shaft_stiffness
 from gearcad.dynamics.study import TrainStudy
 from gearcad.dynamics.train import Mesh, Shaft, StiffnessWave, TrainModel
 from gearcad.plots.paper import short
-from gearcad.report.tables import Row
-from gearcad.stiffness import METHODS
 
 __all__ = [
+    "MOST_PEAKS",
     "Table",
-    "contact_rows",
+    "factor_text",
     "inertia_table",
     "mesh_table",
     "mode_table",
-    "pair_dynamics_rows",
     "peak_table",
     "shaft_table",
     "speed_table",
@@ -35,6 +32,9 @@ _NEAR = 0.04
 """How far a resonance may be from a natural frequency whose name it gets: damping and parting flanks move it."""
 
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+MOST_PEAKS = 12
+"""Resonances of a mesh that are listed, the highest."""
 
 _LISTED = 3
 """Peaks of a spectrum that the table of speeds names."""
@@ -120,7 +120,7 @@ def _wave(mesh: Mesh) -> str:
         words = f"square, contact ratio {short(mesh.contact_ratio)}"
     else:
         words = f"cosine, ± {short(100 * mesh.variation)} %" if mesh.variation else "constant"
-    return f"{words}, phase {short(mesh.phase)}" if mesh.phase else words
+    return f"{words}, delayed by {short(mesh.phase)} teeth" if mesh.phase else words
 
 
 # ---------------------------------------------------------------------- modes and resonances
@@ -130,15 +130,15 @@ def mode_table(modes: NaturalModes) -> Table:
     """Natural frequencies, the speeds that meet them, and where their energy is."""
     several = len(modes.meshes) > 1
     heads = ["mode", "Hz", "1/s"]
-    heads += [f"rpm, by {name}" if several else "met at rpm" for name in modes.meshes]
+    heads += [f"met at rpm, {name}" if several else "met at rpm" for name in modes.meshes]
     heads += [f"energy in {name}, %" if several else "energy in the mesh, %" for name in modes.meshes]
     rows = []
     for mode in range(len(modes)):
         rigid = mode < modes.rigid
-        numbers = [modes.frequency[mode], modes.circular[mode], *modes.rpm[mode]]
+        speeds = [_NONE if rigid else short(speed) for speed in modes.rpm[mode]]
         shares = [_NONE if rigid else f"{100 * share:.1f}" for share in modes.potential_meshes[mode]]
         name = f"{mode + 1}, turns as a whole" if rigid else f"{mode + 1}, {_greatest(modes, mode)}"
-        rows.append((name, *(_or_none(float(number)) if rigid else short(number) for number in numbers), *shares))
+        rows.append((name, short(modes.frequency[mode]), short(modes.circular[mode]), *speeds, *shares))
     return Table(tuple(heads), rows)
 
 
@@ -158,34 +158,42 @@ def _named(names: tuple[str, ...], shares: np.ndarray, kind: str = "") -> list[t
     ]
 
 
-def peak_table(study: TrainStudy) -> Table:
-    """Resonances of every mesh in the charts, by speed."""
+def peak_table(study: TrainStudy, frequencies: Sequence[float] = ()) -> Table:
+    """Resonances of every mesh in the charts, by speed; `frequencies` (Hz) stand for those of the modes if given."""
+    natural = 2 * np.pi * np.array(frequencies) if frequencies else study.modes.circular
     heads = ("mesh", "near", "pinion, rpm", "tooth frequency, Hz", "1/s", "K_v")
     rows = []
     for mesh, name in enumerate(study.up.mesh_names):
-        senses: dict[tuple[float, str], list[str]] = {}
+        senses: dict[tuple[float, float], list[str]] = {}
         for sense, chart in (("up", study.up), ("down", study.down)):
             for peak in chart.peaks(mesh) if chart is not None else ():
-                senses.setdefault((peak.frequency, f"{peak.factor:.3f}"), []).append(sense)
-        for (frequency, factor), each in sorted(senses.items()):
+                senses.setdefault((peak.frequency, round(peak.factor, 3)), []).append(sense)
+        highest = sorted(senses.items(), key=lambda item: -item[0][1])[:MOST_PEAKS]
+        for (frequency, factor), each in sorted(highest):
             own = _ratio(study, mesh) * frequency
             numbers = (float(study.rpm(np.array(frequency))), own / (2 * np.pi), own)
             words = name if study.down is None else f"{name}, running {' and '.join(each)}"
-            rows.append((words, _near(study, mesh, frequency), *map(short, numbers), factor))
+            last = "" if study.up.stable[study.up.frequencies == frequency].all() else ", unstable"
+            rows.append((words, _near(study, natural, mesh, frequency) + last, *map(short, numbers), factor_text(factor)))
     return Table(heads, rows, 2)
+
+
+def factor_text(factor: float) -> str:
+    """K_v: three decimals of what is of interest."""
+    return f"{factor:.3f}" if factor < 10 else short(factor)
 
 
 def _ratio(study: TrainStudy, mesh: int) -> float:
     return float(study.excitation.meshes[mesh].frequency_ratio)
 
 
-def _near(study: TrainStudy, mesh: int, frequency: float) -> str:
+def _near(study: TrainStudy, natural: np.ndarray, mesh: int, frequency: float) -> str:
     """The natural frequency that the lowest harmonic of a tooth frequency (1/s of the first mesh) meets there."""
     found = [
         (harmonic, abs(harmonic * _ratio(study, other) * frequency / circular - 1), mode + 1, other)
         for other in range(len(study.excitation.meshes))
         for harmonic in range(1, study.options.harmonics + 1)
-        for mode, circular in enumerate(study.modes.circular)
+        for mode, circular in enumerate(natural)
         if circular
     ]
     near = [each for each in found if each[1] < _NEAR]
@@ -196,56 +204,6 @@ def _near(study: TrainStudy, mesh: int, frequency: float) -> str:
     of = "" if _ratio(study, other) == _ratio(study, mesh) else f" of {study.up.mesh_names[other]}"
     name = "f" + str(mode).translate(_LOWERED)
     return f"{name}{of}" if harmonic == 1 else f"{name}/{harmonic}{of}"
-
-
-# ---------------------------------------------------------------------- pairs
-
-
-def pair_dynamics_rows(study: PairStudy) -> list[Row]:
-    """Inertias, mesh stiffness, damping, backlash and resonance of a pair by itself."""
-    cycle, of = study.cycle, study.study
-    mesh, modes = of.train.meshes[0], of.modes
-    row = modes.rigid
-    rows = [
-        Row("moment of inertia", "J", tuple(map(short, study.inertias)), "kg·m²", ""),
-        Row("torque on the pinion", "T_1", (short(cycle.torque),), "N·m", ""),
-        Row("force along the line of action, at rest", "F_bt", (short(float(of.up.static_forces[0])),), "N", ""),
-        Row("mesh stiffness, mean secant", "k", (short(cycle.mean),), "N/µm", METHODS[cycle.method].title),
-        Row("mesh stiffness, mean tangent", "k", (short(cycle.tangent_mean),), "N/µm", "that of small vibrations"),
-        Row("damping ratio of the pair", "ζ", (short(of.options.damping_ratio),), "", ""),
-        Row("damping of the mesh", "c", (short(float(of.system.mesh_damping[0])),), "N·s/m", "2 ζ √(k m)"),
-        Row("backlash along the line of action", "", (_NONE if mesh.backlash is None else short(mesh.backlash),), "µm", ""),
-    ]
-    if row < len(modes):
-        rows += [
-            Row("natural frequency", f"f_{row + 1}", (short(modes.frequency[row]),), "Hz", f"{short(modes.circular[row])} 1/s"),
-            Row("speed that meets it", "", (short(modes.rpm[row, 0]),), "rpm", "one tooth a vibration"),
-        ]
-    if of.method_b is not None:
-        speed = short(of.method_b.resonance_speed)
-        rows.append(Row("resonance speed", "n_E1", (speed,), "rpm", "ISO 6336-1:2006 (6)"))
-    return rows
-
-
-def contact_rows(study: ContactStudy) -> list[Row]:
-    """Parameters of a contact model, and what follows from them."""
-    of = study.model
-    radii = tuple(map(short, of.base_radii))
-    whole = of.contact_ratio
-    return [
-        Row("moment of inertia", "J", tuple(map(short, of.inertias)), "kg·m²", ""),
-        Row("base radius", "R_b", radii, "mm", ""),
-        Row("reduced mass", "m", (short(of.reduced_mass),), "kg", "of J over squared base radius"),
-        Row("torque on the pinion", "T_1", (short(of.torque),), "N·m", ""),
-        Row("force along the line of action", "F", (short(of.force),), "N", "torque over base radius"),
-        Row("stiffness of a pair of teeth", "k", (short(of.pair_stiffness),), "N/µm", ""),
-        Row("damping", "b", (short(of.damping),), "N·s/m", "acts also where flanks have parted"),
-        Row("damping ratio, one pair", "ζ", (short(of.damping_ratio),), "", "b/(2 √(k m))"),
-        Row("approach at rest, one pair", "y_0", (short(of.static_approach),), "µm", "F/k"),
-        Row("pairs that carry, on the mean", "", (short(whole),), "", of.zone.value),
-        Row("natural frequency, one pair", "", (short(of.natural_frequency()),), "Hz", "√(k/m)/(2π)"),
-        Row("natural frequency, mean stiffness", "", (short(of.natural_frequency(whole)),), "Hz", "at high speed"),
-    ]
 
 
 def speed_table(study: CampbellStudy) -> Table:
