@@ -62,7 +62,7 @@ def _of_pair(design: Design, progress: Progress | None) -> PairStudy | ContactSt
     cycle = None
     if options.pair_model is PairModel.MESH or options.tooth_stiffness is None:
         body = (design.check or CheckOptions()).body
-        method = METHODS[options.stiffness](pair=design.pair, material=material, body=body, mounting=mounting)
+        method = METHODS[options.method_for(pair)](pair=design.pair, material=material, body=body, mounting=mounting)
         cycle = method(design.load)
     if options.pair_model is PairModel.CONTACT:
         return study_contact(pair, design.load, cycle, inertias, options, tell=tell)

@@ -39,7 +39,8 @@ def new(kind: str | None, output: str | None, force: bool) -> None:
     path = Path(output or name)
     _write_new(path, text, force)
     click.echo(path)
-    click.echo(f"Next: gearcad {'batch' if name.endswith('.csv') else 'data'} {path}", err=True)
+    command = "batch" if name.endswith(".csv") else "dynamics" if "\n[train]\n" in text else "data"
+    click.echo(f"Next: gearcad {command} {path}", err=True)
 
 
 def _write_new(path: Path, text: str, force: bool) -> None:

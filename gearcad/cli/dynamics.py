@@ -11,6 +11,7 @@ from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.progress import file_progress
 
 if TYPE_CHECKING:
+    from gearcad.dynamics.kv import KvChart
     from gearcad.dynamics.pair_study import ContactStudy
     from gearcad.dynamics.study import TrainStudy
     from gearcad.simulate import Study
@@ -85,15 +86,24 @@ def _train_lines(study: TrainStudy) -> list[str]:
     heads = "".join(f"{name + ', rpm':>16}" for name in meshes)
     lines = [f"{'natural frequency':<20}{'Hz':>10}{'1/s':>12}{heads}"]
     for number, (hertz, circular, speeds) in enumerate(zip(modes.frequency, modes.circular, modes.rpm, strict=True), 1):
-        lines.append(f"{number:<20}{hertz:>10.6g}{circular:>12.6g}" + "".join(f"{speed:>16.5g}" for speed in speeds))
-    charts = [("up", study.up)] if study.down is None else [("running up", study.up), ("running down", study.down)]
-    for words, chart in charts:
-        for mesh, name in enumerate(meshes):
-            peaks = sorted(chart.peaks(mesh), key=lambda peak: -peak.factor)[:_MOST_PEAKS]
-            listed = ", ".join(f"{peak.factor:.3f} at {float(study.rpm(peak.frequency)):.5g} rpm" for peak in peaks)
-            sense = "" if study.down is None else f", {words}"
-            lines.append(f"K_v of {name}{sense}: {listed or 'no resonance in the chart'}")
+        met = "  turns as a whole" if number <= modes.rigid else "".join(f"{speed:>16.5g}" for speed in speeds)
+        lines.append(f"{number:<20}{hertz:>10.6g}{circular:>12.6g}{met}")
+    for mesh, name in enumerate(meshes):
+        up = _peaks(study, study.up, mesh)
+        down = up if study.down is None else _peaks(study, study.down, mesh)
+        lines += (
+            [f"K_v of {name}: {up}"]
+            if up == down
+            else [f"K_v of {name}, running up: {up}", f"K_v of {name}, running down: {down}"]
+        )
     return lines
+
+
+def _peaks(study: TrainStudy, chart: KvChart, mesh: int) -> str:
+    """The highest resonances of a mesh."""
+    peaks = sorted(chart.peaks(mesh), key=lambda peak: -peak.factor)[:_MOST_PEAKS]
+    listed = ", ".join(f"{peak.factor:.3f} at {float(study.rpm(peak.frequency)):.5g} rpm" for peak in peaks)
+    return listed or "no resonance in the chart"
 
 
 def _contact_lines(study: ContactStudy) -> list[str]:

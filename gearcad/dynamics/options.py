@@ -6,11 +6,14 @@ from dataclasses import dataclass
 from enum import Enum
 
 from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_number, require_whole
+from gearcad.geometry import GearPair
 from gearcad.mesh_cycle import METHOD_NAMES
 
 __all__ = ["DynamicsOptions", "PairModel"]
 
 _SWITCH = {"on": True, "off": False}
+
+AUTO = "auto"
 
 _UNRESOLVED = "iso6336"
 """The one method that knows no course over the mesh."""
@@ -35,8 +38,9 @@ class DynamicsOptions:
     a train; `accuracy_grade` (ISO 1328) is that of K_v by ISO 6336-1 and, with `tooth_errors` "on", of random pitch deviations
     of the pinions' teeth, drawn with `seed`.
 
-    Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh, `damping_ratio`
-    that of the pair alone, `pinion_inertia` and `wheel_inertia` in kg·m² (None: of their own solids). With
+    Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh ("auto":
+    plane-strain of spur gears, whose teeth come into mesh by and by under load, potential-energy of helical ones), `damping_ratio` that of
+    the pair alone, `pinion_inertia` and `wheel_inertia` in kg·m² (None: of their own solids). With
     `pinion_bearing_stiffness` and `wheel_bearing_stiffness` (N/µm across the axis) and a `bearing_damping` (N·s/m) the gears
     travel as well as turn: six degrees of freedom.
 
@@ -53,7 +57,7 @@ class DynamicsOptions:
     tooth_errors: str = "off"
     seed: int = 0
     model: str = PairModel.MESH.value
-    stiffness: str = "potential-energy"
+    stiffness: str = AUTO
     damping_ratio: float = 0.07
     pinion_inertia: float | None = None
     wheel_inertia: float | None = None
@@ -75,8 +79,8 @@ class DynamicsOptions:
         if self.tooth_errors not in _SWITCH:
             raise ParameterError("tooth_errors", self.tooth_errors, 'must be "on" or "off"')
         as_choice("model", self.model, PairModel)
-        if self.stiffness not in METHOD_NAMES or self.stiffness == _UNRESOLVED:
-            permitted = f"must be one of {', '.join(name for name in METHOD_NAMES if name != _UNRESOLVED)}"
+        if self.stiffness not in (AUTO, *METHOD_NAMES) or self.stiffness == _UNRESOLVED:
+            permitted = f"must be one of {', '.join(name for name in (AUTO, *METHOD_NAMES) if name != _UNRESOLVED)}"
             raise ParameterError("stiffness", self.stiffness, permitted)
         require_number("damping_ratio", self.damping_ratio, above=0, below=1)
         for name, unit in (
@@ -111,6 +115,12 @@ class DynamicsOptions:
     def errors(self) -> bool:
         """Whether teeth have deviations."""
         return _SWITCH[self.tooth_errors]
+
+    def method_for(self, pair: GearPair) -> str:
+        """Name of the method for a pair's mesh stiffness."""
+        if self.stiffness != AUTO:
+            return self.stiffness
+        return "potential-energy" if pair.pinion.helix_angle else "plane-strain"
 
     @property
     def pair_model(self) -> PairModel:

@@ -101,6 +101,7 @@ def test_tree_after_twenty_four_kills_is_that_of_an_undisturbed_run(tmp_path: Pa
     kill_often(variants, 24, tmp_path / "out", seed=1)
 
 
+@pytest.mark.long
 def test_tree_of_solids_after_kills_is_that_of_an_undisturbed_run(tmp_path: Path) -> None:
     kill_often([Variant(tmp_path, rows=3, width=2.0, formats="step,stl,dxf")], 6, tmp_path / "out", seed=2)
 

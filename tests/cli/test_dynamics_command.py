@@ -30,6 +30,7 @@ body.bore = 20.0
 torque = 50.0
 speed = 6000.0
 [dynamics]
+stiffness = "potential-energy"
 speeds = 40
 """
 
@@ -68,6 +69,12 @@ def test_a_train(here: Path) -> None:
         assert arrays["kv"][:, 0].tolist() == document["chart"]["kv"]["mesh"]
 
 
+def test_a_new_train_is_sent_to_its_command(here: Path) -> None:
+    result = run("new", "train-2")
+    assert result.stderr == "Next: gearcad dynamics train-2-stage.toml\n"
+    assert run("dynamics", "train-2-stage.toml", "--quiet").exit_code == 0
+
+
 def test_one_word_changes_the_model(here: Path) -> None:
     found = {}
     for model in ("isolated", "massless", "elements", "exact"):
@@ -83,8 +90,8 @@ def test_one_word_changes_the_model(here: Path) -> None:
 
 
 def test_a_pair_without_further_data(here: Path) -> None:
-    """Inertias of its own solids, potential energy, K_v of ISO 6336 beside its own."""
-    result = run("dynamics", spec(PAIR), "--quiet")
+    """Inertias of its own solids, FE contact, K_v of ISO 6336 beside its own; at rest the load is the static one."""
+    result = run("dynamics", spec(PAIR.partition("[dynamics]")[0]), "--quiet")
     assert result.exit_code == 0, result.output
     document = json.loads(Path("output/it/dynamics.json").read_text(encoding="utf-8"))
     radii = (20 * math.cos(math.radians(20)), 30 * math.cos(math.radians(20)))
@@ -95,7 +102,9 @@ def test_a_pair_without_further_data(here: Path) -> None:
     mass = 1 / sum((radius / 1000) ** 2 / inertia for radius, inertia in zip(radii, inertias, strict=True))
     natural = math.sqrt(1e6 * document["mesh_stiffness_tangent_mean"] / mass) / (2 * math.pi)
     assert document["modes"]["frequency"] == pytest.approx([0.0, natural], rel=1e-6, abs=1e-6)
-    assert len(document["chart"]["kv_iso6336"]) == 40 and document["resonance_speed_iso6336"] > 1000
+    assert document["stiffness_method"] == "plane-strain"
+    assert document["chart"]["kv"]["mesh"][0] == pytest.approx(1, abs=0.03)
+    assert len(document["chart"]["kv_iso6336"]) == 1000 and document["resonance_speed_iso6336"] > 1000
     assert f"{document['resonance_speed_iso6336']:.5g} rpm" in result.stdout
     assert document["course"]["speed"] == pytest.approx(6000, rel=0.1)
 
@@ -152,9 +161,9 @@ def test_the_contact_model_of_the_thesis(here: Path) -> None:
     [
         (PAIR.replace("torque = 50.0", "torque = 0.0"), "load.torque = 0: must be given"),
         ("[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 10.0\n", "must be a pair or a train"),
-        (PAIR.replace("speeds = 40", "stiffness = 'iso6336'"), "line 16: dynamics.stiffness = 'iso6336': must be one of"),
-        (PAIR.replace("speeds = 40", "damping_ratio = -0.1"), "line 16: dynamics.damping_ratio = -0.1: must be"),
-        (PAIR.replace("speeds = 40", "pinion_inertia = 0.0"), "line 16: dynamics.pinion_inertia = 0 kg·m²: must be"),
+        (PAIR.replace("speeds = 40", "stiffness = 'iso6336'"), "line 17: dynamics.stiffness = 'iso6336': must be one of"),
+        (PAIR.replace("speeds = 40", "damping_ratio = -0.1"), "line 17: dynamics.damping_ratio = -0.1: must be"),
+        (PAIR.replace("speeds = 40", "pinion_inertia = 0.0"), "line 17: dynamics.pinion_inertia = 0 kg·m²: must be"),
         (
             PAIR.replace("[pinion]", "helix_angle = 20.0\n[pinion]").replace("speeds = 40", "model = 'contact'"),
             "helix_angle = 20 deg: must be 0",
@@ -167,7 +176,7 @@ def test_the_contact_model_of_the_thesis(here: Path) -> None:
         ),
         (
             PAIR.replace("speeds = 40", "pinion_bearing_stiffness = 5.0"),
-            "line 16: dynamics.pinion_bearing_stiffness = 5 N/µm: must be given together",
+            "line 17: dynamics.pinion_bearing_stiffness = 5 N/µm: must be given together",
         ),
         (TRAIN.replace("variation = 0.206", "variation = 1.2"), "mesh.variation = 1.2: must be"),
         (TRAIN.replace('wheel = "wheel"', 'wheel = "whel"'), "'whel'"),
