@@ -37,7 +37,8 @@ Complexes = NDArray[np.complex128]
 Bools = NDArray[np.bool_]
 Wholes = NDArray[np.intp]
 
-_MOST_POINTS = 20_000
+_MOST_POINTS = 4000
+"""Of a branch: some hundred are usual; one that runs in circles never ends."""
 
 
 class Direction(Enum):
@@ -157,11 +158,11 @@ def _follow(balance: Balance, approach: Complexes, omegas: Floats) -> list[tuple
     step, longest = 0.01, 0.1
     while low <= points[-1][1] <= high:
         found = _correct(balance, state + step * direction, scales, direction)
+        if step < 1e-7 or len(points) > _MOST_POINTS:
+            where = points[-1][1] / balance.excitation.fundamental
+            raise SolverError(f"the branch of periodic motions could not be followed beyond {where:g} 1/s")
         if found is None:
             step /= 2
-            if step < 1e-7 or len(points) > _MOST_POINTS:
-                where = points[-1][1] / balance.excitation.fundamental
-                raise SolverError(f"the branch of periodic motions could not be followed beyond {where:g} 1/s")
             continue
         state, needed = found
         direction = _tangent(balance, state, scales, direction)

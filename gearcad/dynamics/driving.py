@@ -124,11 +124,11 @@ def pair_train(
     )
 
 
-def pair_excitation(
-    train: Train, cycle: MeshCycle, errors: TransmissionError | None = None, *, harmonics: int = 6
-) -> Excitation:
+def pair_excitation(train: Train, cycle: MeshCycle, errors: TransmissionError | None = None) -> Excitation:
     """The course of a pair's stiffness and transmission error, with the errors of its teeth."""
-    of = cycle_excitation(cycle, backlash=train.meshes[0].backlash, harmonics=min(harmonics, 10))
+    # The error has the steps of the stiffness in it, which take each other off where nothing vibrates: all that is known.
+    most = max(1, (len(cycle.roll_angle) - 1) // 4)
+    of = cycle_excitation(cycle, backlash=train.meshes[0].backlash, harmonics=most)
     if errors is not None:
         of = MeshExcitation(stiffness=of.stiffness, phase=of.phase, error=_together(of.error, errors), backlash=of.backlash)
     return Excitation(meshes=(of,))

@@ -25,6 +25,9 @@ _STEPS, _MOST_STEPS = 128, 4096
 _LONGEST_STEP = 0.5
 """Greatest turn (rad) of the fastest mode in such a step: longer ones would meet resonances of their own."""
 
+_BEYOND = 1e100
+"""What grows so much in a period is unstable; more would overflow."""
+
 _BLOCK = 4_000_000
 """Numbers that one block of speeds may need at a time."""
 
@@ -138,7 +141,8 @@ def _growth(squares: Floats, damping: Floats, mesh: Floats, excess: Floats, peri
     half = expm(h / 2 * np.block([[np.zeros((n, n)), np.eye(n)], [-np.diag(squares), -damping]]))
     whole, total = half @ half, half
     for k in range(steps):
+        total = np.clip(total, -_BEYOND, _BEYOND)
         push = (mesh * (h * excess[:, k, None, :])) @ (mesh.T @ total[:, :n])
         total = np.concatenate([total[:, :n], total[:, n:] - push], axis=1)
         total = (whole if k + 1 < steps else half) @ total
-    return np.asarray(np.abs(np.linalg.eigvals(total)).max(axis=1), float)
+    return np.asarray(np.abs(np.linalg.eigvals(np.clip(total, -_BEYOND, _BEYOND))).max(axis=1), float)

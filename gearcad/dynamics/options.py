@@ -38,11 +38,11 @@ class DynamicsOptions:
     a train; `accuracy_grade` (ISO 1328) is that of K_v by ISO 6336-1 and, with `tooth_errors` "on", of random pitch deviations
     of the pinions' teeth, drawn with `seed`.
 
-    Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh ("auto":
-    plane-strain of spur gears, whose teeth come into mesh by and by under load, potential-energy of helical ones), `damping_ratio` that of
-    the pair alone, `pinion_inertia` and `wheel_inertia` in kg·m² (None: of their own solids). With
-    `pinion_bearing_stiffness` and `wheel_bearing_stiffness` (N/µm across the axis) and a `bearing_damping` (N·s/m) the gears
-    travel as well as turn: six degrees of freedom.
+    Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh; "auto" is plane
+    strain for spur gears, whose teeth come into mesh by and by under load, and potential energy for helical ones.
+    `damping_ratio` is that of the pair alone, `pinion_inertia` and `wheel_inertia` are in kg·m² (None: of their own solids).
+    With `pinion_bearing_stiffness` and `wheel_bearing_stiffness` (N/µm across the axis) and a `bearing_damping` (N·s/m) the
+    gears travel as well as turn: six degrees of freedom.
 
     Of the contact model: `tooth_stiffness` (N/µm) of one pair of teeth (None: mean mesh stiffness over the contact ratio),
     `tooth_damping` (N·s/m; None: by the damping ratio); each speed runs for `duration` (s), sampled at `sampling` (Hz).

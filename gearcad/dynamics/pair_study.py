@@ -35,6 +35,9 @@ Floats = NDArray[np.float64]
 _RUN_IN = 0.075
 """y_alpha of case-hardened and nitrided steels (ISO 6336-1:2006, 8.3.5): share of the base pitch deviation that wears off."""
 
+_HIGHEST = 2.2
+"""Spectra go up to so many times the highest tooth frequency, or natural frequency."""
+
 _SPEEDS = 41
 _SPAN = 3.0
 """Default speeds of a Campbell study: up to so many times the speed of the main resonance."""
@@ -141,7 +144,7 @@ def study_pair(
     options = options or DynamicsOptions()
     train = pair_train(pair, cycle, inertias, torque=cycle.torque, speed=load.speed, damping_ratio=options.damping_ratio)
     errors = pair_errors(pair, options.accuracy_grade, options.seed, options.harmonics) if options.errors else None
-    excitation = pair_excitation(train, cycle, errors, harmonics=options.harmonics)
+    excitation = pair_excitation(train, cycle, errors)
     factor = method_b(pair, material, load, inertias, options.accuracy_grade)
     bearings = _on_bearings(train, pair, options, masses)
     of = None if bearings is None else bearings.system()
@@ -226,7 +229,8 @@ def study_contact(
     count = options.speeds if options.speeds != DynamicsOptions.speeds else _SPEEDS
     speeds = np.linspace(options.speed_from or 0.0, last, count)
     tell("campbell")
-    study = campbell(model, speeds, duration=options.duration, sampling=options.sampling)
+    top = max(_HIGHEST * resonance * pair.pinion.teeth / 60, _HIGHEST * last * pair.pinion.teeth / 60)
+    study = campbell(model, speeds, duration=options.duration, sampling=options.sampling, highest_frequency=top)
     tell("history")
     speed = abs(load.speed) or float(speeds[len(speeds) // 2])
     history = time_history(model, speed, duration=options.duration, sampling=options.sampling)

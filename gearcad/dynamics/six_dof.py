@@ -80,4 +80,5 @@ class PairOnBearings:
     def frequencies(self) -> tuple[float, ...]:
         """The six natural frequencies (Hz), lowest first; that of the gears' free turning is 0."""
         squares = np.linalg.eigvalsh(self.system().stiffness_matrix())
-        return tuple(float(np.sqrt(max(each, 0.0)) / (2 * math.pi)) for each in squares)
+        squares[0] = 0.0  # but for rounding: nothing holds the gears' turning
+        return tuple((np.sqrt(squares) / (2 * math.pi)).tolist())

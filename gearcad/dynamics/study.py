@@ -22,6 +22,7 @@ from gearcad.dynamics.periodic import periodic_response
 from gearcad.dynamics.response import PeriodicResponse
 from gearcad.dynamics.system import System
 from gearcad.dynamics.train import Train, TrainModel
+from gearcad.errors import SolverError
 
 __all__ = ["Course", "TrainStudy", "study_train"]
 
@@ -68,6 +69,7 @@ class TrainStudy:
     down: KvChart | None
     jumps: tuple[Floats, Floats]
     course: Course
+    notes: tuple[str, ...]
     method_b: DynamicFactor | None
 
     @property
@@ -83,7 +85,8 @@ class TrainStudy:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What to know before trusting it."""
-        found = list(dict.fromkeys((*self.up.warnings, *(self.down.warnings if self.down is not None else ()))))
+        down = self.down.warnings if self.down is not None else ()
+        found = list(dict.fromkeys((*self.notes, *self.up.warnings, *down)))
         if self.modes.missed and self.train.model is not TrainModel.MODES:
             found.append(
                 f"natural frequencies below the highest listed that this model does not have: {self.modes.missed}; "
@@ -149,7 +152,7 @@ def study_train(
         excitation = train_excitation(train, grade=grade, seed=options.seed, harmonics=options.harmonics)
     speeds = _speeds(train, options, modes) * math.pi * train.meshes[0].teeth / 30
     tell("chart")
-    up, down = _responses(of, excitation, speeds, options.harmonics)
+    up, down, notes = _responses(of, excitation, speeds, options.harmonics)
     charts = [kv_chart(each, method_b=method_b) for each in (up, down) if each is not None]
     tell("course")
     return TrainStudy(
@@ -162,6 +165,7 @@ def study_train(
         down=charts[1] if down is not None else None,
         jumps=(up.jumps, down.jumps if down is not None else np.zeros(0)),
         course=_course(train, up, charts[0]),
+        notes=notes,
         method_b=method_b,
     )
 
@@ -178,13 +182,16 @@ def _speeds(train: Train, options: DynamicsOptions, modes: NaturalModes) -> Floa
 
 def _responses(
     of: System, excitation: Excitation, speeds: Floats, harmonics: int
-) -> tuple[PeriodicResponse, PeriodicResponse | None]:
-    """Linear where flanks cannot part or never do; else what is seen running up, and running down."""
+) -> tuple[PeriodicResponse, PeriodicResponse | None, tuple[str, ...]]:
+    """Linear where flanks cannot part or never do; else what is seen running up, and running down. And what went wrong."""
     linear = periodic_response(of, excitation, speeds, harmonics=harmonics)
     if not excitation.parting or (linear.stable.all() and kv_chart(linear).least.min() > 0):
-        return linear, None
-    branch = trace(of, excitation, speeds, harmonics=max(harmonics, _SWEEP_HARMONICS))
-    return branch.sweep(Direction.UP), branch.sweep(Direction.DOWN)
+        return linear, None, ()
+    try:
+        branch = trace(of, excitation, speeds, harmonics=max(harmonics, _SWEEP_HARMONICS))
+    except SolverError as error:
+        return linear, None, (f"flanks are taken to stick to each other, for want of a motion in which they part: {error}",)
+    return branch.sweep(Direction.UP), branch.sweep(Direction.DOWN), ()
 
 
 def _course(train: Train, response: PeriodicResponse, chart: KvChart) -> Course:

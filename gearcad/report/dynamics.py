@@ -116,7 +116,7 @@ def _pair_html(study: PairStudy, name: str) -> str:
 
 
 def _contact_html(study: ContactStudy, name: str) -> str:
-    diagram = picture_address(partial(plot_campbell, study.study), "svg", _TALL)
+    diagram = picture_address(partial(plot_campbell, study.study, highest=study.study.frequency[-1] / 2), "svg", _TALL)
     return page_html(
         "dynamics_contact.html",
         name,
@@ -151,5 +151,5 @@ def _figure(title: str, draw: Callable[[Figure], object], inches: tuple[float, f
 def _draw_history(study: ContactStudy, figure: Figure) -> None:
     above, below = figure.subplots(2, 1)
     plot_motion(study.history, above)
-    plot_spectrum(study.history, below)
+    plot_spectrum(study.history, below, study.study.frequency[-1] / 2)
     below.set_ylabel("amplitude in rad/s")  # of the speed above

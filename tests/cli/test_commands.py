@@ -79,8 +79,7 @@ def test_new_refuses_to_overwrite_unless_forced() -> None:
 def test_new_refuses_what_it_does_not_have() -> None:
     result = run("new", "bevel", status=2)
     assert (
-        result.stderr
-        == "Error: kind = 'bevel': must be one of alm-18-161, fzg-c, gears, pairs, spur, train-1-stage, "
+        result.stderr == "Error: kind = 'bevel': must be one of alm-18-161, fzg-c, gears, pairs, spur, train-1-stage, "
         "train-2-stage, uhlir-19-23, volvo-13-44 (or gear, pair)\n"
     )
 

@@ -103,7 +103,8 @@ def test_a_pair_without_further_data(here: Path) -> None:
     natural = math.sqrt(1e6 * document["mesh_stiffness_tangent_mean"] / mass) / (2 * math.pi)
     assert document["modes"]["frequency"] == pytest.approx([0.0, natural], rel=1e-6, abs=1e-6)
     assert document["stiffness_method"] == "plane-strain"
-    assert document["chart"]["kv"]["mesh"][0] == pytest.approx(1, abs=0.03)
+    # The steps of 120 positions leave some per cent where nothing vibrates.
+    assert document["chart"]["kv"]["mesh"][0] == pytest.approx(1, abs=0.06)
     assert len(document["chart"]["kv_iso6336"]) == 1000 and document["resonance_speed_iso6336"] > 1000
     assert f"{document['resonance_speed_iso6336']:.5g} rpm" in result.stdout
     assert document["course"]["speed"] == pytest.approx(6000, rel=0.1)
@@ -144,6 +145,22 @@ def test_pitch_deviations_given_or_drawn(here: Path) -> None:
     assert found[2] == found[3] != found[4]
 
 
+def test_a_chart_without_a_motion_that_parts_says_so(here: Path) -> None:
+    """The branch of motions turns back before the first speed of the chart: the linear vibration is left, and a warning."""
+    wild = TRAIN.replace("variation = 0.206", "variation = 0.3\nbacklash = 80.0").replace(
+        "damping = 14660.0", "damping_ratio = 0.02"
+    )
+    result = run(
+        "dynamics", spec(wild.replace("speed_to = 16000.0", "speed_from = 9900.0\nspeed_to = 12000.0")), "--quiet", "--json"
+    )
+    assert result.exit_code == 0, result.output
+    document = json.loads(result.stdout)
+    assert document["chart_down"] is None
+    assert document["warnings"][0].startswith(
+        "flanks are taken to stick to each other, for want of a motion in which they part"
+    )
+
+
 def test_the_contact_model_of_the_thesis(here: Path) -> None:
     text = (TEMPLATES / "uhlir-19-23.toml").read_text(encoding="utf-8")
     short = text.replace("speeds = 41", "speeds = 3").replace("duration = 1.0", "duration = 0.2")
@@ -161,7 +178,7 @@ def test_the_contact_model_of_the_thesis(here: Path) -> None:
     [
         (PAIR.replace("torque = 50.0", "torque = 0.0"), "load.torque = 0: must be given"),
         ("[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 10.0\n", "must be a pair or a train"),
-        (PAIR.replace("speeds = 40", "stiffness = 'iso6336'"), "line 17: dynamics.stiffness = 'iso6336': must be one of"),
+        (PAIR.replace("potential-energy", "iso6336"), "line 16: dynamics.stiffness = 'iso6336': must be one of"),
         (PAIR.replace("speeds = 40", "damping_ratio = -0.1"), "line 17: dynamics.damping_ratio = -0.1: must be"),
         (PAIR.replace("speeds = 40", "pinion_inertia = 0.0"), "line 17: dynamics.pinion_inertia = 0 kg·m²: must be"),
         (
