@@ -18,11 +18,10 @@ from numpy.typing import NDArray
 
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.load import Load
-from gearcad.mesh_cycle import MeshCycle
 from gearcad.stiffness.foundation import sainsot_foundation, sainsot_range, weber_foundation
-from gearcad.stiffness.method import StiffnessMethod
 from gearcad.stiffness.section import BeamLoad, BeamTooth
-from gearcad.stiffness.slices import SinglePair, Slices
+from gearcad.stiffness.slice_method import SliceMethod
+from gearcad.stiffness.slices import SinglePair
 
 __all__ = ["BeamMethod", "PotentialEnergy", "WeberBanaschek"]
 
@@ -32,27 +31,13 @@ _OWNERS = ("pinion", "wheel")
 
 
 @dataclass(frozen=True, kw_only=True)
-class BeamMethod(StiffnessMethod):
+class BeamMethod(SliceMethod):
     """A method in closed form: compliances of both teeth and of their contact at any place on the line of action."""
-
-    @cached_property
-    def slices(self) -> Slices:
-        """The zone of contact."""
-        return Slices(self.mounted)
 
     @cached_property
     def teeth(self) -> tuple[BeamTooth, BeamTooth]:
         """Pinion and wheel."""
         return BeamTooth.of(self.mounted.pinion), BeamTooth.of(self.mounted.wheel)
-
-    @property
-    def whole(self) -> float:
-        """T1T2 (mm)."""
-        return self.mounted.centre_distance * math.sin(math.radians(self.mounted.working_transverse_pressure_angle))
-
-    def curvatures(self, lengths: Floats) -> tuple[Floats, Floats]:
-        """Radii of curvature (n,) of both flanks in the section across the line of contact (mm)."""
-        return lengths / self.lean, (self.whole - lengths) / self.lean
 
     def single(self, lengths: Floats, load: Load) -> SinglePair:
         """One pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
@@ -62,7 +47,7 @@ class BeamMethod(StiffnessMethod):
             parts |= {f"{owner} {name}": part for name, part in self.tooth_parts(gear, loads[gear]).items()}
         parts["contact"] = self.contact(lengths, (loads[0], loads[1]), load)
         self._refuse_negative(parts, load)
-        factor = 1000 / self.lean
+        factor = self.to_transverse
         return SinglePair(lengths, {name: factor * part for name, part in parts.items()}, factor * self.tangent_less)
 
     def _refuse_negative(self, parts: dict[str, Floats], load: Load) -> None:
@@ -87,25 +72,6 @@ class BeamMethod(StiffnessMethod):
     def tangent_less(self) -> float:
         """By how much the tangent compliance is below the secant one, per width (mm²/N)."""
         return 0.0
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What to know before trusting the method with this pair."""
-        return self.left_out
-
-    def _cycle(self, load: Load, count: int) -> MeshCycle:
-        curves = self.slices.curves(self.single(self.slices.lengths, load), count)
-        force = self.force(load)
-        return MeshCycle(
-            method=self.name,
-            holds=self.holds,
-            torque=self.torque(load),
-            force=force,
-            width=self.width,
-            transmission_error=force / curves.mesh_stiffness,
-            notes=self.notes,
-            **curves._asdict(),
-        )
 
 
 @dataclass(frozen=True, kw_only=True)

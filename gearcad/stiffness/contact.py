@@ -67,11 +67,7 @@ class ContactMethod(StiffnessMethod):
         gaps = approach - rigid - parts.sum(1)
         um = 1000 / force
         return MeshCycle(
-            method=self.name,
-            holds=self.holds,
-            torque=abs(torque),
-            force=force,
-            width=self.width,
+            **self.inputs(load),
             roll_angle=np.r_[angles, angles[0] + 360 / self.mounted.pinion.teeth],
             mesh_stiffness=_closed(1 / (um * (approach - rigid))),
             tangent_stiffness=_closed(2 * _STEP / (um * (harder - softer))),

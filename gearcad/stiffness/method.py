@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from gearcad.errors import GeometryError, ParameterError, require_whole
 from gearcad.fea.flexible_pair import BodyModel
@@ -82,10 +81,15 @@ class StiffnessMethod(ABC):
         """F_bt: what all flanks carry together along the line of action (N)."""
         return 2000 * self.torque(load) / self.mounted.pinion.base_diameter
 
-    @property
-    def lean(self) -> float:
-        """cos beta_b."""
-        return math.cos(math.radians(self.mounted.pinion.base_helix_angle))
+    def inputs(self, load: Load) -> dict[str, Any]:
+        """What a MeshCycle tells of its method, the load and the pair, under the names there."""
+        return {
+            "method": self.name,
+            "holds": self.holds,
+            "torque": self.torque(load),
+            "force": self.force(load),
+            "width": self.width,
+        }
 
     @property
     def left_out(self) -> tuple[str, ...]:

@@ -30,17 +30,12 @@ class MethodB(StiffnessMethod):
         of, factor = rating.stiffness, self.width * rating.stiffness.low_load_factor
         half = 180 / self.mounted.pinion.teeth
         secant, tangent = (np.full(2, each * factor) for each in (of.mesh_beta, of.mesh_alpha))
-        force = self.force(load)
         return MeshCycle(
-            method=self.name,
-            holds=self.holds,
-            torque=self.torque(load),
-            force=force,
-            width=self.width,
+            **self.inputs(load),
             roll_angle=np.array([-half, half]),
             mesh_stiffness=secant,
             tangent_stiffness=tangent,
-            transmission_error=force / secant,
+            transmission_error=self.force(load) / secant,
             single_stiffness=of.single * factor,
             mean_only=True,
             notes=tuple(text for text in rating.warnings if text.startswith(("c'", "c_gamma", "ISO 6336"))) + self.left_out,

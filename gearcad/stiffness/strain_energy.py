@@ -19,9 +19,8 @@ from gearcad.fea.flank import FlankCompliance
 from gearcad.fea.flexible_pair import flank_body
 from gearcad.geometry import Gear
 from gearcad.load import Load
-from gearcad.mesh_cycle import MeshCycle
-from gearcad.stiffness.method import StiffnessMethod
-from gearcad.stiffness.slices import SinglePair, Slices
+from gearcad.stiffness.slice_method import SliceMethod
+from gearcad.stiffness.slices import SinglePair
 
 __all__ = ["StrainEnergy", "weighted_displacement"]
 
@@ -32,7 +31,7 @@ _POINTS = 7
 
 
 @dataclass(frozen=True, kw_only=True)
-class StrainEnergy(StiffnessMethod):
+class StrainEnergy(SliceMethod):
     """Elastic energy of both bodies, each under an ellipse of Hertz's width (Pedersen and Jorgensen 2014).
 
     In plane strain; of a helical gear it takes the normal section, between the virtual spur gears of whole numbers of teeth.
@@ -43,11 +42,6 @@ class StrainEnergy(StiffnessMethod):
     title = "Strain energy"
     holds = ("contact under all of the load, by energy", "teeth", "bodies down to where they are held")
     plane: ClassVar[Plane] = Plane.STRAIN
-
-    @cached_property
-    def slices(self) -> Slices:
-        """The zone of contact."""
-        return Slices(self.mounted)
 
     @cached_property
     def bodies(self) -> tuple[list[tuple[float, FlankCompliance]], list[tuple[float, FlankCompliance]]]:
@@ -66,12 +60,10 @@ class StrainEnergy(StiffnessMethod):
 
     def single(self, lengths: Floats, load: Load) -> SinglePair:
         """One pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
-        pair, lean = self.mounted, self.lean
-        whole = pair.centre_distance * math.sin(math.radians(pair.working_transverse_pressure_angle))
-        first, second = lengths / lean, (whole - lengths) / lean
+        pair, (first, second) = self.mounted, self.curvatures(lengths)
         modulus = PlaneElasticity(self.material, self.plane).modulus / 2
         half_widths = np.sqrt(4 * self.force(load) / self.width * first * second / (first + second) / (math.pi * modulus))
-        factor = 1000 / lean
+        factor = self.to_transverse
         parts = {
             owner: factor * _displacements(gear, bodies, curvatures, half_widths)
             for owner, gear, bodies, curvatures in zip(
@@ -80,20 +72,6 @@ class StrainEnergy(StiffnessMethod):
         }
         # U = F^2 c/2 with dc/dF = -1/(pi E* F), so dU/dF = F (c - 1/(2 pi E*)).
         return SinglePair(lengths, parts, factor / (2 * math.pi * modulus))
-
-    def _cycle(self, load: Load, count: int) -> MeshCycle:
-        curves = self.slices.curves(self.single(self.slices.lengths, load), count)
-        force = self.force(load)
-        return MeshCycle(
-            method=self.name,
-            holds=self.holds,
-            torque=self.torque(load),
-            force=force,
-            width=self.width,
-            transmission_error=force / curves.mesh_stiffness,
-            notes=self.left_out,
-            **curves._asdict(),
-        )
 
 
 def weighted_displacement(body: FlankCompliance, length: float, half_width: float) -> float:
