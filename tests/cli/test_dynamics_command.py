@@ -161,6 +161,13 @@ def test_a_chart_without_a_motion_that_parts_says_so(here: Path) -> None:
     )
 
 
+def test_tooth_errors_and_flanks_that_part_are_too_much(here: Path) -> None:
+    text = PAIR.replace("speeds = 40", "speeds = 20\nspeed_to = 30000.0\ntooth_errors = 'on'")
+    result = run("dynamics", spec(text), "--quiet")
+    assert result.exit_code == 0, result.output
+    assert re.search(r"Warning: flanks are taken to stick to each other: .* would have \d+ harmonics here", result.stdout)
+
+
 def test_the_contact_model_of_the_thesis(here: Path) -> None:
     text = (TEMPLATES / "uhlir-19-23.toml").read_text(encoding="utf-8")
     short = text.replace("speeds = 41", "speeds = 3").replace("duration = 1.0", "duration = 0.2")
