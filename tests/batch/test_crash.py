@@ -92,13 +92,14 @@ def kill_often(variants: list[Variant], kills: int, folder: Path, seed: int) -> 
             assert snapshot(folder) == variant.tree
 
 
-def test_tree_after_twenty_four_kills_is_that_of_an_undisturbed_run(tmp_path: Path) -> None:
+@pytest.mark.parametrize("kills", [12, pytest.param(48, marks=pytest.mark.long)])
+def test_tree_after_many_kills_is_that_of_an_undisturbed_run(kills: int, tmp_path: Path) -> None:
     """Two tables with other gears and other formats take turns: files are replaced and removed too."""
     variants = [
         Variant(tmp_path, rows=8, width=2.0, formats="stl,dxf,csv"),
         Variant(tmp_path, rows=8, width=3.0, formats="csv,dxf"),
     ]
-    kill_often(variants, 24, tmp_path / "out", seed=1)
+    kill_often(variants, kills, tmp_path / "out", seed=1)
 
 
 @pytest.mark.long
@@ -220,6 +221,7 @@ def test_worker_killed_before_any_change_on_disk_leaves_no_lie(change: str, tmp_
     assert moments > 10
 
 
+@pytest.mark.long
 def test_parent_killed_before_any_change_on_disk_leaves_no_trace(tmp_path: Path) -> None:
     """From the output folder to the tables of results; its workers die with it."""
     rows = table(tmp_path / "table.csv", 3, 2.0)

@@ -64,7 +64,7 @@ def _flank_points(solid: cadquery.Shape, width: float, most: int = 40, grid: int
     return np.array([(p.X(), p.Y(), p.Z()) for p in points])
 
 
-@pytest.mark.parametrize("name", GEARS)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.long) if name == "z 300" else name for name in GEARS])
 def test_flanks_volume_and_validity_before_and_after_step(name: str, tmp_path: Path) -> None:
     gear = Gear(**GEARS[name])
     solid = gear_solid(gear)

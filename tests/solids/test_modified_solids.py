@@ -93,7 +93,7 @@ def test_each_modification_is_measured_on_the_solid(name: str, amount: str) -> N
     _measure(gear, solid)
 
 
-@pytest.mark.parametrize("shape", ["linear", "parabolic"])
+@pytest.mark.parametrize("shape", ["linear", pytest.param("parabolic", marks=pytest.mark.long)])
 @pytest.mark.parametrize("name", GEARS)
 def test_all_modifications_before_and_after_step(name: str, shape: str, tmp_path: Path) -> None:
     gear = modified(GEARS[name], tip_relief_shape=shape, root_relief_shape=shape, end_relief_shape=shape)
