@@ -163,6 +163,7 @@ def test_worker_of_the_cluster_that_dies_costs_nothing(many: Path, tmp_path: Pat
     assert lies(tmp_path / "out") == []
 
 
+@pytest.mark.long
 def test_scheduler_that_dies_ends_the_run_with_what_there_is(
     many: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:

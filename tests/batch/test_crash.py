@@ -116,6 +116,7 @@ def test_tree_after_many_kills_is_that_of_an_undisturbed_run(seed: int, tmp_path
     kill_often(variants, 24, tmp_path / "out", seed)
 
 
+@pytest.mark.long
 def test_workers_killed_at_random_cost_their_rows_only(tmp_path: Path) -> None:
     variant = Variant(tmp_path, rows=24, width=2.0, formats="stl,dxf")
     chance = random.Random(3)

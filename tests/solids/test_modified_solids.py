@@ -112,7 +112,10 @@ def test_the_volume_taken_off(name: str, amount: str) -> None:
 
 
 @pytest.mark.parametrize("share", [0.3, 1.0, 1.7])
-@pytest.mark.parametrize("name", ["chamfered", "chamfered, spur", "chamfered to the root"])
+@pytest.mark.parametrize(
+    "name",
+    ["chamfered", *(pytest.param(name, marks=pytest.mark.long) for name in ("chamfered, spur", "chamfered to the root"))],
+)
 def test_an_end_relief_that_begins_inside_on_or_beyond_the_cone(name: str, share: float, tmp_path: Path) -> None:
     """Where the cone crosses the height at which the relief begins, faces end in a corner."""
     plain = GEARS[name]
@@ -210,12 +213,12 @@ def _check_random(seed: int, path: Path) -> None:
     assert removed == pytest.approx(removed_volume(gear), abs=VOLUME_TOLERANCE * solid.Volume()), gear
 
 
-@pytest.mark.parametrize("seed", [*range(6), 109, 239])  # the last two have been wrong once
+@pytest.mark.parametrize("seed", [*range(2), 109, 239])  # the last two have been wrong once
 def test_random_modifications(seed: int, tmp_path: Path) -> None:
     _check_random(seed, tmp_path / "gear.step")
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("seed", range(6, 300))
+@pytest.mark.parametrize("seed", range(2, 300))
 def test_random_modifications_long(seed: int, tmp_path: Path) -> None:
     _check_random(seed, tmp_path / "gear.step")
