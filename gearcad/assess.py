@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from gearcad.check.result import CheckResult
 from gearcad.check.run import Progress, check_pair
-from gearcad.errors import ParameterError
 from gearcad.material import Material
 from gearcad.spec.design import Design
 
@@ -16,13 +15,10 @@ def assess(design: Design, progress: Progress | None = None) -> CheckResult:
 
     Raises ParameterError for a design without pair or load, and what `check_pair` raises.
     """
-    if design.pair is None:
-        raise ParameterError("kind", design.kind.value, "must be a pair: a single gear has nothing to press against")
-    if design.load is None:
-        raise ParameterError("load.torque", None, "must be given, in N·m on the pinion: without it there is no stress")
+    pair, load = design.loaded_pair("nothing to press against", "without it there is no stress")
     from threadpoolctl import threadpool_limits
 
     # The dense systems are small, and solid bodies are solved side by side: more threads cost more than they bring.
     with threadpool_limits(1):
         material = design.material or Material()
-        return check_pair(design.pair, material, design.load, design.check, progress, design.mounting)
+        return check_pair(pair, material, load, design.check, progress, design.mounting)

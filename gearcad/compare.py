@@ -10,7 +10,6 @@ from typing import Any
 from gearcad import __version__
 from gearcad.check.options import CheckOptions
 from gearcad.check.run import Progress
-from gearcad.errors import ParameterError
 from gearcad.material import Material
 from gearcad.spec.design import Design
 from gearcad.stiffness.comparison import StiffnessComparison, compare_methods
@@ -28,18 +27,15 @@ def compare(
 
     Raises ParameterError for a design without pair or load, and what `compare_methods` raises.
     """
-    if design.pair is None:
-        raise ParameterError("kind", design.kind.value, "must be a pair: a single gear has no mesh")
-    if design.load is None:
-        raise ParameterError("load.torque", None, "must be given, in N·m on the pinion: stiffness depends on it")
+    pair, load = design.loaded_pair("no mesh", "stiffness depends on it")
     from threadpoolctl import threadpool_limits
 
     # The dense systems are small, and solid bodies are solved side by side: more threads cost more than they bring.
     with threadpool_limits(1):
         return compare_methods(
-            design.pair,
+            pair,
             design.material or Material(),
-            design.load,
+            load,
             methods,
             body=(design.check or CheckOptions()).body,
             mounting=design.mounting,

@@ -11,6 +11,9 @@ from gearcad.mesh_cycle import METHOD_NAMES
 
 __all__ = ["DynamicsOptions", "PairModel"]
 
+_CHART, _CAMPBELL = 1000, 41
+"""Speeds where none are given."""
+
 _SWITCH = {"on": True, "off": False}
 
 AUTO = "auto"
@@ -33,10 +36,10 @@ class PairModel(Enum):
 class DynamicsOptions:
     """Options of a study of the dynamics. Raises ParameterError and GeometryError.
 
-    Of trains and pairs: chart over `speeds` speeds of the (first) pinion from `speed_from` to `speed_to` (rpm; None: up to half
-    as much again as its last resonance), with so many `harmonics` of the tooth frequency; `frequencies` natural frequencies of
-    a train; `accuracy_grade` (ISO 1328) is that of K_v by ISO 6336-1 and, with `tooth_errors` "on", of random pitch deviations
-    of the pinions' teeth, drawn with `seed`.
+    Of trains and pairs: chart over `speeds` speeds of the (first) pinion (None: 1000, or 41 of a contact model) from
+    `speed_from` to `speed_to` (rpm; None: up to half as much again as its last resonance), with so many `harmonics` of the
+    tooth frequency; `frequencies` natural frequencies of a train; `accuracy_grade` (ISO 1328) is that of K_v by ISO 6336-1 and,
+    with `tooth_errors` "on", of random pitch deviations of the pinions' teeth, drawn with `seed`.
 
     Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh; "auto" is plane
     strain for spur gears, whose teeth come into mesh by and by under load, and potential energy for helical ones.
@@ -50,7 +53,7 @@ class DynamicsOptions:
 
     speed_from: float | None = None
     speed_to: float | None = None
-    speeds: int = 1000
+    speeds: int | None = None
     harmonics: int = 6
     frequencies: int = 8
     accuracy_grade: int = 6
@@ -71,7 +74,8 @@ class DynamicsOptions:
 
     def __post_init__(self) -> None:
         plain_numbers(self)
-        require_whole("speeds", self.speeds, at_least=2, at_most=20_000)
+        if self.speeds is not None:
+            require_whole("speeds", self.speeds, at_least=2, at_most=20_000)
         require_whole("harmonics", self.harmonics, at_least=1, at_most=40)
         require_whole("frequencies", self.frequencies, at_least=1, at_most=200)
         require_whole("seed", self.seed, at_least=0, at_most=2**32 - 1)
@@ -110,6 +114,16 @@ class DynamicsOptions:
         if self.duration * self.sampling > 5e7:
             permitted = f"must be at most {5e7 / self.sampling:g} s at this sampling: 50 million samples a speed"
             raise ParameterError("duration", self.duration, permitted, "s")
+
+    @property
+    def chart_speeds(self) -> int:
+        """Of a chart of K_v."""
+        return self.speeds or _CHART
+
+    @property
+    def campbell_speeds(self) -> int:
+        """Of a Campbell study."""
+        return self.speeds or _CAMPBELL
 
     @property
     def errors(self) -> bool:

@@ -38,9 +38,8 @@ _RUN_IN = 0.075
 _HIGHEST = 2.2
 """Spectra go up to so many times the highest tooth frequency, or natural frequency."""
 
-_SPEEDS = 41
 _SPAN = 3.0
-"""Default speeds of a Campbell study: up to so many times the speed of the main resonance."""
+"""By default a Campbell study goes up to so many times the speed of the main resonance."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -226,8 +225,7 @@ def study_contact(
     model = ContactModel.from_pair(pair, inertias=inertias, pair_stiffness=stiffness, damping=damping, torque=torque)
     resonance = 60 * model.natural_frequency(ratio) / pair.pinion.teeth
     last = options.speed_to or _SPAN * resonance
-    count = options.speeds if options.speeds != DynamicsOptions.speeds else _SPEEDS
-    speeds = np.linspace(options.speed_from or 0.0, last, count)
+    speeds = np.linspace(options.speed_from or 0.0, last, options.campbell_speeds)
     tell("campbell")
     top = max(_HIGHEST * resonance * pair.pinion.teeth / 60, _HIGHEST * last * pair.pinion.teeth / 60)
     study = campbell(model, speeds, duration=options.duration, sampling=options.sampling, highest_frequency=top)

@@ -181,8 +181,8 @@ def _speeds(train: Train, options: DynamicsOptions, modes: NaturalModes) -> Floa
     if last is None:
         felt = (modes.potential_meshes > _SHARE).any(axis=1)
         last = _BEYOND * float(modes.rpm[felt].max()) if felt.any() else _BEYOND * float(modes.rpm.max())
-    first = options.speed_from if options.speed_from else last / options.speeds
-    return np.linspace(first, last, options.speeds)
+    first = options.speed_from if options.speed_from else last / options.chart_speeds
+    return np.linspace(first, last, options.chart_speeds)
 
 
 def _responses(

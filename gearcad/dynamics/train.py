@@ -171,6 +171,9 @@ class Mesh(_Part):
             raise ParameterError(f"{self.name}.internal", self.internal, "must be true or false")
         if self.damping is not None and self.damping_ratio is not None:
             raise GeometryError(f"{self.name}.damping_ratio", self.damping_ratio, "not beside damping: one says the other")
+        if self.shape is StiffnessWave.SQUARE and self.variation:
+            permitted = "not with a square wave: its contact ratio says how far it jumps"
+            raise GeometryError(f"{self.name}.variation", self.variation, permitted)
         if self.shape is StiffnessWave.SQUARE and self.contact_ratio is None:
             raise ParameterError(f"{self.name}.contact_ratio", None, "must be given for a square wave")
 

@@ -56,6 +56,14 @@ class Design:
         ):
             raise ParameterError("kind", self.kind, "must match the gear or the pair that is given")
 
+    def loaded_pair(self, no_mate: str, no_load: str) -> tuple[GearPair, Load]:
+        """The pair and its load. Raises ParameterError where one is missing: it ends with why it is needed."""
+        if self.pair is None:
+            raise ParameterError("kind", self.kind.value, f"must be a pair: a single gear has {no_mate}")
+        if self.load is None:
+            raise ParameterError("load.torque", None, f"must be given, in N·m on the pinion: {no_load}")
+        return self.pair, self.load
+
     @property
     def gears(self) -> dict[str, Gear]:
         """The gears under the names of their files: `gear`, or `pinion` and `wheel`."""

@@ -202,6 +202,10 @@ def test_the_contact_model_of_the_thesis(here: Path) -> None:
             PAIR.replace("speeds = 40", "pinion_bearing_stiffness = 5.0"),
             "line 17: dynamics.pinion_bearing_stiffness = 5 N/µm: must be given together",
         ),
+        (
+            TRAIN.replace("variation = 0.206", "variation = 0.206\nshape = 'square'\ncontact_ratio = 1.6"),
+            "mesh.variation = 0.206: not with a square wave",
+        ),
         (TRAIN.replace("variation = 0.206", "variation = 1.2"), "mesh.variation = 1.2: must be"),
         (TRAIN.replace('wheel = "wheel"', 'wheel = "whel"'), "'whel'"),
         (TRAIN.replace("teeth = 18 ", "tooth = 18 "), "train.mesh[0].tooth: unknown key; did you mean teeth?"),
