@@ -1,4 +1,4 @@
-"""Renders the pictures of this folder from the reference pair: `python docs/render.py` (off screen; solids through VTK)."""
+"""Renders the pictures of the README, of what its own commands make: `python docs/render.py` (off screen, through VTK)."""
 
 from __future__ import annotations
 
@@ -21,33 +21,23 @@ from vtkmodules.vtkRenderingCore import (
     vtkWindowToImageFilter,
 )
 
-from gearcad import BasicRack, Body, Gear, GearPair
+from gearcad import Gear
 from gearcad.batch import Step, Wanted, run_table
 from gearcad.geometry import mesh_pose
 from gearcad.plot_data import read_points
 from gearcad.plots import plot_contours, save_plot
 from gearcad.solids import tessellate
+from gearcad.spec import read_spec
 from gearcad.study import plan_study, write_study
 
 FOLDER = Path(__file__).parent
+SPEC = FOLDER.parent / "templates" / "volvo-13-44.toml"
+"""What `gearcad new volvo` writes."""
+
 BRASS, STEEL = (0.83, 0.62, 0.30), (0.60, 0.68, 0.76)
 FEATURE_ANGLE = 25.0
 
 Place = tuple[float, float, float]
-
-
-def reference_pair() -> GearPair:
-    """The helical pair 13/44 of the Volvo thesis, with keyways and small chamfers."""
-    shared = {"normal_module": 2.5, "tip_alteration": -0.00724644}
-    pinion = Gear(
-        teeth=13, face_width=18.3, helix_angle=28, profile_shift=0.107, tooth_thinning=0.08, rack=BasicRack(root_radius=0.48),
-        body=Body(bore=16, keyway_width=5, keyway_depth=2.3, end_chamfer=0.6), **shared,
-    )  # fmt: skip
-    wheel = Gear(
-        teeth=44, face_width=15.1, helix_angle=-28, profile_shift=-0.378, tooth_thinning=0.16, rack=BasicRack(root_radius=0.32),
-        body=Body(bore=45, keyway_width=14, keyway_depth=3.8, end_chamfer=0.6), **shared,
-    )  # fmt: skip
-    return GearPair(pinion=pinion, wheel=wheel, centre_distance=80.0)
 
 
 def actors(gear: Gear, colour: tuple[float, float, float], turn: float = 0.0, x: float = 0.0, z: float = 0.0) -> list[vtkActor]:
@@ -118,18 +108,18 @@ def render(parts: list[vtkActor], path: Path, *, focus: Place, eye: Place, scale
 
 def plot_study(path: Path) -> None:
     """The study of the README."""
-    spec = FOLDER.parent / "templates" / "volvo-13-44.toml"
     varied = ["wheel.profile_shift=auto", "pinion.profile_shift=-0.2:0.6:33", "helix_angle=20:30:21"]
     with TemporaryDirectory() as folder:
         table, target = Path(folder, "study.csv"), Path(folder, "study")
-        write_study(plan_study(spec, varied), table)
+        write_study(plan_study(SPEC, varied), table)
         run_table(table, target, Wanted(steps=(Step.DATA,)))
         points = read_points(target / "results.csv", "pinion.profile_shift", "helix_angle", contour="usable_contact_ratio")
         save_plot(plot_contours, points, path)
 
 
 def main() -> None:
-    pair = reference_pair()
+    pair = read_spec(SPEC).pair
+    assert pair is not None  # the starter is one
     pose = mesh_pose(pair)
     pinion, wheel = actors(pair.pinion, BRASS), actors(pair.wheel, STEEL, pose.rotation, pose.x, pose.z)
     render(pinion + wheel, FOLDER / "pair.png", focus=(62, 0, 6), eye=(-0.3, -1.0, 0.75), scale=50)

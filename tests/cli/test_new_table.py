@@ -52,6 +52,7 @@ def test_new_lists_tables_beside_specs() -> None:
         "fzg-c",
         "gears",
         "pairs",
+        "reducer-21-43",
         "spur",
         "train-1-stage",
         "train-2-stage",
