@@ -10,11 +10,12 @@ import numpy as np
 from gearcad.dynamics.excitation import Excitation, MeshExcitation, cycle_excitation
 from gearcad.dynamics.graph import turning_pieces
 from gearcad.dynamics.mesh_curves import CosineStiffness, StiffnessShape, square_stiffness
-from gearcad.dynamics.tooth_errors import ToothDeviations, TransmissionError, flank_tolerances, random_deviations, tooth_errors
+from gearcad.dynamics.tooth_errors import ToothDeviations, TransmissionError, random_deviations, tooth_errors
 from gearcad.dynamics.train import Inertia, Mesh, StiffnessWave, Train, TrainModel
 from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.rating.iso1328 import flank_tolerances
 
 __all__ = ["pair_errors", "pair_excitation", "pair_train", "train_excitation"]
 

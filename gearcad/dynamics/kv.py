@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.dynamics.dynamic_factor import DynamicFactor
 from gearcad.dynamics.response import PeriodicResponse
 from gearcad.errors import GeometryError, ParameterError, as_choice
+from gearcad.rating.dynamic_factor import DynamicFactor
 
 __all__ = ["ForceDefinition", "KvChart", "Peak", "kv_chart"]
 

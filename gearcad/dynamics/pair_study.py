@@ -13,27 +13,22 @@ from numpy.typing import NDArray
 from gearcad.dynamics.campbell import CampbellStudy, campbell
 from gearcad.dynamics.contact_model import ContactModel
 from gearcad.dynamics.driving import pair_errors, pair_excitation, pair_train
-from gearcad.dynamics.dynamic_factor import DynamicFactor, reduced_mass
 from gearcad.dynamics.lines import system
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.pair_history import TimeHistory, time_history
 from gearcad.dynamics.six_dof import PairOnBearings
 from gearcad.dynamics.study import TrainStudy, study_train
-from gearcad.dynamics.tooth_errors import flank_tolerances
 from gearcad.dynamics.train import Train
 from gearcad.errors import ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
-from gearcad.rating import rate
+from gearcad.rating.dynamic_factor import DynamicFactor
 
 __all__ = ["ContactStudy", "PairStudy", "study_contact", "study_pair"]
 
 Floats = NDArray[np.float64]
-
-_RUN_IN = 0.075
-"""y_alpha of case-hardened and nitrided steels (ISO 6336-1:2006, 8.3.5): share of the base pitch deviation that wears off."""
 
 _HIGHEST = 2.2
 """Spectra go up to so many times the highest tooth frequency, or natural frequency."""
@@ -144,7 +139,7 @@ def study_pair(
     train = pair_train(pair, cycle, inertias, torque=cycle.torque, speed=load.speed, damping_ratio=options.damping_ratio)
     errors = pair_errors(pair, options.accuracy_grade, options.seed, options.harmonics) if options.errors else None
     excitation = pair_excitation(train, cycle, errors)
-    factor = method_b(pair, material, load, inertias, options.accuracy_grade)
+    factor = DynamicFactor.of(pair, material, load, inertias, options.accuracy_grade)
     bearings = _on_bearings(train, pair, options, masses)
     of = None if bearings is None else bearings.system()
     study = study_train(train, options, excitation=excitation, method_b=factor, of=of, tell=tell)
@@ -171,31 +166,6 @@ def _on_bearings(
         mesh_damping=float(of.mesh_damping[0]),
         bearing_damping=options.bearing_damping,
         torque=train.torques["pinion"],
-    )
-
-
-def method_b(pair: GearPair, material: Material, load: Load, inertias: tuple[float, float], grade: int) -> DynamicFactor:
-    """Inputs of K_v by ISO 6336-1:2006, Method B: deviations of a grade of ISO 1328, less what running-in of hard steel takes.
-
-    The tip relief counts where both gears have one.
-    """
-    rating = rate(pair, material, load)
-    tolerances = [flank_tolerances(grade, gear.reference_diameter, gear.normal_module) for gear in (pair.pinion, pair.wheel)]
-    kept = 1 - _RUN_IN
-    across = math.cos(math.radians(pair.pinion.transverse_pressure_angle))
-    reliefs = [gear.modification.tip_relief for gear in (pair.pinion, pair.wheel)]
-    return DynamicFactor(
-        teeth=pair.pinion.teeth,
-        total_contact_ratio=pair.total_contact_ratio,
-        single_stiffness=rating.stiffness.single,
-        mesh_stiffness=rating.stiffness.mesh_alpha,
-        reduced_mass=reduced_mass(
-            inertias, (pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2), pair.common_width.width
-        ),
-        specific_load=rating.specific_load,
-        pitch_deviation=kept * across * max(each.single_pitch for each in tolerances),
-        profile_deviation=kept * max(each.profile_form for each in tolerances),
-        tip_relief=min(reliefs),
     )
 
 

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearcad.dynamics.backlash import Direction, trace
 from gearcad.dynamics.driving import train_excitation
-from gearcad.dynamics.dynamic_factor import DynamicFactor
 from gearcad.dynamics.excitation import Excitation
 from gearcad.dynamics.kv import KvChart, kv_chart
 from gearcad.dynamics.lines import system
@@ -23,6 +22,7 @@ from gearcad.dynamics.response import PeriodicResponse
 from gearcad.dynamics.system import System
 from gearcad.dynamics.train import Train, TrainModel
 from gearcad.errors import SolverError
+from gearcad.rating.dynamic_factor import DynamicFactor
 
 __all__ = ["Course", "TrainStudy", "study_train"]
 

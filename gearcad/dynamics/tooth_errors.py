@@ -1,4 +1,4 @@
-"""Tooth errors as excitation: deviations of each tooth, given or random within a tolerance class of ISO 1328-1:2013.
+"""Tooth errors as excitation: deviations of each tooth, given or random within the tolerances of ISO 1328-1.
 
 Deviations in µm. They are smooth along the line of action here: every pair of teeth takes over its part of the load
 gradually, so that the error of the mesh is continuous. Teeth that meet too early (before the line of action) are left to the
@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearcad.errors import ParameterError, plain_numbers, require_number, require_whole
+from gearcad.rating.iso1328 import FlankTolerances
 
-__all__ = ["FlankTolerances", "ToothDeviations", "TransmissionError", "flank_tolerances", "random_deviations", "tooth_errors"]
+__all__ = ["ToothDeviations", "TransmissionError", "random_deviations", "tooth_errors"]
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -54,29 +54,6 @@ class TransmissionError:
         weights = np.where(np.arange(len(coefficients)) == 0, 1, 2) * coefficients
         result: Floats = (np.exp(1j * turns) @ weights).real
         return result
-
-
-class FlankTolerances(NamedTuple):
-    """Tolerances (µm) of ISO 1328-1:2013: f_pT, F_pT, f_HalphaT and f_falphaT."""
-
-    single_pitch: float
-    cumulative_pitch: float
-    profile_slope: float
-    profile_form: float
-
-
-def flank_tolerances(tolerance_class: int, reference_diameter: float, normal_module: float) -> FlankTolerances:
-    """ISO 1328-1:2013, equations (5) to (8), not rounded; classes 1 to 11, d from 5 to 15,000 mm, m_n from 0.5 to 70 mm."""
-    require_whole("tolerance_class", tolerance_class, at_least=1, at_most=11)
-    require_number("reference_diameter", reference_diameter, "mm", at_least=5, at_most=15000)
-    require_number("normal_module", normal_module, "mm", at_least=0.5, at_most=70)
-    d, m_n, step = reference_diameter, normal_module, math.sqrt(2) ** (tolerance_class - 5)
-    return FlankTolerances(
-        (0.001 * d + 0.4 * m_n + 5) * step,
-        (0.002 * d + 0.55 * math.sqrt(d) + 0.7 * m_n + 12) * step,
-        (0.4 * m_n + 0.001 * d + 4) * step,
-        (0.55 * m_n + 5) * step,
-    )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

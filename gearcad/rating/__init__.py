@@ -1,5 +1,6 @@
 """Analytic ratings of a gear pair: Hertz's line contact, and ISO 6336:2006 or DIN 3990:1987, Method B. Pure functions."""
 
+from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.editions import Edition
 from gearcad.rating.face_load import RunningIn, face_load_factor, root_face_load_factor, running_in_allowance, width_to_height
 from gearcad.rating.hertz import LineContact, Peak, Stresses, reduced_modulus, reduced_radius
@@ -11,6 +12,7 @@ from gearcad.rating.rate import Rating, rate
 from gearcad.rating.virtual import LoadPoint, VirtualGear
 
 __all__ = [
+    "DynamicFactor",
     "Edition",
     "FlankRating",
     "LineContact",

@@ -47,7 +47,7 @@ HIGH_LOAD = 1600.0
 class MeshStiffness:
     """Factors and stiffnesses of clause 9. `single`, `mesh_alpha` and `mesh_beta` are c', c_gamma_alpha and c_gamma_beta.
 
-    They hold for a specific load of 100 N/mm and more; `low_load_factor` times as much belongs to the load of the rating.
+    These are those of the load of the rating; `high_load_single` is c' from a specific load of 100 N/mm on.
     """
 
     flexibility: float
@@ -56,12 +56,27 @@ class MeshStiffness:
     rack_factor: float
     material_factor: float
     low_load_factor: float
-    single: float
-    mesh_alpha: float
-    mesh_beta: float
+    high_load_single: float
+    transverse_contact_ratio: float
+
+    @property
+    def single(self) -> float:
+        """c' of the load: (90) takes off part of it below 100 N/mm."""
+        return self.high_load_single * self.low_load_factor
+
+    @property
+    def mesh_alpha(self) -> float:
+        """c_gamma_alpha of the load (91)."""
+        return mesh_stiffness_alpha(self.single, self.transverse_contact_ratio)
+
+    @property
+    def mesh_beta(self) -> float:
+        """c_gamma_beta of the load (92)."""
+        return mesh_stiffness_beta(self.mesh_alpha)
 
     def to_dict(self) -> dict[str, float]:
         """Values under their symbols; those for the load itself end in `_lowload` (equal where the load is not low)."""
+        high_alpha = mesh_stiffness_alpha(self.high_load_single, self.transverse_contact_ratio)
         return {
             "q_prime": self.flexibility,
             "c_th": self.theoretical,
@@ -69,13 +84,13 @@ class MeshStiffness:
             "C_R": self.blank_factor,
             "C_B": self.rack_factor,
             "xi": self.material_factor,
-            "c_prime": self.single,
-            "c_gamma_alpha": self.mesh_alpha,
-            "c_gamma_beta": self.mesh_beta,
+            "c_prime": self.high_load_single,
+            "c_gamma_alpha": high_alpha,
+            "c_gamma_beta": mesh_stiffness_beta(high_alpha),
             "low_load_factor": self.low_load_factor,
-            "c_prime_lowload": self.single * self.low_load_factor,
-            "c_gamma_alpha_lowload": self.mesh_alpha * self.low_load_factor,
-            "c_gamma_beta_lowload": self.mesh_beta * self.low_load_factor,
+            "c_prime_lowload": self.single,
+            "c_gamma_alpha_lowload": self.mesh_alpha,
+            "c_gamma_beta_lowload": self.mesh_beta,
         }
 
 
@@ -146,8 +161,6 @@ def mesh_stiffness(pair: GearPair, material: Material, specific_load: float, bla
     q = tooth_flexibility((first.virtual_teeth, second.virtual_teeth), (first.profile_shift, second.profile_shift))
     rack = sum(basic_rack_factor(gear.dedendum, gear.rack.pressure_angle) for gear in (first, second)) / 2  # (87)
     xi = material_factor(material.youngs_modulus)
-    single = xi * single_stiffness(theoretical_stiffness(q), blank_factor, rack, pair.pinion.helix_angle)
-    alpha = mesh_stiffness_alpha(single, pair.transverse_contact_ratio)
     return MeshStiffness(
         flexibility=q,
         theoretical=theoretical_stiffness(q),
@@ -155,9 +168,8 @@ def mesh_stiffness(pair: GearPair, material: Material, specific_load: float, bla
         rack_factor=rack,
         material_factor=xi,
         low_load_factor=low_load_factor(specific_load),
-        single=single,
-        mesh_alpha=alpha,
-        mesh_beta=mesh_stiffness_beta(alpha),
+        high_load_single=xi * single_stiffness(theoretical_stiffness(q), blank_factor, rack, pair.pinion.helix_angle),
+        transverse_contact_ratio=pair.transverse_contact_ratio,
     )
 
 

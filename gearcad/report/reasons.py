@@ -24,12 +24,11 @@ def stiffness_reasons(result: CheckResult) -> list[str]:
         f"Bodies: the finite element bodies are flexible down to {rims[0]:.1f} m_n below the root circle on the pinion and "
         f"{rims[1]:.1f} m_n on the wheel, and rigid inside; ISO knows the body only by C_R = {standard.blank_factor:g}. Of the "
         f"approach {100 * parts[0] / parts.sum():.0f} % is the pinion's and {100 * parts[1] / parts.sum():.0f} % the wheel's.",
-        f"Load: ISO's values are those from 100 N/mm on; this pair carries F_t K_A/b = {short(result.rating.specific_load)} "
-        "N/mm"
+        f"Load: this pair carries F_t K_A/b = {short(result.rating.specific_load)} N/mm"
         + (
-            f", for which ISO lowers them by the factor {standard.low_load_factor:.3f}."
+            f", below the 100 N/mm from which on ISO's stiffness is whole: of it {standard.low_load_factor:.3f} is left."
             if standard.low_load_factor < 1
-            else "."
+            else "; from 100 N/mm on ISO's stiffness knows no load."
         )
         + " Over the torques of the sweep the finite elements go from "
         f"{short(min(point.mesh_stiffness for point in result.sweep))} to "

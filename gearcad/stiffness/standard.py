@@ -27,16 +27,16 @@ class MethodB(StiffnessMethod):
 
     def _cycle(self, load: Load, count: int) -> MeshCycle:
         rating = rate(self.mounted, self.material, load)
-        of, factor = rating.stiffness, self.width * rating.stiffness.low_load_factor
+        of = rating.stiffness
         half = 180 / self.mounted.pinion.teeth
-        secant, tangent = (np.full(2, each * factor) for each in (of.mesh_beta, of.mesh_alpha))
+        secant, tangent = (np.full(2, each * self.width) for each in (of.mesh_beta, of.mesh_alpha))
         return MeshCycle(
             **self.inputs(load),
             roll_angle=np.array([-half, half]),
             mesh_stiffness=secant,
             tangent_stiffness=tangent,
             transmission_error=self.force(load) / secant,
-            single_stiffness=of.single * factor,
+            single_stiffness=of.single * self.width,
             mean_only=True,
             notes=tuple(text for text in rating.warnings if text.startswith(("c'", "c_gamma", "ISO 6336"))) + self.left_out,
         )

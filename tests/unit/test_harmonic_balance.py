@@ -14,23 +14,18 @@ from scipy.integrate import quad, solve_ivp
 from support.responses import MOMENT, VARIATION, cosine, isolated, oscillator, two_stages
 
 from gearcad.dynamics.backlash import Direction, sweep, trace
-from gearcad.dynamics.dynamic_factor import DynamicFactor, SpeedRange, reduced_mass, running_factors
 from gearcad.dynamics.excitation import Excitation, MeshExcitation, cycle_excitation
 from gearcad.dynamics.floquet import floquet_multipliers, growth
 from gearcad.dynamics.kv import ForceDefinition, kv_chart
 from gearcad.dynamics.mesh_curves import CosineStiffness, CurveStiffness, cycle_stiffness, square_stiffness
 from gearcad.dynamics.periodic import harmonic_orders, periodic_response
 from gearcad.dynamics.system import System
-from gearcad.dynamics.tooth_errors import (
-    ToothDeviations,
-    TransmissionError,
-    flank_tolerances,
-    random_deviations,
-    tooth_errors,
-)
+from gearcad.dynamics.tooth_errors import ToothDeviations, TransmissionError, random_deviations, tooth_errors
 from gearcad.dynamics.transient import integrate
 from gearcad.errors import GeometryError, ParameterError, SolverError
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.rating.dynamic_factor import DynamicFactor, reduced_mass
+from gearcad.rating.iso1328 import flank_tolerances
 
 # ---------------------------------------------------------------------- stiffness
 
@@ -99,15 +94,6 @@ def test_mesh_cycle_as_excitation() -> None:
 
 
 # ---------------------------------------------------------------------- tooth errors
-
-
-def test_flank_tolerances() -> None:
-    """ISO 1328-1:2013, (5) to (8) by hand for d = 100 mm, m_n = 2.5 mm; a class more is the square root of 2 more."""
-    fifth, ninth = (flank_tolerances(each, 100.0, 2.5) for each in (5, 9))
-    assert fifth == pytest.approx((6.1, 0.2 + 5.5 + 1.75 + 12, 5.1, 6.375))
-    assert np.array(ninth) == pytest.approx(4 * np.array(fifth))
-    with pytest.raises(ParameterError, match="tolerance_class"):
-        flank_tolerances(12, 100.0, 2.5)
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2, 3])
@@ -391,47 +377,20 @@ def test_k_v_needs_a_static_load() -> None:
         kv_chart(response)
 
 
-METHOD_B = DynamicFactor(
-    teeth=20,
-    total_contact_ratio=1.6,
-    single_stiffness=14.0,
-    mesh_stiffness=20.0,
-    reduced_mass=0.02,
-    specific_load=400.0,
-    pitch_deviation=8.0,
-    profile_deviation=6.0,
-)
-
-
-def test_method_b() -> None:
-    """By hand: B_p = 0.28, B_f = 0.21, B_k = 1; n_E1 = 30000/(20 pi) sqrt(1000) = 15098.7 rpm."""
-    resonance = METHOD_B.resonance_speed
-    assert resonance == pytest.approx(30000 / (20 * math.pi) * math.sqrt(1000))
-    below, main, above = 1.1955, 2.061, 0.2303 + 0.125 * math.sin(-0.4 * math.pi) + 0.875
-    speeds = resonance * np.array([0.0, 0.5, 0.86, 1.149, 1.325, 1.5, 3.0])
-    assert METHOD_B.values(speeds) == pytest.approx([1, below, main, main, (main + above) / 2, above, above])
-    ranges = [METHOD_B.range_at(speed) for speed in speeds[[1, 2, 4, 6]]]
-    assert ranges == [SpeedRange.SUBCRITICAL, SpeedRange.MAIN_RESONANCE, SpeedRange.INTERMEDIATE, SpeedRange.SUPERCRITICAL]
-    relieved = replace(METHOD_B, tip_relief=400 / 14)
-    assert relieved.values(0.9 * resonance) == pytest.approx(main - 0.9)
-    light = replace(METHOD_B, specific_load=25.0)
-    assert light.range_at(0.67 * resonance) is SpeedRange.SUBCRITICAL
-    assert light.range_at(0.68 * resonance) is SpeedRange.MAIN_RESONANCE
-
-
-def test_running_factors() -> None:
-    """Table 8: nearly continuous at a contact ratio of 2, where the printed constants change."""
-    low, high = running_factors(2.0), running_factors(2.0 + 1e-9)
-    assert high == pytest.approx(low, abs=0.07)
-    assert running_factors(1.4).c_v7 == 0.75 == running_factors(1.5 + 1e-9).c_v7
-    assert running_factors(2.5 + 1e-9).c_v7 == 1.0 == pytest.approx(running_factors(2.5).c_v7)
-
-
 def test_method_b_beside_ours() -> None:
     """One resonance: n_E1 of m_red and c_gamma is the natural frequency of the isolated pair."""
     width = 50.0
     mass = reduced_mass((0.0058, 0.2228), (50.7, 135.3), width)
-    method_b = replace(METHOD_B, teeth=18, mesh_stiffness=7.05e8 / 1e6 / width, reduced_mass=mass)
+    method_b = DynamicFactor(
+        teeth=18,
+        total_contact_ratio=1.6,
+        single_stiffness=14.0,
+        mesh_stiffness=7.05e8 / 1e6 / width,
+        reduced_mass=mass,
+        specific_load=400.0,
+        pitch_deviation=8.0,
+        profile_deviation=6.0,
+    )
     assert method_b.resonance_speed == pytest.approx(19245.076 * 30 / (18 * math.pi), rel=1e-7)
     speeds = np.linspace(2000, 40000, 39)
     chart = kv_chart(periodic_response(isolated(), cosine(VARIATION), speeds), method_b=method_b)

@@ -133,6 +133,10 @@ def test_low_load_and_material() -> None:
     assert values["low_load_factor"] == pytest.approx(factor, rel=EXACT)
     for name in ("c_prime", "c_gamma_alpha", "c_gamma_beta"):
         assert values[f"{name}_lowload"] == pytest.approx(values[name] * factor, rel=EXACT)
+    found = light.stiffness
+    assert [found.single, found.mesh_alpha, found.mesh_beta] == [
+        values[f"{name}_lowload"] for name in ("c_prime", "c_gamma_alpha", "c_gamma_beta")
+    ]
 
 
 def test_flank_factors() -> None:

@@ -14,6 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearcad.errors import plain_numbers, require_number, require_whole
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.material import Material
+from gearcad.rating.iso1328 import flank_tolerances
+from gearcad.rating.rate import rate
 
 __all__ = ["DynamicFactor", "RunningFactors", "SpeedRange", "reduced_mass", "resonance_speed", "running_factors"]
 
@@ -21,6 +26,10 @@ Floats = NDArray[np.float64]
 
 _MAIN_END, _SUPERCRITICAL = 1.15, 1.5
 """Resonance ratios at which the main resonance range ends, and the supercritical one begins."""
+
+
+_RUN_IN = 0.075
+"""y_alpha of case-hardened and nitrided steels (ISO 6336-1:2006, 8.3.5): share of the base pitch deviation that wears off."""
 
 
 class SpeedRange(Enum):
@@ -83,7 +92,8 @@ class DynamicFactor:
 
     `pitch_deviation` f_pb eff and `profile_deviation` f_falpha eff are those left after running-in (18), (19); `tip_relief`
     C_a is the design value for grades up to 5, what running-in leaves for coarser ones (the caller decides on both).
-    `specific_load` is F_t K_A/b. Not part of it: gears of a planetary train or with several mates, whose mass differs.
+    Stiffnesses are those of the load, `specific_load` is F_t K_A/b. Not part of it: gears of a planetary train or with several
+    mates, whose mass differs.
     """
 
     teeth: int
@@ -95,6 +105,31 @@ class DynamicFactor:
     pitch_deviation: float
     profile_deviation: float
     tip_relief: float = 0.0
+
+    @classmethod
+    def of(cls, pair: GearPair, material: Material, load: Load, inertias: tuple[float, float], grade: int) -> DynamicFactor:
+        """Of a pair with deviations of a grade of ISO 1328-1, less what running-in of hard steel takes; inertias in kg·m².
+
+        The tip relief counts where both gears have one. Raises ParameterError and GeometryError, as `rate` and
+        `flank_tolerances` do.
+        """
+        rating = rate(pair, material, load)
+        gears = (pair.pinion, pair.wheel)
+        tolerances = [flank_tolerances(grade, gear.reference_diameter, gear.normal_module) for gear in gears]
+        kept = 1 - _RUN_IN
+        across = math.cos(math.radians(pair.pinion.transverse_pressure_angle))
+        radii = (pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2)
+        return cls(
+            teeth=pair.pinion.teeth,
+            total_contact_ratio=pair.total_contact_ratio,
+            single_stiffness=rating.stiffness.single,
+            mesh_stiffness=rating.stiffness.mesh_alpha,
+            reduced_mass=reduced_mass(inertias, radii, pair.common_width.width),
+            specific_load=rating.specific_load,
+            pitch_deviation=kept * across * max(each.single_pitch for each in tolerances),
+            profile_deviation=kept * max(each.profile_form for each in tolerances),
+            tip_relief=min(gear.modification.tip_relief for gear in gears),
+        )
 
     def __post_init__(self) -> None:
         plain_numbers(self)
