@@ -86,12 +86,19 @@ def _check(design: Design, formats: set[Format], bracket: bool, chord_error: flo
 def _plan(design: Design, formats: list[Format], bracket: bool, chord_error: float) -> Iterator[_Step]:
     """Every file of the design, quickest first."""
     yield _Step("data.json", partial(_write_data, design))
-    meshes = _Meshes(chord_error)
+    meshes, products = _Meshes(chord_error), _products(design)
     for kind in reversed(formats):
         for name, gear in design.gears.items():
-            yield _Step(f"{name}.{kind.value}", partial(_write_gear, kind, name, gear, meshes))
+            yield _Step(f"{name}.{kind.value}", partial(_write_gear, kind, gear, name, products[name], meshes))
         if design.pair is not None and kind in _ASSEMBLED:
             yield _Step(f"assembly.{kind.value}", partial(_write_assembly, kind, design.pair, meshes, bracket))
+
+
+def _products(design: Design) -> dict[str, str]:
+    """What the parts are called inside files, by the names of these files."""
+    from gearcad.solids.assembly import part_names
+
+    return part_names(design.pair) if design.pair is not None else {"gear": design.name}
 
 
 @dataclass(frozen=True)
@@ -113,17 +120,17 @@ def _write_data(design: Design, path: Path) -> None:
     path.write_text(json_text(design.to_dict()), encoding="utf-8")
 
 
-def _write_gear(kind: Format, name: str, gear: Gear, meshes: _Meshes, path: Path) -> None:
+def _write_gear(kind: Format, gear: Gear, name: str, product: str, meshes: _Meshes, path: Path) -> None:
     from gearcad import solids
     from gearcad.solids.assembly import PART_COLOURS
 
     if kind is Format.STEP:
-        solids.write_step(solids.gear_solid(gear), path, name=gear.name)
+        solids.write_step(solids.gear_solid(gear), path, name=product)
     elif kind is Format.STL:
         solids.write_stl(meshes.of(gear), path)
     elif kind in _SCENES:
         colour = PART_COLOURS.get(name, solids.Part.colour)
-        part = solids.Part(name=gear.name, facets=meshes.of(gear), colour=colour)
+        part = solids.Part(name=product, facets=meshes.of(gear), colour=colour)
         solids.write_scene([part], path)
     elif kind is Format.DXF:
         solids.write_dxf(gear, path)
@@ -133,15 +140,15 @@ def _write_gear(kind: Format, name: str, gear: Gear, meshes: _Meshes, path: Path
 
 def _write_assembly(kind: Format, pair: GearPair, meshes: _Meshes, bracket: bool, path: Path) -> None:
     from gearcad import solids
-    from gearcad.solids.assembly import PART_COLOURS
+    from gearcad.solids.assembly import PART_COLOURS, part_names
 
     if kind is Format.STEP:
         solids.write_step(solids.pair_assembly(pair, bracket=bracket), path, name=pair.name)
         return
-    pose = mesh_pose(pair)
+    pose, names = mesh_pose(pair), part_names(pair)
     places = {"pinion": (pair.pinion, 0.0, (0.0, 0.0, 0.0)), "wheel": (pair.wheel, pose.rotation, (pose.x, 0.0, pose.z))}
     parts = [
-        solids.Part(name=name, facets=meshes.of(gear), colour=PART_COLOURS[name], rotation=rotation, offset=offset)
+        solids.Part(name=names[name], facets=meshes.of(gear), colour=PART_COLOURS[name], rotation=rotation, offset=offset)
         for name, (gear, rotation, offset) in places.items()
     ]
     solids.write_scene(parts, path)

@@ -3,21 +3,42 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from gearcad.errors import OutputError
+from gearcad.errors import OutputError, ParameterError
 
-__all__ = ["json_text", "staged_files", "unwritable"]
+__all__ = ["json_text", "source_date", "staged_files", "unwritable"]
+
+_DATE = "SOURCE_DATE_EPOCH"
 
 
 def json_text(document: dict[str, Any]) -> str:
     """Strict JSON (no NaN, no Infinity) in ASCII, indented, the same bytes for the same document."""
     return json.dumps(document, indent=2, allow_nan=False) + "\n"
+
+
+def source_date() -> datetime | None:
+    """The date (UTC) that SOURCE_DATE_EPOCH fixes for all files, in seconds since 1970; None without it.
+
+    Raises ParameterError. See reproducible-builds.org/specs/source-date-epoch.
+    """
+    text = os.environ.get(_DATE, "")
+    if not text:
+        return None
+    try:
+        if not text.isascii() or not text.isdigit():
+            raise ValueError
+        return datetime.fromtimestamp(int(text), UTC)
+    except (ValueError, OverflowError, OSError) as error:
+        permitted = "must be a whole number of seconds since 1970, before the year 10000; or leave this variable unset"
+        raise ParameterError(_DATE, text, permitted) from error
 
 
 def unwritable(folder: Path, error: OSError) -> OutputError:

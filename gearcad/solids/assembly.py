@@ -12,7 +12,7 @@ from gearcad.solids.gear_solid import gear_solid
 if TYPE_CHECKING:
     import cadquery
 
-__all__ = ["PART_COLOURS", "pair_assembly"]
+__all__ = ["PART_COLOURS", "pair_assembly", "part_names"]
 
 PART_COLOURS = {"pinion": (0.80, 0.55, 0.20), "wheel": (0.45, 0.58, 0.72), "bracket": (0.55, 0.55, 0.55)}
 """Red, green and blue of the parts, 0 ... 1."""
@@ -21,23 +21,39 @@ _ARM = 0.6
 """Width of the bracket's arm as a share of the thicker shaft's diameter."""
 
 
+_UNNAMED = ("gear", "pinion", "wheel")
+"""Names that a gear has where nobody named it."""
+
+
+def part_names(pair: GearPair) -> dict[str, str]:
+    """Names of the parts as products, by "pinion", "wheel" and "bracket": for CAD and PDM no two designs may share one.
+
+    A gear that was given a name of its own keeps it; else it is the pair's name and what the part is.
+    """
+    names = {role: f"{pair.name} {role}" for role in PART_COLOURS}
+    own = {role: gear.name for role, gear in (("pinion", pair.pinion), ("wheel", pair.wheel)) if gear.name not in _UNNAMED}
+    named = names | own
+    return named if len({pair.name, *named.values()}) == 1 + len(named) else names
+
+
 def pair_assembly(pair: GearPair, *, bracket: bool = False) -> cadquery.Assembly:
     """Pinion at the origin and wheel at (centre distance, 0), a tooth in a space, the backlash split evenly.
 
-    The parts are called "pinion", "wheel" and, if asked for, "bracket": two shafts that fill the bores, joined by an arm
-    below the gears. Raises GeometryError for a bracket without bores.
+    The parts are called as `part_names` has it. `bracket` adds two shafts that fill the bores, joined by an arm below the
+    gears. Raises GeometryError for a bracket without bores.
     """
     import cadquery
 
     pose = mesh_pose(pair)
     axis = cadquery.Vector(0, 0, 1)
     wheel_at = cadquery.Location(cadquery.Vector(pose.x, 0, pose.z), axis, pose.rotation)
-    # CadQuery wants every name once, and a pair may be called "pinion".
-    assembly = cadquery.Assembly(name=f"{pair.name} assembly" if pair.name in PART_COLOURS else pair.name)
-    assembly.add(gear_solid(pair.pinion), name="pinion", color=cadquery.Color(*PART_COLOURS["pinion"], 1.0))
-    assembly.add(gear_solid(pair.wheel), name="wheel", loc=wheel_at, color=cadquery.Color(*PART_COLOURS["wheel"], 1.0))
+    parts = {"pinion": (gear_solid(pair.pinion), None), "wheel": (gear_solid(pair.wheel), wheel_at)}
     if bracket:
-        assembly.add(_bracket(pair), name="bracket", color=cadquery.Color(*PART_COLOURS["bracket"], 1.0))
+        parts["bracket"] = (_bracket(pair), None)
+    names = part_names(pair)
+    assembly = cadquery.Assembly(name=pair.name)
+    for role, (solid, place) in parts.items():
+        assembly.add(solid, name=names[role], loc=place, color=cadquery.Color(*PART_COLOURS[role], 1.0))
     return assembly
 
 

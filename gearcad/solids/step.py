@@ -12,13 +12,17 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any
 
 from gearcad.errors import SolverError
+from gearcad.solids import part21
 
 if TYPE_CHECKING:
     import cadquery
 
 __all__ = ["write_step"]
 
-_TIME_STAMP = re.compile(rb"(FILE_NAME\('[^']*',)'[^']*'")
+_HEADER = re.compile(rb"HEADER;.*?ENDSEC;\n", re.DOTALL)
+_PREPROCESSOR = re.compile(rb"'(Open CASCADE STEP processor [^']*)'")
+_SCHEMA = re.compile(rb"FILE_SCHEMA\(\('([^']*)'\)\)")
+_TOKEN = re.compile(rb"'gearcad-name-(\d+)'")
 _OCCURRENCE = re.compile(rb"(NEXT_ASSEMBLY_USAGE_OCCURRENCE\()'\d+'")
 _COLOUR_BLOCK = re.compile(
     rb"^#(\d+) = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION\([^;]*;"
@@ -38,8 +42,9 @@ def write_step(model: cadquery.Assembly | cadquery.Solid, path: Path | str, *, n
     """Write a solid, as one part called `name`, or an assembly, which has names of its own, to `path` (STEP AP214, mm).
 
     Curves in the parameters of surfaces are left out (write.surfacecurve.mode 0): readers rebuild them, and the file is a
-    third to a half smaller. Time stamp and running numbers are fixed. Raises SolverError if the kernel cannot write,
-    and OSError if the file cannot be written.
+    third to a half smaller. Names may hold any character. Running numbers are fixed, and the time stamp (see `header`).
+    Raises SolverError if the kernel cannot write, ParameterError for a date that is none, and OSError if the file cannot
+    be written.
     """
     import cadquery
     from OCP.IFSelect import IFSelect_RetDone
@@ -47,18 +52,35 @@ def write_step(model: cadquery.Assembly | cadquery.Solid, path: Path | str, *, n
     from OCP.STEPControl import STEPControl_StepModelType
 
     path = Path(path)
-    assembled = isinstance(model, cadquery.Assembly)
+    names = _Names()
     with _settings():
         writer = STEPCAFControl_Writer()
         writer.SetColorMode(True)
         writer.SetNameMode(True)
-        document = _assembly_document(model) if assembled else _part_document(model, name)
+        assembled = isinstance(model, cadquery.Assembly)
+        document = _assembly_document(model, names) if assembled else _part_document(model, names.token(name))
         transferred = writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs)
         stream = BytesIO()  # the kernel is silent about a disk that is full, Python is not
         written = transferred and writer.WriteStream(stream) == IFSelect_RetDone
     if not written:
         raise SolverError(f"the CAD kernel could not write {path}")
-    path.write_bytes(_reproducible(stream.getvalue()))
+    content = _with_header(_reproducible(stream.getvalue()), model.name if assembled else name)
+    path.write_bytes(names.put_into(content))
+
+
+class _Names:
+    """Short tokens that stand for names while the kernel writes: it takes no care of characters when it breaks lines."""
+
+    def __init__(self) -> None:
+        self._names: list[str] = []
+
+    def token(self, name: str) -> str:
+        self._names.append(name)
+        return f"gearcad-name-{len(self._names) - 1}"
+
+    def put_into(self, content: bytes) -> bytes:
+        """The content with names for tokens."""
+        return _TOKEN.sub(lambda match: part21.string(self._names[int(match[1])]).encode("ascii"), content)
 
 
 @contextmanager
@@ -99,15 +121,37 @@ def _name(label: Any, name: str) -> None:
     from OCP.TCollection import TCollection_ExtendedString
     from OCP.TDataStd import TDataStd_Name
 
-    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))  # True: the text is UTF-8
+    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name))
 
 
-def _assembly_document(assembly: Any) -> Any:
+def _assembly_document(assembly: cadquery.Assembly, names: _Names) -> Any:
+    """An XCAF document of the assembly, with tokens for the names of all its parts and their places."""
     from cadquery.occ_impl.assembly import toCAF
+    from OCP.TDataStd import TDataStd_Name
 
-    label, document = toCAF(assembly, True)
-    _name(label, assembly.name)  # CadQuery takes the bytes of a name for Latin-1
+    top, document = toCAF(assembly, True)
+    _name(top, assembly.name)  # its name, and not that of its shape
+    for label in _labels(document):
+        if label.IsAttribute(TDataStd_Name.GetID_s()):
+            given = TDataStd_Name()
+            label.FindAttribute(TDataStd_Name.GetID_s(), given)
+            # CadQuery takes the bytes of a name, UTF-8, for characters of Latin-1.
+            name = given.Get().ToExtString().encode("latin-1").decode("utf-8")
+            _name(label, names.token(name))
     return document
+
+
+def _labels(document: Any) -> Iterator[Any]:
+    """The labels of all shapes in a document, and of the places of those that are put together of others."""
+    from OCP.TDF import TDF_LabelSequence
+    from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
+
+    shapes, places = TDF_LabelSequence(), TDF_LabelSequence()
+    XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetShapes(shapes)
+    for shape in shapes:
+        XCAFDoc_ShapeTool.GetComponents_s(shape, places)
+    yield from shapes
+    yield from places
 
 
 def _part_document(solid: Any, name: str) -> Any:
@@ -127,9 +171,15 @@ def _part_document(solid: Any, name: str) -> Any:
     return document
 
 
+def _with_header(content: bytes, name: str) -> bytes:
+    """With a header of our own: the kernel's calls the file a Shape Model of Author's, and stamps the time."""
+    preprocessor, schema = (found[1].decode("ascii") for kind in (_PREPROCESSOR, _SCHEMA) if (found := kind.search(content)))
+    ours = part21.header(name, preprocessor, schema).encode("ascii")
+    return _HEADER.sub(lambda _: ours, content, count=1)
+
+
 def _reproducible(content: bytes) -> bytes:
-    """The kernel stamps the time and numbers occurrences through the whole session: fix both."""
-    content = _TIME_STAMP.sub(rb"\1'2000-01-01T00:00:00'", content, count=1)
+    """The kernel numbers occurrences through the whole session: count them by file."""
     number = count(1)
     return _sort_colours(_OCCURRENCE.sub(lambda match: match[1] + b"'%d'" % next(number), content))
 

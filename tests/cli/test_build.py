@@ -1,6 +1,7 @@
 """`gearcad build`: which files appear, whole or not at all, and that other programs can read them."""
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -185,7 +186,18 @@ def test_meshes_open_in_trimesh_closed_and_of_the_solids_volume(built: Path) -> 
         assert abs(mesh.volume - solid.Volume()) < 0.02 * solid.Area()
     for suffix in ("3mf", "glb"):
         scene = trimesh.load_scene(built / f"assembly.{suffix}")
-        assert set(scene.geometry) == set(PAIR)
+        assert set(scene.geometry) == {f"volvo-13-44 {part}" for part in PAIR}
+
+
+def test_parts_are_the_same_products_alone_and_in_the_assembly(built: Path) -> None:
+    products = {part: f"volvo-13-44 {part}" for part in PAIR}
+    for part, product in products.items():
+        assert _products(built / f"{part}.step") == {product}
+    assert _products(built / "assembly.step") == {"volvo-13-44", *products.values()}
+
+
+def _products(path: Path) -> set[str]:
+    return set(re.findall(r"= PRODUCT\('([^']*)'", path.read_text("ascii")))
 
 
 def test_contours_open_in_ezdxf(built: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import cadquery
@@ -10,6 +11,7 @@ import pytest
 
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError
 from gearcad.solids import pair_assembly, write_step
+from gearcad.solids.assembly import part_names
 
 TIP_ALTERATION = -0.007246444637613869  # (80 - a_d)/2.5 - (0.107 - 0.378)
 
@@ -28,7 +30,7 @@ def _volvo() -> GearPair:
 
 def _turned(assembly: cadquery.Assembly, degrees: float) -> tuple[cadquery.Shape, cadquery.Shape]:
     """Pinion, and wheel turned about its own axis."""
-    pinion, wheel = (assembly.objects[name] for name in ("pinion", "wheel"))
+    pinion, wheel = (assembly.objects[f"pair {role}"] for role in ("pinion", "wheel"))
     place = wheel.loc * cadquery.Location(cadquery.Vector(), cadquery.Vector(0, 0, 1), degrees)
     return pinion.obj, wheel.obj.moved(place)
 
@@ -63,7 +65,7 @@ def test_parts_reopen_named_coloured_and_separate(tmp_path: Path, bracket: bool)
     assert len(solids) == 2 + bracket
     assert all(solid.isValid() for solid in solids)
     again = cadquery.Assembly.importStep(str(path))
-    names = ["pinion", "wheel", "bracket"][: 2 + bracket]
+    names = ["pair pinion", "pair wheel", "pair bracket"][: 2 + bracket]
     assert [child.name for child in again.children] == names
     assert len({child.color.toTuple() for child in again.children}) == len(names)
     centre = again.children[1].toCompound().BoundingBox()
@@ -73,13 +75,25 @@ def test_parts_reopen_named_coloured_and_separate(tmp_path: Path, bracket: bool)
 
 def test_bracket_shafts_fill_the_bores() -> None:
     assembly = pair_assembly(_volvo(), bracket=True)
-    bracket = assembly.objects["bracket"].obj
+    bracket = assembly.objects["pair bracket"].obj
     for x, diameter in ((0.0, 16.0), (80.0, 45.0)):
         edge = [cadquery.Vector(x + s * diameter / 2, 0, 9.0) for s in (0.999, 1.001)]
         assert [bracket.isInside(point) for point in edge] == [True, False]
-    for name in ("pinion", "wheel"):
-        part = assembly.objects[name]
+    for role in ("pinion", "wheel"):
+        part = assembly.objects[f"pair {role}"]
         assert part.obj.moved(part.loc).intersect(bracket).Volume() < 1e-9
+
+
+def test_parts_are_products_of_their_pair() -> None:
+    """Twelve pairs of a batch are 24 products: two of one name replace each other in CAD and PDM."""
+    pair = _clean()
+    roles = {role: f"{pair.name} {role}" for role in ("pinion", "wheel", "bracket")}
+    assert part_names(pair) == roles
+    assert [child.name for child in pair_assembly(pair).children] == ["pair pinion", "pair wheel"]
+    pinion, wheel = (replace(gear, name="4711") for gear in (pair.pinion, pair.wheel))
+    assert part_names(replace(pair, pinion=pinion)) == roles | {"pinion": "4711"}
+    assert part_names(replace(pair, pinion=pinion, wheel=wheel)) == roles  # a name must not be that of both
+    assert part_names(replace(pair, pinion=pinion, name="4711"))["pinion"] == "4711 pinion"  # nor that of the pair
 
 
 def test_bracket_needs_bores() -> None:

@@ -22,7 +22,8 @@ from OCP.TDocStd import TDocStd_Document
 from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_DocumentTool
 
-from gearcad import Body, Gear, GearPair
+from gearcad import Body, Gear, GearPair, __version__
+from gearcad.errors import ParameterError
 from gearcad.solids import (
     Part,
     gear_solid,
@@ -70,17 +71,64 @@ def test_equal_bytes_from_processes_that_hash_differently(tmp_path: Path) -> Non
     assert made[0] == made[1] == made[2]
 
 
-@pytest.mark.parametrize("name", ["Zähne 歯", "pinion", "wheel", "bracket"])
+# How names stand in the file by ISO 10303-21, with | for the backslash.
+HOSTILE = {
+    "Zähne 歯": "Z|X2|00E4|X0|hne |X2|6B6F|X0|",
+    "O'Brien \\ Söhne": "O''Brien || S|X2|00F6|X0|hne",
+    r"\X2\0041\X0\ \S\a \X\41 \P\ \N\ ": "||X2||0041||X0|| ||S||a ||X||41 ||P|| ||N|| ",
+    "';#1=X(';/*": "'';#1=X('';/*",
+    "'gearcad-name-0'": "''gearcad-name-0''",
+    "a😀\ue000b": "a|X4|0001F600|X0||X2|E000|X0|b",
+    "q'" * 50: "q''" * 50,
+    "歯" * 100: "|X2|" + "6B6F" * 100 + "|X0|",
+    "歯a\\" * 33: "|X2|6B6F|X0|a||" * 33,
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
 def test_any_name_reads_back(tmp_path: Path, name: str) -> None:
     path = tmp_path / "named.step"
-    write_step(gear_solid(GEAR), path, name=name)
+    write_step(cadquery.Solid.makeBox(1, 1, 1), path, name=name)
+    stands = HOSTILE[name].replace("|", "\\")
+    assert f"PRODUCT('{stands}','{stands}','',(" in path.read_text("ascii")
     assert _product_names(path) == [name]
-    pair = GearPair(pinion=GEAR, wheel=MATE, name=name)
-    write_step(pair_assembly(pair, bracket=True), path, name=pair.name)
+
+
+def test_names_of_an_assembly_read_back(tmp_path: Path) -> None:
+    names = [f"{name} wheel" for name in HOSTILE]  # the kernel's reader takes no name of a place that is not ASCII at all
+    inner = cadquery.Assembly(name=names[1])
+    for name in names[2:]:
+        inner.add(cadquery.Solid.makeBox(1, 1, 1), name=name)
+    outer = cadquery.Assembly(name=names[0]).add(inner)
+    path = tmp_path / "named.step"
+    write_step(outer, path, name=outer.name)
+    assert sorted(_product_names(path)) == sorted(names)
     again = cadquery.Assembly.importStep(str(path))
-    assert [child.name for child in again.children] == ["pinion", "wheel", "bracket"]
-    whole = name if name == "Zähne 歯" else f"{name} assembly"
-    assert _product_names(path) == [whole, "pinion", "wheel", "bracket"]
+    assert [child.name for child in again.children[0].children] == names[2:]
+
+
+def test_header_says_which_gearcad_and_names_nobody(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
+    head = _header(tmp_path)
+    assert head[:2] == ["FILE_DESCRIPTION(('O''Brien'),'2;1')", _file_name("2000-01-01T00:00:00")]
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    assert _header(tmp_path)[1] == _file_name("2023-11-14T22:13:20")
+    for wrong in ("yesterday", "-1", "1e9", "9" * 400, "253402300800"):
+        monkeypatch.setenv("SOURCE_DATE_EPOCH", wrong)
+        with pytest.raises(ParameterError, match=r"SOURCE_DATE_EPOCH = .*must be a whole number of seconds since 1970"):
+            _header(tmp_path)
+
+
+def _header(folder: Path) -> list[str]:
+    path = folder / "header.step"
+    write_step(cadquery.Solid.makeBox(1, 1, 1), path, name="O'Brien")
+    assert _product_names(path) == ["O'Brien"]
+    return path.read_text("ascii").split("HEADER;\n")[1].split(";\n")
+
+
+def _file_name(stamp: str) -> str:
+    kernel = "Open CASCADE STEP processor 7.9"
+    return f"FILE_NAME('O''Brien','{stamp}',(''),(''),'{kernel}','gearcad {__version__}','')"
 
 
 def _product_names(path: Path) -> list[str]:
