@@ -114,6 +114,8 @@ def _document(task: Task, folder: Path) -> dict[str, Any]:
         check = json.loads((folder / "check.json").read_text(encoding="utf-8"))
         document["check"] = {
             "passed": check["passed"],
+            "numerics": check["numerics"],
+            "strength": check["strength"],
             **check["summary"],
             "rating": check["rating"],
             "warnings": check["warnings"],

@@ -34,6 +34,8 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "convergence": [each.to_dict() for each in result.convergence],
         "comparisons": [comparison.to_dict() for comparison in result.comparisons],
         "warnings": list(result.warnings),
+        "numerics": result.numerics.value,
+        "strength": result.strength.value,
         "passed": result.passed,
     }
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gearcad.check.comparison import Comparison, Role, against, at_most
+from gearcad.check.comparison import Comparison, Role, Subject, against, at_most
 from gearcad.check.convergence import LEAST_ORDER, Convergence
 from gearcad.check.result import Task
 from gearcad.check.summary import PlaneSummary, Summary
@@ -104,7 +104,7 @@ def material_limits(task: Task, summary: Summary) -> Iterator[Comparison]:
             note += f"; the limit of this material lies between {limit[0]:g} and {limit[1]:g} MPa, and the lower one counts"
             limit = limit[0]
         if limit is not None:
-            yield at_most(words, value, limit, "MPa", f"limit of {material.name}", note)
+            yield at_most(words, value, limit, "MPa", f"limit of {material.name}", note, Subject.STRENGTH)
 
 
 def standards(task: Task, summary: Summary) -> Iterator[Comparison]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
-from gearcad.check.comparison import Comparison, Role
+from gearcad.check.comparison import Comparison, Subject, Verdict, verdict
 from gearcad.check.convergence import Convergence
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.solid_summary import SolidSummary
@@ -93,9 +93,44 @@ class CheckResult(Task):
         }
 
     @property
+    def numerics(self) -> Verdict:
+        """Whether the numbers are those of the model."""
+        return verdict(self.comparisons, Subject.NUMERICS)
+
+    @property
+    def strength(self) -> Verdict:
+        """Whether the material bears them; not judged without a limit."""
+        return verdict(self.comparisons, Subject.STRENGTH)
+
+    @property
     def passed(self) -> bool:
-        """True if every gate is passed."""
-        return all(comparison.passed for comparison in self.comparisons if comparison.role is Role.GATE)
+        """True if no gate fails; strength may not have been judged."""
+        return Verdict.FAILED not in (self.numerics, self.strength)
+
+    @property
+    def without_limit(self) -> tuple[str, ...]:
+        """What the material gives no limit for, in words."""
+        material = self.material
+        limits = {
+            "contact pressure": material.contact_limit,
+            "root stress": material.root_limit,
+            "von Mises stress below the flank": material.yield_strength,
+        }
+        return tuple(words for words, limit in limits.items() if limit is None)
+
+    @property
+    def verdict(self) -> str:
+        """Numerics and strength in one line."""
+        said = {Verdict.PASSED: "passed", Verdict.FAILED: "NOT passed"}
+        numerics, strength = said.get(self.numerics, "not judged"), said.get(self.strength, "not judged: no limit given")
+        if self.without_limit and self.strength is not Verdict.NOT_JUDGED:
+            strength += f"; not judged, no limit given: {', '.join(self.without_limit)}"
+        return f"numerics {numerics}; strength {strength}"
+
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """What to know before trusting the check: its own warnings, and those of the rating."""
+        return (*self.warnings, *(f"rating: {warning}" for warning in self.rating.warnings))
 
 
 @dataclass(frozen=True, kw_only=True)

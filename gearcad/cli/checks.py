@@ -8,20 +8,16 @@ from typing import TYPE_CHECKING
 
 import click
 
-from gearcad.check.comparison import Role
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.progress import file_progress
+from gearcad.cli.verdict import print_verdict
 
 if TYPE_CHECKING:
     from gearcad.check.result import CheckResult
-    from gearcad.spec.design import Design
 
 __all__ = ["check"]
 
 _FIELDS = ("stress_pinion.vtu", "stress_wheel.vtu")
-
-_WIDE = 130
-"""Console width from which the column of sources fits."""
 
 
 @click.command(short_help="Check the strength of SPEC's pair by finite elements.")
@@ -35,7 +31,7 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
     """Check the pair of SPEC under its [load]: contact and root stress by finite elements, beside Hertz and ISO 6336.
 
     Writes check.json and report.html, and for solid bodies the stresses in the loaded teeth (stress_*.vtu). Exit status 1 if a
-    gate is not passed; [check] in SPEC sets model, body, torques and bands.
+    gate is not passed or cannot be evaluated; [check] in SPEC sets model, body, torques and bands.
     """
     from gearcad.assess import assess
     from gearcad.check.document import check_document
@@ -62,7 +58,7 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
     if as_json:
         click.echo(json_text(document), nl=False)
     else:
-        _print_verdict(design, result)
+        print_verdict(design.name, result)
         click.echo("".join(f"{folder / file}\n" for file in files), nl=False)
     if not result.passed:
         click.get_current_context().exit(1)
@@ -76,34 +72,3 @@ def _write_fields(result: CheckResult, folder: Path) -> None:
     if isinstance(result, SolidCheck):
         for gear, name in enumerate(_FIELDS):
             write_vtu(worst_field(result.cycle, gear), folder / name)
-
-
-def _print_verdict(design: Design, result: CheckResult) -> None:
-    """The comparisons, gates first, the warnings and the verdict."""
-    from rich.console import Console
-    from rich.text import Text
-
-    console = Console(highlight=False)
-    wide = console.width >= _WIDE
-    heading = _line("", "quantity", "computed", "reference", "unit", "deviation", "permitted", "source" if wide else "")
-    lines = [(heading, "bold")]
-    for each in result.comparisons:
-        gate = each.role is Role.GATE
-        word = ("ok" if each.passed else "FAILED") if gate else ("in band" if each.passed else "OUTSIDE")
-        style = "" if each.passed else "bold red" if gate else "yellow"
-        permitted = "at most" if each.tolerance is None else f"±{100 * each.tolerance:g} %"
-        figures = (f"{each.computed:.5g}", f"{each.reference:.5g}", each.unit, f"{100 * each.deviation:+.2f} %", permitted)
-        lines.append((_line(word, each.quantity, *figures, each.source.split(":")[0] if wide else ""), style))
-    lines += [(f"Warning: {warning}", "yellow") for warning in result.warnings]
-    torque = result.torque
-    verdict = "passed" if result.passed else "NOT passed"
-    lines.append((f"{design.name} at {torque:g} N·m: {verdict}", "bold green" if result.passed else "bold red"))
-    for text, style in lines:
-        # Soft wrap: a narrow window may break a line, but never cut a number.
-        console.print(Text(text, style=style), soft_wrap=True)
-
-
-def _line(
-    word: str, quantity: str, computed: str, reference: str, unit: str, deviation: str, permitted: str, source: str
-) -> str:
-    return f"{word:<8}{quantity:<43}{computed:>10}{reference:>10} {unit:<10}{deviation:>9} {permitted:>9}  {source}".rstrip()

@@ -36,10 +36,11 @@ def _sections(result: CheckResult) -> dict[str, Any]:
     information = [each for each in result.comparisons if each.role is Role.INFORMATION]
     return {
         "torque": result.torque,
+        "verdict": result.verdict[0].upper() + result.verdict[1:],
         "gates": [_row(each) for each in gates],
         "information": [_row(each) for each in information],
         "failed": [_row(each) for each in gates if not each.passed],
-        "outside": [_row(each) for each in information if not each.passed],
+        "outside": [_row(each) for each in information if each.evaluated and not each.passed],
         "gear_rows": gear_rows(result.pair),
         "pair_rows": pair_rows(result.pair),
         "load_rows": load_rows(result.material, result.load, result.mounting),
@@ -77,17 +78,32 @@ def _of_model(result: CheckResult) -> dict[str, Any]:
 def _row(comparison: Comparison) -> dict[str, str]:
     """A comparison as the tables have it; the verdict is a word, not only a colour."""
     gate = comparison.role is Role.GATE
-    word = ("passed" if gate else "in the band") if comparison.passed else ("NOT PASSED" if gate else "outside the band")
-    ratio = 100 * comparison.computed / comparison.reference
+    if comparison.passed:
+        word = "passed" if gate else "in the band"
+    else:
+        word = "NOT PASSED" if gate else "outside the band" if comparison.evaluated else "not evaluated"
     return {
         "quantity": comparison.quantity,
-        "computed": short(comparison.computed),
-        "reference": short(comparison.reference),
+        "computed": _number(comparison.computed),
+        "reference": _number(comparison.reference),
         "unit": comparison.unit,
         "permitted": "at most" if comparison.tolerance is None else f"± {100 * comparison.tolerance:g} %",
-        "deviation": f"{ratio:.1f} % of it" if comparison.tolerance is None else f"{round(ratio - 100, 2) + 0.0:+.2f} %",
+        "deviation": _deviation(comparison),
         "word": word,
         "style": "good" if comparison.passed else "bad" if gate else "aside",
         "source": comparison.source,
         "note": comparison.note,
+        "reason": comparison.reason,
     }
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else short(value)
+
+
+def _deviation(comparison: Comparison) -> str:
+    """From a value, or how much of a limit is used up."""
+    if comparison.deviation is None:
+        return "-"
+    percent = 100 * comparison.deviation
+    return f"{100 + percent:.1f} % of it" if comparison.tolerance is None else f"{round(percent, 2) + 0.0:+.2f} %"

@@ -49,12 +49,12 @@ def spec(text: str) -> str:
 def test_check_prints_the_verdict_and_writes_both_files(here: Path) -> None:
     result = run("check", spec(SPUR))
     assert result.exit_code == 0, result.output
-    assert "pair at 50 N·m: passed" in result.stdout
+    assert "pair at 50 N·m: numerics passed; strength not judged: no limit given\n" in result.stdout
     assert result.stdout.splitlines()[-2:] == ["output/pair/check.json", "output/pair/report.html"]
     assert sorted(path.name for path in (here / "output/pair").iterdir()) == ["check.json", "report.html"]
     document = json.loads((here / "output/pair/check.json").read_text(encoding="utf-8"))
     assert document["kind"] == "check"
-    assert document["passed"] is True
+    assert (document["passed"], document["numerics"], document["strength"]) == (True, "passed", "not judged")
     assert [point["torque"] for point in document["torque_sweep"]] == [25.0, 50.0]
     assert len(document["mesh_cycle"]["roll_angle"]) == document["positions"] == 12
     for mesh in document["mesh"].values():
@@ -75,7 +75,7 @@ def test_limits_that_are_passed_over_are_exit_status_1_and_json_is_one_document(
     result = run("check", spec(SPUR + limits), "--quiet", "--json")
     assert (result.exit_code, result.stderr) == (1, "")
     document = json.loads(result.stdout)
-    assert document["passed"] is False
+    assert (document["passed"], document["numerics"], document["strength"]) == (False, "passed", "failed")
     verdict = {
         each["quantity"]: (each["passed"], each["reference"])
         for each in document["comparisons"]

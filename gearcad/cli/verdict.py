@@ -1,0 +1,79 @@
+"""What the screen shows of a check: its comparisons, what to know before trusting it, and the verdict."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from gearcad.check.comparison import Comparison, Role
+
+if TYPE_CHECKING:
+    from gearcad.check.result import CheckResult
+
+__all__ = ["print_verdict"]
+
+_WIDE = 130
+"""Console width from which the column of sources fits."""
+
+_LEAST = (7, 42, 9, 9, 9, 9, 8)
+"""Least widths of the columns but the last."""
+
+_TO_THE_RIGHT = (2, 3, 5, 6)
+"""Columns of numbers."""
+
+_WORDS = (
+    "ok, FAILED: gates, which decide. in band, OUTSIDE: information; how far it may be from ISO 6336 is set in [check] "
+    "(root_band, stiffness_band, contact_band) and decides nothing."
+)
+
+
+class _Line(NamedTuple):
+    cells: tuple[str, ...]
+    style: str = ""
+
+
+def print_verdict(name: str, result: CheckResult) -> None:
+    """The comparisons, gates first, what could not be evaluated, notices, and the verdict on numerics and strength."""
+    from rich.console import Console
+    from rich.text import Text
+
+    console = Console(highlight=False)
+    heading = _Line(("", "quantity", "computed", "reference", "unit", "deviation", "permitted", "source"), "bold")
+    rows = [heading, *(_row(each) for each in result.comparisons)]
+    if console.width < _WIDE:
+        rows = [_Line(row.cells[:-1], row.style) for row in rows]
+    lines = [*_aligned(rows), (_WORDS, "")]
+    lines += [(f"Not evaluated: {each.quantity}: {each.reason}", "yellow") for each in result.comparisons if not each.evaluated]
+    lines += [(f"Warning: {notice}", "yellow") for notice in result.notices]
+    verdict = f"{name} at {result.torque:g} N·m: {result.verdict}"
+    lines.append((verdict, "bold green" if result.passed else "bold red"))
+    for text, style in lines:
+        # Soft wrap: a narrow window may break a line, but never cut a number.
+        console.print(Text(text, style=style), soft_wrap=True)
+
+
+def _row(of: Comparison) -> _Line:
+    """A comparison; a limit is told by how much of it is used up."""
+    gate = of.role is Role.GATE
+    word = ("ok" if of.passed else "FAILED") if gate else ("in band" if of.passed else "OUTSIDE" if of.evaluated else "-")
+    if of.deviation is None:
+        deviation = "-"
+    else:
+        deviation = f"{100 * (1 + of.deviation):.4g} %" if of.tolerance is None else f"{100 * of.deviation:+.2f} %"
+    permitted = "of limit" if of.tolerance is None else f"±{100 * of.tolerance:g} %"
+    figures = ("-" if value is None else f"{value:.5g}" for value in (of.computed, of.reference))
+    cells = (word, of.quantity, *figures, of.unit, deviation, permitted, of.source.split(":")[0])
+    return _Line(cells, "" if of.passed else "bold red" if gate else "yellow")
+
+
+def _aligned(rows: list[_Line]) -> list[tuple[str, str]]:
+    """Lines and styles, columns as wide as what stands in them."""
+    widths = [max(map(len, column)) for column in zip(*(row.cells for row in rows), strict=True)]
+    widths[: len(_LEAST)] = map(max, widths, _LEAST)
+    found = []
+    for cells, style in rows:
+        padded = (
+            cell.rjust(width) if at in _TO_THE_RIGHT else cell.ljust(width)
+            for at, (cell, width) in enumerate(zip(cells, widths, strict=True))
+        )
+        found.append(("  ".join(padded).rstrip(), style))
+    return found
