@@ -20,6 +20,9 @@ Indices = NDArray[np.int64]
 
 MESH_SUFFIXES = (".vtu", ".inp", ".msh")
 
+_NUMBER = ".12e"
+"""Of .inp: CalculiX reads 20 characters of a number."""
+
 _ELEMENTS = {True: "CPE6", False: "CPS6"}
 """Abaqus and CalculiX: quadratic triangles in plane strain, or else in plane stress."""
 
@@ -74,7 +77,8 @@ def write_mesh(mesh: BodyMesh, path: Path | str, *, plane_strain: bool = True) -
     cells, solid = [("triangle6", mesh.triangles)], np.c_[mesh.points, np.zeros(len(mesh.points))]
     if path.suffix == ".inp":
         everything = {"body": [np.arange(len(mesh.triangles))]}
-        meshio.Mesh(solid, cells, point_sets=dict(mesh.sets), cell_sets=everything).write(path)
+        deck = meshio.Mesh(solid, cells, point_sets=dict(mesh.sets), cell_sets=everything)
+        deck.write(path, float_fmt=_NUMBER)
         # meshio knows one name only for these triangles.
         path.write_text(path.read_text("ascii").replace("TYPE=CPE6", f"TYPE={_ELEMENTS[plane_strain]}"), "ascii")
         return
