@@ -1,6 +1,48 @@
-"""`python -m gearcad` is `gearcad`."""
+"""The command `gearcad`, which `python -m gearcad` is too."""
 
-from gearcad.cli import main
+from __future__ import annotations
+
+import os
+import signal
+import sys
+
+from gearcad.guard import CAN_GUARD, guarded
+
+TYPE_CHECKING = False  # as in guard.py
+if TYPE_CHECKING:
+    from typing import NoReturn
+
+__all__ = ["run"]
+
+_MINDS_ITSELF = ("batch",)
+"""Commands whose work is in processes of their own: at Ctrl-C they tell what they have."""
+
+
+def run() -> None:
+    """Do what the command line says, and end this process."""
+    command = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
+    if CAN_GUARD and command not in _MINDS_ITSELF:
+        guarded(_work)
+        return
+    if hasattr(signal, "SIGTERM") and signal.getsignal(signal.SIGTERM) is not signal.SIG_IGN:
+        signal.signal(signal.SIGTERM, _terminate)
+    try:
+        _work()
+    except KeyboardInterrupt:
+        os.write(2, b"Aborted!\n")
+        sys.exit(128 + signal.SIGINT)
+
+
+def _work() -> None:
+    from gearcad.cli import main
+
+    main(prog_name="gearcad")
+
+
+def _terminate(number: int, _frame: object) -> NoReturn:
+    """Leave by way of all that clears up."""
+    sys.exit(128 + number)
+
 
 if __name__ == "__main__":
-    main(prog_name="gearcad")
+    run()

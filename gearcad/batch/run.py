@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import shutil
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager, suppress
@@ -25,6 +26,8 @@ __all__ = ["Progress", "Summary", "run_table"]
 
 WORKSPACE = ".gearcad-batch"
 """Folder inside the output folder where rows grow; it is there during a run, and after one that was killed."""
+
+_LOCK = "lock"
 
 _ROWS_PER_CHECK = 50
 _CHECK_SECONDS = 600.0
@@ -200,8 +203,11 @@ def _workspace(folder: Path) -> Iterator[Path]:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         workspace = folder.resolve() / WORKSPACE
+        for path in (workspace, workspace / _LOCK):
+            if path.is_symlink():  # it would be cleared, or emptied, where it leads
+                raise OSError(errno.ELOOP, f"{path.relative_to(folder.resolve())} is a link; remove it")
         workspace.mkdir(exist_ok=True)
-        lock = FileLock(workspace / "lock")
+        lock = FileLock(workspace / _LOCK)
         lock.acquire(blocking=False)
     except Timeout as error:
         raise OutputError("output", str(folder), "is in use by another gearcad batch; wait for its end") from error
@@ -213,7 +219,7 @@ def _workspace(folder: Path) -> Iterator[Path]:
     finally:
         _clear(workspace)
         with suppress(OSError):  # while it is ours: once released it may be that of the next run
-            (workspace / "lock").unlink(missing_ok=True)
+            (workspace / _LOCK).unlink(missing_ok=True)
         lock.release()
         with suppress(OSError):
             workspace.rmdir()

@@ -6,7 +6,6 @@ not by multiprocessing, which would run the user's script again in it and forbid
 
 from __future__ import annotations
 
-import ctypes
 import os
 import pickle
 import queue
@@ -19,6 +18,7 @@ from contextlib import suppress
 from typing import IO, Any, TypeVar
 
 from gearcad.errors import GearcadError, format_number
+from gearcad.guard import death, die_with
 
 __all__ = ["WorkerLostError", "close_workers", "isolated"]
 
@@ -29,7 +29,6 @@ _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM
 """The parallel unit is the row; one thread each also gives the same bytes on every machine."""
 
 _LENGTH_BYTES = 8
-_PR_SET_PDEATHSIG = 1
 
 _here = threading.local()
 _open: set[_Worker] = set()
@@ -150,16 +149,13 @@ def _reason(status: int, time_limit: float | None) -> str:
         return f"was stopped at its time limit of {format_number(time_limit)} s"
     if status >= 0:
         return f"ended its process (exit status {status})"
-    name = signal.Signals(-status).name
-    perhaps = ", perhaps for want of memory" if name == "SIGKILL" else ""
-    return f"killed its process ({name}{perhaps})"
+    return death(-status)
 
 
 def serve() -> None:
     """The child: answer calls from stdin until it closes, which also ends work in progress: nobody waits for it any more."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all processes of a terminal; the parent decides
-    if sys.platform == "linux":  # the thread that listens has no say while a kernel holds the interpreter
-        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    die_with(os.getppid())  # the thread that listens has no say while a kernel holds the interpreter
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever a library prints must not mix with the answers
     calls: queue.SimpleQueue[bytes] = queue.SimpleQueue()

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import errno
+import signal
 from collections.abc import Callable
 from enum import Enum
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 import click
 
@@ -16,6 +17,9 @@ __all__ = ["Commands", "debug_option", "parse_choices", "require_new_file", "spe
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Choice = TypeVar("Choice", bound=Enum)
+
+INTERRUPTED = 128 + signal.SIGINT
+"""Exit status after Ctrl-C, that of a shell."""
 
 
 class Commands(click.Group):
@@ -34,11 +38,13 @@ class Commands(click.Group):
             ctx.exit(2)
         except (click.ClickException, click.Abort, click.exceptions.Exit):
             raise
+        except KeyboardInterrupt:
+            _leave_interrupted(ctx)
         except Exception as error:
             if isinstance(error, OSError) and error.errno == errno.EPIPE:
                 raise  # click ends quietly when the reader of a pipe has gone
             if _interrupted(error):
-                raise click.Abort from error
+                _leave_interrupted(ctx)
             if ctx.meta.get("gearcad.debug"):
                 raise
             if isinstance(error, GearcadError):
@@ -50,6 +56,11 @@ class Commands(click.Group):
             what = " ".join(f"{type(error).__name__}: {error}".split())
             click.echo(f"Error: unexpected {what} (a fault of gearcad: please report it, with what --debug shows)", err=True)
             ctx.exit(1)
+
+
+def _leave_interrupted(ctx: click.Context) -> NoReturn:
+    click.echo("Aborted!", err=True)
+    ctx.exit(INTERRUPTED)
 
 
 def _interrupted(error: BaseException | None) -> bool:
@@ -87,5 +98,5 @@ def require_new_file(path: Path, force: bool) -> None:
     """Raise ParameterError for the name of a folder, and without `force` for that of a file that exists."""
     if path.is_dir():
         raise ParameterError("output", str(path), "is a folder; give the name of a file")
-    if path.exists() and not force:
+    if (path.exists() or path.is_symlink()) and not force:
         raise ParameterError("output", str(path), "exists; give another name, or --force to replace it")

@@ -136,7 +136,7 @@ def test_ctrl_c_ends_the_run_on_the_cluster_too(address: str, many: Path, tmp_pa
         wait_until(lambda: len(list(folder.glob("row*"))) > 20, "rows that are finished")
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=PATIENCE)
-    assert (process.returncode, errors.strip()) == (1, "Aborted!")
+    assert (process.returncode, errors.strip()) == (130, "Aborted!")
     assert {line["status"] for line in read_results(folder)} == {"ok", "not run"}
     assert run_table(many, folder, Wanted(formats=(Format.DXF,)), cluster=address).ok == 100
     assert lies(folder) == [] and not list(folder.glob(".*"))

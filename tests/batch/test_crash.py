@@ -148,7 +148,7 @@ def test_ctrl_c_ends_the_run_at_once_with_what_there_is(tmp_path: Path) -> None:
     send_to_all(process, signal.SIGINT)
     output, errors = process.communicate(timeout=PATIENCE)
     assert time.monotonic() - began < ORPHANS_LIVE
-    assert (process.returncode, output, errors.strip()) == (1, "", "Aborted!")
+    assert (process.returncode, output, errors.strip()) == (130, "", "Aborted!")
     assert wait_for_end(below(process), ORPHANS_LIVE) == []
     assert lies(folder) == []
     lines = read_results(folder)

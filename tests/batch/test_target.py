@@ -82,6 +82,23 @@ def test_output_may_be_a_link(table: Path, tmp_path: Path) -> None:
     assert (tmp_path / "real" / "left" / "data.json").is_file() and (tmp_path / "real" / "results.csv").is_file()
 
 
+@pytest.mark.parametrize("link", [".gearcad-batch", ".gearcad-batch/lock"])
+def test_link_in_place_of_the_workspace_is_refused_and_its_target_stays(link: str, table: Path, tmp_path: Path) -> None:
+    """Work would grow there, and be cleared there: all folders of the target were deleted once."""
+    precious = tmp_path / "precious"
+    (precious / "folder").mkdir(parents=True)
+    (precious / "file").write_text("mine")
+    before = snapshot(precious)
+    place = tmp_path / "out" / link
+    place.parent.mkdir(parents=True)
+    place.symlink_to(precious if link == ".gearcad-batch" else precious / "file")
+    with pytest.raises(OutputError) as caught:
+        run_table(table, tmp_path / "out", DATA, jobs=1)
+    reason = f"cannot be written ({link} is a link; remove it); give a folder you may write to"
+    assert str(caught.value) == f"output = '{tmp_path / 'out'}': {reason}"
+    assert snapshot(precious) == before and place.is_symlink()
+
+
 def test_results_that_cannot_be_replaced_are_status_1(table: Path, tmp_path: Path) -> None:
     """All rows are well, but nobody could read what became of them."""
     (tmp_path / "out" / "results.csv").mkdir(parents=True)

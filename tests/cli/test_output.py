@@ -1,6 +1,7 @@
 """Files appear complete or not at all."""
 
 import os
+import random
 import signal
 import subprocess
 import sys
@@ -8,9 +9,11 @@ import time
 from pathlib import Path
 
 import pytest
+from support.processes import hear_interrupts, wait_until
 
 from gearcad import ParameterError
 from gearcad.output import json_text, staged_files
+from gearcad.spec.starters import starter_text
 
 
 def everything(folder: Path) -> list[str]:
@@ -56,6 +59,16 @@ def test_a_folder_in_the_way_of_a_file_is_found_before_any_file_moves(tmp_path: 
     assert everything(tmp_path) == ["two"]
 
 
+def test_link_is_replaced_and_what_it_leads_to_stays(tmp_path: Path) -> None:
+    (tmp_path / "mine").write_text("mine")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "one").symlink_to(tmp_path / "mine")
+    with staged_files(tmp_path / "out") as staging:
+        (staging / "one").write_text("new")
+    assert (tmp_path / "mine").read_text() == "mine"
+    assert (tmp_path / "out" / "one").read_text() == "new" and not (tmp_path / "out" / "one").is_symlink()
+
+
 def test_full_disk_is_a_plain_error(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match=r"^output = '.*': cannot be written \(No space left on device\)"):
         with staged_files(tmp_path / "x"):
@@ -69,20 +82,63 @@ def test_json_refuses_what_is_no_json() -> None:
     assert json_text({"a": 1.0, "b": "µ"}) == '{\n  "a": 1.0,\n  "b": "\\u00b5"\n}\n'
 
 
-@pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGINT, signal.SIGTERM])
 def test_build_that_is_stopped_leaves_no_half_written_file(sent: signal.Signals, tmp_path: Path) -> None:
-    """SIGKILL cannot be caught: it may leave a hidden folder, never a file under its final name. Ctrl-C cleans up."""
+    """SIGKILL cannot be caught: it may leave a hidden folder, never a file under its final name. The others clean up."""
     (tmp_path / "x.toml").write_text("[gear]\nteeth = 300\nnormal_module = 2\nface_width = 50\nhelix_angle = 20\n")
     command = [sys.executable, "-m", "gearcad", "build", "x.toml", "-o", "out", "--chord-error", "0.0005"]
-    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
-        deadline = time.monotonic() + 60
-        while not list((tmp_path / "out").glob(".unfinished-*/gear.stl")) and time.monotonic() < deadline:
-            time.sleep(0.002)
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "preexec_fn": hear_interrupts}
+    with subprocess.Popen(command, cwd=tmp_path, **pipes) as child:
+        wait_until(lambda: list((tmp_path / "out").glob(".unfinished-*/gear.stl")), "a file that is being written")
         child.send_signal(sent)
         output, errors = child.communicate(timeout=60)
-    assert (child.returncode, output) == (-signal.SIGKILL if sent is signal.SIGKILL else 1, ""), errors
-    if sent is signal.SIGINT:
-        assert "Traceback" not in errors
+    assert (child.returncode, output) == (-signal.SIGKILL if sent is signal.SIGKILL else 128 + sent, ""), errors
+    if sent is not signal.SIGKILL:
+        assert errors.splitlines()[-1] == "Aborted!" and "Traceback" not in errors
         assert sorted(path.name for path in tmp_path.iterdir()) == ["x.toml"]
     else:
         assert [path.name for path in (tmp_path / "out").iterdir() if not path.name.startswith(".unfinished-")] == []
+
+
+def stopped_at_random(number: int, sent: signal.Signals, folder: Path, *command: str) -> None:
+    """Stop a command at random moments of its life, all of its group or itself: it ends at once, says so, leaves nothing."""
+    whole = [sys.executable, "-m", "gearcad", *command]
+    began = time.monotonic()
+    subprocess.run(whole, cwd=folder, capture_output=True, check=True)
+    seconds = time.monotonic() - began
+    before = sorted(path.relative_to(folder) for path in folder.rglob("*"))
+    chance = random.Random(1)
+    for turn in range(number):
+        with subprocess.Popen(
+            whole,
+            cwd=folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+            preexec_fn=hear_interrupts,
+        ) as child:
+            time.sleep(chance.uniform(0.15, 0.8 * seconds))
+            (os.killpg if turn % 2 else os.kill)(child.pid, sent)
+            began = time.monotonic()
+            _, errors = child.communicate(timeout=60)
+            assert time.monotonic() - began < 3.0
+        assert child.returncode == 128 + sent, errors
+        assert errors.splitlines()[-1] == "Aborted!" and "Traceback" not in errors
+        assert sorted(path.relative_to(folder) for path in folder.rglob("*")) == before
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
+def test_build_stopped_at_any_moment(sent: signal.Signals, tmp_path: Path) -> None:
+    """Also while kernels are being imported, where Ctrl-C used to be lost or to be told as a fault."""
+    (tmp_path / "pair.toml").write_text(starter_text("volvo-13-44")[1])
+    stopped_at_random(20, sent, tmp_path, "build", "pair.toml")
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("command", ["check", "stiffness", "dynamics", "modify"])
+def test_numbers_stopped_at_any_moment(command: str, tmp_path: Path) -> None:
+    (tmp_path / "pair.toml").write_text(starter_text("fzg-c")[1])
+    options = {"stiffness": ["--method", "plane-strain"], "modify": ["--force"]}.get(command, [])
+    stopped_at_random(4, signal.SIGINT, tmp_path, command, "pair.toml", *options)

@@ -13,7 +13,17 @@ from pathlib import Path
 
 import psutil
 
-__all__ = ["PATIENCE", "batch_command", "below", "run_batch", "send_to_all", "start_batch", "wait_for_end", "wait_until"]
+__all__ = [
+    "PATIENCE",
+    "batch_command",
+    "below",
+    "hear_interrupts",
+    "run_batch",
+    "send_to_all",
+    "start_batch",
+    "wait_for_end",
+    "wait_until",
+]
 
 PATIENCE = 60.0
 """Seconds that anything may take on a busy machine before a test gives up."""
@@ -30,10 +40,20 @@ def run_batch(*arguments: str | Path, **environment: str) -> subprocess.Complete
     )
 
 
+def hear_interrupts() -> None:
+    """For `preexec_fn`: the suite may run where Ctrl-C is ignored, in the background of a shell; the child must not."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def start_batch(*arguments: str | Path) -> subprocess.Popen[str]:
     """Start `gearcad batch` as the leader of a group of processes, as a terminal does."""
     return subprocess.Popen(
-        batch_command(*arguments), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+        batch_command(*arguments),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=hear_interrupts,
     )
 
 

@@ -1,9 +1,13 @@
-"""`import gearcad` must stay light: heavy libraries are imported inside the functions that need them."""
+"""`import gearcad` must stay light: names are imported when first used, heavy libraries inside the functions that need them."""
 
 from __future__ import annotations
 
 import subprocess
 import sys
+
+import pytest
+
+import gearcad
 
 HEAVY = (
     *("scipy", "cadquery", "OCP", "gmsh", "matplotlib", "vtk", "vtkmodules"),
@@ -12,7 +16,15 @@ HEAVY = (
 
 
 def test_import_pulls_in_no_heavy_library() -> None:
-    code = f"import sys, gearcad; print(*[name for name in {HEAVY!r} if name in sys.modules], 'numpy' in sys.modules)"
+    code = "import sys, gearcad; print('numpy' in sys.modules, gearcad.Gear.__name__, gearcad.geometry.__name__); "
+    code += f"print(*[name for name in {HEAVY!r} if name in sys.modules], 'numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == ["True"]
+    assert done.stdout.split() == ["False", "Gear", "gearcad.geometry", "True"]
     assert done.stderr == ""
+
+
+def test_every_name_is_there_and_no_other() -> None:
+    assert [name for name in gearcad.__all__ if getattr(gearcad, name, None) is None] == []
+    assert set(gearcad.__all__) <= set(dir(gearcad))
+    with pytest.raises(AttributeError, match=r"module 'gearcad' has no attribute 'Gaer'"):
+        gearcad.Gaer  # noqa: B018
