@@ -21,4 +21,4 @@ def assess(design: Design, progress: Progress | None = None) -> CheckResult:
     # The dense systems are small, and solid bodies are solved side by side: more threads cost more than they bring.
     with threadpool_limits(1):
         material = design.material or Material()
-        return check_pair(pair, material, load, design.check, progress, design.mounting)
+        return check_pair(pair, material, load, design.check, progress, design.mounting, design.rating)

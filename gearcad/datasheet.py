@@ -23,7 +23,7 @@ _GEAR_BLOCKS = {
     "Inspection": "span_teeth span_measurement span_contact_diameter ball_diameter over_balls over_pins pin_axial_shift",
     "Flank modifications": " ".join(key for key in symbols.GEAR if key.startswith("modification.")),
     "Body": "body.bore body.keyway_width body.keyway_depth body.hub_diameter body.hub_length body.hub_side body.rim_diameter"
-    " body.end_chamfer body.end_chamfer_angle body.tip_chamfer",
+    " body.end_chamfer body.end_chamfer_angle body.tip_chamfer body.web_thickness body.rim_thickness",
 }
 
 _BOTH = "working_pitch_diameters active_root_diameters tip_clearances"
@@ -59,7 +59,7 @@ class _Line(NamedTuple):
 
 
 def print_datasheet(design: Design, console: Console) -> None:
-    """Print the sheet: a column per gear, then the pair, material, load and mounting, then the warnings."""
+    """Print the sheet: a column per gear, then the pair, material, load, mounting and rating, then the warnings."""
     from rich.text import Text
 
     for line in _lines(design, with_source=console.width >= _WIDE):
@@ -82,7 +82,13 @@ def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
         yield from _block(title, [row for row in rows if set(row[1]) != {_ABSENT}], with_source)
     for title, keys in _PAIR_BLOCKS.items() if pair else ():
         yield from _block(title, [(symbols.PAIR[key], [_value(pair[key])]) for key in keys.split()], with_source)
-    for block, table in (("material", symbols.MATERIAL), ("load", symbols.LOAD), ("mounting", symbols.MOUNTING)):
+    tables = (
+        ("material", symbols.MATERIAL),
+        ("load", symbols.LOAD),
+        ("mounting", symbols.MOUNTING),
+        ("rating", symbols.RATING_OPTIONS),
+    )
+    for block, table in tables:
         absent = (None, 0) if block == "mounting" else (None,)
         given = {key: value for key, value in document.get(block, {}).items() if value not in absent}
         yield from _block(block.capitalize(), [(table[key], [_given(value)]) for key, value in given.items()], with_source)

@@ -4,10 +4,35 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 
-from gearcad.errors import ParameterError, plain_numbers, require_number
+from gearcad.errors import ParameterError, as_choice, plain_numbers, require_number
 
-__all__ = ["Material"]
+__all__ = ["Material", "MaterialGroup"]
+
+
+class MaterialGroup(StrEnum):
+    """Groups of gear materials under their abbreviations in ISO 6336-5."""
+
+    STRUCTURAL_STEEL = "St"
+    """Structural steel, wrought or cast."""
+
+    THROUGH_HARDENED = "V"
+    """Through-hardened steel, wrought or cast."""
+
+    NODULAR_IRON = "GGG"
+    """Nodular cast iron, perlitic or bainitic."""
+
+    FERRITIC_NODULAR_IRON = "GGG (ferr.)"
+    MALLEABLE_IRON = "GTS"
+    GREY_IRON = "GG"
+    CASE_HARDENED = "Eh"
+    SURFACE_HARDENED = "IF"
+    """Flame or induction hardened."""
+
+    NITRIDING_STEEL = "NT"
+    NITRIDED = "NV"
+    """Through-hardening or case-hardening steel, nitrided or nitrocarburised."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -15,7 +40,8 @@ class Material:
     """Linear elastic material. `youngs_modulus` and the limits in MPa, `density` in kg/m^3.
 
     `contact_limit` and `root_limit` are allowable stresses, or the range (low, high) in which that of the material lies;
-    None gives no verdict. Raises ParameterError.
+    None gives no verdict. `group` says how flanks run in, and `contact_endurance_limit` (sigma_H_lim, MPa) how much where
+    they are not hardened on the surface. Raises ParameterError.
     """
 
     name: str = "steel"
@@ -25,14 +51,19 @@ class Material:
     yield_strength: float | None = None
     contact_limit: float | tuple[float, float] | None = None
     root_limit: float | tuple[float, float] | None = None
+    group: MaterialGroup | None = None
+    contact_endurance_limit: float | None = None
 
     def __post_init__(self) -> None:
         plain_numbers(self)
         require_number("youngs_modulus", self.youngs_modulus, "MPa", above=0)
         require_number("poisson_ratio", self.poisson_ratio, at_least=0, below=0.5)
         require_number("density", self.density, "kg/m^3", above=0)
-        if self.yield_strength is not None:
-            require_number("yield_strength", self.yield_strength, "MPa", above=0)
+        if self.group is not None:
+            object.__setattr__(self, "group", as_choice("group", self.group, MaterialGroup))
+        for name in ("yield_strength", "contact_endurance_limit"):
+            if getattr(self, name) is not None:
+                require_number(name, getattr(self, name), "MPa", above=0)
         for name in ("contact_limit", "root_limit"):
             value = getattr(self, name)
             if isinstance(value, list | tuple):

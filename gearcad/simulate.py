@@ -68,7 +68,7 @@ def _of_pair(design: Design, progress: Progress | None) -> PairStudy | ContactSt
         return study_contact(pair, design.load, cycle, inertias, options, tell=tell)
     assert cycle is not None  # made above
     masses = _masses(pair, material) if options.pinion_bearing_stiffness is not None else None
-    return study_pair(pair, material, design.load, cycle, inertias, options, masses=masses, tell=tell)
+    return study_pair(pair, material, design.load, cycle, inertias, options, rating=design.rating, masses=masses, tell=tell)
 
 
 def _inertias(pair: GearPair, material: Material, options: DynamicsOptions) -> tuple[float, float]:

@@ -1,15 +1,16 @@
 """The one table from field name to symbol, unit, source and words: data sheet, CSV headers and drawings read it.
 
-Keys are those of `Gear.to_dict()`, `GearPair.to_dict()`, `Material`, `Load`, `Mounting` and `Rating.to_dict()`, nested ones
-joined by a dot (`rack.root_radius`, `path_of_contact.A`); GEAR_RATING holds those under a rating's "pinion" and "wheel".
-Clauses are those of ISO 21771:2007 unless another standard is named; an empty source means that the quantity is our own.
+Keys are those of `Gear.to_dict()`, `GearPair.to_dict()`, `Material`, `Load`, `Mounting`, `RatingOptions` and
+`Rating.to_dict()`, nested ones joined by a dot (`rack.root_radius`, `path_of_contact.A`); GEAR_RATING holds those under a
+rating's "pinion" and "wheel". Clauses are those of ISO 21771:2007 unless another standard is named; an empty source means that
+the quantity is our own.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["GEAR", "GEAR_RATING", "LOAD", "MATERIAL", "MOUNTING", "PAIR", "RATING", "Symbol"]
+__all__ = ["GEAR", "GEAR_RATING", "LOAD", "MATERIAL", "MOUNTING", "PAIR", "RATING", "RATING_OPTIONS", "Symbol"]
 
 
 class Symbol(NamedTuple):
@@ -44,6 +45,8 @@ GEAR = {
     "body.end_chamfer": Symbol("", "mm", "", "end chamfer, axial length"),
     "body.end_chamfer_angle": Symbol("", "deg", "", "end chamfer, angle to the axis"),
     "body.tip_chamfer": Symbol("h_K", "mm", "6.1", "tip chamfer, radial height"),
+    "body.web_thickness": Symbol("b_s", "mm", "ISO 6336-1", "web of the blank, for the rating"),
+    "body.rim_thickness": Symbol("s_R", "mm", "ISO 6336-1", "rim of the blank, for the rating"),
     "modification.tip_relief": Symbol("C_αa", "µm", "6.2", "tip relief"),
     "modification.tip_relief_length": Symbol("L_Cαa", "mm", "6.2", "tip relief, length of roll"),
     "modification.tip_relief_shape": Symbol("", "", "6.2", "tip relief, shape"),
@@ -122,6 +125,8 @@ MATERIAL = {
     "yield_strength": Symbol("σ_y", "MPa", "", "yield strength"),
     "contact_limit": Symbol("σ_HP", "MPa", "ISO 6336-2", "permissible contact stress"),
     "root_limit": Symbol("σ_FP", "MPa", "ISO 6336-3", "permissible root stress"),
+    "group": Symbol("", "", "ISO 6336-5", "material group"),
+    "contact_endurance_limit": Symbol("σ_Hlim", "MPa", "ISO 6336-5", "endurance limit of contact stress"),
 }
 
 LOAD = {
@@ -136,6 +141,12 @@ MOUNTING = {
     "pinion_pitch_error": Symbol("f_p1", "µm", "ISO 1328-1", "pitch error of a tooth of the pinion"),
     "wheel_pitch_error": Symbol("f_p2", "µm", "ISO 1328-1", "pitch error of a tooth of the wheel"),
     "centre_distance_change": Symbol("Δa", "mm", "", "change of the centre distance"),
+}
+
+RATING_OPTIONS = {
+    "standard": Symbol("", "", "", "standard of the rating"),
+    "accuracy": Symbol("", "", "", "standard of the accuracy grade"),
+    "accuracy_grade": Symbol("", "", "ISO 1328-1", "accuracy grade"),
 }
 
 RATING = {

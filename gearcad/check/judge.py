@@ -108,11 +108,12 @@ def material_limits(task: Task, summary: Summary) -> Iterator[Comparison]:
 
 
 def standards(task: Task, summary: Summary) -> Iterator[Comparison]:
-    """Root stress and stiffness against ISO 6336, with a band for what the two leave out differently."""
+    """Root stress and stiffness against ISO 6336 or DIN 3990, with a band for what the two leave out differently."""
+    edition = task.rating.edition
     root, stiffness = task.options.root_band / 100, task.options.stiffness_band / 100
     sharing = "ISO puts the whole load on one pair of teeth at its outer point; the FE shares it, and sees the true fillet"
     for owner, value, reference in zip(("pinion", "wheel"), summary.root_tension, task.rating.root_stresses, strict=True):
-        source = "sigma_F0, ISO 6336-3:2006 Method B"
+        source = f"sigma_F0, {edition.dated_part(3)} Method B"
         yield against(f"root stress, {owner}", value, reference, root, "MPa", source, Role.INFORMATION, sharing)
     body = "ISO's discs are stiffer or softer than this body; see how the bodies are held"
     for words, value, reference, source in (
@@ -120,8 +121,13 @@ def standards(task: Task, summary: Summary) -> Iterator[Comparison]:
             "mean mesh stiffness",
             summary.mesh_stiffness_mean,
             task.rating.stiffness.mesh_alpha,
-            "c_gamma_alpha, ISO 6336-1:2006 Method B",
+            f"c_gamma_alpha, {edition.dated_part(1)} Method B",
         ),
-        ("single stiffness", summary.single_stiffness, task.rating.stiffness.single, "c', ISO 6336-1:2006 Method B"),
+        (
+            "single stiffness",
+            summary.single_stiffness,
+            task.rating.stiffness.single,
+            f"c', {edition.dated_part(1)} Method B",
+        ),
     ):
         yield against(words, value, reference, stiffness, "N/(mm µm)", source, Role.INFORMATION, body)

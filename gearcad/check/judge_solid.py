@@ -53,29 +53,30 @@ def _errors(convergence: tuple[Convergence, ...]) -> Iterator[Comparison]:
 
 
 def _contact(task: Task, summary: SolidSummary) -> Iterator[Comparison]:
-    """Pressure and lines of contact against ISO 6336-2 and the geometry."""
+    """Pressure and lines of contact against part 2 of the standard and the geometry."""
     band, rating, cells = task.options.contact_band / 100, task.rating, "the FE's is the greatest of all cells away from edges"
+    standard = rating.edition.dated_part(2)
     nominal = rating.flank.nominal_stress * math.sqrt(rating.application_factor)
     for words, value, reference, source, note in (
         (
             "contact pressure, pinion",
             summary.contact_pressure,
             rating.contact_stresses[0],
-            "Z_B sigma_H0, ISO 6336-2:2006 Method B",
+            f"Z_B sigma_H0, {standard} Method B",
             cells,
         ),
         (
             "contact pressure, wheel",
             summary.contact_pressure,
             rating.contact_stresses[1],
-            "Z_D sigma_H0, ISO 6336-2:2006 Method B",
+            f"Z_D sigma_H0, {standard} Method B",
             cells,
         ),
         (
             "contact pressure at the pitch point",
             summary.contact_pressure_pitch_point,
             nominal,
-            "sigma_H0, ISO 6336-2:2006 Method B",
+            f"sigma_H0, {standard} Method B",
             "in the middle of the common face width",
         ),
     ):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
@@ -17,7 +17,7 @@ from gearcad.load import Load
 from gearcad.ltca.solid_cycle import SolidCycle
 from gearcad.material import Material
 from gearcad.mounting import Mounting
-from gearcad.rating import Rating, rate
+from gearcad.rating import Rating, RatingOptions, rate
 
 __all__ = ["CheckResult", "PlaneCheck", "SolidCheck", "SweepPoint", "Task"]
 
@@ -31,6 +31,7 @@ class Task:
     load: Load
     mounting: Mounting
     options: CheckOptions
+    rating_options: RatingOptions = field(default_factory=RatingOptions)
 
     @property
     def torque(self) -> float:
@@ -49,8 +50,8 @@ class Task:
 
     @cached_property
     def rating(self) -> Rating:
-        """By ISO 6336, Method B."""
-        return rate(self.pair, self.material, self.load)
+        """By ISO 6336 or DIN 3990, Method B."""
+        return rate(self.pair, self.material, self.load, self.rating_options)
 
 
 class SweepPoint(NamedTuple):

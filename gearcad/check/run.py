@@ -13,6 +13,7 @@ from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.rating.options import RatingOptions
 
 __all__ = ["Progress", "check_pair"]
 
@@ -27,13 +28,22 @@ def check_pair(
     options: CheckOptions | None = None,
     progress: Progress | None = None,
     mounting: Mounting | None = None,
+    rating: RatingOptions | None = None,
 ) -> CheckResult:
     """Check a pair under a load: a plane through the middle of the common face width, or solid bodies.
 
+    `rating` is what the references by ISO 6336 or DIN 3990 go by.
     Raises ParameterError and GeometryError for input that cannot be checked, SolverError where a solver fails.
     """
     options, mounting = options or CheckOptions(), mounting or Mounting()
-    task = Task(pair=mounting.mounted(pair), material=material, load=load, mounting=mounting, options=options)
+    task = Task(
+        pair=mounting.mounted(pair),
+        material=material,
+        load=load,
+        mounting=mounting,
+        options=options,
+        rating_options=rating or RatingOptions(),
+    )
     _require_meshing(task)
     if options.model_for(pair) is Model.PLANE:
         return check_plane(task, _teller(progress, PLANE_STEPS))

@@ -26,6 +26,8 @@ def general_warnings(task: Task, cycle: Cycle | SolidCycle, strain: float) -> It
         rim = gear.root_diameter / 2 - body.hub_radius
         if rim < (gear.tip_diameter - gear.root_diameter) / 2:
             yield f"the {name}'s rim below the root ({rim:.3g} mm) is thinner than its teeth are high"
+        if gear.body.web_thickness:
+            yield f"the {name}'s web is in the standard's stiffness alone (C_R): the finite elements are a full disc"
         if not gear.body.bore and inner is None:
             yield f"the {name} has no bore: its body is taken as held on diameter {2 * body.hub_radius:.6g} mm"
 

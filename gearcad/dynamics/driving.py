@@ -16,6 +16,7 @@ from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.rating.iso1328 import flank_tolerances
+from gearcad.rating.options import RatingOptions
 
 __all__ = ["pair_errors", "pair_excitation", "pair_train", "train_excitation"]
 
@@ -146,9 +147,9 @@ def _together(first: TransmissionError | None, second: TransmissionError) -> Tra
     return TransmissionError(coefficients=total, teeth=teeth)
 
 
-def pair_errors(pair: GearPair, grade: int, seed: int, harmonics: int) -> TransmissionError:
-    """Random pitch deviations of an ISO 1328 grade on the pinion's teeth, drawn with `seed`."""
+def pair_errors(pair: GearPair, rating: RatingOptions, seed: int, harmonics: int) -> TransmissionError:
+    """Random pitch deviations of the rating's accuracy grade on the pinion's teeth, drawn with `seed`."""
     gear = pair.pinion
-    tolerances = flank_tolerances(grade, gear.reference_diameter, gear.normal_module)
+    tolerances = flank_tolerances(rating.accuracy_grade, gear.reference_diameter, gear.normal_module, rating.accuracy)
     deviations = random_deviations(gear.teeth, tolerances, seed)
     return tooth_errors(deviations, contact_ratio=max(pair.transverse_contact_ratio, 1.001), harmonics=harmonics)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_number, require_whole
 from gearcad.geometry import GearPair
 from gearcad.mesh_cycle import METHOD_NAMES
+from gearcad.rating.options import RatingOptions
 
 __all__ = ["DynamicsOptions", "PairModel"]
 
@@ -38,8 +39,9 @@ class DynamicsOptions:
 
     Of trains and pairs: chart over `speeds` speeds of the (first) pinion (None: 1000, or 41 of a contact model) from
     `speed_from` to `speed_to` (rpm; None: up to half as much again as its last resonance), with so many `harmonics` of the
-    tooth frequency; `frequencies` natural frequencies of a train; `accuracy_grade` (ISO 1328) is that of K_v by ISO 6336-1 and,
-    with `tooth_errors` "on", of random pitch deviations of the pinions' teeth, drawn with `seed`.
+    tooth frequency; `frequencies` natural frequencies of a train; `accuracy_grade` (ISO 1328-1; None: that of the rating) is
+    that of K_v by ISO 6336-1 and, with `tooth_errors` "on", of random pitch deviations of the pinions' teeth, drawn with
+    `seed`.
 
     Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh; "auto" is plane
     strain for spur gears, whose teeth come into mesh by and by under load, and potential energy for helical ones.
@@ -56,7 +58,7 @@ class DynamicsOptions:
     speeds: int | None = None
     harmonics: int = 6
     frequencies: int = 8
-    accuracy_grade: int = 6
+    accuracy_grade: int | None = None
     tooth_errors: str = "off"
     seed: int = 0
     model: str = PairModel.MESH.value
@@ -79,7 +81,8 @@ class DynamicsOptions:
         require_whole("harmonics", self.harmonics, at_least=1, at_most=40)
         require_whole("frequencies", self.frequencies, at_least=1, at_most=200)
         require_whole("seed", self.seed, at_least=0, at_most=2**32 - 1)
-        require_whole("accuracy_grade", self.accuracy_grade, at_least=1, at_most=11)
+        if self.accuracy_grade is not None:
+            require_whole("accuracy_grade", self.accuracy_grade, at_least=0, at_most=12)
         if self.tooth_errors not in _SWITCH:
             raise ParameterError("tooth_errors", self.tooth_errors, 'must be "on" or "off"')
         as_choice("model", self.model, PairModel)
@@ -124,6 +127,10 @@ class DynamicsOptions:
     def campbell_speeds(self) -> int:
         """Of a Campbell study."""
         return self.speeds or _CAMPBELL
+
+    def graded(self, rating: RatingOptions) -> DynamicsOptions:
+        """With the accuracy grade of a rating, where there is none."""
+        return self if self.accuracy_grade is not None else replace(self, accuracy_grade=rating.accuracy_grade)
 
     @property
     def errors(self) -> bool:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,12 +19,13 @@ from gearcad.dynamics.pair_history import TimeHistory, time_history
 from gearcad.dynamics.six_dof import PairOnBearings
 from gearcad.dynamics.study import TrainStudy, study_train
 from gearcad.dynamics.train import Train
-from gearcad.errors import ParameterError
+from gearcad.errors import InputError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.rating.dynamic_factor import DynamicFactor
+from gearcad.rating.options import RatingOptions
 
 __all__ = ["ContactStudy", "PairStudy", "study_contact", "study_pair"]
 
@@ -42,6 +43,7 @@ class PairStudy:
     """A pair as mounted, its mesh cycle and inertias (kg·m²), and the study of both as a train of one mesh.
 
     With `bearings` the charts are those of six degrees of freedom; the natural modes are still those of the turning alone.
+    `unrated` says why K_v of ISO 6336-1 is missing, "" if it is not.
     """
 
     pair: GearPair
@@ -49,11 +51,20 @@ class PairStudy:
     inertias: tuple[float, float]
     study: TrainStudy
     bearings: PairOnBearings | None
+    unrated: str = ""
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """What to know before trusting it."""
-        return (*self.study.warnings, *self.cycle.notes)
+        factor = self.study.method_b
+        standard = factor.warnings if factor is not None else (f"no K_v of ISO 6336-1: {self.unrated}",)
+        return (*self.study.warnings, *self.cycle.notes, *self._full_discs(), *standard)
+
+    def _full_discs(self) -> Iterator[str]:
+        """Of gears with a web whose inertia nobody gave."""
+        for owner, gear in (("pinion", self.pair.pinion), ("wheel", self.pair.wheel)):
+            if gear.body.web_thickness and getattr(self.study.options, f"{owner}_inertia") is None:
+                yield f"the {owner}'s moment of inertia is that of a full disc, without its web; {owner}_inertia gives another"
 
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it."""
@@ -127,23 +138,36 @@ def study_pair(
     inertias: tuple[float, float],
     options: DynamicsOptions | None = None,
     *,
+    rating: RatingOptions | None = None,
     masses: tuple[float, float] | None = None,
     tell: Callable[[str], None] = lambda _step: None,
 ) -> PairStudy:
     """K_v over speed of a pair by itself, beside ISO 6336-1 Method B, and the course at the load's speed.
 
     `cycle` is the pair's mesh cycle under the load, `inertias` (kg·m²) those of pinion and wheel; their `masses` (kg) are
-    needed where the options give bearings.
+    needed where the options give bearings. The accuracy grade of the options wins over that of the `rating`.
     """
-    options = options or DynamicsOptions()
+    options = (options or DynamicsOptions()).graded(rating := rating or RatingOptions())
+    assert options.accuracy_grade is not None  # it has one now
+    rating = replace(rating, accuracy_grade=options.accuracy_grade)
     train = pair_train(pair, cycle, inertias, torque=cycle.torque, speed=load.speed, damping_ratio=options.damping_ratio)
-    errors = pair_errors(pair, options.accuracy_grade, options.seed, options.harmonics) if options.errors else None
+    errors = pair_errors(pair, rating, options.seed, options.harmonics) if options.errors else None
     excitation = pair_excitation(train, cycle, errors)
-    factor = DynamicFactor.of(pair, material, load, inertias, options.accuracy_grade)
+    factor, unrated = _method_b(pair, material, load, inertias, rating)
     bearings = _on_bearings(train, pair, options, masses)
     of = None if bearings is None else bearings.system()
     study = study_train(train, options, excitation=excitation, method_b=factor, of=of, tell=tell)
-    return PairStudy(pair=pair, cycle=cycle, inertias=inertias, study=study, bearings=bearings)
+    return PairStudy(pair=pair, cycle=cycle, inertias=inertias, study=study, bearings=bearings, unrated=unrated)
+
+
+def _method_b(
+    pair: GearPair, material: Material, load: Load, inertias: tuple[float, float], rating: RatingOptions
+) -> tuple[DynamicFactor | None, str]:
+    """K_v of ISO 6336-1, or None and why the standard has none for this pair."""
+    try:
+        return DynamicFactor.of(pair, material, load, inertias, rating), ""
+    except InputError as error:
+        return None, str(error)
 
 
 def _on_bearings(

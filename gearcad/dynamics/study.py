@@ -23,6 +23,7 @@ from gearcad.dynamics.system import System
 from gearcad.dynamics.train import Train, TrainModel
 from gearcad.errors import SolverError
 from gearcad.rating.dynamic_factor import DynamicFactor
+from gearcad.rating.options import RatingOptions
 
 __all__ = ["Course", "TrainStudy", "study_train"]
 
@@ -148,7 +149,7 @@ def study_train(
     `of` stands in for the train's system in the charts, with the same meshes.
     Raises ParameterError, GeometryError and SolverError.
     """
-    options = options or DynamicsOptions()
+    options = (options or DynamicsOptions()).graded(RatingOptions())
     tell("modes")
     modes = natural_modes(train, count=options.frequencies)
     of = of or system(train)

@@ -31,6 +31,8 @@ class Body:
     `end_chamfer` is the axial length of the cone turned on both ends of the tip cylinder, `end_chamfer_angle` the angle
     between that cone and the gear axis, so that the radial depth is end_chamfer * tan(end_chamfer_angle).
     `tip_chamfer` is the radial height of the 45-degree chamfer along both tip edges of each tooth (transverse section).
+    `web_thickness` b_s and `rim_thickness` s_R (below the root circle) are those of a blank that is no solid disc: only the
+    rating knows them (C_R, Y_B), the solid is a full disc.
     Raises ParameterError, or GeometryError for a keyway that does not fit its bore.
     """
 
@@ -44,10 +46,13 @@ class Body:
     end_chamfer: float = 0.0
     end_chamfer_angle: float = 45.0
     tip_chamfer: float = 0.0
+    web_thickness: float = 0.0
+    rim_thickness: float = 0.0
 
     def __post_init__(self) -> None:
         plain_numbers(self)
-        for name in ("bore", "keyway_width", "keyway_depth", "hub_diameter", "hub_length", "end_chamfer", "tip_chamfer"):
+        holes = ("bore", "keyway_width", "keyway_depth", "hub_diameter", "hub_length")
+        for name in (*holes, "end_chamfer", "tip_chamfer", "web_thickness", "rim_thickness"):
             value = getattr(self, name)
             require_number(name, value, "mm", at_least=0)
             if 0 < value < LEAST_FEATURE:
@@ -56,22 +61,21 @@ class Body:
         if self.rim_diameter is not None:
             require_number("rim_diameter", self.rim_diameter, "mm", above=0)
         require_number("end_chamfer_angle", self.end_chamfer_angle, "deg", at_least=5, at_most=85)
+        for pair in (("keyway_width", "keyway_depth"), ("hub_diameter", "hub_length"), ("web_thickness", "rim_thickness")):
+            self._check_both(*pair)
         self._check_keyway()
-        self._check_hub()
 
-    def _check_keyway(self) -> None:
-        for one, other in (("keyway_width", "keyway_depth"), ("keyway_depth", "keyway_width")):
+    def _check_both(self, first: str, second: str) -> None:
+        """Neither stands alone."""
+        for one, other in ((first, second), (second, first)):
             if getattr(self, one) and not getattr(self, other):
                 raise GeometryError(other, getattr(self, other), f"must be above 0 mm, as {one} is given", "mm")
+
+    def _check_keyway(self) -> None:
         if self.keyway_width and self.keyway_width > 0.9 * self.bore:
             raise GeometryError(
                 "keyway_width", self.keyway_width, f"must be at most {at_most(0.9 * self.bore)} mm (0.9 of the bore)", "mm"
             )
-
-    def _check_hub(self) -> None:
-        for one, other in (("hub_diameter", "hub_length"), ("hub_length", "hub_diameter")):
-            if getattr(self, one) and not getattr(self, other):
-                raise GeometryError(other, getattr(self, other), f"must be above 0 mm, as {one} is given", "mm")
 
     @property
     def opening_diameter(self) -> float:

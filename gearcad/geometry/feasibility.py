@@ -120,6 +120,9 @@ def check_body(gear: Gear) -> None:
         raise GeometryError(
             "body.hub_diameter", body.hub_diameter, f"must be at least {at_least(least)} mm, to hold bore and keyway", "mm"
         )
+    if body.rim_thickness > (deep := (gear.root_diameter - body.opening_diameter) / 2):
+        permitted = f"must be at most {at_most(deep)} mm, what bore and keyway leave below the root circle"
+        raise GeometryError("body.rim_thickness", body.rim_thickness, permitted, "mm")
     if body.end_chamfer:
         _check_end_chamfer(gear, max(body.opening_diameter, body.hub_diameter) + 2 * wall)
 

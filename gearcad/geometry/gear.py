@@ -269,6 +269,8 @@ class Gear:
             found.append(
                 f"thin tip: normal thickness {self.tip_thickness:.4f} mm is below {THIN_TIP} m_n (0.4 m_n if case-hardened)"
             )
+        if self.body.web_thickness:
+            found.append("web: it counts in the rating alone (C_R, Y_B); the solid and its elements are a full disc")
         lowest, highest = self.form_diameter, self.tip_form_diameter
         if not lowest <= self.span_contact_diameter <= highest:
             found.append(f"span: the anvils would touch at diameter {self.span_contact_diameter:.4f} mm, off the involute")

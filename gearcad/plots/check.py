@@ -80,13 +80,13 @@ def plot_load_share(result: PlaneCheck, ax: Axes | None = None) -> Axes:
 def plot_mesh_stiffness(result: CheckResult, ax: Axes | None = None) -> Axes:
     """Mesh stiffness over one base pitch, its mean and the greatest of a single pair, beside c_gamma and c' of ISO 6336-1."""
     axes = prepared(ax, _ROLL, "stiffness in N/(mm µm)")
-    summary, standard = result.summary, result.rating.stiffness
+    summary, standard, part = result.summary, result.rating.stiffness, result.rating.edition.part(1)
     axes.plot(result.cycle.values("roll_angle"), result.cycle.values("stiffness"), color=SERIES[0], label="mesh stiffness")
     for value, words, colour, style in (
         (summary.mesh_stiffness_mean, "its mean", SERIES[0], "--"),
-        (standard.mesh_alpha, r"$c_{\gamma\alpha}$, ISO 6336-1", SERIES[1], "--"),
+        (standard.mesh_alpha, rf"$c_{{\gamma\alpha}}$, {part}", SERIES[1], "--"),
         (summary.single_stiffness, "one pair alone, greatest", SERIES[0], ":"),
-        (standard.single, "$c'$, ISO 6336-1", SERIES[1], ":"),
+        (standard.single, f"$c'$, {part}", SERIES[1], ":"),
     ):
         axes.axhline(value, color=colour, linestyle=style, linewidth=1.4, label=f"{words}: {value:.2f}")
     axes.set_ylim(bottom=0)

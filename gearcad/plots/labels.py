@@ -37,6 +37,7 @@ def _find_symbol(key: str) -> tuple[str, symbols.Symbol] | None:
         "material": symbols.MATERIAL,
         "load": symbols.LOAD,
         "mounting": symbols.MOUNTING,
+        "rating": symbols.RATING_OPTIONS,
     }
     known = tables.get(table, {})
     if field in known:

@@ -191,7 +191,7 @@ def plot_load_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
 
 def plot_root_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
     """Greatest root tension of the cycle along the face of both gears; what stands out beyond the common width is pale."""
-    axes = prepared(ax, _ACROSS, "root tension in MPa")
+    axes, part = prepared(ax, _ACROSS, "root tension in MPa"), result.rating.edition.part(3)
     for gear, (words, colour, marker) in enumerate(GEARS):
         heights, stress = result.cycle.root_along_face(gear)
         low, high = result.cycle.model.common_heights(gear)
@@ -202,7 +202,7 @@ def plot_root_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
         label = rf"{words}, $K_{{F\beta}}$ = {factor:.2f}"
         axes.plot(across[inside], stress[inside], color=colour, marker=marker, markersize=3.5, label=label)
         standard = result.rating.root_stresses[gear]
-        axes.axhline(standard, color=colour, linestyle=":", linewidth=1.4, label=f"{words}, ISO 6336-3: {standard:.0f} MPa")
+        axes.axhline(standard, color=colour, linestyle=":", linewidth=1.4, label=f"{words}, {part}: {standard:.0f} MPa")
     axes.set_ylim(bottom=0)
     legend_above(axes, 2)
     return axes

@@ -2,16 +2,20 @@
 
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.editions import Edition
-from gearcad.rating.face_load import RunningIn, face_load_factor, root_face_load_factor, running_in_allowance, width_to_height
+from gearcad.rating.face_load import face_load_factor, root_face_load_factor, width_to_height
 from gearcad.rating.hertz import LineContact, Peak, Stresses, reduced_modulus, reduced_radius
+from gearcad.rating.iso1328 import Accuracy
 from gearcad.rating.iso6336_1 import MeshStiffness, gear_blank_factor
 from gearcad.rating.iso6336_2 import FlankRating
 from gearcad.rating.iso6336_3 import RootRating, RootSection
 from gearcad.rating.mesh_contact import base_normal_force, contact_at, pitch_point_contact
+from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import Rating, rate
+from gearcad.rating.running_in import RunningIn, running_in_alpha, running_in_beta
 from gearcad.rating.virtual import LoadPoint, VirtualGear
 
 __all__ = [
+    "Accuracy",
     "DynamicFactor",
     "Edition",
     "FlankRating",
@@ -20,6 +24,7 @@ __all__ = [
     "MeshStiffness",
     "Peak",
     "Rating",
+    "RatingOptions",
     "RootRating",
     "RootSection",
     "RunningIn",
@@ -34,6 +39,7 @@ __all__ = [
     "reduced_modulus",
     "reduced_radius",
     "root_face_load_factor",
-    "running_in_allowance",
+    "running_in_alpha",
+    "running_in_beta",
     "width_to_height",
 ]

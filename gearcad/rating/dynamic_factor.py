@@ -13,12 +13,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearcad.errors import plain_numbers, require_number, require_whole
+from gearcad.errors import ParameterError, plain_numbers, require_number, require_whole
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.rating.iso1328 import flank_tolerances
+from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import rate
+from gearcad.rating.running_in import RunningIn, running_in_alpha, running_in_relief
 
 __all__ = ["DynamicFactor", "RunningFactors", "SpeedRange", "reduced_mass", "resonance_speed", "running_factors"]
 
@@ -28,8 +30,13 @@ _MAIN_END, _SUPERCRITICAL = 1.15, 1.5
 """Resonance ratios at which the main resonance range ends, and the supercritical one begins."""
 
 
-_RUN_IN = 0.075
-"""y_alpha of case-hardened and nitrided steels (ISO 6336-1:2006, 8.3.5): share of the base pitch deviation that wears off."""
+_FINE = 5
+"""The coarsest accuracy grade whose tip relief counts."""
+
+_NO_GROUP = (
+    "K_v of ISO 6336-1: the material has no group, so its flanks run in as those of hardened steel, which wear least; "
+    '[material] group = "Eh", "V", "GG" ... tells'
+)
 
 
 class SpeedRange(Enum):
@@ -90,10 +97,11 @@ def running_factors(total_contact_ratio: float) -> RunningFactors:
 class DynamicFactor:
     """Inputs of Method B; `values(speed)` gives K_v.
 
-    `pitch_deviation` f_pb eff and `profile_deviation` f_falpha eff are those left after running-in (18), (19); `tip_relief`
-    C_a is the design value for grades up to 5, what running-in leaves for coarser ones (the caller decides on both).
-    Stiffnesses are those of the load, `specific_load` is F_t K_A/b. Not part of it: gears of a planetary train or with several
-    mates, whose mass differs.
+    `pitch_deviation` f_pb and `profile_deviation` f_falpha are those before running-in, which takes off y_alpha (18), (19) of
+    the kind `running_in` (None: nothing) by the speed on the pinion's `reference_diameter` (mm) and by `flank_limit` (MPa).
+    `tip_relief` C_a is 0 for grade 6 and coarser, for which B_k is 1. Stiffnesses are those of the load, `specific_load` is
+    F_t K_A/b. `warnings`: what to know before trusting it. Not part of it: gears of a planetary train or with several mates,
+    whose mass differs.
     """
 
     teeth: int
@@ -105,20 +113,37 @@ class DynamicFactor:
     pitch_deviation: float
     profile_deviation: float
     tip_relief: float = 0.0
+    reference_diameter: float = 0.0
+    running_in: RunningIn | None = None
+    flank_limit: float | None = None
+    warnings: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, pair: GearPair, material: Material, load: Load, inertias: tuple[float, float], grade: int) -> DynamicFactor:
-        """Of a pair with deviations of a grade of ISO 1328-1, less what running-in of hard steel takes; inertias in kg·m².
+    def of(
+        cls,
+        pair: GearPair,
+        material: Material,
+        load: Load,
+        inertias: tuple[float, float],
+        options: RatingOptions | None = None,
+    ) -> DynamicFactor:
+        """Of a pair of one material, with the deviations of the options' accuracy grade; inertias in kg·m².
 
-        The tip relief counts where both gears have one. Raises ParameterError and GeometryError, as `rate` and
-        `flank_tolerances` do.
+        Raises ParameterError and GeometryError: as `rate` and `flank_tolerances` do, and for through-hardened material without
+        contact_endurance_limit.
         """
-        rating = rate(pair, material, load)
-        gears = (pair.pinion, pair.wheel)
-        tolerances = [flank_tolerances(grade, gear.reference_diameter, gear.normal_module) for gear in gears]
-        kept = 1 - _RUN_IN
+        options = options or RatingOptions()
+        rating, gears = rate(pair, material, load, options), (pair.pinion, pair.wheel)
+        tolerances = [
+            flank_tolerances(options.accuracy_grade, gear.reference_diameter, gear.normal_module, options.accuracy)
+            for gear in gears
+        ]
         across = math.cos(math.radians(pair.pinion.transverse_pressure_angle))
         radii = (pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2)
+        kind = RunningIn.SURFACE_HARDENED if material.group is None else RunningIn.of(material.group)
+        if kind.needs_flank_limit and material.contact_endurance_limit is None:
+            permitted = f"must be given for material group {material.group}: how its flanks run in depends on it"
+            raise ParameterError("material.contact_endurance_limit", None, permitted)
         return cls(
             teeth=pair.pinion.teeth,
             total_contact_ratio=pair.total_contact_ratio,
@@ -126,9 +151,13 @@ class DynamicFactor:
             mesh_stiffness=rating.stiffness.mesh_alpha,
             reduced_mass=reduced_mass(inertias, radii, pair.common_width.width),
             specific_load=rating.specific_load,
-            pitch_deviation=kept * across * max(each.single_pitch for each in tolerances),
-            profile_deviation=kept * max(each.profile_form for each in tolerances),
-            tip_relief=min(gear.modification.tip_relief for gear in gears),
+            pitch_deviation=across * max(each.single_pitch for each in tolerances),
+            profile_deviation=max(each.profile_form for each in tolerances),
+            tip_relief=_tip_relief(pair, material, options.accuracy_grade),
+            reference_diameter=pair.pinion.reference_diameter,
+            running_in=kind,
+            flank_limit=material.contact_endurance_limit,
+            warnings=(_NO_GROUP,) if material.group is None else (),
         )
 
     def __post_init__(self) -> None:
@@ -141,21 +170,30 @@ class DynamicFactor:
         require_number("specific_load", self.specific_load, "N/mm", above=0)
         for name in ("pitch_deviation", "profile_deviation", "tip_relief"):
             require_number(name, getattr(self, name), "µm", at_least=0)
+        if self.running_in is not None:
+            require_number("reference_diameter", self.reference_diameter, "mm", above=0)
 
     @property
     def resonance_speed(self) -> float:
         """n_E1 in rpm (6)."""
         return resonance_speed(self.teeth, self.mesh_stiffness, self.reduced_mass)
 
-    @property
-    def effects(self) -> tuple[float, float, float]:
-        """B_p (15), B_f (16), B_k (17): deviations and relief over the deflection c' would have under the load."""
+    def effects(self, speed: ArrayLike) -> tuple[Floats, Floats, float]:
+        """B_p (15), B_f (16), B_k (17): deviations and relief over the deflection c' would have under the load.
+
+        At speeds of the pinion in rpm: how much of the deviations runs in depends on them.
+        """
         stiffness = self.single_stiffness / self.specific_load
-        return (
-            stiffness * self.pitch_deviation,
-            stiffness * self.profile_deviation,
-            abs(1 - stiffness * self.tip_relief),
-        )
+        pitch, profile = (self._left(each, speed) for each in (self.pitch_deviation, self.profile_deviation))
+        return stiffness * pitch, stiffness * profile, abs(1 - stiffness * self.tip_relief)
+
+    def _left(self, deviation: float, speed: ArrayLike) -> Floats:
+        """f - y_alpha (18), (19)."""
+        rpm = np.asarray(speed, float)
+        if self.running_in is None:
+            return np.full_like(rpm, deviation)
+        along = math.pi * self.reference_diameter / 60_000 * rpm
+        return deviation - running_in_alpha(deviation, self.running_in, along, self.flank_limit)
 
     def range_at(self, speed: float) -> SpeedRange:
         """Of a speed of the pinion in rpm, by its resonance ratio N = n1/n_E1 (9)."""
@@ -169,7 +207,7 @@ class DynamicFactor:
     def values(self, speed: ArrayLike) -> Floats:
         """K_v at speeds of the pinion in rpm: (13), (14) below, (20) at, (22) between, (21) above the main resonance."""
         ratio = np.abs(np.asarray(speed, float)) / self.resonance_speed
-        c, (b_p, b_f, b_k) = running_factors(self.total_contact_ratio), self.effects
+        c, (b_p, b_f, b_k) = running_factors(self.total_contact_ratio), self.effects(speed)
         subcritical = ratio * (c.c_v1 * b_p + c.c_v2 * b_f + c.c_v3 * b_k) + 1
         main = c.c_v1 * b_p + c.c_v2 * b_f + c.c_v4 * b_k + 1
         supercritical = c.c_v5 * b_p + c.c_v6 * b_f + c.c_v7
@@ -180,3 +218,12 @@ class DynamicFactor:
             supercritical,
         )
         return result
+
+
+def _tip_relief(pair: GearPair, material: Material, grade: int) -> float:
+    """C_a: 0 for coarse grades; else what both gears have by design, or else what running in makes, if that is known."""
+    if grade > _FINE:
+        return 0.0
+    designed = min(gear.modification.tip_relief for gear in (pair.pinion, pair.wheel))
+    limit = material.contact_endurance_limit
+    return designed or (running_in_relief(limit) if limit is not None else 0.0)

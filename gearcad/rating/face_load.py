@@ -1,45 +1,25 @@
 """Face load factors by ISO 6336-1:2006, clause 7, Method C.
 
 The mesh is a row of equal springs over the face width, and the flanks stand off by a line: stiffness c_gamma_beta in
-N/(mm·µm), misalignment F_beta in µm, mean specific load F_m/b = F_t K_A K_v/b in N/mm, lengths in mm, speeds in m/s.
+N/(mm·µm), misalignment F_beta in µm, mean specific load F_m/b = F_t K_A K_v/b in N/mm, lengths in mm.
 """
 
 from __future__ import annotations
 
 import math
-from enum import Enum
 
-from gearcad.errors import require_number
 from gearcad.geometry import GearPair
 
 __all__ = [
-    "RunningIn",
     "bearing_width",
     "face_load_exponent",
     "face_load_factor",
     "root_face_load_factor",
-    "running_in_allowance",
     "width_to_height",
 ]
 
 _LEAST_RATIO = 3.0
 """b/h below which the root's factor takes no further notice of the height."""
-
-_CASE_HARDENED_MOST = 6.0
-"""Largest running-in allowance (µm) of hardened flanks."""
-
-
-class RunningIn(Enum):
-    """How flanks wear to fit each other."""
-
-    THROUGH_HARDENED = "through hardened"
-    """Structural and through-hardened steel, cast steel, perlitic and bainitic nodular iron: St, V, GGG, GTS."""
-
-    CAST_IRON = "cast iron"
-    """Grey iron and ferritic nodular iron: GG, GGG (ferr.)."""
-
-    SURFACE_HARDENED = "surface hardened"
-    """Case-hardened, nitrided, flame- or induction-hardened steel: Eh, IF, NT, NV."""
 
 
 def bearing_width(misalignment: float, stiffness: float, mean_load: float) -> float:
@@ -74,20 +54,3 @@ def root_face_load_factor(flank_factor: float, width_to_height: float) -> float:
 def width_to_height(pair: GearPair) -> float:
     """b/h: the smaller of both gears' face width over tooth depth h = (d_a - d_f)/2."""
     return min(gear.face_width / ((gear.tip_diameter - gear.root_diameter) / 2) for gear in (pair.pinion, pair.wheel))
-
-
-def running_in_allowance(misalignment: float, material: RunningIn, speed: float, flank_limit: float | None = None) -> float:
-    """y_beta: what running in takes off an initial misalignment F_beta_x, at a circumferential speed.
-
-    F_beta_y = F_beta_x - y_beta; for two materials y_beta is the mean of theirs. Through-hardened gears need their
-    `flank_limit` sigma_H_lim (MPa). Raises ParameterError.
-    """
-    if material is RunningIn.SURFACE_HARDENED:
-        return min(0.15 * misalignment, _CASE_HARDENED_MOST)
-    if material is RunningIn.CAST_IRON:
-        most = math.inf if speed <= 5 else 45.0 if speed <= 10 else 22.0
-        return min(0.55 * misalignment, most)
-    require_number("flank_limit", flank_limit, "MPa", above=0)
-    assert flank_limit is not None  # a number: seen to just now
-    most = math.inf if speed <= 5 else 25600 / flank_limit if speed <= 10 else 12800 / flank_limit
-    return min(320 / flank_limit * misalignment, most, misalignment)

@@ -39,6 +39,12 @@ STEEL = (190000.0, 216000.0)
 LOW_LOAD = 100.0
 """Specific load F_t K_A/b (N/mm) below which the stiffness falls with the load."""
 
+THIN_WEB, THICK_WEB = 0.2, 1.2
+"""b_s/b that C_R stops at."""
+
+THIN_RIM = 1.0
+"""s_R/m_n that C_R stops at."""
+
 HIGH_LOAD = 1600.0
 """Greatest specific load (N/mm) that Method B was confirmed for."""
 
@@ -121,7 +127,7 @@ def gear_blank_factor(web_thickness: float = 1.0, rim_thickness: float = 1.0) ->
     `web_thickness` b_s/b in face widths and `rim_thickness` s_R/m_n in normal modules; the standard takes b_s/b within
     0.2 ... 1.2 and s_R/m_n at least 1, and values beyond as these limits.
     """
-    web, rim = min(max(web_thickness, 0.2), 1.2), max(rim_thickness, 1.0)
+    web, rim = min(max(web_thickness, THIN_WEB), THICK_WEB), max(rim_thickness, THIN_RIM)
     return 1 + math.log(web) / (5 * math.exp(rim / 5))
 
 
@@ -155,20 +161,21 @@ def mesh_stiffness_beta(mesh_alpha: float) -> float:
     return 0.85 * mesh_alpha
 
 
-def mesh_stiffness(pair: GearPair, material: Material, specific_load: float, blank_factor: float = 1.0) -> MeshStiffness:
-    """Stiffness of a pair at a specific load F_t K_A/b (N/mm); `blank_factor` C_R is 1 for solid discs."""
+def mesh_stiffness(pair: GearPair, material: Material, specific_load: float) -> MeshStiffness:
+    """Stiffness of a pair at a specific load F_t K_A/b (N/mm); C_R, as C_B, is the mean of both gears."""
     first, second = _by_teeth(pair)
+    blank = sum(gear_blank_factor(*_blank(gear)) for gear in (first, second)) / 2
     q = tooth_flexibility((first.virtual_teeth, second.virtual_teeth), (first.profile_shift, second.profile_shift))
     rack = sum(basic_rack_factor(gear.dedendum, gear.rack.pressure_angle) for gear in (first, second)) / 2  # (87)
     xi = material_factor(material.youngs_modulus)
     return MeshStiffness(
         flexibility=q,
         theoretical=theoretical_stiffness(q),
-        blank_factor=blank_factor,
+        blank_factor=blank,
         rack_factor=rack,
         material_factor=xi,
         low_load_factor=low_load_factor(specific_load),
-        high_load_single=xi * single_stiffness(theoretical_stiffness(q), blank_factor, rack, pair.pinion.helix_angle),
+        high_load_single=xi * single_stiffness(theoretical_stiffness(q), blank, rack, pair.pinion.helix_angle),
         transverse_contact_ratio=pair.transverse_contact_ratio,
     )
 
@@ -177,6 +184,15 @@ def stiffness_warnings(pair: GearPair, specific_load: float) -> list[str]:
     """Where the pair or its load leaves the range that clause 9 states for its formulas."""
     found = []
     first, second = _by_teeth(pair)
+    for owner, gear in (("pinion", pair.pinion), ("wheel", pair.wheel)):
+        web, rim = _blank(gear)
+        if not THIN_WEB <= web <= THICK_WEB:
+            limit = THIN_WEB if web < THIN_WEB else THICK_WEB
+            found.append(
+                f"c': C_R knows webs of {THIN_WEB:g} to {THICK_WEB:g} b, the {owner}'s {web:.3g} b counts as {limit:g} b"
+            )
+        if rim < THIN_RIM:
+            found.append(f"c': C_R knows rims from {THIN_RIM:g} m_n on, the {owner}'s {rim:.3g} m_n counts as {THIN_RIM:g} m_n")
     if first.profile_shift < second.profile_shift:
         found.append(f"c': q' is stated for x_1 >= x_2, here {first.profile_shift:g} and {second.profile_shift:g}")
     if not -0.5 <= pair.profile_shift_sum <= 2.0:
@@ -188,6 +204,12 @@ def stiffness_warnings(pair: GearPair, specific_load: float) -> list[str]:
             f"c_gamma: stated from a contact ratio of 1.2, here {pair.transverse_contact_ratio:.4f}: up to 10 % too high"
         )
     return found
+
+
+def _blank(gear: Gear) -> tuple[float, float]:
+    """b_s/b and s_R/m_n; 1 and 1, for which C_R is 1, of a solid disc."""
+    body = gear.body
+    return (body.web_thickness / gear.face_width, body.rim_thickness / gear.normal_module) if body.web_thickness else (1.0, 1.0)
 
 
 def _by_teeth(pair: GearPair) -> tuple[Gear, Gear]:

@@ -162,8 +162,8 @@ def helix_angle_factor(helix_angle: float, overlap_ratio: float) -> float:
 
 
 def rim_thickness_ratio(gear: Gear) -> float:
-    """s_R/h_t: rim below the root circle, down to bore and keyway, over the tooth height."""
-    rim = (gear.root_diameter - gear.body.opening_diameter) / 2
+    """s_R/h_t: rim below the root circle, down to the web if one is given, else to bore and keyway, over the tooth height."""
+    rim = gear.body.rim_thickness or (gear.root_diameter - gear.body.opening_diameter) / 2
     return rim / ((gear.tip_diameter - gear.root_diameter) / 2)
 
 
@@ -172,13 +172,12 @@ def rim_thickness_factor(ratio: float, edition: Edition) -> float:
     return 1.0 if ratio >= 1.2 or edition is Edition.DIN_1987 else 1.6 * math.log(2.242 / ratio)
 
 
-def deep_tooth_factor(virtual_contact_ratio: float, accuracy_grade: int | None, edition: Edition) -> float:
+def deep_tooth_factor(virtual_contact_ratio: float, accuracy_grade: int, edition: Edition) -> float:
     """Y_DT (clause 10): 2.366 - 0.666 eps_alphan from 2.05 to 2.5, then 0.7, for accuracy grade 4 or better; else 1.
 
     The lower factor also asks for a profile modification that spreads the load; DIN 3990-3 has none.
     """
-    coarse = accuracy_grade is None or accuracy_grade > 4
-    if coarse or edition is Edition.DIN_1987 or virtual_contact_ratio <= 2.05:
+    if accuracy_grade > 4 or edition is Edition.DIN_1987 or virtual_contact_ratio <= 2.05:
         return 1.0
     return 0.7 if virtual_contact_ratio > 2.5 else 2.366 - 0.666 * virtual_contact_ratio
 
@@ -196,9 +195,7 @@ def nominal_root_stress(tangential_force: float, width: float, normal_module: fl
     return tangential_force / (width * normal_module) * factors
 
 
-def root_rating(
-    pair: GearPair, gear: Gear, tangential_force: float, edition: Edition, accuracy_grade: int | None = None
-) -> RootRating:
+def root_rating(pair: GearPair, gear: Gear, tangential_force: float, edition: Edition, accuracy_grade: int) -> RootRating:
     """Root stress of one gear of a pair under the tangential force F_t at the reference circle (N)."""
     virtual, ratio = VirtualGear.of(gear), _virtual_contact_ratio(pair)
     load = load_point(virtual, ratio)

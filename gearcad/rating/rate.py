@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from gearcad.errors import GeometryError, ParameterError, as_choice, require_whole
+from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
@@ -16,6 +16,7 @@ from gearcad.rating.iso6336_1 import MeshStiffness, mesh_stiffness, stiffness_wa
 from gearcad.rating.iso6336_2 import FlankRating, flank_rating, flank_warnings
 from gearcad.rating.iso6336_3 import RootRating, root_rating, root_warnings
 from gearcad.rating.mesh_contact import base_normal_force, pitch_point_contact
+from gearcad.rating.options import RatingOptions
 
 __all__ = ["Rating", "rate"]
 
@@ -78,21 +79,16 @@ def rate(
     pair: GearPair,
     material: Material,
     load: Load,
-    *,
-    edition: Edition = Edition.ISO_2006,
-    blank_factor: float = 1.0,
-    accuracy_grade: int | None = None,
+    options: RatingOptions | None = None,
 ) -> Rating:
-    """Rate a pair of gears, both of one material, by Method B of the `edition`.
+    """Rate a pair of gears, both of one material, by Method B.
 
-    F_t is that of the torque at the reference circles. Contact stress and stiffness hold for the common face width.
-    `blank_factor` C_R is 1 for solid discs, else see `gear_blank_factor`; `accuracy_grade` (ISO 1328, 0 ... 12) matters
-    for deep teeth only, see `deep_tooth_factor`. Raises ParameterError without a torque, GeometryError for a pair whose
-    contact the standard does not describe.
+    F_t is that of the torque at the reference circles. Contact stress and stiffness hold for the common face width. The
+    accuracy grade matters for deep teeth only, see `deep_tooth_factor`. Raises ParameterError without a torque, GeometryError
+    for a pair whose contact the standard does not describe.
     """
-    edition = as_choice("edition", edition, Edition)
-    if accuracy_grade is not None:
-        require_whole("accuracy_grade", accuracy_grade, at_least=0, at_most=12)
+    options = options or RatingOptions()
+    edition = options.standard
     _check(pair, load)
     force = 2000 * abs(load.torque) / pair.pinion.reference_diameter
     specific = force * load.application_factor / pair.common_width.width
@@ -100,7 +96,7 @@ def rate(
     roots = []
     for owner, gear in (("pinion", pair.pinion), ("wheel", pair.wheel)):
         try:
-            roots.append(root_rating(pair, gear, force, edition, accuracy_grade))
+            roots.append(root_rating(pair, gear, force, edition, options.accuracy_grade))
         except GeometryError as error:
             raise error.within(owner) from None
         warnings += root_warnings(pair, gear, roots[-1], owner)
@@ -110,7 +106,7 @@ def rate(
         normal_force=base_normal_force(pair, load.torque),
         application_factor=load.application_factor,
         specific_load=specific,
-        stiffness=mesh_stiffness(pair, material, specific, blank_factor),
+        stiffness=mesh_stiffness(pair, material, specific),
         flank=flank_rating(pair, material, force, edition),
         pinion=roots[0],
         wheel=roots[1],

@@ -47,7 +47,7 @@ def root_stress(result: CheckResult) -> str:
     return (
         "Greatest stress along the fillets of the teeth in contact: tension on the loaded side (lines), compression on the "
         "other "
-        "(dashed), and the nominal stress of ISO 6336-3 (dotted). " + " ".join(texts)
+        f"(dashed), and the nominal stress of {result.rating.edition.part(3)} (dotted). " + " ".join(texts)
     )
 
 

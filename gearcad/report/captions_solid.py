@@ -98,7 +98,8 @@ def root_along_face(result: SolidCheck) -> str:
         for gear, name in enumerate(("pinion", "wheel"))
     ]
     return (
-        "Greatest tension of the fillet at each height, over all positions, and the nominal stress of ISO 6336-3 (dotted). The "
+        "Greatest tension of the fillet at each height, over all positions, and the nominal stress of "
+        f"{result.rating.edition.part(3)} (dotted). The "
         f"maxima stand at {places[0]} and {places[1]}. K_Fβ is the greatest over the mean along the common width. Where a "
         "gear is "
         "wider than that, it helps to carry (pale)."

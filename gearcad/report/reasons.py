@@ -17,8 +17,8 @@ def stiffness_reasons(result: CheckResult) -> list[str]:
         rims.append((gear.root_diameter / 2 - body.hub_radius) / gear.normal_module)
     reasons = [
         f"Mean mesh stiffness: {short(summary.mesh_stiffness_mean)} N/(mm µm) by finite elements, "
-        f"{short(standard.mesh_alpha)} by "
-        f"ISO 6336-1 ({100 * (summary.mesh_stiffness_mean / standard.mesh_alpha - 1):+.1f} %); one pair alone "
+        f"{short(standard.mesh_alpha)} by {result.rating.edition.part(1)} "
+        f"({100 * (summary.mesh_stiffness_mean / standard.mesh_alpha - 1):+.1f} %); one pair alone "
         f"{short(summary.single_stiffness)} against c' = {short(standard.single)} "
         f"({100 * (summary.single_stiffness / standard.single - 1):+.1f} %).",
         f"Bodies: the finite element bodies are flexible down to {rims[0]:.1f} m_n below the root circle on the pinion and "

@@ -31,7 +31,7 @@ def _root_reason(result: PlaneCheck, gear: int, name: str) -> str:
     letter, place = (("D", path.D), ("B", path.B))[gear]
     angle = result.cycle.worst_position(gear).tension[gear].tangent_angle
     text = (
-        f"{name.capitalize()}: {short(found)} MPa by finite elements, {short(standard)} MPa by ISO 6336-3 "
+        f"{name.capitalize()}: {short(found)} MPa by finite elements, {short(standard)} MPa by {result.rating.edition.part(3)} "
         f"({100 * (found / standard - 1):+.1f} %). ISO puts the whole load on one pair of teeth at {letter}. Loaded like "
         "that, the "
         f"finite elements have {short(alone)} MPa; sharing the load makes {100 * (found / alone - 1):+.1f} % of it "

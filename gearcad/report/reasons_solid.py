@@ -24,7 +24,7 @@ def _root_reason(result: SolidCheck, gear: int, name: str) -> str:
     width = result.cycle.model.width
     same_width = standard * rating.width / width
     text = (
-        f"{name.capitalize()}: {short(found)} MPa by finite elements, {short(standard)} MPa by ISO 6336-3 "
+        f"{name.capitalize()}: {short(found)} MPa by finite elements, {short(standard)} MPa by {result.rating.edition.part(3)} "
         f"({100 * (found / standard - 1):+.1f} %). "
     )
     if abs(rating.width / width - 1) > 1e-6:

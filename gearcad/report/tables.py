@@ -62,7 +62,7 @@ def load_rows(material: Material, load: Load, mounting: Mounting) -> list[Row]:
 def rating_rows(result: CheckResult) -> list[Row]:
     """The rating by symbols: values of the pair, then those of each gear."""
     values = result.rating.to_dict()
-    rows = [_row(symbol, values[key]) for key, symbol in symbols.RATING.items() if key != "edition"]
+    rows = [_row(symbol, values[key]) for key, symbol in symbols.RATING.items()]
     gears = (values["pinion"], values["wheel"])
     return rows + [_row(symbol, *(gear[key] for gear in gears)) for key, symbol in symbols.GEAR_RATING.items()]
 

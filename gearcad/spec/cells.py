@@ -44,6 +44,9 @@ _TEXT_FIELDS = (
     "plane",
     "convergence",
     "cuts",
+    "group",
+    "standard",
+    "accuracy",
 )
 _TEXTS = frozenset(f"{table}.{field}" for table, fields in COLUMNS.items() for field in fields if field in _TEXT_FIELDS) | {
     "name"

@@ -13,6 +13,7 @@ from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.rating.options import RatingOptions
 
 __all__ = ["Design", "DesignKind", "require_plain_name"]
 
@@ -48,6 +49,7 @@ class Design:
     mounting: Mounting | None = None
     check: CheckOptions | None = None
     dynamics: DynamicsOptions | None = None
+    rating: RatingOptions | None = None
 
     def __post_init__(self) -> None:
         require_plain_name(self.name)
@@ -98,6 +100,8 @@ class Design:
             document["check"] = asdict(self.check)
         if self.dynamics is not None:
             document["dynamics"] = asdict(self.dynamics)
+        if self.rating is not None:
+            document["rating"] = asdict(self.rating)
         return document
 
 

@@ -12,6 +12,7 @@ from gearcad.geometry import BasicRack, Body, FlankModification, Gear
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.rating.options import RatingOptions
 
 __all__ = [
     "COLUMNS",
@@ -47,6 +48,7 @@ KEYS = {
     "mounting": tuple(field.name for field in fields(Mounting)),
     "check": tuple(field.name for field in fields(CheckOptions)),
     "dynamics": tuple(field.name for field in fields(DynamicsOptions)),
+    "rating": tuple(field.name for field in fields(RatingOptions)),
 }
 """Permitted keys of each table, flattened with dots. `rack` alone is the name of a rack."""
 
@@ -88,7 +90,7 @@ def explain_unknown_key(table: str, key: str) -> str:
 
 def _nearest(key: str, known: tuple[str, ...]) -> str | None:
     """The known key whose symbol, last word or spelling is nearest."""
-    entries = symbols.GEAR | symbols.PAIR | symbols.MATERIAL | symbols.LOAD | symbols.MOUNTING
+    entries = symbols.GEAR | symbols.PAIR | symbols.MATERIAL | symbols.LOAD | symbols.MOUNTING | symbols.RATING_OPTIONS
     by_symbol = {entries[name].symbol: name for name in known if name in entries and entries[name].symbol}
     by_tail = {name.rpartition(".")[2]: name for name in reversed(known)}
     if key in by_symbol:

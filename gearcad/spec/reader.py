@@ -28,6 +28,7 @@ from gearcad.geometry import NAMED_RACKS, BasicRack, Body, FlankModification, Ge
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.rating.options import RatingOptions
 from gearcad.spec.auto import AUTO, resolve_profile_shifts, resolve_tip_alterations
 from gearcad.spec.design import Design, DesignKind, require_plain_name
 from gearcad.spec.keys import KEYS, LISTS, PARTS, SHARED, explain_unknown_key, explain_unknown_table
@@ -56,7 +57,7 @@ _MOST_WHOLE = 10**15
 Cell = int | float | str | tuple[float, ...]
 """What a spec and a cell of a design table can both hold."""
 
-Simple = TypeVar("Simple", Material, Load, Mounting, CheckOptions, DynamicsOptions)
+Simple = TypeVar("Simple", Material, Load, Mounting, CheckOptions, DynamicsOptions, RatingOptions)
 
 
 class _Given(NamedTuple):
@@ -132,6 +133,7 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
     mounting = spec.simple("mounting", Mounting) if "mounting" in tables else None
     check = spec.simple("check", CheckOptions) if "check" in tables else None
     dynamics = spec.simple("dynamics", DynamicsOptions) if "dynamics" in tables else None
+    rating = spec.simple("rating", RatingOptions) if "rating" in tables else None
     main = kind.value
     name = spec.name(main, default_name)
     gear = spec.gear(name) if kind is DesignKind.GEAR else None
@@ -147,6 +149,7 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
             mounting=mounting,
             check=check,
             dynamics=dynamics,
+            rating=rating,
         )
 
 
@@ -267,7 +270,7 @@ class _Spec:
         return {key.partition(".")[2]: given.value for key, given in self.values.items() if key.startswith(owner + ".")}
 
     def simple(self, owner: str, kind: type[Simple]) -> Simple:
-        """A Material, a Load, a Mounting, or the options of a check or of the dynamics."""
+        """A Material, a Load, a Mounting, or the options of a check, of the dynamics or of the rating."""
         values = self.fields_of(owner)
         with self.blame(owner):
             if not isinstance(values.get("name", ""), str):

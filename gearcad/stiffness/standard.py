@@ -18,7 +18,7 @@ __all__ = ["MethodB"]
 class MethodB(StiffnessMethod):
     """c' and c_gamma of ISO 6336-1:2006, clause 9: c_gamma_beta is its secant stiffness, c_gamma_alpha its tangent stiffness.
 
-    Solid discs (C_R = 1); below 100 N/mm both fall with the fourth root of the load.
+    C_R by web and rim of the bodies; below 100 N/mm both fall with the fourth root of the load.
     """
 
     name = "iso6336"

@@ -228,3 +228,24 @@ def test_other_commands_send_a_train_here(here: Path, command: str) -> None:
     result = run(command, spec(TRAIN))
     assert result.exit_code == 2
     assert "[train] describes a train, which only `gearcad dynamics` can treat" in result.stderr
+
+
+def test_one_accuracy_grade_for_the_standard(here: Path) -> None:
+    """That of [rating], unless [dynamics] has its own."""
+    charts = []
+    for own, grade in (("", 9), ("accuracy_grade = 9\n", 5)):
+        text = PAIR + own + f"[rating]\naccuracy_grade = {grade}\n[material]\ngroup = 'Eh'\n"
+        result = run("dynamics", spec(text), "--quiet", "--json")
+        assert result.exit_code == 0, result.output
+        charts.append(json.loads(result.stdout))
+    assert charts[0] == charts[1]
+    assert not any("K_v of ISO 6336-1" in warning for warning in charts[0]["warnings"])
+
+
+def test_why_the_standard_has_no_factor(here: Path) -> None:
+    result = run("dynamics", spec(PAIR + "[material]\ngroup = 'V'\n"), "--quiet")
+    assert result.exit_code == 0, result.output
+    assert "Warning: no K_v of ISO 6336-1: material.contact_endurance_limit = None: must be given for material group V" in (
+        result.stdout
+    )
+    assert "resonance speed, ISO 6336-1" not in result.stdout

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
-from gearcad.rating import Edition, Rating, rate
+from gearcad.rating import Edition, Rating, RatingOptions, rate
 
 __all__ = ["STEEL", "numbers", "pair_of", "rated", "rating_case", "rating_of", "sample_pair", "shortened", "swapped"]
 
@@ -57,7 +57,7 @@ def rated(pair: GearPair, name: str, edition: Edition = Edition.ISO_2006) -> Rat
     """A pair under the load and material of a case."""
     given = _CASES[name]["inputs"]
     load = Load(torque=given["T1_Nm"], speed=given.get("n1_rpm", 0.0), application_factor=given.get("K_A", 1.0))
-    return rate(pair, Material(youngs_modulus=given.get("E_MPa", 206000.0)), load, edition=edition)
+    return rate(pair, Material(youngs_modulus=given.get("E_MPa", 206000.0)), load, RatingOptions(standard=edition))
 
 
 def rating_of(name: str, edition: Edition = Edition.ISO_2006) -> Rating:

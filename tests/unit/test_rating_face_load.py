@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import brentq
 
 from gearcad import Gear, GearPair, ParameterError
-from gearcad.rating import RunningIn, face_load_factor, root_face_load_factor, running_in_allowance, width_to_height
+from gearcad.rating import RunningIn, face_load_factor, root_face_load_factor, running_in_beta, width_to_height
 from gearcad.rating.face_load import bearing_width, face_load_exponent
 
 
@@ -72,9 +72,9 @@ def test_the_narrower_tooth_for_its_height_counts() -> None:
     ],
 )
 def test_running_in(material: RunningIn, misalignment: float, speed: float, limit: float | None, expected: float) -> None:
-    assert running_in_allowance(misalignment, material, speed, limit) == pytest.approx(expected, rel=1e-12)
+    assert running_in_beta(misalignment, material, speed, limit) == pytest.approx(expected, rel=1e-12)
 
 
 def test_through_hardened_flanks_need_their_limit() -> None:
     with pytest.raises(ParameterError, match="flank_limit = None: must be a number above 0 MPa"):
-        running_in_allowance(10.0, RunningIn.THROUGH_HARDENED, 1.0)
+        running_in_beta(10.0, RunningIn.THROUGH_HARDENED, 1.0)

@@ -118,8 +118,22 @@ def test_blank_factor() -> None:
     assert gear_blank_factor(0.3, 3.0) == pytest.approx(1 + math.log(0.3) / (5 * math.exp(0.6)), rel=EXACT)
     assert gear_blank_factor(0.1, 0.5) == gear_blank_factor(0.2, 1.0)
     assert gear_blank_factor(2.0, 2.0) == gear_blank_factor(1.2, 2.0)
-    solid, webbed = (rate(sample_pair(), STEEL, LOAD, blank_factor=factor).stiffness for factor in (1.0, 0.8))
-    assert webbed.mesh_beta / solid.mesh_beta == pytest.approx(0.8, rel=EXACT)
+
+
+def test_blank_of_a_pair() -> None:
+    """The pair's C_R is the mean of both gears: here of a solid pinion and a wheel with b_s/b = 0.3, s_R/m_n = 3."""
+    plain = sample_pair()
+    bodies = Body(web_thickness=0.3 * 28, rim_thickness=9.0), Body(web_thickness=0.1 * 28, rim_thickness=2.4)
+    solid, webbed, thin = (
+        rate(replace(plain, wheel=replace(plain.wheel, body=body)), STEEL, LOAD) for body in (Body(), *bodies)
+    )
+    factor = 1 + math.log(0.3) / (5 * math.exp(0.6))
+    assert webbed.stiffness.mesh_beta / solid.stiffness.mesh_beta == pytest.approx((1 + factor) / 2, rel=EXACT)
+    assert webbed.to_dict()["C_R"] == pytest.approx((1 + factor) / 2, rel=EXACT)
+    assert webbed.warnings == ()
+    assert thin.stiffness.blank_factor == pytest.approx((1 + gear_blank_factor(0.2, 1.0)) / 2, rel=EXACT)
+    assert "webs of 0.2 to 1.2 b, the wheel's 0.1 b counts as 0.2 b" in thin.warnings[0]
+    assert "rims from 1 m_n on, the wheel's 0.8 m_n counts as 1 m_n" in thin.warnings[1]
 
 
 def test_low_load_and_material() -> None:

@@ -14,7 +14,7 @@ from support.strategies import build_pair, pair_inputs
 
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError, Load, ParameterError, symbols
 from gearcad.errors import InputError
-from gearcad.rating import Edition, Rating, rate
+from gearcad.rating import Edition, Rating, RatingOptions, rate
 from gearcad.rating.iso6336_3 import rim_thickness_ratio
 
 EXACT = 1e-12
@@ -101,7 +101,9 @@ def test_thin_rim_raises_the_root_stress() -> None:
         assert rating.pinion.nominal_stress / solid.pinion.nominal_stress == pytest.approx(factor, rel=EXACT)
         (warning,) = rating.warnings
         assert warning == f"pinion rim: {ratio:.3g} tooth heights under the root {words}; Y_B = {factor:.4g}"
-        assert rate(bored, STEEL, LOAD, edition=Edition.DIN_1987).pinion.rim_thickness_factor == 1
+        assert rate(bored, STEEL, LOAD, RatingOptions(standard=Edition.DIN_1987)).pinion.rim_thickness_factor == 1
+    webbed = replace(plain, pinion=replace(plain.pinion, body=Body(web_thickness=10.0, rim_thickness=5.0)))
+    assert rim_thickness_ratio(webbed.pinion) == pytest.approx(ratio * 5 / ((webbed.pinion.root_diameter - 49) / 2))
     keyed = replace(plain.pinion, body=Body(bore=30.0, keyway_width=8.0, keyway_depth=3.3))
     assert rim_thickness_ratio(keyed) < rim_thickness_ratio(replace(keyed, body=Body(bore=30.0)))
 
@@ -110,7 +112,7 @@ def test_deep_teeth_of_high_accuracy() -> None:
     pair = _deep_pair()
     ratio = pair.transverse_contact_ratio
     assert 2.05 < ratio < 2.5
-    coarse, fine = (rate(pair, STEEL, LOAD, accuracy_grade=grade) for grade in (6, 4))
+    coarse, fine = (rate(pair, STEEL, LOAD, RatingOptions(accuracy_grade=grade)) for grade in (6, 4))
     assert fine.wheel.nominal_stress / coarse.wheel.nominal_stress == pytest.approx(2.366 - 0.666 * ratio, rel=EXACT)
 
 
@@ -118,17 +120,23 @@ def test_deep_teeth_of_high_accuracy() -> None:
 
 
 @pytest.mark.parametrize(
-    ("pair", "load", "options", "message"),
+    ("options", "message"),
     [
-        (sample_pair(), Load(torque=0.0), {}, "torque = 0 N·m: must not be 0 N·m: a rating needs a load"),
-        (sample_pair(), LOAD, {"edition": "AGMA"}, "edition = 'AGMA': must be one of 'ISO 6336:2006', 'DIN 3990:1987'"),
-        (sample_pair(), LOAD, {"accuracy_grade": 13}, "accuracy_grade = 13: must be a whole number from 0 to 12"),
+        ({"standard": "AGMA"}, "standard = 'AGMA': must be one of 'ISO 6336:2006', 'DIN 3990:1987'"),
+        ({"accuracy": "DIN 3962"}, "accuracy = 'DIN 3962': must be one of 'ISO 1328-1:1995', 'ISO 1328-1:2013'"),
+        ({"accuracy_grade": 13}, "accuracy_grade = 13: must be a whole number from 0 to 12"),
+        ({"accuracy": "ISO 1328-1:2013", "accuracy_grade": 12}, "accuracy_grade = 12: must be a whole number from 1 to 11"),
     ],
 )
-def test_refuses_inputs(pair: GearPair, load: Load, options: dict[str, Any], message: str) -> None:
+def test_refuses_options(options: dict[str, Any], message: str) -> None:
     with pytest.raises(ParameterError) as caught:
-        rate(pair, STEEL, load, **options)
+        RatingOptions(**options)
     assert str(caught.value) == message
+
+
+def test_refuses_no_load() -> None:
+    with pytest.raises(ParameterError, match="torque = 0 N·m: must not be 0 N·m: a rating needs a load"):
+        rate(sample_pair(), STEEL, Load(torque=0.0))
 
 
 def test_refuses_a_pair_that_does_not_always_touch() -> None:
@@ -147,8 +155,10 @@ def test_refuses_single_contact_below_a_base_circle() -> None:
             rate(each, STEEL, LOAD)
 
 
-def test_edition_may_be_named() -> None:
-    assert rate(sample_pair(), STEEL, LOAD, edition="DIN 3990:1987").edition is Edition.DIN_1987  # type: ignore[arg-type]
+def test_standard_may_be_named() -> None:
+    edition = rate(sample_pair(), STEEL, LOAD, RatingOptions(standard="DIN 3990:1987")).edition  # type: ignore[arg-type]
+    assert edition is Edition.DIN_1987
+    assert (edition.part(3), edition.dated_part(3)) == ("DIN 3990-3", "DIN 3990-3:1987")
 
 
 def test_document_has_a_symbol_for_everything() -> None:

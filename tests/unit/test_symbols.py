@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from gearcad import Gear, GearPair, Load, Material, Mounting, symbols
+from gearcad.rating import RatingOptions
 
 
 def _keys(document: dict[str, Any]) -> set[str]:
@@ -26,15 +27,20 @@ def test_every_field_of_a_pair_has_a_symbol_and_every_symbol_a_field() -> None:
     assert _keys(GearPair(pinion=gear, wheel=gear).to_dict()) == set(symbols.PAIR)
 
 
-@pytest.mark.parametrize(
-    ("made", "table"),
-    [(Material(), symbols.MATERIAL), (Load(torque=1.0), symbols.LOAD), (Mounting(), symbols.MOUNTING)],
+INPUTS = (
+    (Material(), symbols.MATERIAL),
+    (Load(torque=1.0), symbols.LOAD),
+    (Mounting(), symbols.MOUNTING),
+    (RatingOptions(), symbols.RATING_OPTIONS),
 )
-def test_inputs_of_later_stages_have_symbols(made: Material | Load | Mounting, table: dict[str, symbols.Symbol]) -> None:
+
+
+@pytest.mark.parametrize(("made", "table"), INPUTS)
+def test_inputs_of_later_stages_have_symbols(made: Any, table: dict[str, symbols.Symbol]) -> None:
     assert set(asdict(made)) == {field.name for field in fields(made)} == set(table)
 
 
-@pytest.mark.parametrize("table", [symbols.GEAR, symbols.PAIR, symbols.MATERIAL, symbols.LOAD, symbols.MOUNTING])
+@pytest.mark.parametrize("table", [symbols.GEAR, symbols.PAIR, *(table for _, table in INPUTS)])
 def test_words_tell_the_rows_of_a_sheet_apart(table: dict[str, symbols.Symbol]) -> None:
     words = [symbol.words for symbol in table.values()]
     assert len(set(words)) == len(words)

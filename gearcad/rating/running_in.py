@@ -1,0 +1,103 @@
+"""What running in takes off deviations: y_alpha and y_beta of ISO 6336-1:2006, clauses 8 and 7. Deviations in µm."""
+
+from __future__ import annotations
+
+import math
+from enum import Enum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearcad.errors import require_number
+from gearcad.material import MaterialGroup
+
+__all__ = ["RunningIn", "running_in_alpha", "running_in_beta", "running_in_relief"]
+
+Floats = NDArray[np.float64]
+
+_SLOW, _FAST = 5.0, 10.0
+"""Circumferential speeds (m/s) up to which nothing, and beyond which most, is held back by speed."""
+
+
+class RunningIn(Enum):
+    """How flanks wear to fit each other."""
+
+    THROUGH_HARDENED = "through hardened"
+    """Structural and through-hardened steel, cast steel, perlitic and bainitic nodular iron: St, V, GGG, GTS."""
+
+    CAST_IRON = "cast iron"
+    """Grey iron and ferritic nodular iron: GG, GGG (ferr.)."""
+
+    SURFACE_HARDENED = "surface hardened"
+    """Case-hardened, nitrided, flame- or induction-hardened steel: Eh, IF, NT, NV."""
+
+    @classmethod
+    def of(cls, group: MaterialGroup) -> RunningIn:
+        """That of a group of materials."""
+        if group in (MaterialGroup.GREY_IRON, MaterialGroup.FERRITIC_NODULAR_IRON):
+            return cls.CAST_IRON
+        soft = (MaterialGroup.STRUCTURAL_STEEL, MaterialGroup.THROUGH_HARDENED)
+        iron = (MaterialGroup.NODULAR_IRON, MaterialGroup.MALLEABLE_IRON)
+        return cls.THROUGH_HARDENED if group in (*soft, *iron) else cls.SURFACE_HARDENED
+
+    @property
+    def needs_flank_limit(self) -> bool:
+        """True if the allowance depends on sigma_H_lim."""
+        return self is RunningIn.THROUGH_HARDENED
+
+
+class _Rule(NamedTuple):
+    """Part of a deviation that wears off, and its most (µm) at slow, medium and high speed.
+
+    Through-hardened flanks have all of them times MPa, over sigma_H_lim.
+    """
+
+    part: float
+    most: tuple[float, float, float]
+
+    def allowance(self, deviation: float, speed: ArrayLike, softness: float) -> Floats:
+        """At circumferential speeds (m/s)."""
+        v = np.abs(np.asarray(speed, float))
+        most = np.select([v <= _SLOW, v <= _FAST], self.most[:2], self.most[2])
+        result: Floats = np.minimum(np.minimum(self.part * deviation, most) / softness, deviation)
+        return result
+
+
+_ALPHA = {
+    RunningIn.THROUGH_HARDENED: _Rule(160, (math.inf, 12800, 6400)),
+    RunningIn.CAST_IRON: _Rule(0.275, (math.inf, 22, 11)),
+    RunningIn.SURFACE_HARDENED: _Rule(0.075, (3, 3, 3)),
+}
+_BETA = {
+    RunningIn.THROUGH_HARDENED: _Rule(320, (math.inf, 25600, 12800)),
+    RunningIn.CAST_IRON: _Rule(0.55, (math.inf, 45, 22)),
+    RunningIn.SURFACE_HARDENED: _Rule(0.15, (6, 6, 6)),
+}
+
+
+def running_in_alpha(deviation: float, kind: RunningIn, speed: ArrayLike, flank_limit: float | None = None) -> Floats:
+    """y_alpha (8.3.5): what wears off a deviation f_pb or f_falpha at circumferential speeds (m/s), in their shape.
+
+    For two materials it is the mean of theirs. Through-hardened gears need their `flank_limit` sigma_H_lim (MPa). Raises
+    ParameterError.
+    """
+    return _ALPHA[kind].allowance(deviation, speed, _softness(kind, flank_limit))
+
+
+def running_in_beta(misalignment: float, kind: RunningIn, speed: ArrayLike, flank_limit: float | None = None) -> Floats:
+    """y_beta (clause 7): what wears off an initial misalignment F_beta_x; F_beta_y = F_beta_x - y_beta. Else as y_alpha."""
+    return _BETA[kind].allowance(misalignment, speed, _softness(kind, flank_limit))
+
+
+def running_in_relief(flank_limit: float) -> float:
+    """C_ay (6.5): the tip relief (µm) that running in makes, by sigma_H_lim (MPa); for two materials the mean of theirs."""
+    return (flank_limit / 97 - 18.45) ** 2 / 18 + 1.5
+
+
+def _softness(kind: RunningIn, flank_limit: float | None) -> float:
+    if not kind.needs_flank_limit:
+        return 1.0
+    require_number("flank_limit", flank_limit, "MPa", above=0)
+    assert flank_limit is not None  # a number: seen to just now
+    return flank_limit
