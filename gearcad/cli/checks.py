@@ -67,8 +67,9 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
 def _write_fields(result: CheckResult, folder: Path) -> None:
     """Stresses of the most stressed tooth of each gear, where the bodies are solid."""
     from gearcad.check.result import SolidCheck
-    from gearcad.ltca.solid_field import worst_field, write_vtu
+    from gearcad.ltca.solid_field import shown_stress, worst_field, write_vtu
 
     if isinstance(result, SolidCheck):
         for gear, name in enumerate(_FIELDS):
-            write_vtu(worst_field(result.cycle, gear), folder / name)
+            field = worst_field(result.cycle, gear)
+            write_vtu(field, folder / name, shown_stress(result.cycle, gear, field))

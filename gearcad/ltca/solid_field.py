@@ -16,7 +16,7 @@ from gearcad.ltca.hexahedra import PLACES, lame, slopes_at
 from gearcad.ltca.solid_cycle import SolidCycle, SolidPosition, tooth_loads
 from gearcad.material import Material
 
-__all__ = ["SolidField", "nodal_stress", "solid_field", "worst_field", "write_vtu"]
+__all__ = ["SolidField", "nodal_stress", "shown_stress", "solid_field", "worst_field", "write_vtu"]
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -26,6 +26,12 @@ _GAUSS = 0.5 / np.sqrt(3)
 
 _VTK = [0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, 12, 13, 14, 15, 16, 17, 18, 19]
 """Our nodes of a hexahedron in VTK's order: corners below, corners above, then the middles below, above and between."""
+
+_OVER = 1.1
+"""How far pictures show stresses, in greatest von Mises stresses of the fillets."""
+
+_DEFORMED, _ROOT = "displacement_mm", "von_mises_root_MPa"
+"""The fields of a .vtu that show what one looks for."""
 
 _COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
 """Axes of the components of stress, in our order and VTK's."""
@@ -108,12 +114,38 @@ def solid_field(cycle: SolidCycle, position: SolidPosition, gear: int, tooth: in
     return SolidField(mesh.points, hexahedra, displacement, nodal_stress(mesh.points, hexahedra, displacement, body.material))
 
 
-def write_vtu(field: SolidField, path: Path) -> None:
-    """Write a field for ParaView; stress as VTK has it, xx, yy, zz, xy, yz, zx."""
+def shown_stress(cycle: SolidCycle, gear: int, field: SolidField) -> float:
+    """Where the colours of a picture should end (MPa): a tenth above the greatest von Mises stress of both fillets' roots.
+
+    The contact, which elements do not resolve, lies above.
+    """
+    mesh = (cycle.model.pinion, cycle.model.wheel)[gear].body.sector.mesh
+    radius, stress = np.hypot(*mesh.in_section.T), field.von_mises
+    found = []
+    for fillet in cycle.model.fillets[gear]:
+        nodes = mesh.over(mesh.side(fillet.side))
+        found.append(stress[nodes[radius[nodes] <= fillet.radii[fillet.is_root].max()]].max())
+    return _OVER * float(max(found))
+
+
+def write_vtu(field: SolidField, path: Path, most: float) -> None:
+    """Write a field for ParaView, units in the names; stress as VTK has it, xx, yy, zz, xy, yz, zx.
+
+    `von_mises_root_MPa` ends at `most` (MPa), so that its colours show the root; it is what a viewer shows first.
+    """
     import meshio
 
-    data = {"displacement": field.displacement, "stress": field.stress, "von_mises": field.von_mises}
+    stress = field.von_mises
+    data = {
+        _ROOT: np.minimum(stress, most),
+        "von_mises_MPa": stress,
+        "stress_MPa": field.stress,
+        _DEFORMED: field.displacement,
+    }
     meshio.Mesh(field.points, [("hexahedron20", field.hexahedra[:, _VTK])], point_data=data).write(path)
+    # meshio does not say which of the fields are the ones to colour and to bend by.
+    plain, active = b"<PointData>", f'<PointData Scalars="{_ROOT}" Vectors="{_DEFORMED}">'.encode("ascii")
+    path.write_bytes(path.read_bytes().replace(plain, active, 1))
 
 
 def nodal_stress(points: Floats, hexahedra: Indices, displacement: Floats, material: Material) -> Floats:

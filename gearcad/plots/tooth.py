@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.check.result import SolidCheck
-from gearcad.ltca.solid_field import SolidField, worst_field
+from gearcad.ltca.solid_field import shown_stress, worst_field
 from gearcad.plots.paper import new_figure
 
 if TYPE_CHECKING:
@@ -25,9 +25,6 @@ COLOUR_MAP = "viridis"
 
 YAW, PITCH = 50.0, 25.0
 """From where a tooth is looked at (deg): turned about its height so that the loaded flank shows, and tilted towards us."""
-
-_OVER = 1.1
-"""The end of the colours, in greatest von Mises stresses of the fillets."""
 
 _BELOW = 2.0
 """How much of the body below the root circle is shown, in normal modules."""
@@ -60,19 +57,7 @@ def tooth_surface(result: SolidCheck, gear: int) -> ToothSurface:
     triangles = index.reshape(faces.shape)[:, _PARTS].reshape(-1, 3)
     points, stress = field.points[used], field.von_mises[used]
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    return ToothSurface(points - middle, triangles, stress, _OVER * _fillet_stress(result, gear, field))
-
-
-def _fillet_stress(result: SolidCheck, gear: int, field: SolidField) -> float:
-    """Greatest von Mises stress (MPa) of both fillets, where they count as the root."""
-    mesh = (result.cycle.model.pinion, result.cycle.model.wheel)[gear].body.sector.mesh
-    radius = np.hypot(*mesh.in_section.T)
-    found = []
-    for fillet in result.cycle.model.fillets[gear]:
-        nodes = mesh.over(mesh.side(fillet.side))
-        root = radius[nodes] <= fillet.radii[fillet.is_root].max()
-        found.append(float(field.von_mises[nodes[root]].max()))
-    return max(found)
+    return ToothSurface(points - middle, triangles, stress, shown_stress(result.cycle, gear, field))
 
 
 def viewed(points: Floats) -> Floats:
