@@ -54,17 +54,20 @@ def build(
     *,
     bracket: bool = False,
     chord_error: float = 0.005,
+    circles: bool = False,
     progress: Progress | None = None,
 ) -> list[Path]:
     """Write the design's files into `folder` and return their paths in the order they were made.
 
     Per gear `pinion.step`, `wheel.step` or `gear.step` and so on; a pair also gets `assembly.*` in STEP, 3MF and GLB, posed in
-    mesh; `bracket` puts it on two shafts with a bracket (STEP). `chord_error` (mm) bounds the facets of STL, 3MF and GLB.
-    All files appear, or none. Raises ParameterError or GeometryError for wrong input, a folder that cannot be written too.
+    mesh; `bracket` puts it on two shafts with a bracket (STEP). `chord_error` (mm) bounds the facets of STL, 3MF and GLB;
+    `circles` draws the tip, reference, base and root circles in DXF, where all else is to be cut. All files appear, or none.
+    Raises ParameterError or GeometryError for wrong input, a folder that cannot be written too.
     """
     wanted = set(formats)
-    _check(design, wanted, bracket, chord_error)
-    steps = list(_plan(design, [kind for kind in Format if kind in wanted], bracket, chord_error))
+    manner = _Manner(chord_error, bracket, circles)
+    _check(design, wanted, manner)
+    steps = list(_plan(design, [kind for kind in Format if kind in wanted], manner))
     with staged_files(folder) as staging:
         for done, step in enumerate(steps):
             if progress is not None:
@@ -73,25 +76,27 @@ def build(
     return [folder / step.file for step in steps]
 
 
-def _check(design: Design, formats: set[Format], bracket: bool, chord_error: float) -> None:
+def _check(design: Design, formats: set[Format], manner: _Manner) -> None:
     if not formats:
         raise ParameterError("format", "", f"must be one or more of {', '.join(kind.value for kind in Format)}")
-    require_number("chord_error", chord_error, "mm", above=0)
-    if bracket and design.pair is None:
+    require_number("chord_error", manner.chord_error, "mm", above=0)
+    if manner.bracket and design.pair is None:
         raise GeometryError("bracket", True, "needs a pair: a single gear has no assembly")
-    if bracket and Format.STEP not in formats:
+    if manner.bracket and Format.STEP not in formats:
         raise GeometryError("bracket", True, "needs the format step: the bracket is part of assembly.step")
+    if manner.circles and Format.DXF not in formats:
+        raise GeometryError("circles", True, "needs the format dxf: the circles are drawn there")
 
 
-def _plan(design: Design, formats: list[Format], bracket: bool, chord_error: float) -> Iterator[_Step]:
+def _plan(design: Design, formats: list[Format], manner: _Manner) -> Iterator[_Step]:
     """Every file of the design, quickest first."""
     yield _Step("data.json", partial(_write_data, design))
-    meshes, products = _Meshes(chord_error), _products(design)
+    products = _products(design)
     for kind in reversed(formats):
         for name, gear in design.gears.items():
-            yield _Step(f"{name}.{kind.value}", partial(_write_gear, kind, gear, name, products[name], meshes))
+            yield _Step(f"{name}.{kind.value}", partial(_write_gear, kind, gear, name, products[name], manner))
         if design.pair is not None and kind in _ASSEMBLED:
-            yield _Step(f"assembly.{kind.value}", partial(_write_assembly, kind, design.pair, meshes, bracket))
+            yield _Step(f"assembly.{kind.value}", partial(_write_assembly, kind, design.pair, manner))
 
 
 def _products(design: Design) -> dict[str, str]:
@@ -102,13 +107,15 @@ def _products(design: Design) -> dict[str, str]:
 
 
 @dataclass(frozen=True)
-class _Meshes:
-    """The facets of each gear, made once for all the formats that hold them."""
+class _Manner:
+    """How files are made; the facets of each gear, made once for all the formats that hold them."""
 
     chord_error: float
+    bracket: bool
+    circles: bool
     made: dict[int, Facets] = field(default_factory=dict)
 
-    def of(self, gear: Gear) -> Facets:
+    def facets(self, gear: Gear) -> Facets:
         from gearcad.solids import tessellate
 
         if id(gear) not in self.made:
@@ -120,35 +127,35 @@ def _write_data(design: Design, path: Path) -> None:
     path.write_text(json_text(design.to_dict()), encoding="utf-8")
 
 
-def _write_gear(kind: Format, gear: Gear, name: str, product: str, meshes: _Meshes, path: Path) -> None:
+def _write_gear(kind: Format, gear: Gear, name: str, product: str, manner: _Manner, path: Path) -> None:
     from gearcad import solids
     from gearcad.solids.assembly import PART_COLOURS
 
     if kind is Format.STEP:
         solids.write_step(solids.gear_solid(gear), path, name=product)
     elif kind is Format.STL:
-        solids.write_stl(meshes.of(gear), path)
+        solids.write_stl(manner.facets(gear), path)
     elif kind in _SCENES:
         colour = PART_COLOURS.get(name, solids.Part.colour)
-        part = solids.Part(name=product, facets=meshes.of(gear), colour=colour)
+        part = solids.Part(name=product, facets=manner.facets(gear), colour=colour)
         solids.write_scene([part], path)
     elif kind is Format.DXF:
-        solids.write_dxf(gear, path)
+        solids.write_dxf(gear, path, circles=manner.circles)
     else:
         solids.write_points(gear, path)
 
 
-def _write_assembly(kind: Format, pair: GearPair, meshes: _Meshes, bracket: bool, path: Path) -> None:
+def _write_assembly(kind: Format, pair: GearPair, manner: _Manner, path: Path) -> None:
     from gearcad import solids
     from gearcad.solids.assembly import PART_COLOURS, part_names
 
     if kind is Format.STEP:
-        solids.write_step(solids.pair_assembly(pair, bracket=bracket), path, name=pair.name)
+        solids.write_step(solids.pair_assembly(pair, bracket=manner.bracket), path, name=pair.name)
         return
     pose, names = mesh_pose(pair), part_names(pair)
     places = {"pinion": (pair.pinion, 0.0, (0.0, 0.0, 0.0)), "wheel": (pair.wheel, pose.rotation, (pose.x, 0.0, pose.z))}
     parts = [
-        solids.Part(name=names[name], facets=meshes.of(gear), colour=PART_COLOURS[name], rotation=rotation, offset=offset)
+        solids.Part(name=names[name], facets=manner.facets(gear), colour=PART_COLOURS[name], rotation=rotation, offset=offset)
         for name, (gear, rotation, offset) in places.items()
     ]
     solids.write_scene(parts, path)

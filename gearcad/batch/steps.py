@@ -33,12 +33,13 @@ class Step(Enum):
 
 @dataclass(frozen=True, kw_only=True)
 class Wanted:
-    """What is made of every row; formats, chord error (mm) and bracket are those of `build`. Raises ParameterError."""
+    """What is made of every row; formats, chord error (mm), bracket and circles are those of `build`. Raises ParameterError."""
 
     steps: tuple[Step, ...] = (Step.BUILD,)
     formats: tuple[Format, ...] = DEFAULT_FORMATS
     chord_error: float = 0.005
     bracket: bool = False
+    circles: bool = False
 
     def __post_init__(self) -> None:
         if not self.steps:
@@ -58,6 +59,8 @@ class Wanted:
             parts[kind.value] = {"chord_error": self.chord_error} if kind in _FACETED else {}
         if Format.STEP.value in parts:
             parts[Format.STEP.value] = {"bracket": self.bracket}
+        if Format.DXF.value in parts:
+            parts[Format.DXF.value] = {"circles": self.circles}
         return (parts, {CHECK: {}}) if Step.CHECK in self.steps else (parts,)
 
 
@@ -69,7 +72,8 @@ def make_parts(design: Design, parts: Iterable[str], wanted: Wanted, folder: Pat
     formats = [Format(part) for part in parts if part != DATA]
     if formats:
         bracket = wanted.bracket and Format.STEP in formats and design.pair is not None
-        build(design, folder, formats, bracket=bracket, chord_error=wanted.chord_error)
+        circles = wanted.circles and Format.DXF in formats
+        build(design, folder, formats, bracket=bracket, chord_error=wanted.chord_error, circles=circles)
     elif DATA in parts:
         (folder / "data.json").write_text(json_text(design.to_dict()), encoding="utf-8")
 

@@ -79,10 +79,20 @@ def data(spec: Path, as_json: bool) -> None:
 )
 @click.option("--chord-error", default=0.005, show_default=True, metavar="MM", help="Largest error of the facets, in mm.")
 @click.option("--bracket", is_flag=True, help="Put the assembly on two shafts with a bracket (STEP).")
+@click.option("--circles", is_flag=True, help="Draw the tip, reference, base and root circles too (DXF).")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document: the files and the warnings.")
 @click.option("--quiet", is_flag=True, help="No progress and no warnings on the screen.")
 @debug_option
-def build(spec: Path, output: Path | None, formats: str, chord_error: float, bracket: bool, as_json: bool, quiet: bool) -> None:
+def build(
+    spec: Path,
+    output: Path | None,
+    formats: str,
+    chord_error: float,
+    bracket: bool,
+    circles: bool,
+    as_json: bool,
+    quiet: bool,
+) -> None:
     """Write the solids of SPEC: pinion.step, wheel.stl, assembly.step ... and data.json.
 
     \b
@@ -99,7 +109,8 @@ def build(spec: Path, output: Path | None, formats: str, chord_error: float, bra
     design = read_spec(spec)
     folder = output if output is not None else Path("output") / design.name
     with file_progress(shown=not quiet) as progress:
-        files = build_files(design, folder, wanted, bracket=bracket, chord_error=chord_error, progress=progress)
+        options = {"bracket": bracket, "circles": circles}
+        files = build_files(design, folder, wanted, **options, chord_error=chord_error, progress=progress)
     if as_json:
         document = {"kind": "build", "name": design.name, "gearcad": gearcad.__version__, "output": str(folder)}
         click.echo(json_text({**document, "files": [str(file) for file in files], "warnings": list(design.warnings)}), nl=False)

@@ -28,6 +28,7 @@ __all__ = ["batch"]
 )
 @click.option("--chord-error", default=0.005, show_default=True, metavar="MM", help="Largest error of the facets, in mm.")
 @click.option("--bracket", is_flag=True, help="Put the assemblies on two shafts with a bracket (STEP).")
+@click.option("--circles", is_flag=True, help="Draw the tip, reference, base and root circles too (DXF).")
 @click.option("--time-limit", default=600.0, show_default=True, metavar="S", help="Longest time for one row, in seconds.")
 @click.option("--fresh", is_flag=True, help="Make everything again, also what is there and unchanged.")
 @click.option("--keep-going", is_flag=True, help="Make the good rows of a table that has faults.")
@@ -43,6 +44,7 @@ def batch(
     formats: str,
     chord_error: float,
     bracket: bool,
+    circles: bool,
     time_limit: float,
     fresh: bool,
     keep_going: bool,
@@ -63,6 +65,7 @@ def batch(
         formats=parse_choices("format", formats, Format),
         chord_error=chord_error,
         bracket=bracket,
+        circles=circles,
     )
     folder = output if output is not None else Path("output") / table.stem
     began = time.perf_counter()

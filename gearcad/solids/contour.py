@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import OrderedDict
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
@@ -25,8 +26,9 @@ __all__ = ["gear_contour", "write_dxf"]
 
 Floats = NDArray[np.float64]
 
-_LAYERS = {"PROFILE": (7, "CONTINUOUS"), "BORE": (7, "CONTINUOUS"), "CIRCLES": (8, "CENTER")}
-"""Colour (AutoCAD index) and line type; CIRCLES is grey and dash-dotted, as it is not to be cut."""
+_LAYERS = {"PROFILE": (7, "CONTINUOUS"), "BORE": (7, "CONTINUOUS")}
+_CIRCLES = {"CIRCLES": (8, "CENTER")}
+"""Colour (AutoCAD index) and line type of layers; circles are grey and dash-dotted, as they are not to be cut."""
 
 _CHECKED = np.linspace(0.0, 1.0, 17)[1:-1]
 """Where between its ends a pair of arcs is compared with the curve."""
@@ -47,12 +49,13 @@ class _Arcs:
     bulges: Floats
 
 
-def write_dxf(gear: Gear, path: Path | str, *, accuracy: float = 0.0005) -> None:
+def write_dxf(gear: Gear, path: Path | str, *, accuracy: float = 0.0005, circles: bool = False) -> None:
     """Write the transverse section as DXF (R2010, mm): tooth 0 on +x.
 
     The flanks are as modified at mid face width, where modifications along the face are nothing (see `middle_section`).
     Layer PROFILE holds the contour, one closed polyline of arcs (see `gear_contour`); BORE the bore, a circle, or with a
-    keyway a closed polyline; CIRCLES the tip, reference, base and root circles. Equal input gives equal bytes.
+    keyway a closed polyline; CIRCLES, with `circles`, the tip, reference, base and root circles, which are not to be cut.
+    The header states how far the drawing reaches. Equal input gives equal bytes.
     Raises ParameterError for an `accuracy` (mm) below 1e-7.
     """
     import ezdxf
@@ -67,8 +70,10 @@ def write_dxf(gear: Gear, path: Path | str, *, accuracy: float = 0.0005) -> None
             space = document.modelspace()
             space.add_lwpolyline(contour.tolist(), format="xyb", close=True, dxfattribs={"layer": "PROFILE"})
             _draw_bore(space, gear.body)
-            for diameter in (gear.tip_diameter, gear.reference_diameter, gear.base_diameter, gear.root_diameter):
-                space.add_circle((0, 0), diameter / 2, dxfattribs={"layer": "CIRCLES"})
+            low, high = _extent(contour)
+            if circles:
+                low, high = _draw_circles(document, gear)
+            space.reset_extents((*low, 0.0), (*high, 0.0))
             with Path(path).open("w", encoding=document.output_encoding, errors="dxfreplace", newline="\n") as stream:
                 document.write(stream)
         finally:
@@ -184,9 +189,37 @@ def _document() -> Drawing:
     document.classes.add_required_classes(document.dxfversion)
     document.classes.classes = OrderedDict(sorted(document.classes.classes.items()))
     document.header["$INSUNITS"], document.header["$MEASUREMENT"] = _MILLIMETRES, _METRIC
-    for name, (colour, linetype) in _LAYERS.items():
-        document.layers.add(name, color=colour, linetype=linetype)
+    _add_layers(document, _LAYERS)
     return document
+
+
+def _add_layers(document: Drawing, layers: Mapping[str, tuple[int, str]]) -> None:
+    for name, (colour, linetype) in layers.items():
+        document.layers.add(name, color=colour, linetype=linetype)
+
+
+def _draw_circles(document: Drawing, gear: Gear) -> tuple[Floats, Floats]:
+    """The circles of reference; how far they reach."""
+    _add_layers(document, _CIRCLES)
+    for diameter in (gear.tip_diameter, gear.reference_diameter, gear.base_diameter, gear.root_diameter):
+        document.modelspace().add_circle((0, 0), diameter / 2, dxfattribs={"layer": "CIRCLES"})
+    reach = np.full(2, gear.tip_diameter / 2)
+    return -reach, reach
+
+
+def _extent(contour: Floats) -> tuple[Floats, Floats]:
+    """Least and greatest x and y (mm) of a closed contour (n, 3) of arcs: at vertices, or where an arc is level or upright."""
+    start, bulge = contour[:, :2], contour[:, 2]
+    chord = np.roll(start, -1, axis=0) - start
+    with np.errstate(divide="ignore", invalid="ignore"):  # straight ones have no centre, and no point inside
+        middle = start + chord / 2 + (0.25 / bulge - 0.25 * bulge)[:, None] * np.stack([-chord[:, 1], chord[:, 0]], -1)
+        radius = np.hypot(*(start - middle).T)
+        ends = middle[:, None] + radius[:, None, None] * np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
+        away = ends - start[:, None]
+        # An arc is what of its circle lies right of its chord if it turns left, and the other way round.
+        inside = (chord[:, None, 0] * away[..., 1] - chord[:, None, 1] * away[..., 0]) * bulge[:, None] < 0
+    points = np.concatenate([start, ends[inside]])
+    return points.min(axis=0), points.max(axis=0)
 
 
 def _draw_bore(space: Modelspace, body: Body) -> None:

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from typing import Any
 
-from gearcad.errors import GeometryError, ParameterError
-from gearcad.geometry import Gear, ShiftSplit, profile_shift_sum, split_profile_shift, zero_backlash_centre_distance
+from gearcad.errors import GeometryError, InputError, ParameterError, format_number
+from gearcad.geometry import Gear, GearPair, ShiftSplit, profile_shift_sum, split_profile_shift, zero_backlash_centre_distance
 
-__all__ = ["AUTO", "resolve_profile_shifts", "resolve_tip_alterations"]
+__all__ = ["AUTO", "make_gears", "resolve_profile_shifts", "resolve_tip_alterations"]
 
 AUTO = "auto"
 
 _SAME = 1e-9
 """Difference of two modules or pressure angles that is rounding, as in GearPair."""
+
+_FOLLOWING = ("profile_shift", "tip_alteration", "tip_diameter", "root_diameter")
+"""What of a gear may follow from the centre distance."""
 
 GearInputs = Mapping[str, Any]
 """Keyword arguments of Gear, where `profile_shift` and `tip_alteration` may still be "auto"."""
@@ -63,6 +66,54 @@ def resolve_tip_alterations(
         return automatic if value == AUTO else float(value)
 
     return of(pinion), of(wheel)
+
+
+def make_gears(
+    gears: Mapping[str, GearInputs], automatic: Mapping[str, Container[str]], centre_distance: float | None
+) -> dict[str, Gear]:
+    """Both gears from their resolved inputs, of which `automatic` names those that stood as "auto".
+
+    Raises InputError: of the gear, its parameter led by the gear, or of the centre distance (mm) if that is what made it fail.
+    """
+    made = {}
+    for owner, inputs in gears.items():
+        try:
+            made[owner] = Gear(**inputs)
+        except InputError as error:
+            fault = error.within(owner)
+            own = error.parameter in inputs and error.parameter not in automatic[owner]
+            if centre_distance is None or own or error.parameter not in _FOLLOWING:
+                raise fault from error
+            raise _led_back(fault, gears, automatic, centre_distance) from error
+    return made
+
+
+def _led_back(
+    fault: InputError,
+    gears: Mapping[str, GearInputs],
+    automatic: Mapping[str, Container[str]],
+    centre_distance: float,
+) -> InputError:
+    """The fault of a gear as one of the centre distance (mm), if it is one: tips that are not shortened tell."""
+    made = {}
+    for each, inputs in gears.items():
+        try:
+            made[each] = Gear(**{**inputs, "tip_alteration": 0.0} if "tip_alteration" in automatic[each] else inputs)
+        except InputError as error:
+            if "profile_shift" not in automatic[each]:
+                return error.within(each)
+    try:
+        if len(made) == len(gears):
+            GearPair(pinion=made["pinion"], wheel=made["wheel"], centre_distance=centre_distance)
+    except InputError as error:
+        if error.parameter == "centre_distance":
+            return error
+    unit = f" {fault.unit}" if fault.unit else ""
+    asked = sum(inputs["profile_shift"] for inputs in gears.values())
+    shifted = any("profile_shift" in fields for fields in automatic.values())
+    asks = f"asks for x1 + x2 = {asked:.6g} and " if shifted else ""
+    makes = f"{asks}makes {fault.parameter} = {format_number(fault.value)}{unit}, which {fault.permitted}"
+    return GeometryError("centre_distance", centre_distance, makes, "mm")
 
 
 def _common(pinion: GearInputs, wheel: GearInputs) -> dict[str, Any]:

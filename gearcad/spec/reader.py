@@ -29,10 +29,11 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.rating.options import RatingOptions
-from gearcad.spec.auto import AUTO, resolve_profile_shifts, resolve_tip_alterations
+from gearcad.spec.auto import AUTO, make_gears, resolve_profile_shifts, resolve_tip_alterations
 from gearcad.spec.design import Design, DesignKind, require_plain_name
 from gearcad.spec.keys import KEYS, LISTS, PARTS, SHARED, explain_unknown_key, explain_unknown_table
 from gearcad.spec.lines import explain_syntax, find_lines, nearest_line
+from gearcad.spec.suffixes import is_table_name
 
 __all__ = ["Cell", "Where", "design_from_tables", "read_spec", "read_tables", "spec_values"]
 
@@ -105,10 +106,12 @@ def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
             f"{path}: cannot be read ({error.strerror}); give a spec file, or make one with `gearcad new`"
         ) from error
     except UnicodeDecodeError as error:
+        _refuse_table(path)
         raise SpecError(f"{path}: is not UTF-8 text (byte {error.start}); save it as UTF-8") from error
     try:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
+        _refuse_table(path)
         raise SpecError(f"{path}{explain_syntax(error, text)}") from error
     except ValueError as error:
         raise SpecError(f"{path}: has a whole number of thousands of digits; write a smaller one") from error
@@ -119,6 +122,11 @@ def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
         return f"{path} line {line}" if line else str(path)
 
     return tables, where
+
+
+def _refuse_table(path: Path) -> None:
+    if is_table_name(path):
+        raise SpecError(f"{path}: is a design table, not the spec of one design; use `gearcad batch {path}`")
 
 
 def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name: str) -> Design:
@@ -300,12 +308,13 @@ class _Spec:
             given = self._pair_inputs()
             split = given.pop("profile_shift_split", None)
             self._resolve_auto(inputs, given.get("centre_distance"), split)
-        with self.blame("pinion"):
-            pinion = Gear(**inputs["pinion"])
-        with self.blame("wheel"):
-            wheel = Gear(**inputs["wheel"])
-        with self.blame("pair"):
-            return GearPair(pinion=pinion, wheel=wheel, **given | {"name": name})
+            gears = make_gears(inputs, {owner: self._automatic(owner) for owner in inputs}, given.get("centre_distance"))
+            return GearPair(pinion=gears["pinion"], wheel=gears["wheel"], **given | {"name": name})
+
+    def _automatic(self, owner: str) -> list[str]:
+        """Fields of a gear that stood as "auto"."""
+        values = {field: self.values.get(f"{owner}.{field}") for field in ("profile_shift", "tip_alteration")}
+        return [field for field, given in values.items() if given is not None and given.note.startswith(AUTO)]
 
     def _pair_inputs(self) -> dict[str, Any]:
         given = {key: value for key, value in self.fields_of("pair").items() if key not in SHARED}

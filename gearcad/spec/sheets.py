@@ -17,6 +17,7 @@ from typing import Protocol
 
 from gearcad.errors import SpecError
 from gearcad.spec.cells import Layout, RawCell, is_comment
+from gearcad.spec.suffixes import UNREADABLE, WORKBOOKS, is_spec_name
 from gearcad.spec.workbook import Workbook
 
 __all__ = ["Record", "Sheet", "open_sheet"]
@@ -42,9 +43,11 @@ def open_sheet(path: Path) -> Sheet:
     if path.exists() and not path.is_file() and not path.is_dir():
         raise SpecError(f"{path}: must be an ordinary file: it is read more than once")
     suffix = path.suffix.lower()
-    if suffix in (".xlsx", ".xlsm"):
+    if is_spec_name(path) and path.is_file():
+        raise SpecError(f"{path}: is the spec of one design, no design table; use `gearcad build {path}`")
+    if suffix in WORKBOOKS:
         return Workbook(path)
-    if suffix in (".xls", ".xlsb", ".ods", ".numbers"):
+    if suffix in UNREADABLE:
         raise SpecError(f"{path}: cannot be read; save it as CSV UTF-8, or as a workbook .xlsx")
     return _open_text(path)
 

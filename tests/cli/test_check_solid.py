@@ -13,7 +13,6 @@ import meshio
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
-
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 

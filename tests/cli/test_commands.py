@@ -163,6 +163,25 @@ def test_data_warns_of_zero_backlash(tmp_path: Path) -> None:
     assert "zero backlash" in run("data", str(starter(tmp_path, "alm"))).stdout
 
 
+# ---------------------------------------------------------------------- a table for a spec, and the other way round
+
+
+@pytest.mark.parametrize("command", ["data", "build", "check", "stiffness", "dynamics", "modify"])
+def test_a_table_is_sent_to_batch(command: str, tmp_path: Path) -> None:
+    run("new", "pairs")
+    Path("gears.xlsx").write_bytes(b"PK\x03\x04\xff")
+    for table in ("pairs.csv", "gears.xlsx"):
+        told = f"Error: {table}: is a design table, not the spec of one design; use `gearcad batch {table}`\n"
+        assert run(command, table, status=2).stderr == told
+
+
+def test_a_spec_is_sent_from_batch_to_build(tmp_path: Path) -> None:
+    run("new", "spur")
+    told = "Error: spur.toml: is the spec of one design, no design table; use `gearcad build spur.toml`\n"
+    assert run("batch", "spur.toml", status=2).stderr == told
+    assert "cannot be read" in run("batch", "nowhere.toml", status=2).stderr
+
+
 # ---------------------------------------------------------------------- build, without waiting for solids
 
 
@@ -177,6 +196,7 @@ def test_build_refuses_unknown_formats_before_anything_is_written(tmp_path: Path
     [
         ("spur", ["--bracket"], "bracket = True: needs a pair"),
         (VOLVO, ["--bracket", "--format", "stl"], "bracket = True: needs the format step"),
+        (VOLVO, ["--circles"], "circles = True: needs the format dxf"),
         (VOLVO, ["--chord-error", "0"], "chord_error = 0 mm: must be a number above 0 mm"),
     ],
 )

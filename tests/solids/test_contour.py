@@ -138,9 +138,28 @@ def test_bore_circles_and_units(tmp_path: Path) -> None:
     assert (document.header["$INSUNITS"], document.header["$MEASUREMENT"]) == (4, 1)
     (bore,) = document.modelspace().query('CIRCLE[layer=="BORE"]')
     assert bore.dxf.radius == 7.0
+    assert {entity.dxf.layer for entity in document.modelspace()} == {"PROFILE", "BORE"}  # all of it is to be cut
+    write_dxf(gear, tmp_path / "circles.dxf", circles=True)
+    document = ezdxf.readfile(tmp_path / "circles.dxf")
     circles = sorted(2 * circle.dxf.radius for circle in document.modelspace().query('CIRCLE[layer=="CIRCLES"]'))
     expected = [gear.root_diameter, gear.base_diameter, gear.reference_diameter, gear.tip_diameter]
     assert circles == pytest.approx(sorted(expected), rel=1e-15)
+    assert _header_box(document) == pytest.approx([-gear.tip_diameter / 2] * 2 + [gear.tip_diameter / 2] * 2, rel=1e-15)
+
+
+@pytest.mark.parametrize("teeth", [5, 8, 13, 22, 41])
+def test_header_states_how_far_the_contour_reaches(teeth: int, tmp_path: Path) -> None:
+    """Programs zoom to it and nest by it; without it they show nothing at first."""
+    gear = Gear(teeth=teeth, normal_module=2, face_width=10, profile_shift=max(0.0, 0.45 - 0.03 * teeth))
+    document = _drawn(gear, tmp_path / "gear.dxf")
+    points = _along_arcs(_polyline(document, "PROFILE"), 401).reshape(-1, 2)
+    box = _header_box(document)
+    assert box == pytest.approx([*points.min(axis=0), *points.max(axis=0)], abs=1e-5)  # the samples' distance from the extremes
+    assert box[2] == pytest.approx(gear.tip_diameter / 2, rel=1e-14)  # tooth 0 is on +x
+
+
+def _header_box(document: Drawing) -> list[float]:
+    return [*document.header["$EXTMIN"][:2], *document.header["$EXTMAX"][:2]]
 
 
 def test_keyway_is_part_of_the_bore(tmp_path: Path) -> None:

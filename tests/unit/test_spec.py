@@ -230,10 +230,21 @@ def test_auto_that_cannot_be_resolved_is_refused(changes: dict[str, Any], messag
     assert refusal(**changes).startswith(message)
 
 
-def test_a_derived_shift_that_makes_no_gear_says_where_it_comes_from() -> None:
+def test_a_centre_distance_that_makes_no_gear_is_what_is_named() -> None:
+    """And not the diameter, alteration or shift that follow from it and that nobody wrote."""
     message = refusal(pair={"centre_distance": 51.0}, pinion={"profile_shift": "auto"})
-    assert message.startswith("<pinion.tip_diameter>: pinion.tip_diameter = ")
-    assert "(auto: centre distance 51 mm asks for x1 + x2 = -0.7" in message
+    assert message.startswith("<pair.centre_distance>: pair.centre_distance = 51 mm: asks for x1 + x2 = -0.7")
+    assert " and makes pinion.tip_diameter = 33.84 mm, which must be above 34.8434 mm, the root form circle" in message
+    for distance, permitted in ((38.0, "above 50.7435 mm, where"), (51.0, "at least "), (90.0, "below ")):
+        expected = f"<pair.centre_distance>: pair.centre_distance = {distance:g} mm: must be {permitted}"
+        assert refusal(pair={"centre_distance": distance}).startswith(expected)
+
+
+def test_a_gear_that_is_wrong_at_any_centre_distance_is_named_itself() -> None:
+    pair = {"centre_distance": 54.0}
+    message = refusal(pair=pair, pinion={"profile_shift": "auto"}, wheel={"profile_shift": 3.0})
+    assert message.startswith("<wheel.tip_diameter>: wheel.tip_diameter = ") and "pointed tooth" in message
+    assert refusal(pair=pair, pinion={"profile_shift": "auto"}, wheel={"body.bore": 300.0}).startswith("<wheel.body.bore>")
 
 
 # ---------------------------------------------------------------------- what is refused
