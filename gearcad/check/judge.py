@@ -112,8 +112,11 @@ def standards(task: Task, summary: Summary) -> Iterator[Comparison]:
     edition = task.rating.edition
     root, stiffness = task.options.root_band / 100, task.options.stiffness_band / 100
     sharing = "ISO puts the whole load on one pair of teeth at its outer point; the FE shares it, and sees the true fillet"
-    for owner, value, reference in zip(("pinion", "wheel"), summary.root_tension, task.rating.root_stresses, strict=True):
-        source = f"sigma_F0, {edition.dated_part(3)} Method B"
+    widths = (task.rating.pinion.width, task.rating.wheel.width)
+    for owner, value, reference, width in zip(
+        ("pinion", "wheel"), summary.root_tension, task.rating.root_stresses, widths, strict=True
+    ):
+        source = f"sigma_F0, {edition.dated_part(3)} Method B, over b = {width:.4g} mm"
         yield against(f"root stress, {owner}", value, reference, root, "MPa", source, Role.INFORMATION, sharing)
     body = "ISO's discs are stiffer or softer than this body; see how the bodies are held"
     for words, value, reference, source in (

@@ -12,10 +12,15 @@ from gearcad.check.summary import summarise
 from gearcad.check.sweep import sweep_point
 from gearcad.check.warnings import corner_warnings, general_warnings
 from gearcad.fea.cycle import Cycle, run_cycle, single_stiffness
+from gearcad.fea.elasticity import PlaneElasticity
 from gearcad.fea.flexible_pair import FlexiblePair, flexible_pair
+from gearcad.fea.plane_limits import plane_pressure, thin_faces
 from gearcad.meshing import MeshSizes
 
-__all__ = ["PLANE_STEPS", "check_plane"]
+__all__ = ["PLANE_STEPS", "check_plane", "plane_warnings"]
+
+_WORTH_A_WORD = 0.01
+"""How much wider than the mesh a root carries before it is told."""
 
 PLANE_STEPS = ("mesh cycle", "convergence", "torque sweep", "rating")
 
@@ -35,7 +40,7 @@ def check_plane(task: Task, tell: Callable[[str], None]) -> PlaneCheck:
     warnings = (
         *general_warnings(task, cycle, summary.contact_pressure / model.modulus),
         *corner_warnings(cycle, summary),
-        *_left_out(task),
+        *plane_warnings(task, model.pinion.elasticity),
     )
     return PlaneCheck(
         **task.inputs,
@@ -58,6 +63,27 @@ def _model(task: Task, factor: float) -> FlexiblePair:
 def _refined(task: Task, middle: FlexiblePair) -> Iterator[Cycle]:
     for factor in FACTORS:
         yield run_cycle(middle if factor == 1 else _model(task, factor), task.torque, FEW_POSITIONS)
+
+
+def plane_warnings(task: Task, elasticity: PlaneElasticity) -> Iterator[str]:
+    """What a plane does not know of these bodies."""
+    yield from thin_faces(task.pair, elasticity)
+    yield from plane_pressure(elasticity)
+    yield from _wider_gears(task)
+    yield from _left_out(task)
+
+
+def _wider_gears(task: Task) -> Iterator[str]:
+    """Gears whose root carries over more than the common width."""
+    common = task.pair.common_width.width
+    gears = (("pinion", task.pair.pinion, task.rating.pinion), ("wheel", task.pair.wheel, task.rating.wheel))
+    for owner, gear, rating in gears:
+        if rating.width > (1 + _WORTH_A_WORD) * common:
+            carry = f"by {task.rating.edition.part(3)} {rating.width:.4g} mm carry at its root"
+            yield (
+                f"the {owner} is {gear.face_width:.4g} mm wide, and the plane model has the {common:.4g} mm in mesh; {carry}, "
+                f"with {100 * (1 - common / rating.width):.2g} % less stress; --model 3d has the whole width"
+            )
 
 
 def _left_out(task: Task) -> list[str]:

@@ -103,7 +103,7 @@ def _table(comparison: StiffnessComparison) -> list[str]:
         )
         lines.append(_line(METHODS[cycle.method].title, [cell if isinstance(cell, str) else f"{cell:.5g}" for cell in cells]))
     lines.append("c_γβ: mean secant, c_γα: mean tangent stiffness per face width; 'to 3d': of the mean from that of 3d")
-    lines += [f"{METHODS[cycle.method].title}: {note}" for cycle in comparison.cycles for note in cycle.notes]
+    lines += [f"Warning: {METHODS[cycle.method].title}: {note}" for cycle in comparison.cycles for note in cycle.notes]
     lines += [f"{METHODS[name].title}: left out: {reason}" for name, reason in comparison.left_out.items()]
     return lines
 

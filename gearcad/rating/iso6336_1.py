@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material
+from gearcad.rating.iso6336_3 import RIM_LIMIT, rim_thickness_ratio
 
 __all__ = [
     "MeshStiffness",
@@ -186,6 +187,8 @@ def stiffness_warnings(pair: GearPair, specific_load: float) -> list[str]:
     first, second = _by_teeth(pair)
     for owner, gear in (("pinion", pair.pinion), ("wheel", pair.wheel)):
         web, rim = _blank(gear)
+        if not gear.body.web_thickness and (height := rim_thickness_ratio(gear)) < RIM_LIMIT:
+            found.append(f"c': C_R is 1 of a solid disc, but the {owner} has only {height:.3g} tooth heights under the root")
         if not THIN_WEB <= web <= THICK_WEB:
             limit = THIN_WEB if web < THIN_WEB else THICK_WEB
             found.append(

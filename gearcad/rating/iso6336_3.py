@@ -36,6 +36,9 @@ __all__ = [
     "tangent_angle",
 ]
 
+RIM_LIMIT = 1.2
+"""s_R/h_t (external gears) from which on a rim is as good as a solid body."""
+
 LOAD_DISTRIBUTION_FACTOR = 1.0
 """f_eps of the form factor: 1 in both editions. It came with ISO 6336-3:2019, for helical gears and eps_alphan >= 2."""
 
@@ -169,7 +172,7 @@ def rim_thickness_ratio(gear: Gear) -> float:
 
 def rim_thickness_factor(ratio: float, edition: Edition) -> float:
     """Y_B = 1.6 ln(2.242 h_t/s_R) (clause 9) for s_R/h_t below 1.2, else 1; DIN 3990-3 has none."""
-    return 1.0 if ratio >= 1.2 or edition is Edition.DIN_1987 else 1.6 * math.log(2.242 / ratio)
+    return 1.0 if ratio >= RIM_LIMIT or edition is Edition.DIN_1987 else 1.6 * math.log(2.242 / ratio)
 
 
 def deep_tooth_factor(virtual_contact_ratio: float, accuracy_grade: int, edition: Edition) -> float:
@@ -232,8 +235,8 @@ def root_warnings(pair: GearPair, gear: Gear, rating: RootRating, owner: str) ->
         found.append(f"{owner} root: Y_F and Y_S are stated for a tool with a rounded tip, here it is sharp")
     if not 1 <= rating.section.notch_parameter < 8:
         found.append(f"{owner} root: Y_S is stated for q_s from 1 to 8, here {rating.section.notch_parameter:.3g}")
-    if (rim := rim_thickness_ratio(gear)) < 1.2:
-        said = "is at most 0.5, which the standard asks to avoid" if rim <= 0.5 else "weakens the root (below 1.2)"
+    if (rim := rim_thickness_ratio(gear)) < RIM_LIMIT:
+        said = "is at most 0.5, which the standard asks to avoid" if rim <= 0.5 else f"weakens the root (below {RIM_LIMIT:g})"
         found.append(f"{owner} rim: {rim:.3g} tooth heights under the root {said}; Y_B = {rating.rim_thickness_factor:.4g}")
     if (ratio := _virtual_contact_ratio(pair)) >= 2:
         found.append(f"{owner} root: Y_F assumes that one pair of teeth carries alone, but eps_alphan is {ratio:.4f}")

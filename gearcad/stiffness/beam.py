@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.load import Load
+from gearcad.rating.iso6336_3 import RIM_LIMIT
 from gearcad.stiffness.foundation import sainsot_foundation, sainsot_range, weber_foundation
 from gearcad.stiffness.section import BeamLoad, BeamTooth
 from gearcad.stiffness.slice_method import SliceMethod
@@ -162,12 +164,20 @@ class WeberBanaschek(BeamMethod):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        low = []
+        low = list(self._thin_rims())
         ends = np.array(self.slices.path)
         for owner, tooth, at in zip(_OWNERS, self.teeth, self.curvatures(ends), strict=True):
             if (tooth.load_at(at).crossing < tooth.root_chord[0]).any():
                 low.append(f"{owner}: near the root the force crosses the centre line below the root chord: no beam there")
         return (*low, *super().notes)
+
+    def _thin_rims(self) -> Iterator[str]:
+        """Bodies that are no half-plane to their teeth."""
+        gears, held = (self.mounted.pinion, self.mounted.wheel), self.body.inner_radii(self.mounted)
+        for owner, gear, radius in zip(_OWNERS, gears, held, strict=True):
+            height = (gear.root_diameter - 2 * radius) / (gear.tip_diameter - gear.root_diameter)
+            if height < RIM_LIMIT:
+                yield f"{owner}: only {height:.3g} tooth heights of body lie under the root, where the method has a half-plane"
 
 
 def _hertz(method: BeamMethod) -> float:

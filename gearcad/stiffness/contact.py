@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from gearcad.errors import GeometryError
 from gearcad.fea.cycle import single_stiffness
-from gearcad.fea.elasticity import Plane
+from gearcad.fea.elasticity import Plane, PlaneElasticity
 from gearcad.fea.flexible_pair import FlexiblePair, PairInMesh, flexible_pair
+from gearcad.fea.plane_limits import thin_faces
 from gearcad.load import Load
 from gearcad.ltca.solid_cycle import solid_single_stiffness
 from gearcad.ltca.solid_pair import SolidPair, loaded_left, solid_pair
@@ -128,7 +129,8 @@ class PlaneContact(ContactMethod):
         along = self.mounted.pinion.modification.along_face or self.mounted.wheel.modification.along_face
         tilted = self.mounting.misalignment or self.mounting.misalignment_across
         found = [*(["modifications along the face width"] if along else []), *(["misalignment"] if tilted else [])]
-        return (f"leaves out {' and '.join(found)}",) if found else ()
+        left_out = (f"leaves out {' and '.join(found)}",) if found else ()
+        return (*thin_faces(self.mounted, PlaneElasticity(self.material, self.plane)), *left_out)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from gearcad.fea.elasticity import Plane, PlaneElasticity
 from gearcad.fea.flank import FlankCompliance
 from gearcad.fea.flexible_pair import flank_body
+from gearcad.fea.plane_limits import thin_faces
 from gearcad.geometry import Gear
 from gearcad.load import Load
 from gearcad.stiffness.slice_method import SliceMethod
@@ -57,6 +58,10 @@ class StrainEnergy(SliceMethod):
             for gear, inner in zip((pair.pinion, pair.wheel), held, strict=True)
         )
         return pinion, wheel
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return (*thin_faces(self.mounted, PlaneElasticity(self.material, self.plane)), *super().notes)
 
     def single(self, lengths: Floats, load: Load) -> SinglePair:
         """One pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""

@@ -118,3 +118,18 @@ def test_specs_without_a_mesh(here: Path, text: str, message: str) -> None:
     result = run("stiffness", spec(text), *QUICK)
     assert result.exit_code == 2
     assert message in result.stderr and result.stdout == ""
+
+
+def test_closed_forms_warn_of_a_thin_rim(here: Path) -> None:
+    """A rim of 2 mm below teeth of 4.5 mm, h_f = 17.5/15.5 = 1.129: none of the three knows such a body."""
+    result = run("stiffness", spec(PAIR.replace("body.bore = 12.0", "body.bore = 31.0")), *QUICK)
+    assert result.exit_code == 0, result.output
+    warned = [line for line in result.stdout.splitlines() if "pinion" in line and "theta_f" not in line]
+    thin = "0.444 tooth heights"
+    assert warned == [
+        "Warning: Potential energy: pinion: h_f = 1.129 is outside the 1.4 ... 7 of Sainsot's foundation",
+        f"Warning: Weber-Banaschek: pinion: only {thin} of body lie under the root, where the method has a half-plane",
+        f"Warning: ISO 6336-1, Method B: c': C_R is 1 of a solid disc, but the pinion has only {thin} under the root",
+    ]
+    text = (here / "output/pair/stiffness.html").read_text(encoding="utf-8")
+    assert "1.129" in text and text.count(thin) == 2

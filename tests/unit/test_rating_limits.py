@@ -99,7 +99,8 @@ def test_thin_rim_raises_the_root_stress() -> None:
         assert rim_thickness_ratio(gear) == pytest.approx(ratio, rel=EXACT)
         factor = 1.6 * math.log(2.242 / ratio)
         assert rating.pinion.nominal_stress / solid.pinion.nominal_stress == pytest.approx(factor, rel=EXACT)
-        (warning,) = rating.warnings
+        disc, warning = rating.warnings
+        assert disc == f"c': C_R is 1 of a solid disc, but the pinion has only {ratio:.3g} tooth heights under the root"
         assert warning == f"pinion rim: {ratio:.3g} tooth heights under the root {words}; Y_B = {factor:.4g}"
         assert rate(bored, STEEL, LOAD, RatingOptions(standard=Edition.DIN_1987)).pinion.rim_thickness_factor == 1
     webbed = replace(plain, pinion=replace(plain.pinion, body=Body(web_thickness=10.0, rim_thickness=5.0)))
