@@ -25,7 +25,7 @@ BASE_KEYS = (
     "pair.normal_module pair.helix_angle pair.centre_distance "
     "pinion.teeth pinion.profile_shift pinion.face_width pinion.tooth_thinning pinion.rack.root_radius pinion.body.bore "
     "wheel.teeth wheel.profile_shift wheel.face_width wheel.tooth_thinning wheel.rack.root_radius wheel.body.bore "
-    "material.name material.youngs_modulus material.contact_limit material.root_limit load.torque"
+    "material.name material.group material.youngs_modulus material.contact_limit material.root_limit load.torque"
 ).split()
 """What the reference pair's spec says, in its order."""
 
@@ -286,7 +286,7 @@ REFUSED = {
     "pinon.teeth=3": "vary = 'pinon.teeth=3': unknown column; did you mean pinion.teeth?",
     "pinion.teth=3": "vary = 'pinion.teth=3': unknown column; did you mean pinion.teeth?",
     "gear.teeth=3": "vary = 'gear.teeth=3': the spec makes a pair; "
-    "permitted are keys of [pair], [pinion], [wheel], [material], [load], [mounting], [check], [dynamics]",
+    "permitted are keys of [pair], [pinion], [wheel], [material], [load], [mounting], [check], [dynamics], [rating]",
     "name=a": "vary = 'name=a': the study numbers the names itself; vary another key",
     "pair.name=a": "vary = 'pair.name=a': the study numbers the names itself; vary another key",
     "pinion.teeth=12:20:4": "vary = 'pinion.teeth=12:20:4': "
@@ -366,9 +366,9 @@ def test_a_wrong_sample_is_one_line(rows: int, seed: int, message: str) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("teeth = 13", "teeth = [13]", "line 26: pinion.teeth = [13]: must be a number or a text"),
-        ("teeth = 13", "teeth = true", "line 26: pinion.teeth = True: must be a number or a text"),
-        ("teeth = 13", "teth = 13", "line 26: pinion.teth: unknown key; did you mean teeth?"),
+        ("teeth = 13", "teeth = [13]", "line 29: pinion.teeth = [13]: must be a number or a text"),
+        ("teeth = 13", "teeth = true", "line 29: pinion.teeth = True: must be a number or a text"),
+        ("teeth = 13", "teth = 13", "line 29: pinion.teth: unknown key; did you mean teeth?"),
     ],
 )
 def test_a_spec_that_no_table_can_hold_is_refused(old: str, new: str, message: str, spec: Path) -> None:
