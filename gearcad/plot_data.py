@@ -5,12 +5,16 @@ from __future__ import annotations
 import csv
 import difflib
 import math
+import re
+import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gearcad import symbols
+from gearcad.columns import column_symbol
 from gearcad.errors import ParameterError, SpecError, format_number
 from gearcad.spec.cells import plain_text
 
@@ -23,6 +27,8 @@ __all__ = ["Column", "Points", "read_points"]
 _STATUS = "status"
 _MAIN_TABLES = ("pair", "gear")
 _MOST_SUGGESTED = 6
+_ALIKE = 0.7
+"""Spellings less alike have nothing to do with each other: epsilon and pinion."""
 
 _WHAT = "give the results.csv of `gearcad batch`"
 
@@ -87,15 +93,23 @@ def _opened(path: Path) -> Iterator[tuple[list[str], Iterator[list[str]]]]:
     """The headings and the other records of the file; whatever is wrong with it becomes a SpecError."""
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
-            records = csv.reader(file)
+            decimal_comma = _STATUS in file.readline().strip().split(";")
+            file.seek(0)
+            records = csv.reader(file, delimiter=";" if decimal_comma else ",")
             headings = next(records, [])
             if _STATUS not in headings:
                 raise SpecError(f"{path}: is no table of results, for it has no column {_STATUS}; {_WHAT}")
-            yield headings, records
+            yield headings, (list(map(_with_point, cells)) for cells in records) if decimal_comma else records
     except OSError as error:
         raise SpecError(f"{path}: cannot be read ({error.strerror}); {_WHAT}") from error
     except (UnicodeDecodeError, csv.Error) as error:
         raise SpecError(f"{path}: is no table of results, for it is not CSV in UTF-8 ({error}); {_WHAT}") from error
+
+
+def _with_point(cell: str) -> str:
+    """A number with a decimal comma as one with a point; a text as it is."""
+    pointed = cell.replace(",", ".")
+    return cell if _number(pointed) is None else pointed
 
 
 def _find_key(role: str, asked: str, headings: Sequence[str]) -> str:
@@ -108,21 +122,46 @@ def _find_key(role: str, asked: str, headings: Sequence[str]) -> str:
         return fitting[0]
     if fitting:
         raise ParameterError(role, asked, f"could be {' or '.join(fitting)}; write the one in full")
-    near = _near(asked, headings)
-    hint = f"did you mean {' or '.join(near[:_MOST_SUGGESTED])}?" if near else "the first line of the file has them all"
-    raise ParameterError(role, asked, f"no such column; {hint}")
+    raise ParameterError(role, asked, f"no such column; {_hint(asked, headings)}")
+
+
+def _hint(asked: str, headings: Sequence[str]) -> str:
+    """What to ask for instead."""
+    if near := _near(asked, headings):
+        return f"did you mean {' or '.join(near[:_MOST_SUGGESTED])}?"
+    checked = any(heading.startswith("check.") for heading in headings)
+    if not checked and _near(asked, [f"check.{key}" for key in symbols.CHECK]):
+        return "figures of a check are there after `gearcad batch --do check`"
+    return "columns.csv beside the file explains them all"
 
 
 def _near(asked: str, headings: Sequence[str]) -> list[str]:
-    """Headings that contain what was asked for, or end in the same word, or are spelt alike."""
+    """Headings with the symbol that was asked for, or that contain it, are spelt alike, or have most of its words."""
     last = asked.rpartition(".")[2]
+    written = {heading: found[1].symbol for heading in headings if (found := column_symbol(heading)) is not None}
+    if near := [heading for heading, symbol in written.items() if symbol and _spelt(symbol) == _spelt(asked)]:
+        return near
     if near := [heading for heading in headings if asked.lower() in heading.lower() or heading.endswith(f".{last}")]:
         return near
     spellings: dict[str, list[str]] = {}
     for heading in headings:
         for spelling in {heading, heading.partition(".")[2], heading.rpartition(".")[2]}:
             spellings.setdefault(spelling, []).append(heading)
-    return [heading for spelling in difflib.get_close_matches(asked.lower(), spellings, n=1) for heading in spellings[spelling]]
+    if alike := difflib.get_close_matches(asked.lower(), spellings, n=1, cutoff=_ALIKE):
+        return spellings[alike[0]]
+    shared = {heading: len(_words(asked) & _words(heading)) for heading in headings}
+    most = max(shared.values(), default=0)
+    return [heading for heading, number in shared.items() if number == most and most > 1]
+
+
+def _spelt(symbol: str) -> str:
+    """A symbol as one types it: ε_α, eps_alpha and epsilonalpha are the same."""
+    named = "".join(sign if sign.isascii() else unicodedata.name(sign, sign).rpartition(" ")[2] for sign in symbol)
+    return "".join(sign for sign in named.lower().replace("epsilon", "eps") if sign.isalnum())
+
+
+def _words(key: str) -> set[str]:
+    return {word for word in re.split(r"[._\s]+", key.lower()) if word}
 
 
 def _complete_rows(records: Iterator[list[str]], headings: Sequence[str], keys: list[str]) -> tuple[dict[int, list[str]], int]:

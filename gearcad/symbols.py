@@ -10,7 +10,19 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["GEAR", "GEAR_RATING", "LOAD", "MATERIAL", "MOUNTING", "PAIR", "RATING", "RATING_OPTIONS", "Symbol"]
+__all__ = [
+    "CHECK",
+    "DYNAMICS",
+    "GEAR",
+    "GEAR_RATING",
+    "LOAD",
+    "MATERIAL",
+    "MOUNTING",
+    "PAIR",
+    "RATING",
+    "RATING_OPTIONS",
+    "Symbol",
+]
 
 
 class Symbol(NamedTuple):
@@ -197,4 +209,70 @@ GEAR_RATING = {
     "sigma_F0": Symbol("σ_F0", "MPa", "ISO 6336-3, 5", "nominal root stress"),
     "sigma_H": Symbol("σ_H", "MPa", "ISO 6336-2, 5", "contact stress with K_A"),
     "sigma_F": Symbol("σ_F", "MPa", "ISO 6336-3, 5", "root stress with K_A"),
+}
+
+CHECK = {
+    "model": Symbol("", "", "", "model: plane (2d) or solid bodies (3d)"),
+    "plane": Symbol("", "", "", "plane strain or plane stress"),
+    "positions": Symbol("", "", "", "positions over one base pitch"),
+    "refinement": Symbol("", "", "", "how much finer than usual the elements are"),
+    "convergence": Symbol("", "", "", "whether finer meshes tell the error"),
+    "body_teeth": Symbol("", "", "", "teeth of the body, 0 for the full ring"),
+    "cuts": Symbol("", "", "", "what holds the cuts of the body"),
+    "pinion_inner_diameter": Symbol("", "mm", "", "diameter where the pinion is held"),
+    "wheel_inner_diameter": Symbol("", "mm", "", "diameter where the wheel is held"),
+    "torques": Symbol("T_1", "N·m", "", "torques of the sweep, on the pinion"),
+    "root_band": Symbol("", "%", "", "how far root stresses may be from the standard"),
+    "stiffness_band": Symbol("", "%", "", "how far stiffness may be from the standard"),
+    "contact_band": Symbol("", "%", "", "how far the contact stress may be from the standard"),
+    "passed": Symbol("", "", "", "whether numerics are passed, and strength where it is judged"),
+    "numerics": Symbol("", "", "", "verdict of the gates of the computation"),
+    "strength": Symbol("", "", "", "verdict of the gates of strength"),
+    "mesh_stiffness_mean": Symbol("c_γ", "N/(mm·µm)", "", "mean mesh stiffness per common face width"),
+    "mesh_stiffness_max": Symbol("c_γ", "N/(mm·µm)", "", "greatest mesh stiffness per common face width"),
+    "mesh_stiffness_min": Symbol("c_γ", "N/(mm·µm)", "", "least mesh stiffness per common face width"),
+    "single_stiffness": Symbol("c'", "N/(mm·µm)", "", "stiffness of one pair of teeth per common face width"),
+    "transmission_error_peak_to_peak": Symbol("", "µm", "", "transmission error, peak to peak"),
+    "transmission_error_harmonics": Symbol("", "µm", "", "transmission error at the tooth frequency and its multiples"),
+    "contact_pressure": Symbol("p_0", "MPa", "", "greatest pressure away from edges"),
+    "contact_pressure_across": Symbol("", "mm", "", "place of the greatest pressure, from the middle of the common face width"),
+    "contact_pressure_radius": Symbol("", "mm", "", "radius of the greatest pressure"),
+    "contact_pressure_pitch_point": Symbol("p_0", "MPa", "", "pressure at the pitch point"),
+    "half_width_pitch_point": Symbol("b_H", "mm", "", "half width of contact at the pitch point"),
+    "share_pitch_point": Symbol("", "", "", "share of the load of the pair of teeth at the pitch point"),
+    "von_mises": Symbol("", "MPa", "", "greatest von Mises stress below the contact"),
+    "von_mises_depth": Symbol("", "mm", "", "depth of that stress below the flank"),
+    "von_mises_half_plane": Symbol("", "MPa", "", "greatest von Mises stress below the contact of a half-plane"),
+    "root_tension": Symbol("σ_F", "MPa", "", "greatest tension in the fillets"),
+    "root_tension_radius": Symbol("", "mm", "", "radius of the greatest tension"),
+    "root_tension_height": Symbol("", "mm", "", "height of the greatest tension over the lower end"),
+    "root_compression": Symbol("", "MPa", "", "greatest compression in the fillets"),
+    "corner_positions": Symbol("", "", "", "positions where the edge of a tip touches"),
+    "contact_length_mean": Symbol("", "mm", "", "mean length of the lines that carry"),
+    "line_load_max": Symbol("", "N/mm", "", "greatest line load away from edges"),
+    "face_load_factor": Symbol("K_Hβ", "", "", "face load factor of contact"),
+    "root_face_load_factor": Symbol("K_Fβ", "", "", "face load factor of the root"),
+}
+
+DYNAMICS = {
+    "speed_from": Symbol("n_1", "rpm", "", "least speed of the chart"),
+    "speed_to": Symbol("n_1", "rpm", "", "greatest speed of the chart"),
+    "speeds": Symbol("", "", "", "speeds of the chart"),
+    "harmonics": Symbol("", "", "", "harmonics of the tooth frequency"),
+    "frequencies": Symbol("", "", "", "natural frequencies of a train"),
+    "accuracy_grade": Symbol("", "", "ISO 1328-1", "accuracy grade"),
+    "tooth_errors": Symbol("", "", "", "whether teeth have deviations"),
+    "seed": Symbol("", "", "", "seed of the deviations"),
+    "model": Symbol("", "", "", "what the teeth are: mesh or contact"),
+    "stiffness": Symbol("", "", "", "method of the mesh stiffness"),
+    "damping_ratio": Symbol("ζ", "", "", "damping ratio of the pair"),
+    "pinion_inertia": Symbol("J_1", "kg·m²", "", "inertia of the pinion"),
+    "wheel_inertia": Symbol("J_2", "kg·m²", "", "inertia of the wheel"),
+    "pinion_bearing_stiffness": Symbol("", "N/µm", "", "stiffness of the pinion's bearings"),
+    "wheel_bearing_stiffness": Symbol("", "N/µm", "", "stiffness of the wheel's bearings"),
+    "bearing_damping": Symbol("", "N·s/m", "", "damping of the bearings"),
+    "tooth_stiffness": Symbol("", "N/µm", "", "stiffness of one pair of teeth"),
+    "tooth_damping": Symbol("", "N·s/m", "", "damping of one pair of teeth"),
+    "duration": Symbol("", "s", "", "time that each speed runs"),
+    "sampling": Symbol("", "Hz", "", "samples of each speed per second"),
 }

@@ -8,7 +8,8 @@ table.py (spec)  ->  run.py: check all rows, make them, write the results
 
 """
 
+from gearcad.batch.results import Decimal
 from gearcad.batch.run import Progress, Summary, run_table
 from gearcad.batch.steps import Step, Wanted
 
-__all__ = ["Progress", "Step", "Summary", "Wanted", "run_table"]
+__all__ = ["Decimal", "Progress", "Step", "Summary", "Wanted", "run_table"]

@@ -9,14 +9,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from gearcad.batch.results import FILES
 from gearcad.batch.row import Record, Status
 from gearcad.errors import OutputError, format_number
 from gearcad.spec.table import Row
 
 __all__ = ["Journal"]
-
-RESERVED = ("results.csv", "results.parquet")
-"""Names in the output folder that are not a row's."""
 
 
 class Journal:
@@ -45,8 +43,8 @@ class Journal:
             number, name = taken
             same = "has it too" if name == row.name else f"has {format_number(name)}, which some file systems take for the same"
             return [f"{said}: must be unique, for it names a folder; row {number} {same}"]
-        if folded in RESERVED:
-            return [f"{said}: must be another one; this is the name of the table of results"]
+        if folded in FILES:
+            return [f"{said}: must be another one; this is the name of a table of results"]
         return []
 
     def finish(self, record: Record) -> None:

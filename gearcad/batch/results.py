@@ -1,26 +1,59 @@
-"""The table of results: one line per row of the design table, in its order, as CSV and - with pyarrow - as Parquet."""
+"""The table of results: one line per row of the design table, in its order, as CSV and - with pyarrow - as Parquet.
+
+Beside it, columns.csv says what its columns hold.
+"""
 
 from __future__ import annotations
 
 import csv
 import importlib.util
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from enum import Enum
 from itertools import islice
 from pathlib import Path
 from typing import Any, Protocol
 
 from gearcad.batch.row import Record
+from gearcad.columns import column_symbol
 from gearcad.output import staged_files
-from gearcad.spec.cells import guarded_text, list_text
+from gearcad.spec.cells import guarded_text
 from gearcad.spec.table import Row
+from gearcad.symbols import Symbol
 
-__all__ = ["RESULTS", "Results", "write_results"]
+__all__ = ["FILES", "Decimal", "Results", "write_results"]
 
 RESULTS = "results.csv"
+COLUMNS = "columns.csv"
 PARQUET = "results.parquet"
+FILES = (RESULTS, COLUMNS, PARQUET)
+"""What `write_results` writes: the names are not for a design, nor for the table itself."""
 
 _ROWS_PER_GROUP = 300
 """What Parquet holds in memory before it writes: more rows make smaller files, fewer a smaller process."""
+
+
+class Decimal(Enum):
+    """The decimal sign of the CSV files: one that a spreadsheet of the reader's country opens by a double click."""
+
+    POINT = "point"
+    """Cells between commas."""
+
+    COMMA = "comma"
+    """Cells between semicolons, and a mark in front by which Excel knows UTF-8."""
+
+    @property
+    def separator(self) -> str:
+        """What stands between cells."""
+        return ";" if self is Decimal.COMMA else ","
+
+    @property
+    def encoding(self) -> str:
+        """That of the file, as Python calls it."""
+        return "utf-8-sig" if self is Decimal.COMMA else "utf-8"
+
+    def number(self, text: str) -> str:
+        """A number, written with a point, as it stands in a cell."""
+        return text.replace(".", ",") if self is Decimal.COMMA else text
 
 
 class Results(Protocol):
@@ -29,17 +62,19 @@ class Results(Protocol):
     def results(self) -> Iterator[tuple[Row, Record]]: ...
 
 
-def write_results(journal: Results, folder: Path, workspace: Path) -> list[Path]:
-    """Write results.csv (UTF-8, comma, decimal point), and results.parquet where pyarrow is installed, by way of `workspace`.
+def write_results(journal: Results, folder: Path, workspace: Path, decimal: Decimal = Decimal.POINT) -> list[Path]:
+    """Write results.csv and columns.csv, and results.parquet where pyarrow is installed, by way of `workspace`.
 
     Texts that a spreadsheet would run as a formula get an apostrophe in front. Raises OutputError.
     """
     columns = _columns(journal)
+    lines = ([_text(_cells(*pair).get(heading), decimal) for heading in columns] for pair in journal.results())
     with staged_files(folder, workspace) as staging:
-        _write_csv(journal, columns, staging / RESULTS)
+        _write_csv(lines, columns, staging / RESULTS, decimal)
+        _write_csv(map(_explained, columns), _EXPLAINED, staging / COLUMNS, decimal)
         if importlib.util.find_spec("pyarrow") is not None:
             _write_parquet(journal, columns, staging / PARQUET)
-        return [folder / file.name for file in sorted(staging.iterdir())]
+        return [folder / name for name in FILES if (staging / name).exists()]
 
 
 def _groups(row: Row, record: Record) -> tuple[dict[str, Any], ...]:
@@ -55,8 +90,7 @@ def _groups(row: Row, record: Record) -> tuple[dict[str, Any], ...]:
         "seconds": record.seconds,
     }
     files = {f"files.{file}": f"{row.name}/{file}" for file in record.files}
-    given = {key: list_text(value) if isinstance(value, tuple) else value for key, value in row.values.items()}
-    inputs = {key: record.values.get(key, given.get(key)) for key in row.columns if key not in ("", "name")}
+    inputs = {key: record.values.get(key, row.values.get(key)) for key in row.columns if key not in ("", "name")}
     derived = {key: value for key, value in record.values.items() if key not in inputs}
     return states, files, inputs, derived
 
@@ -66,13 +100,16 @@ def _cells(row: Row, record: Record) -> dict[str, Any]:
 
 
 def _columns(journal: Results) -> dict[str, type]:
-    """Headings in order, group by group, and the one type (int, float, bool or str) that holds all cells of each."""
+    """Headings in order, group by group, and the one type (int, float, bool or str) that holds all cells of each.
+
+    Several numbers in a cell are a text.
+    """
     columns: list[dict[str, type | None]] = [{}, {}, {}, {}]
     for row, record in journal.results():
         for kinds, cells in zip(columns, _groups(row, record), strict=True):
             for heading, value in cells.items():
                 kinds[heading] = _common(kinds.get(heading), None if value is None else type(value))
-    return {heading: kind or str for kinds in columns for heading, kind in kinds.items()}
+    return {heading: str if kind in (None, tuple) else kind for kinds in columns for heading, kind in kinds.items()}
 
 
 def _common(one: type | None, other: type | None) -> type | None:
@@ -82,16 +119,25 @@ def _common(one: type | None, other: type | None) -> type | None:
     return float if {one, other} == {int, float} else str
 
 
-def _write_csv(journal: Results, columns: Iterable[str], path: Path) -> None:
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        for row, record in journal.results():
-            cells = _cells(row, record)
-            writer.writerow([_text(cells.get(heading)) for heading in columns])
+_EXPLAINED = ("column", "symbol", "unit", "of", "words", "source")
 
 
-def _text(value: Any) -> str:
+def _explained(heading: str) -> Sequence[str]:
+    """The line of columns.csv for a column."""
+    if heading.startswith("files."):
+        return heading, "", "", "", "path of a file, from the folder of this table", ""
+    owner, symbol = column_symbol(heading) or ("", Symbol("", "", "", ""))
+    return heading, symbol.symbol, symbol.unit, owner, symbol.words, symbol.source
+
+
+def _write_csv(lines: Iterable[Sequence[str]], headings: Iterable[str], path: Path, decimal: Decimal) -> None:
+    with path.open("w", encoding=decimal.encoding, newline="") as file:
+        writer = csv.writer(file, delimiter=decimal.separator, lineterminator="\n")
+        writer.writerow(headings)
+        writer.writerows(lines)
+
+
+def _text(value: Any, decimal: Decimal) -> str:
     """A cell of the CSV: a number with all its digits, a text made harmless."""
     if value is None:
         return ""
@@ -99,7 +145,9 @@ def _text(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, str):
         return guarded_text(value)
-    return repr(value)
+    if isinstance(value, tuple):
+        return " ".join(_text(item, decimal) for item in value)
+    return decimal.number(repr(value))
 
 
 def _write_parquet(journal: Results, columns: Mapping[str, type], path: Path) -> None:
@@ -119,4 +167,6 @@ def _write_parquet(journal: Results, columns: Mapping[str, type], path: Path) ->
 
 
 def _as(kind: type, value: Any) -> Any:
+    if isinstance(value, tuple):
+        return _text(value, Decimal.POINT)
     return None if value is None else kind(value)

@@ -188,7 +188,7 @@ def _flat(document: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any
         elif isinstance(value, list) and prefix == "pair.":
             yield from ((f"{prefix}{key}.{gear}", of_gear) for gear, of_gear in zip(("pinion", "wheel"), value, strict=True))
         elif isinstance(value, list):
-            yield prefix + key, " ".join(map(str, value))
+            yield prefix + key, tuple(value)
         else:
             # A plain float: a derived length is of a class of its own.
             yield prefix + key, float(value) if isinstance(value, float) else value

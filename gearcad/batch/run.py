@@ -14,7 +14,7 @@ from filelock import FileLock, Timeout
 
 from gearcad.batch.journal import Journal
 from gearcad.batch.pool import ClusterLostError, Outcome, Pool, open_pool
-from gearcad.batch.results import RESULTS, write_results
+from gearcad.batch.results import FILES, Decimal, write_results
 from gearcad.batch.row import Record, Status, Task, check_rows, make_row
 from gearcad.batch.steps import Wanted
 from gearcad.batch.worker import WorkerLostError
@@ -63,6 +63,7 @@ def run_table(
     time_limit: float = 600.0,
     fresh: bool = False,
     keep_going: bool = False,
+    decimal: Decimal = Decimal.POINT,
     progress: Progress | None = None,
 ) -> Summary:
     """Make every row of the design table at `path` in a folder of its own inside `folder`, and the table of results.
@@ -73,8 +74,8 @@ def run_table(
     """
     require_number("time_limit", time_limit, "s", above=0, at_most=_LONGEST_LIMIT)
     table = open_table(path)
-    if table.path.resolve() == (folder / RESULTS).resolve():
-        raise OutputError("output", str(folder), f"has the table itself as its {RESULTS}; give another folder")
+    if table.path.resolve() in [(folder / name).resolve() for name in FILES]:
+        raise OutputError("output", str(folder), f"has the table itself as its {table.path.name}; give another folder")
     with closing(Journal()) as journal, open_pool(jobs, cluster) as pool:
         run = _Run(journal, pool, progress or _silent)
         faults = run.check(table)
@@ -91,7 +92,7 @@ def run_table(
                 run.stopped = str(error)
             finally:  # an interrupted run too tells what it has
                 pool.stop()
-                results = run.write_results(folder, workspace)
+                results = run.write_results(folder, workspace, decimal)
         return run.summary(results)
 
 
@@ -148,10 +149,10 @@ class _Run:
             self.failed += record.status is Status.FAILED
             self.progress("making", self.done, self.failed, self.total)
 
-    def write_results(self, folder: Path, workspace: Path) -> list[Path]:
+    def write_results(self, folder: Path, workspace: Path, decimal: Decimal) -> list[Path]:
         """The table of results; where even that cannot be written, the run says so."""
         try:
-            return write_results(self.journal, folder, workspace)
+            return write_results(self.journal, folder, workspace, decimal)
         except OutputError as error:
             self.stopped = self.stopped or str(error)
             return []

@@ -11,6 +11,7 @@ import click
 import gearcad
 from gearcad.cli.group import debug_option, parse_choices
 from gearcad.cli.progress import row_progress
+from gearcad.errors import as_choice
 
 if TYPE_CHECKING:
     from gearcad.batch import Summary
@@ -32,6 +33,9 @@ __all__ = ["batch"]
 @click.option("--time-limit", default=600.0, show_default=True, metavar="S", help="Longest time for one row, in seconds.")
 @click.option("--fresh", is_flag=True, help="Make everything again, also what is there and unchanged.")
 @click.option("--keep-going", is_flag=True, help="Make the good rows of a table that has faults.")
+@click.option(
+    "--decimal", default="point", show_default=True, help="Of results.csv: point, or comma (and semicolons) for Excel."
+)
 @click.option("--cluster", metavar="ADDRESS", help="Work on a Dask cluster: tcp://HOST:PORT, or local.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document: the results and the failures.")
 @click.option("--quiet", is_flag=True, help="No progress on the screen.")
@@ -48,16 +52,18 @@ def batch(
     time_limit: float,
     fresh: bool,
     keep_going: bool,
+    decimal: str,
     cluster: str | None,
     as_json: bool,
     quiet: bool,
 ) -> None:
     """Make every row of TABLE (CSV or xlsx) in a folder of its own, and results.csv with all derived numbers.
 
+    columns.csv beside it has symbol and unit of each number.
     All rows are checked before anything is made. Run it again after a change, a crash or a Ctrl-C: it makes only what is
     missing or changed. `gearcad new pairs` writes a commented table to begin with.
     """
-    from gearcad.batch import Step, Wanted, run_table
+    from gearcad.batch import Decimal, Step, Wanted, run_table
     from gearcad.build import Format
 
     wanted = Wanted(
@@ -67,6 +73,7 @@ def batch(
         bracket=bracket,
         circles=circles,
     )
+    chosen = as_choice("decimal", decimal.lower(), Decimal)
     folder = output if output is not None else Path("output") / table.stem
     began = time.perf_counter()
     with row_progress(shown=not quiet) as progress:
@@ -79,6 +86,7 @@ def batch(
             time_limit=time_limit,
             fresh=fresh,
             keep_going=keep_going,
+            decimal=chosen,
             progress=progress,
         )
     _report(summary, time.perf_counter() - began, as_json=as_json, quiet=quiet)

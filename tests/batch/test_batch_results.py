@@ -11,8 +11,9 @@ import pytest
 from support import jobs
 from support.batches import GEARS, MIXED, PAIRS, read_results, rows_of, write_table
 
-from gearcad.batch import Step, Summary, Wanted, run_table
+from gearcad.batch import Decimal, Step, Summary, Wanted, run_table
 from gearcad.batch import run as run_module
+from gearcad.batch.results import _text
 from gearcad.build import Format
 from gearcad.errors import OutputError, ParameterError
 from gearcad.spec import read_spec
@@ -36,7 +37,7 @@ def mixed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("mixed")
     summary = make(folder, MIXED, POINTS)
     assert (summary.ok, summary.failed, summary.not_run, summary.errors, summary.stopped) == (3, 0, 0, (), "")
-    assert summary.results == (folder / "out" / "results.csv", folder / "out" / "results.parquet")
+    assert summary.results == tuple(folder / "out" / name for name in ("results.csv", "columns.csv", "results.parquet"))
     return folder
 
 
@@ -158,7 +159,7 @@ def test_parquet_holds_what_the_csv_holds_with_types(mixed: Path) -> None:
 def test_without_pyarrow_there_is_the_csv_only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("importlib.util.find_spec", lambda _name: None)
     summary = make(tmp_path, GEARS)
-    assert summary.results == (tmp_path / "out" / "results.csv",)
+    assert [path.name for path in summary.results] == ["results.csv", "columns.csv"]
     assert not (tmp_path / "out" / "results.parquet").exists()
 
 
@@ -169,6 +170,41 @@ def test_file_is_utf_8_with_commas_points_and_plain_line_ends(tmp_path: Path) ->
     assert content.startswith(b"name,status,")
     assert b"\r" not in content and content.count(b"\n") == 2
     assert ",20,1.5,7.25," in content.decode("utf-8") and "Stirnrad größer,ok," in content.decode("utf-8")
+
+
+def test_decimal_comma_is_what_excel_opens_in_europe(tmp_path: Path) -> None:
+    """The same cells, semicolons between them, and the mark by which Excel knows UTF-8; the inputs are a table again."""
+    lines = ("name,teeth,normal_module,face_width", "größer 1.5 2.5,20,1.5,7.25", "b,21,2,0.125")
+    make(tmp_path, lines)
+    point = read_results(tmp_path / "out")
+    make(tmp_path, lines, decimal=Decimal.COMMA)
+    content = (tmp_path / "out" / "results.csv").read_bytes().decode("utf-8")
+    assert content.startswith("\ufeffname;status;")
+    found = list(csv.DictReader(content[1:].splitlines(), delimiter=";"))
+    assert [line["name"] for line in found] == ["größer 1.5 2.5", "b"]
+    for line, expected in zip(found, point, strict=True):
+        for key, cell in line.items():
+            text = key in ("name", "error", "warnings", "seconds", "gear.name") or key.startswith("files.")
+            assert text or cell == expected[key].replace(".", ","), key
+    assert (found[0]["gear.normal_module"], found[1]["gear.face_width"]) == ("1,5", "0,125")
+    explained = (tmp_path / "out" / "columns.csv").read_text(encoding="utf-8-sig").splitlines()
+    assert explained[0] == "column;symbol;unit;of;words;source"
+
+
+def test_lists_have_the_decimal_comma_too() -> None:
+    assert _text((40.0, 82.5), Decimal.COMMA) == "40,0 82,5"
+    assert _text((40.0, 82.5), Decimal.POINT) == "40.0 82.5"
+
+
+def test_columns_csv_has_symbol_and_unit_of_every_column(mixed: Path) -> None:
+    with (mixed / "out" / "columns.csv").open(encoding="utf-8", newline="") as file:
+        explained = {line.pop("column"): line for line in csv.DictReader(file)}
+    assert list(explained) == list(read_results(mixed / "out")[0])
+    assert all(line["words"] for line in explained.values())
+    assert explained["pinion.tip_diameter"] == {
+        "symbol": "d_a", "unit": "mm", "of": "pinion", "words": "tip diameter", "source": "4.5",
+    }  # fmt: skip
+    assert explained["files.gear.csv"]["words"] == "path of a file, from the folder of this table"
 
 
 # ---------------------------------------------------------------------- spreadsheets

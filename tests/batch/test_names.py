@@ -37,8 +37,9 @@ BAD = {
     "a" * 101: f"{PLAIN} of at most 100 characters",
     "\N{GEAR}" * 100: f"{PLAIN} of at most 200 bytes in UTF-8",
     "": f"{PLAIN}: a text that is not empty",
-    "results.csv": "must be another one; this is the name of the table of results",
-    "Results.Parquet": "must be another one; this is the name of the table of results",
+    "results.csv": "must be another one; this is the name of a table of results",
+    "Columns.CSV": "must be another one; this is the name of a table of results",
+    "Results.Parquet": "must be another one; this is the name of a table of results",
 }
 """Names, and the end of the message about each."""
 
@@ -93,7 +94,7 @@ def test_keep_going_makes_the_others_and_stays_in_its_folder(tmp_path: Path) -> 
     assert [line["status"] for line in read_results(folder)] == ["ok", *["failed"] * len(BAD), "ok", "failed"]
     made = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*")}
     files = {f"inside/out/{name}/{file}" for name in ("good", "other") for file in ("data.json", "manifest.json")}
-    results = {"inside/out/results.csv", "inside/out/results.parquet"}
+    results = {f"inside/out/{name}" for name in ("results.csv", "columns.csv", "results.parquet")}
     assert made == {"table.csv", "inside", "inside/out", "inside/out/good", "inside/out/other"} | files | results
 
 

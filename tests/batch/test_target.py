@@ -157,7 +157,7 @@ def test_files_larger_than_the_system_permits_fail_their_rows(table: Path, tmp_p
     assert [line.startswith(start) for line, start in zip(said, lines, strict=False)] == [True, True]
     assert all("cannot be written (File too large)" in line for line in said)
     assert [line["status"] for line in read_results(folder)] == ["failed"] * 3
-    assert sorted(path.name for path in folder.iterdir()) == ["results.csv", "results.parquet"]
+    assert sorted(path.name for path in folder.iterdir()) == ["columns.csv", "results.csv", "results.parquet"]
     again = run_batch(table, "-o", folder, "--format", "dxf,csv", "-j", "1", "--quiet")
     assert (again.returncode, again.stderr) == (0, "") and lies(folder) == []
 

@@ -45,7 +45,7 @@ def batch(*arguments: str, status: int = 0) -> Result:
 def test_results_are_on_stdout_and_the_rest_on_stderr() -> None:
     write_table(Path("table.csv"), GEARS)
     result = batch("table.csv", "--do", "data", "-j", "1")
-    assert result.stdout.splitlines() == ["output/table/results.csv", "output/table/results.parquet"]
+    assert result.stdout.splitlines() == [f"output/table/{name}" for name in ("results.csv", "columns.csv", "results.parquet")]
     assert all(Path(line).is_file() for line in result.stdout.splitlines())
     progress, count = result.stderr.splitlines()
     assert re.fullmatch(r"making: 3 of 3 rows, 0 failed, \S+ rows/s", progress)
@@ -62,7 +62,7 @@ def test_default_is_step_and_stl_in_a_folder_named_after_the_table() -> None:
 def test_quiet_prints_the_results_only() -> None:
     write_table(Path("table.csv"), GEARS)
     result = batch("table.csv", "--do", "data", "-j", "1", "--quiet", "-o", "elsewhere")
-    assert (result.stdout, result.stderr) == ("elsewhere/results.csv\nelsewhere/results.parquet\n", "")
+    assert (result.stdout, result.stderr) == ("elsewhere/results.csv\nelsewhere/columns.csv\nelsewhere/results.parquet\n", "")
 
 
 def test_json_is_one_document() -> None:
@@ -71,7 +71,7 @@ def test_json_is_one_document() -> None:
     assert json.loads(result.stdout) == {
         "kind": "batch",
         "gearcad": gearcad.__version__,
-        "results": ["output/table/results.csv", "output/table/results.parquet"],
+        "results": [f"output/table/{name}" for name in ("results.csv", "columns.csv", "results.parquet")],
         "ok": 1,
         "failed": 2,
         "not_run": 0,

@@ -174,6 +174,14 @@ def test_plot_draws_contours_anew_each_time(results: str) -> None:
     assert picture.read_bytes() != before
 
 
+def test_plot_reads_a_decimal_comma(results: str) -> None:
+    arguments = ("--x", "pinion.profile_shift", "--y", "helix_angle", "--colour", "name")
+    run("plot", results, *arguments, "-o", "point.svg")
+    Path(results).write_text(RESULTS.replace(",", ";").replace(".0", ",0"), encoding="utf-8-sig")
+    run("plot", results, *arguments, "-o", "comma.svg")
+    assert Path("comma.svg").read_bytes() == Path("point.svg").read_bytes()
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

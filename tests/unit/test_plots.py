@@ -109,7 +109,13 @@ def test_a_key_may_lack_its_beginning(asked: str, key: str, results: Path) -> No
     [
         ("profile_shift", "x = 'profile_shift': could be pinion.profile_shift or wheel.profile_shift; write the one in full"),
         ("contact", "x = 'contact': no such column; did you mean pair.transverse_contact_ratio?"),
-        ("qwerty", "x = 'qwerty': no such column; the first line of the file has them all"),
+        ("qwerty", "x = 'qwerty': no such column; columns.csv beside the file explains them all"),
+        ("epsilon_alpha", "x = 'epsilon_alpha': no such column; did you mean pair.transverse_contact_ratio?"),
+        ("ratio_of_contact", "x = 'ratio_of_contact': no such column; did you mean pair.transverse_contact_ratio?"),
+        (
+            "mesh_stiffness",
+            "x = 'mesh_stiffness': no such column; figures of a check are there after `gearcad batch --do check`",
+        ),
         ("wheel.rim_diameter", "x = 'wheel.rim_diameter': no such column; did you mean pinion.body.rim_diameter?"),
         ("pinion.profil_shift", "x = 'pinion.profil_shift': no such column; did you mean pinion.profile_shift?"),
     ],

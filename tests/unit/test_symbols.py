@@ -6,7 +6,13 @@ from typing import Any
 import pytest
 
 from gearcad import Gear, GearPair, Load, Material, Mounting, symbols
+from gearcad.check.options import CheckOptions
+from gearcad.check.solid_summary import SolidSummary
+from gearcad.check.summary import PlaneSummary
+from gearcad.columns import column_symbol
+from gearcad.dynamics.options import DynamicsOptions
 from gearcad.rating import RatingOptions
+from gearcad.spec.keys import COLUMNS
 
 
 def _keys(document: dict[str, Any]) -> set[str]:
@@ -32,6 +38,7 @@ INPUTS = (
     (Load(torque=1.0), symbols.LOAD),
     (Mounting(), symbols.MOUNTING),
     (RatingOptions(), symbols.RATING_OPTIONS),
+    (DynamicsOptions(), symbols.DYNAMICS),
 )
 
 
@@ -40,7 +47,35 @@ def test_inputs_of_later_stages_have_symbols(made: Any, table: dict[str, symbols
     assert set(asdict(made)) == {field.name for field in fields(made)} == set(table)
 
 
-@pytest.mark.parametrize("table", [symbols.GEAR, symbols.PAIR, *(table for _, table in INPUTS)])
+def test_every_option_and_every_figure_of_a_check_has_a_symbol() -> None:
+    names = {field.name for kind in (CheckOptions, PlaneSummary, SolidSummary) for field in fields(kind)}
+    assert names | {"passed", "numerics", "strength"} == set(symbols.CHECK)
+
+
+def test_every_key_of_a_table_has_a_symbol() -> None:
+    keys = {f"{table}.{field}" for table, fields in COLUMNS.items() for field in fields}
+    assert {key for key in keys if column_symbol(key) is None} == set()
+
+
+def test_a_column_is_whose_its_heading_says() -> None:
+    expected = {
+        "pinion.tip_diameter": ("pinion", "d_a", "mm"),
+        "pair.tip_clearances.wheel": ("wheel", "c", "mm"),
+        "check.root_tension_pinion": ("pinion", "σ_F", "MPa"),
+        "check.rating.wheel.Y_F": ("wheel", "Y_F", ""),
+        "check.rating.p_0": ("", "p_0", "MPa"),
+        "check.pinion_inner_diameter": ("", "", "mm"),
+        "load.torque": ("", "T_1", "N·m"),
+        "seconds": ("", "", "s"),
+    }
+    found = {heading: column_symbol(heading) for heading in expected}
+    assert {key: (owner, symbol.symbol, symbol.unit) for key, (owner, symbol) in found.items()} == expected
+    assert [column_symbol(key) for key in ("", "pinion", "pinion.", "check.rating.pinion", "files.data.json", "_pinion")] == [
+        None
+    ] * 6
+
+
+@pytest.mark.parametrize("table", [symbols.GEAR, symbols.PAIR, symbols.CHECK, *(table for _, table in INPUTS)])
 def test_words_tell_the_rows_of_a_sheet_apart(table: dict[str, symbols.Symbol]) -> None:
     words = [symbol.words for symbol in table.values()]
     assert len(set(words)) == len(words)

@@ -1,0 +1,62 @@
+"""What the columns of a table of results hold: symbol, unit and words, for columns.csv and the axes of pictures."""
+
+from __future__ import annotations
+
+from gearcad import symbols
+from gearcad.symbols import Symbol
+
+__all__ = ["column_symbol"]
+
+_STATES = {
+    "name": Symbol("", "", "", "name of the design, and of its folder"),
+    "status": Symbol("", "", "", "how the row ended: ok, failed or not run"),
+    "error": Symbol("", "", "", "why it failed"),
+    "warnings": Symbol("", "", "", "what to know before making this"),
+    "seconds": Symbol("", "s", "", "time to make the row"),
+}
+
+_CHOICES = {
+    "rack": Symbol("", "", "ISO 53", "named basic rack"),
+    "profile_shift_split": Symbol("", "", "", "how two automatic profile shifts share their sum"),
+}
+"""Keys of a spec whose numbers stand in other columns."""
+
+_GEAR = symbols.GEAR | _CHOICES
+
+_TABLES = {
+    "gear": _GEAR,
+    "pinion": _GEAR,
+    "wheel": _GEAR,
+    "pair": _GEAR | symbols.PAIR,
+    "material": symbols.MATERIAL,
+    "load": symbols.LOAD,
+    "mounting": symbols.MOUNTING,
+    "check": symbols.CHECK,
+    "check.rating": symbols.RATING,
+    "check.rating.pinion": symbols.GEAR_RATING,
+    "check.rating.wheel": symbols.GEAR_RATING,
+    "dynamics": symbols.DYNAMICS,
+    "rating": symbols.RATING_OPTIONS,
+    "": _STATES,
+}
+"""By the beginning of the heading."""
+
+_OWNERS = ("pinion", "wheel")
+
+
+def column_symbol(heading: str) -> tuple[str, Symbol] | None:
+    """Whose the quantity of a column of results is ("pinion", "wheel" or ""), and how it is written; None for an unknown one.
+
+    Columns are `pinion.tip_diameter`, `pair.tip_clearances.wheel`, `check.root_tension_pinion` or `check.rating.wheel.Y_F`.
+    """
+    for table, known in _TABLES.items():
+        if table and not heading.startswith(f"{table}."):
+            continue
+        field = heading[len(table) + 1 :] if table else heading
+        if field in known:
+            return next((owner for owner in _OWNERS if table.endswith(owner)), ""), known[field]
+        for owner in _OWNERS:
+            name = field[: -len(owner) - 1]
+            if field.endswith((f".{owner}", f"_{owner}")) and name in known:
+                return owner, known[name]
+    return None
