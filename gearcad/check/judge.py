@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from gearcad.check.comparison import Comparison, Role, Subject, against, at_most
 from gearcad.check.convergence import LEAST_ORDER, Convergence
 from gearcad.check.result import Task
+from gearcad.check.rim import bending_limits, rim_gates
 from gearcad.check.summary import PlaneSummary, Summary
 from gearcad.fea.cycle import Cycle, PairContact
 
@@ -27,7 +28,9 @@ def compare_plane(
         *_hertz(cycle),
         *_reactions(cycle),
         *_errors(convergence),
+        *rim_gates(task),
         *material_limits(task, summary),
+        *bending_limits(task, summary),
         *standards(task, summary),
     )
 

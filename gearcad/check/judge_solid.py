@@ -10,6 +10,7 @@ from gearcad.check.convergence import FINER, SOLID_ORDER, Convergence
 from gearcad.check.face import face_factors
 from gearcad.check.judge import REACTION, material_limits, standards
 from gearcad.check.result import Task
+from gearcad.check.rim import bending_limits, rim_gates
 from gearcad.check.solid_summary import SolidSummary
 from gearcad.geometry.contact import contact_line_lengths
 from gearcad.ltca.solid_cycle import SolidCycle
@@ -27,7 +28,9 @@ def compare_solid(
     return (
         *_reactions(cycle),
         *_errors(convergence),
+        *rim_gates(task),
         *material_limits(task, summary),
+        *bending_limits(task, summary),
         *standards(task, summary),
         *_contact(task, summary),
         *_face(task, summary),

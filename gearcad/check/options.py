@@ -9,6 +9,7 @@ from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbe
 from gearcad.fea.chain import Cuts
 from gearcad.fea.elasticity import Plane
 from gearcad.fea.flexible_pair import BodyModel
+from gearcad.fea.support import STEEL, Hold
 from gearcad.geometry import GearPair
 
 __all__ = ["CheckOptions", "Model"]
@@ -41,7 +42,11 @@ class CheckOptions:
     0 for the model's own number (60 in the plane, 24 of solids); `refinement` makes the edges of all elements that many times
     shorter; `convergence` "off" leaves out the other meshes, and with them the estimate of the error. `body_teeth` of each
     body, 0 for the full ring, and what holds its `cuts`: "fixed", "sliding" or "free". `pinion_inner_diameter`,
-    `wheel_inner_diameter` (mm): where the bodies are held, instead of the bore or 4 m_n below the root circle. `torques` (N·m
+    `wheel_inner_diameter` (mm): where the bodies are held, instead of the bore or 4 m_n below the root circle.
+    `pinion_support`, `wheel_support`: how they are held there, "rigid" all round, on an elastic "shaft", by the "key", "free",
+    or "auto": rigid if the rim is 1.2 tooth depths thick or the diameter is given, else free, or by the key if there is one.
+    `shaft_modulus` (MPa) and `pinion_shaft_bore`, `wheel_shaft_bore` (mm, 0 for a solid one) are those of the shaft, or of a
+    ring that is the hub; solid bodies are held rigidly. `torques` (N·m
     on the pinion) of the sweep, () for five up to the load's. `root_band`, `stiffness_band` and `contact_band` (%): how far
     root stress, stiffness, and load and stress along the lines of contact may be from ISO 6336. `plane` is "strain" (wide
     gears) or "stress": of the plane model only, as `contact_band` is of the solid one.
@@ -56,6 +61,11 @@ class CheckOptions:
     cuts: str = "fixed"
     pinion_inner_diameter: float | None = None
     wheel_inner_diameter: float | None = None
+    pinion_support: str = "auto"
+    wheel_support: str = "auto"
+    shaft_modulus: float = STEEL
+    pinion_shaft_bore: float = 0.0
+    wheel_shaft_bore: float = 0.0
     torques: tuple[float, ...] = ()
     root_band: float = 25.0
     stiffness_band: float = 25.0
@@ -80,6 +90,11 @@ class CheckOptions:
         for name in ("pinion_inner_diameter", "wheel_inner_diameter"):
             if getattr(self, name) is not None:
                 require_number(name, getattr(self, name), "mm", above=0)
+        for name in ("pinion_support", "wheel_support"):
+            as_choice(name, getattr(self, name), Hold)
+        require_number("shaft_modulus", self.shaft_modulus, "MPa", above=0)
+        for name in ("pinion_shaft_bore", "wheel_shaft_bore"):
+            require_number(name, getattr(self, name), "mm", at_least=0)
         torques = self.torques if isinstance(self.torques, list | tuple) else (self.torques,)
         for torque in torques:
             require_number("torques", torque, "N·m", above=0)
@@ -115,4 +130,11 @@ class CheckOptions:
     def body(self) -> BodyModel:
         """The bodies as the FE wants them."""
         inner = (self.pinion_inner_diameter, self.wheel_inner_diameter)
-        return BodyModel(teeth=self.body_teeth or None, cuts=Cuts(self.cuts), inner_diameters=inner)
+        return BodyModel(
+            teeth=self.body_teeth or None,
+            cuts=Cuts(self.cuts),
+            inner_diameters=inner,
+            holds=(Hold(self.pinion_support), Hold(self.wheel_support)),
+            shaft_modulus=self.shaft_modulus,
+            shaft_bores=(self.pinion_shaft_bore, self.wheel_shaft_bore),
+        )

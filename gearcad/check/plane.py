@@ -8,6 +8,7 @@ from gearcad.check.convergence import FACTORS, FEW_POSITIONS, three_meshes
 from gearcad.check.judge import compare_plane
 from gearcad.check.options import Model
 from gearcad.check.result import PlaneCheck, Task
+from gearcad.check.rim import rim_warnings
 from gearcad.check.summary import summarise
 from gearcad.check.sweep import sweep_point
 from gearcad.check.warnings import corner_warnings, general_warnings
@@ -39,6 +40,7 @@ def check_plane(task: Task, tell: Callable[[str], None]) -> PlaneCheck:
     comparisons = compare_plane(task, cycle, summary, convergence)
     warnings = (
         *general_warnings(task, cycle, summary.contact_pressure / model.modulus),
+        *rim_warnings(task, summary),
         *corner_warnings(cycle, summary),
         *plane_warnings(task, model.pinion.elasticity),
     )
@@ -57,7 +59,7 @@ def _model(task: Task, factor: float) -> FlexiblePair:
     options = task.options
     sizes = MeshSizes().refined(factor * options.refinement)
     error = task.mounting.pitch_error
-    return flexible_pair(task.pair, task.material, plane=options.plane_state, body=options.body, sizes=sizes, pitch_error=error)
+    return flexible_pair(task.pair, task.material, plane=options.plane_state, body=task.body, sizes=sizes, pitch_error=error)
 
 
 def _refined(task: Task, middle: FlexiblePair) -> Iterator[Cycle]:

@@ -12,6 +12,7 @@ from gearcad.check.options import CheckOptions, Model
 from gearcad.check.solid_summary import SolidSummary
 from gearcad.check.summary import OfGears, PlaneSummary, Summary, by_name
 from gearcad.fea.cycle import Cycle
+from gearcad.fea.flexible_pair import BodyModel
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.ltca.solid_cycle import SolidCycle
@@ -42,6 +43,12 @@ class Task:
     def torques(self) -> tuple[float, ...]:
         """Of the sweep (N·m)."""
         return self.options.torques or tuple(part * abs(self.torque) for part in (0.1, 0.3, 0.55, 0.77, 1.0))
+
+    @property
+    def body(self) -> BodyModel:
+        """The bodies as the model of the pair takes them."""
+        body = self.options.body
+        return body.of_solids() if self.options.model_for(self.pair) is Model.SOLID else body
 
     @property
     def inputs(self) -> dict[str, Any]:
@@ -87,11 +94,7 @@ class CheckResult(Task):
     @property
     def bodies(self) -> dict[str, str]:
         """How each body is taken, in words."""
-        body = self.options.body
-        gears = {"pinion": self.pair.pinion, "wheel": self.pair.wheel}
-        return {
-            name: body.describe(gear, inner) for (name, gear), inner in zip(gears.items(), body.inner_diameters, strict=True)
-        }
+        return self.body.describe(self.pair)
 
     @property
     def numerics(self) -> Verdict:

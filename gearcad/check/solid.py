@@ -9,6 +9,7 @@ from gearcad.check.convergence import FEW_POSITIONS, FINER, two_meshes
 from gearcad.check.judge_solid import compare_solid
 from gearcad.check.options import Model
 from gearcad.check.result import SolidCheck, Task
+from gearcad.check.rim import rim_warnings
 from gearcad.check.solid_summary import SolidSummary, summarise_solid
 from gearcad.check.sweep import sweep_point
 from gearcad.check.warnings import corner_warnings, general_warnings
@@ -44,6 +45,7 @@ def check_solid(task: Task, tell: Callable[[str], None]) -> SolidCheck:
     modulus = task.material.youngs_modulus / (2 * (1 - task.material.poisson_ratio**2))
     warnings = (
         *general_warnings(task, cycle, summary.contact_pressure / modulus),
+        *rim_warnings(task, summary),
         *corner_warnings(cycle, summary),
         *_edge_warnings(cycle, summary),
     )
@@ -61,7 +63,7 @@ def check_solid(task: Task, tell: Callable[[str], None]) -> SolidCheck:
 def _model(task: Task, factor: float, progress: Callable[[str], None] = lambda _gear: None) -> SolidPair:
     sizes = SolidSizes().refined(factor * task.options.refinement)
     pair, mounting = loaded_left(task.pair, task.torque), replace(task.mounting, centre_distance_change=0.0)
-    return solid_pair(pair, task.material, body=task.options.body, sizes=sizes, mounting=mounting, progress=progress)
+    return solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, progress=progress)
 
 
 def _edge_warnings(cycle: SolidCycle, summary: SolidSummary) -> list[str]:

@@ -44,6 +44,7 @@ class Summary:
     `contact_pressure` is the greatest away from the edges of the flanks, `von_mises` the greatest below that contact,
     `von_mises_depth` (mm) below the flank. `corner_positions` counts positions where the edge of a tip touches, whose pressure
     is not told. At the pitch point: pressure, half width (mm), and share of the load that the pair of teeth carries.
+    `bore_tension_pinion` and `_wheel` are None where the bore is kept round; where it is not, root stresses are of all teeth.
     """
 
     mesh_stiffness_mean: float
@@ -59,6 +60,8 @@ class Summary:
     von_mises_depth: float
     root_tension: OfGears
     root_compression: OfGears
+    bore_tension_pinion: float | None
+    bore_tension_wheel: float | None
     corner_positions: int
 
     def to_dict(self) -> dict[str, Any]:
@@ -102,6 +105,8 @@ def common_summary(cycle: Cycle | SolidCycle, single: float) -> dict[str, Any]:
         "contact_pressure": few.contact_pressure,
         "root_tension": few.root_tension,
         "root_compression": OfGears(*compression),
+        "bore_tension_pinion": cycle.bore_tension(0),
+        "bore_tension_wheel": cycle.bore_tension(1),
     }
 
 

@@ -65,7 +65,9 @@ def nodal_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> Nod
     forces[2 * flank.nodes], forces[2 * flank.nodes + 1] = inward[:, :1] * weights, inward[:, 1:] * weights
     displacements, torques = ring.solve(forces)
     nothing = np.zeros_like(forces)
-    return NodalCompliance(flank, ring, elasticity, flank.lengths[::2], displacements, nothing, torques, weights)
+    hub_forces = ring.hub_forces(forces) if ring.support.floats else None
+    lengths = flank.lengths[::2]
+    return NodalCompliance(flank, ring, elasticity, lengths, displacements, nothing, torques, hub_forces, weights)
 
 
 def _hats(arc: Floats) -> Floats:

@@ -6,7 +6,7 @@ and need no turning.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
 
@@ -28,17 +28,19 @@ class Cuts(Enum):
 
 @dataclass(frozen=True)
 class Chain:
-    """Sectors in a row, condensed: symmetric matrix on [cut behind, cut ahead, turn of the hub] (N/mm, N, N mm).
+    """Sectors in a row, condensed: symmetric matrix on [cut behind, cut ahead, hub] (N/mm, N, N mm).
 
-    In the plane all of it is per mm of width.
+    The hub's dofs are its turn, or the forces with which it follows the body (see `support`), as the first sector sees them;
+    `onward` turns them to what the sector after the last one sees. In the plane all of it is per mm of width.
     """
 
     matrix: Floats
+    onward: Floats = field(default_factory=lambda: np.eye(1))
 
     @property
     def cut(self) -> int:
         """Dofs of one cut."""
-        return (len(self.matrix) - 1) // 2
+        return (len(self.matrix) - len(self.onward)) // 2
 
     @cached_property
     def _double(self) -> Chain:
@@ -46,13 +48,22 @@ class Chain:
 
     def followed_by(self, other: Chain) -> Chain:
         """This chain and the other one ahead of it, the cut between them condensed."""
-        n = self.cut
-        both = np.zeros((3 * n + 1, 3 * n + 1))  # behind, ahead, turn, and last the cut between
-        first = np.r_[0:n, 2 * n + 1 : 3 * n + 1, 2 * n]
-        second = np.r_[2 * n + 1 : 3 * n + 1, n : 2 * n, 2 * n]
+        n, hub = self.cut, len(self.onward)
+        keep = 2 * n + hub  # behind, ahead, hub, and last the cut between
+        both = np.zeros((keep + n, keep + n))
+        first = np.r_[0:n, keep : keep + n, 2 * n : keep]
+        second = np.r_[keep : keep + n, n : 2 * n, 2 * n : keep]
         both[np.ix_(first, first)] += self.matrix
-        both[np.ix_(second, second)] += other.matrix
-        return Chain(condensed(both, 2 * n + 1))
+        both[np.ix_(second, second)] += other.seen(self.onward)
+        return Chain(condensed(both, keep), other.onward @ self.onward)
+
+    def seen(self, turn: Floats) -> Floats:
+        """The matrix on the hub's dofs from which `turn` makes those that the first sector sees."""
+        hub = len(self.onward)
+        matrix = self.matrix.copy()
+        matrix[:, -hub:] = matrix[:, -hub:] @ turn
+        matrix[-hub:] = turn.T @ matrix[-hub:]
+        return matrix
 
     def repeated(self, times: int) -> Chain:
         """So many of this chain in a row, by doubling."""
@@ -68,7 +79,7 @@ class Chain:
     def ended(self, cuts: Cuts, radii: Floats, *, ahead: bool) -> Floats:
         """This chain, ahead of other sectors or behind them, its far cut held: matrix on [the cut to them, turn of the hub].
 
-        `radii` (mm) are those of the nodes of a cut.
+        `radii` (mm) are those of the nodes of a cut. The hub is one that turns with the bore.
         """
         n, components = self.cut, self.cut // len(radii)
         near, far = (np.arange(n), np.arange(n, 2 * n)) if ahead else (np.arange(n, 2 * n), np.arange(n))

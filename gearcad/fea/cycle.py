@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gearcad.fea.contact import ContactPair, ContactSolution
 from gearcad.fea.flexible_pair import FlexiblePair
-from gearcad.fea.root import Fillets, FilletStress
+from gearcad.fea.root import Fillets, FilletStress, ToothLoad, seen_from
 from gearcad.geometry.contact import usable_path
 from gearcad.meshing.outline import Side
 
@@ -37,7 +37,8 @@ _INTERIOR = 3.0
 class PairContact:
     """One pair of flanks in contact: what it carries, and the comparison with two cylinders under the same load.
 
-    Pressures in MPa, half widths in mm, `force` in N per mm. `interior` is False where the edge of a flank is near.
+    Pressures in MPa, half widths in mm, `force` in N per mm. `interior` is False where the edge of a flank is near. `bent`
+    (1/mm) is what the flanks' relative curvature gains there as the bodies give way.
     """
 
     pair: ContactPair
@@ -47,6 +48,7 @@ class PairContact:
     modulus: float
     edge_distance: float
     even_distance: float
+    bent: float
 
     @property
     def tooth(self) -> int:
@@ -61,7 +63,7 @@ class PairContact:
     @property
     def hertz_half_width(self) -> float:
         """a = sqrt(4 F rho/(pi E*))."""
-        return math.sqrt(4 * self.force * self.pair.radius / (math.pi * self.modulus))
+        return _half_width(self.force, 1 / self.pair.radius + self.bent, self.modulus)
 
     @property
     def hertz_pressure(self) -> float:
@@ -117,11 +119,15 @@ class LoadedPosition:
 
 @dataclass(frozen=True)
 class Position(LoadedPosition):
-    """A position of the plane model: its contacts, and the root stresses of both gears."""
+    """A position of the plane model: its contacts, and the root stresses of both gears.
+
+    `bore_tension` (MPa) is the greatest on the surface of a bore that nothing keeps round.
+    """
 
     contacts: tuple[PairContact, ...]
     tension: tuple[FilletStress, FilletStress]
     compression: tuple[FilletStress, FilletStress]
+    bore_tension: tuple[float | None, float | None]
 
 
 @dataclass(frozen=True)
@@ -152,6 +158,10 @@ class Cycle:
             return max(inside, key=lambda of: of[1].peak_pressure)
         every = [(position, contact) for position in self.positions for contact in position.contacts]
         return max(every, key=lambda of: of[1].force)
+
+    def bore_tension(self, gear: int) -> float | None:
+        """The greatest (MPa) on the bore of the pinion (0) or the wheel (1); None where it is kept round."""
+        return max((of for position in self.positions if (of := position.bore_tension[gear]) is not None), default=None)
 
     def worst_position(self, gear: int) -> Position:
         """The position of the greatest root tension of the pinion (0) or the wheel (1)."""
@@ -184,10 +194,12 @@ def single_stiffness(model: FlexiblePair, torque: float, count: int = 25) -> flo
 def _position(model: FlexiblePair, roots: tuple[Fillets, Fillets], angle: float, torque: float) -> Position:
     solution = model.solve(angle, torque)
     contacts = _contacts(model, solution)
+    loads = [tooth_loads(contacts, gear) for gear in (0, 1)]
     tension, compression = (
-        tuple(_greatest(root, side, contacts, gear) for gear, root in enumerate(roots))
+        tuple(root.extreme(side, seen) for root, seen in zip(roots, loads, strict=True))
         for side in (Side.LEFT_FILLET, Side.RIGHT_FILLET)
     )
+    bore = tuple(root.bore_tension(seen) for root, seen in zip(roots, loads, strict=True))
     return Position(
         angle,
         solution.approach,
@@ -197,40 +209,67 @@ def _position(model: FlexiblePair, roots: tuple[Fillets, Fillets], angle: float,
         contacts,
         tension,  # type: ignore[arg-type]
         compression,  # type: ignore[arg-type]
+        bore,  # type: ignore[arg-type]
     )
 
 
-def _greatest(root: Fillets, side: Side, contacts: tuple[PairContact, ...], gear: int) -> FilletStress:
-    """The most stressed of the teeth in contact."""
-    found = [root.greatest(side, loads) for loads in root_loads(contacts, gear)]
-    return max(found, key=lambda stress: abs(stress.stress))
-
-
-def root_loads(contacts: tuple[PairContact, ...], gear: int) -> list[list[tuple[int, float, float]]]:
-    """For each tooth in contact the loads as that tooth sees them: teeth away, roll length (mm), force (N per mm).
-
-    On the wheel the teeth follow each other the other way round.
-    """
+def tooth_loads(contacts: tuple[PairContact, ...], gear: int) -> list[ToothLoad]:
+    """Loads on the teeth of the pinion (0) or the wheel (1); on the wheel the teeth follow each other the other way round."""
     sense = (1, -1)[gear]
-    loads = [(sense * contact.pair.tooth, contact.centre(gear), contact.force) for contact in contacts]
-    return [[(tooth - own, length, force) for tooth, length, force in loads] for own, *_ in loads]
+    return [(sense * contact.pair.tooth, contact.centre(gear), contact.force) for contact in contacts]
+
+
+def root_loads(contacts: tuple[PairContact, ...], gear: int) -> list[list[ToothLoad]]:
+    """For each tooth in contact the loads as that tooth sees them."""
+    loads = tooth_loads(contacts, gear)
+    return [seen_from(own, loads) for own, *_ in loads]
+
+
+def _half_width(force: float, curvature: float, modulus: float) -> float:
+    return math.sqrt(4 * force / (math.pi * modulus * curvature)) if curvature > 0 else math.inf
 
 
 def _contacts(model: FlexiblePair, solution: ContactSolution) -> tuple[PairContact, ...]:
-    total = solution.forces.sum()
+    loaded = [
+        (pair, pressures, float(force))
+        for pair, pressures, force in zip(solution.pairs, solution.pressures, solution.forces, strict=True)
+        if force > 0
+    ]
+    total = float(solution.forces.sum())
     return tuple(
         PairContact(
             pair,
             pressures,
-            float(force),
-            float(force / total),
+            force,
+            force / total,
             model.modulus,
             _distance(model, pair, even=False),
             _distance(model, pair, even=True),
+            _bent(model, loaded, place),
         )
-        for pair, pressures, force in zip(solution.pairs, solution.pressures, solution.forces, strict=True)
-        if force > 0
+        for place, (pair, pressures, force) in enumerate(loaded)
     )
+
+
+def _bent(model: FlexiblePair, loaded: list[tuple[ContactPair, Floats, float]], which: int) -> float:
+    """Curvature (1/mm) of the gap of one pair of flanks by the smooth response of the bodies to the loads of all."""
+    pair, pressures, force = loaded[which]
+    half = _half_width(force, 1 / pair.radius, model.modulus)
+    if not math.isfinite(half):
+        return 0.0
+    order = np.argsort(pair.cells.place)
+    middle = float((pair.cells.place * pressures).sum() / pressures.sum())
+    total = 0.0
+    for gear, body in enumerate((model.pinion, model.wheel)):
+        lengths = (pair.cells.pinion, pair.cells.wheel)[gear]
+        at = np.interp(middle + half * np.array([-1.0, 0.0, 1.0]), pair.cells.place[order], lengths[order])
+        for other, carried, load in loaded:
+            apart = (1, -1)[gear] * (pair.tooth - other.tooth)
+            if abs(apart) <= body.neighbours:
+                centre = (other.cells.pinion, other.cells.wheel)[gear] @ carried / carried.sum()
+                moved = body.response(apart)(at, np.array([centre]))[:, 0]
+                total += load * float(moved[0] - 2 * moved[1] + moved[2]) / half**2
+    return total
 
 
 def _distance(model: FlexiblePair, pair: ContactPair, *, even: bool) -> float:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gearcad.material import Material
 from gearcad.meshing import SectorMesh
 
-__all__ = ["Plane", "PlaneElasticity", "stiffness_matrix"]
+__all__ = ["Plane", "PlaneElasticity", "mass_matrix", "stiffness_matrix"]
 
 Indices = NDArray[np.int64]
 
@@ -54,15 +54,28 @@ def stiffness_matrix(mesh: SectorMesh, elasticity: PlaneElasticity, elements: In
 
     Dof 2 n is node n in x, 2 n + 1 in y.
     """
+    from skfem.models.elasticity import linear_elasticity
+
+    return _assembled(linear_elasticity(*elasticity.lame), mesh, elements)
+
+
+def mass_matrix(mesh: SectorMesh, elements: Indices | None = None) -> Any:
+    """Integral of N^T N (scipy CSR, mm^2) over the mesh or some of its elements, dofs as those of the stiffness."""
+    from skfem import BilinearForm
+    from skfem.helpers import dot
+
+    return _assembled(BilinearForm(lambda u, v, _: dot(u, v)), mesh, elements)
+
+
+def _assembled(form: Any, mesh: SectorMesh, elements: Indices | None) -> Any:
     import scipy.sparse
     from skfem import Basis, ElementTriP2, ElementVector, MeshTri2
-    from skfem.models.elasticity import linear_elasticity
 
     triangles = mesh.triangles if elements is None else mesh.triangles[elements]
     used, local = np.unique(triangles, return_inverse=True)
     local = local.reshape(triangles.shape)
     basis = Basis(MeshTri2(mesh.points[used].T, local.T), ElementVector(ElementTriP2()), intorder=4)
-    matrix = linear_elasticity(*elasticity.lame).assemble(basis).tocoo()
+    matrix = form.assemble(basis).tocoo()
     dofs = _our_dofs(basis, local, used)
     size = 2 * len(mesh.points)
     return scipy.sparse.csr_matrix((matrix.data, (dofs[matrix.row], dofs[matrix.col])), shape=(size, size))

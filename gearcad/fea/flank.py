@@ -69,7 +69,8 @@ class FlankCompliance:
     """Responses of a body to unit normal loads at `loads` (roll lengths, mm), one column each.
 
     `displacements` (sectors, 2 n, m) in mm in each sector's frame, without the part of tooth 0 that is Flamant's:
-    there they are the smooth rest, and `singular` (2 n, m) holds what was taken off. `torques` (m,) act on the hub.
+    there they are the smooth rest, and `singular` (2 n, m) holds what was taken off. `torques` (m,) act on the hub;
+    `hub_forces` (3, m) are the dofs of a hub that follows the bore.
     """
 
     flank: Flank
@@ -79,6 +80,7 @@ class FlankCompliance:
     displacements: Floats
     singular: Floats
     torques: Floats
+    hub_forces: Floats | None
 
     edge_taken_off: ClassVar[bool] = True
     """Whether `response` lacks the straight edge's part, which the contact then adds in closed form."""
@@ -198,7 +200,8 @@ def flank_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> Fla
     forces += stiffness_matrix(mesh, elasticity, near) @ singular
     displacements, torques = ring.solve(forces)
     displacements[len(displacements) // 2] -= singular
-    return FlankCompliance(flank, ring, elasticity, loads, displacements, singular, torques)
+    hub_forces = ring.hub_forces(forces) if ring.support.floats else None
+    return FlankCompliance(flank, ring, elasticity, loads, displacements, singular, torques, hub_forces)
 
 
 def _load_places(flank: Flank) -> Floats:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from gearcad.fea.elasticity import Plane, PlaneElasticity
 from gearcad.fea.flank import FlankCompliance, flank_compliance
 from gearcad.fea.mesh_positions import MeshLine, contact_pairs, mesh_line, rigid_approach
 from gearcad.fea.ring import Cuts, Ring, assemble
+from gearcad.fea.support import STEEL, Hold, Support, support_of
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material
 from gearcad.meshing import MeshSizes, mesh_sector
@@ -42,12 +44,16 @@ _SOFT = 4000.0
 class BodyModel:
     """The part of each gear that is flexible: all teeth, or `teeth` of them (odd) between cuts; held on an inner circle.
 
-    `inner_diameters` (mm) None stands for the bore, or 4 m_n below the root circle where there is none. Raises ParameterError.
+    `inner_diameters` (mm) None stands for the bore, or 4 m_n below the root circle where there is none; `holds` is how they are
+    held there, with a shaft of `shaft_modulus` (MPa) and `shaft_bores` (mm, 0 for solid ones). Raises ParameterError.
     """
 
     teeth: int | None = None
     cuts: Cuts = Cuts.FIXED
     inner_diameters: tuple[float | None, float | None] = (None, None)
+    holds: tuple[Hold, Hold] = (Hold.AUTO, Hold.AUTO)
+    shaft_modulus: float = STEEL
+    shaft_bores: tuple[float, float] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
         if self.teeth is None:
@@ -59,19 +65,57 @@ class BodyModel:
     def inner_radii(self, pair: GearPair) -> tuple[float, float]:
         """Where the bodies of pinion and wheel are held (mm). Raises ParameterError and GeometryError."""
         found = []
-        for owner, gear, inner in zip(("pinion", "wheel"), (pair.pinion, pair.wheel), self.inner_diameters, strict=True):
-            try:
+        for owner, gear, inner in zip(_OWNERS, (pair.pinion, pair.wheel), self.inner_diameters, strict=True):
+            with _of(owner):
                 found.append(inner_radius(gear, inner))
-            except (ParameterError, GeometryError) as error:
-                raise error.within(owner) from error
         return found[0], found[1]
 
-    def describe(self, gear: Gear, inner_diameter: float | None) -> str:
-        """The body in words."""
-        inner = f"held on diameter {format_number(round(inner_radius(gear, inner_diameter) * 2, 4))} mm"
+    def supports(self, pair: GearPair) -> tuple[Support, Support]:
+        """What holds the bodies of pinion and wheel there. Raises ParameterError and GeometryError."""
+        radii, gears = self.inner_radii(pair), (pair.pinion, pair.wheel)
+        return self.support(gears[0], radii[0], 0), self.support(gears[1], radii[1], 1)
+
+    def support(self, gear: Gear, radius: float, which: int) -> Support:
+        """What holds the pinion (0) or the wheel (1), or another gear in its place, at a radius (mm)."""
+        hold, ring = self.holds[which], self.teeth is None or self.teeth >= gear.teeth
+        if not ring and hold not in (Hold.AUTO, Hold.RIGID):
+            key = f"check.{_OWNERS[which]}_support"
+            raise ParameterError(key, hold.value, 'must be "rigid" where body_teeth is less than the full ring')
+        if hold is Hold.AUTO and (not ring or self.inner_diameters[which] is not None):
+            hold = Hold.RIGID  # a circle that is given is where the body is held
+        shaft = Material(youngs_modulus=self.shaft_modulus)
+        with _of(_OWNERS[which]):
+            return support_of(gear, radius, hold, shaft, self.shaft_bores[which])
+
+    def of_solids(self) -> BodyModel:
+        """The same bodies as solids can be held: rigidly. Raises ParameterError if another way is asked for."""
+        for owner, hold in zip(_OWNERS, self.holds, strict=True):
+            if hold not in (Hold.AUTO, Hold.RIGID):
+                raise ParameterError(f"check.{owner}_support", hold.value, 'must be "auto" or "rigid" for solid bodies')
+        return replace(self, holds=(Hold.RIGID, Hold.RIGID))
+
+    def describe(self, pair: GearPair) -> dict[str, str]:
+        """The bodies of pinion and wheel in words."""
+        gears = zip(_OWNERS, (pair.pinion, pair.wheel), self.inner_radii(pair), self.supports(pair), strict=True)
+        return {owner: self._words(gear, radius, support) for owner, gear, radius, support in gears}
+
+    def _words(self, gear: Gear, radius: float, support: Support) -> str:
+        inner = f"{support.words} diameter {format_number(round(radius * 2, 4))} mm"
         if self.teeth is None or self.teeth >= gear.teeth:
             return f"full ring, {inner}"
         return f"{self.teeth} teeth with {self.cuts.value} cuts, {inner}"
+
+
+_OWNERS = ("pinion", "wheel")
+
+
+@contextmanager
+def _of(owner: str) -> Iterator[None]:
+    """Let errors name the gear."""
+    try:
+        yield
+    except (ParameterError, GeometryError) as error:
+        raise error.within(owner) from error
 
 
 def inner_radius(gear: Gear, inner_diameter: float | None) -> float:
@@ -180,8 +224,8 @@ def flexible_pair(
     # As many neighbours as can touch at once, with one more place for a corner that touches early or late.
     neighbours = max(1, math.floor(pair.transverse_contact_ratio + 0.2))
     bodies = [
-        flank_body(gear, radius, elasticity, body, neighbours, sizes, solve)
-        for gear, radius in zip((pair.pinion, pair.wheel), body.inner_radii(pair), strict=True)
+        flank_body(gear, radius, elasticity, body, neighbours, sizes, solve, support)
+        for gear, radius, support in zip((pair.pinion, pair.wheel), body.inner_radii(pair), body.supports(pair), strict=True)
     ]
     return FlexiblePair(pair, mesh_line(pair, pitch_error), *bodies)
 
@@ -194,6 +238,7 @@ def flank_body(
     neighbours: int,
     sizes: MeshSizes | None = None,
     solve: Callable[[Gear, Ring, PlaneElasticity], FlankCompliance] = flank_compliance,
+    support: Support | None = None,
 ) -> FlankCompliance:
     """One gear, held at `inner_radius` (mm), with so many `neighbours` in full on each side of the loaded tooth."""
     sizes = sizes or MeshSizes()
@@ -201,5 +246,5 @@ def flank_body(
     if held is not None:
         held = max(held, 2 * neighbours + 1)
     fine, coarse = mesh_sector(gear, inner_radius, sizes), mesh_sector(gear, inner_radius, sizes.coarse())
-    ring = assemble(fine, coarse, gear.teeth, min(neighbours, (gear.teeth - 1) // 2), elasticity, held, body.cuts)
+    ring = assemble(fine, coarse, gear.teeth, min(neighbours, (gear.teeth - 1) // 2), elasticity, held, body.cuts, support)
     return solve(gear, ring, elasticity)

@@ -126,6 +126,10 @@ class SolidCycle:
         every = [(position, contact) for position in self.positions for contact in position.contacts]
         return max(every, key=lambda of: (of[1].peak_pressure, of[1].force))
 
+    def bore_tension(self, gear: int) -> float | None:
+        """None: the bores of solid bodies are kept round."""
+        return None
+
     def worst_position(self, gear: int) -> SolidPosition:
         """The position of the greatest root tension of the pinion (0) or the wheel (1)."""
         return max(self.positions, key=lambda position: position.tension[gear].stress)

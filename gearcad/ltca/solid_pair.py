@@ -153,7 +153,7 @@ def solid_pair(
 
     Raises SolverError, ParameterError and GeometryError.
     """
-    body, sizes, mounting = body or BodyModel(), sizes or SolidSizes(), mounting or Mounting()
+    body, sizes, mounting = (body or BodyModel()).of_solids(), sizes or SolidSizes(), mounting or Mounting()
     neighbours = max(1, math.floor(pair.total_contact_ratio + 0.2))
     gears = {"pinion": pair.pinion, "wheel": pair.wheel}
     bodies = []

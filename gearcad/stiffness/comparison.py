@@ -65,10 +65,7 @@ class StiffnessComparison:
     @property
     def bodies(self) -> dict[str, str]:
         """How each body is taken, in words."""
-        gears = (("pinion", self.pair.pinion), ("wheel", self.pair.wheel))
-        return {
-            name: self.body.describe(gear, inner) for (name, gear), inner in zip(gears, self.body.inner_diameters, strict=True)
-        }
+        return self.body.describe(self.pair)
 
     def to_dict(self, harmonics: int = 0) -> dict[str, Any]:
         """The document of `stiffness.json`, with so many Fourier coefficients of each curve."""

@@ -52,10 +52,10 @@ class StrainEnergy(SliceMethod):
         elasticity = PlaneElasticity(self.material, self.plane)
         pinion, wheel = (
             [
-                (weight, flank_body(section, radius, elasticity, self.body, 1))
+                (weight, flank_body(section, radius, elasticity, self.body, 1, support=replace(support, teeth=section.teeth)))
                 for weight, section, radius in _sections(gear, inner)
             ]
-            for gear, inner in zip((pair.pinion, pair.wheel), held, strict=True)
+            for gear, inner, support in zip((pair.pinion, pair.wheel), held, self.body.supports(pair), strict=True)
         )
         return pinion, wheel
 
@@ -134,7 +134,7 @@ def _sections(gear: Gear, inner_radius: float) -> list[tuple[float, Gear, float]
             helix_angle=0.0,
             tip_diameter=gear.tip_diameter + size,
             root_diameter=gear.root_diameter + size,
-            body=replace(gear.body, bore=0.0),
+            body=replace(gear.body, bore=0.0, keyway_width=0.0, keyway_depth=0.0),
         )
         found.append((weight, section, section.root_diameter / 2 - depth))
     return found

@@ -146,10 +146,15 @@ def test_what_cannot_be_checked_is_one_line(here: Path, text: str, message: str)
 
 
 def test_absurd_load_and_thin_rim_are_warnings_with_their_numbers(here: Path) -> None:
-    text = SPUR.replace("torque = 50.0", "torque = 50000.0")
-    result = run("check", spec(text.replace("positions = 12", "positions = 12\npinion_inner_diameter = 32")), "--quiet")
+    result = run("check", spec(SPUR.replace("torque = 50.0", "torque = 50000.0")), "--quiet")
     assert "of the modulus: linear elasticity means little there" in result.stdout
-    assert "the pinion's rim below the root (1.5 mm) is thinner than its teeth are high" in result.stdout
+    thin = SPUR.replace("bore = 12.0", "bore = 32.0")
+    result = run("check", spec(thin), "--quiet")
+    assert "the pinion's rim (1.5 mm, 0.333 tooth depths) bends: its bore is free, but for shear, on 32 mm;" in result.stdout
+    held = SPUR.replace("positions = 12", "positions = 12\npinion_inner_diameter = 32")
+    result = run("check", spec(held), "--quiet")
+    assert result.exit_code == 0
+    assert "the pinion's rim (1.5 mm, 0.333 tooth depths) is held rigidly" in result.stdout
 
 
 def test_modified_and_misaligned_gears_are_checked_as_far_as_a_plane_goes(here: Path) -> None:
