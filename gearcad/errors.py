@@ -6,6 +6,7 @@ Every error has two parents: `GearcadError`, so that one clause catches all of o
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import fields
 from enum import Enum
 from numbers import Integral, Real
@@ -21,10 +22,14 @@ __all__ = [
     "SpecError",
     "as_choice",
     "format_number",
+    "is_finite_number",
     "plain_numbers",
+    "printable",
     "require_name",
     "require_number",
+    "require_one_of",
     "require_whole",
+    "shown",
 ]
 
 Choice = TypeVar("Choice", bound=Enum)
@@ -33,15 +38,33 @@ LONGEST_VALUE = 120
 """Most characters of a wrong value that a message repeats: it should stay one readable line."""
 
 
+def printable(text: str) -> str:
+    """The text in one line, with what cannot be printed escaped."""
+    return text if text.isprintable() else repr(text)[1:-1]
+
+
+def shown(text: str, most: int = LONGEST_VALUE) -> str:
+    """A name or a key of a user's as a message has it: printable, and cut short."""
+    text = printable(text[: most + 1])  # cut before it grows, too
+    return text if len(text) <= most else f"{text[: most - 3]}..."
+
+
 def format_number(value: object) -> str:
-    """A number as a user would type it: up to ten significant digits, no trailing zeros; a long text is cut short."""
+    """A number as a user would type it: up to ten significant digits, no trailing zeros; anything else cut short."""
     if isinstance(value, Enum):
         return repr(value.value)
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        text = repr(value)
-        return text if len(text) <= LONGEST_VALUE else f"{text[: LONGEST_VALUE - 3]}..."
-    # Adding zero makes -0.0 a plain zero.
-    return f"{value + 0.0:.10g}"
+    try:
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            return shown(repr(value[: 2 * LONGEST_VALUE] if isinstance(value, str | bytes | list | tuple) else value))
+        # Adding zero makes -0.0 a plain zero.
+        return f"{value + 0.0:.10g}"
+    except (OverflowError, ValueError):  # a whole number beyond any float, or with more digits than Python writes
+        return f"a number of {_digits(value)} digits" if isinstance(value, int) else f"a {type(value).__name__}"
+
+
+def _digits(value: int) -> int:
+    """How many decimal digits a large whole number has, give or take one."""
+    return math.ceil(value.bit_length() * math.log10(2))
 
 
 _MOST_EXACT = 2**53
@@ -63,7 +86,8 @@ class InputError(GearcadError, ValueError):
         self.unit = unit
 
     def __str__(self) -> str:
-        return f"{self.parameter} = {format_number(self.value)}{' ' if self.unit else ''}{self.unit}: {self.permitted}"
+        unit = f" {self.unit}" if self.unit else ""
+        return f"{shown(self.parameter)} = {format_number(self.value)}{unit}: {self.permitted}"
 
     def within(self, owner: str) -> Self:
         """The same error seen from the owner of the parameter: `body` turns `bore` into `body.bore`."""
@@ -129,7 +153,7 @@ def require_number(
         if bound is not None
     ]
     permitted = "must be a number" + (" " + " and ".join(bounds) if bounds else f" in {unit}" if unit else "")
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+    if not is_finite_number(value):
         raise ParameterError(parameter, value, permitted, unit if isinstance(value, float) else "")
     inside = (
         (above is None or value > above)
@@ -139,6 +163,21 @@ def require_number(
     )
     if not inside:
         raise ParameterError(parameter, value, permitted, unit)
+
+
+def is_finite_number(value: Any) -> bool:
+    """True for a number that is near to some float."""
+    try:
+        return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def require_one_of(parameter: str, value: Any, choices: Collection[str]) -> None:
+    """Raise ParameterError unless `value` is one of some words."""
+    if not isinstance(value, str) or value not in choices:
+        *most, last = (f'"{choice}"' for choice in choices)
+        raise ParameterError(parameter, value, f"must be {', '.join(most)} or {last}")
 
 
 def require_name(parameter: str, value: Any) -> None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gearcad.errors import plain_numbers, require_number
+from gearcad.errors import plain_numbers
+from gearcad.ranges import APPLICATION_FACTOR, SPEED, TORQUE
 
 __all__ = ["Load"]
 
@@ -22,6 +23,6 @@ class Load:
 
     def __post_init__(self) -> None:
         plain_numbers(self)
-        require_number("torque", self.torque, "N·m")
-        require_number("speed", self.speed, "rpm")
-        require_number("application_factor", self.application_factor, above=0)
+        TORQUE.require("torque", self.torque)
+        SPEED.require("speed", self.speed)
+        APPLICATION_FACTOR.require("application_factor", self.application_factor)

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from gearcad.errors import ParameterError, as_choice, plain_numbers, require_number
+from gearcad.errors import ParameterError, as_choice, plain_numbers
+from gearcad.ranges import DENSITY, MODULUS, POISSON_RATIO, STRENGTH
 
 __all__ = ["Material", "MaterialGroup"]
 
@@ -56,26 +57,26 @@ class Material:
 
     def __post_init__(self) -> None:
         plain_numbers(self)
-        require_number("youngs_modulus", self.youngs_modulus, "MPa", above=0)
-        require_number("poisson_ratio", self.poisson_ratio, at_least=0, below=0.5)
-        require_number("density", self.density, "kg/m^3", above=0)
+        MODULUS.require("youngs_modulus", self.youngs_modulus)
+        POISSON_RATIO.require("poisson_ratio", self.poisson_ratio)
+        DENSITY.require("density", self.density)
         if self.group is not None:
             object.__setattr__(self, "group", as_choice("group", self.group, MaterialGroup))
         for name in ("yield_strength", "contact_endurance_limit"):
             if getattr(self, name) is not None:
-                require_number(name, getattr(self, name), "MPa", above=0)
+                STRENGTH.require(name, getattr(self, name))
         for name in ("contact_limit", "root_limit"):
             value = getattr(self, name)
             if isinstance(value, list | tuple):
                 object.__setattr__(self, name, _range(name, value))
             elif value is not None:
-                require_number(name, value, "MPa", above=0)
+                STRENGTH.require(name, value)
 
 
 def _range(name: str, values: Sequence[float]) -> tuple[float, float]:
     """A range of limits, checked."""
     for value in values:
-        require_number(name, value, "MPa", above=0)
+        STRENGTH.require(name, value)
     if len(values) != 2 or values[0] >= values[1]:
         raise ParameterError(name, list(values), "must be a number, or a range [low, high]", "MPa")
     return float(values[0]), float(values[1])

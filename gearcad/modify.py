@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.solid_summary import worst_cell
-from gearcad.errors import GeometryError, ParameterError, require_number
+from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair, ReliefShape
 from gearcad.ltca.search import Found, Search, conditions, start_search
 from gearcad.ltca.solid_cycle import SolidCycle, run_solid_cycle
@@ -20,6 +20,7 @@ from gearcad.ltca.solid_pair import SolidPair, SolidSizes, loaded_left, solid_pa
 from gearcad.ltca.variants import AMOUNTS, Condition, with_amounts
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.ranges import STRENGTH, TORQUE
 from gearcad.spec.design import Design
 
 __all__ = ["Figures", "Proposal", "Robustness", "propose", "unmirrored"]
@@ -201,7 +202,7 @@ def _task(design: Design, torque: float | None, pressure: float | None) -> tuple
     if design.pair is None:
         raise ParameterError("kind", design.kind.value, "must be a pair: flanks are modified for those of a mate")
     if torque is not None:
-        require_number("torque", torque, "N·m")
+        TORQUE.require("torque", torque)
     elif design.load is None:
         raise ParameterError("load.torque", None, "must be given, in N·m on the pinion, here or as --torque")
     else:
@@ -209,7 +210,7 @@ def _task(design: Design, torque: float | None, pressure: float | None) -> tuple
     if not torque:
         raise ParameterError("load.torque", torque, "must not be 0: without torque flanks need no modification", "N·m")
     if pressure is not None:
-        require_number("pressure", pressure, "MPa", above=0)
+        STRENGTH.require("pressure", pressure)
     if design.pair.total_contact_ratio < 1:
         ratio = design.pair.total_contact_ratio
         raise GeometryError("pair.total_contact_ratio", ratio, "must be at least 1: the teeth lose each other")

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from gearcad.errors import GeometryError, InputError, format_number, plain_numbers, require_number
 from gearcad.geometry import GearPair
+from gearcad.ranges import OFFSET
 
 __all__ = ["Mounting"]
 
@@ -35,7 +36,7 @@ class Mounting:
         plain_numbers(self)
         for name in ("misalignment", "misalignment_across", "pinion_pitch_error", "wheel_pitch_error"):
             require_number(name, getattr(self, name), "µm", at_least=-_LARGEST, at_most=_LARGEST)
-        require_number("centre_distance_change", self.centre_distance_change, "mm")
+        OFFSET.require("centre_distance_change", self.centre_distance_change)
 
     @property
     def pitch_error(self) -> float:

@@ -5,12 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_number, require_whole
+from gearcad.errors import (
+    GeometryError,
+    ParameterError,
+    as_choice,
+    plain_numbers,
+    require_number,
+    require_one_of,
+    require_whole,
+)
 from gearcad.fea.chain import Cuts
 from gearcad.fea.elasticity import Plane
 from gearcad.fea.flexible_pair import BodyModel
 from gearcad.fea.support import STEEL, Hold
 from gearcad.geometry import GearPair
+from gearcad.ranges import BAND, LENGTH, MODULUS, TORQUE
 
 __all__ = ["CheckOptions", "Model"]
 
@@ -73,12 +82,9 @@ class CheckOptions:
 
     def __post_init__(self) -> None:
         plain_numbers(self)
-        if self.model not in (_AUTO, *(model.value for model in Model)):
-            raise ParameterError("model", self.model, 'must be "2d", "3d" or "auto"')
-        if self.plane not in _PLANES:
-            raise ParameterError("plane", self.plane, 'must be "strain" or "stress"')
-        if self.convergence not in _SWITCH:
-            raise ParameterError("convergence", self.convergence, 'must be "on" or "off"')
+        require_one_of("model", self.model, (*(model.value for model in Model), _AUTO))
+        require_one_of("plane", self.plane, _PLANES)
+        require_one_of("convergence", self.convergence, _SWITCH)
         as_choice("cuts", self.cuts, Cuts)
         if self.positions != 0:
             require_whole("positions", self.positions, at_least=_LEAST_POSITIONS, at_most=1000)
@@ -89,18 +95,18 @@ class CheckOptions:
                 raise ParameterError("body_teeth", self.body_teeth, "must be odd (the loaded tooth stands in the middle), or 0")
         for name in ("pinion_inner_diameter", "wheel_inner_diameter"):
             if getattr(self, name) is not None:
-                require_number(name, getattr(self, name), "mm", above=0)
+                LENGTH.require(name, getattr(self, name))
         for name in ("pinion_support", "wheel_support"):
             as_choice(name, getattr(self, name), Hold)
-        require_number("shaft_modulus", self.shaft_modulus, "MPa", above=0)
+        MODULUS.require("shaft_modulus", self.shaft_modulus)
         for name in ("pinion_shaft_bore", "wheel_shaft_bore"):
-            require_number(name, getattr(self, name), "mm", at_least=0)
+            require_number(name, getattr(self, name), LENGTH.unit, at_least=0, at_most=LENGTH.most)
         torques = self.torques if isinstance(self.torques, list | tuple) else (self.torques,)
         for torque in torques:
-            require_number("torques", torque, "N·m", above=0)
+            require_number("torques", torque, TORQUE.unit, at_least=TORQUE.least, at_most=TORQUE.most)
         object.__setattr__(self, "torques", tuple(float(torque) for torque in torques))
         for name in ("root_band", "stiffness_band", "contact_band"):
-            require_number(name, getattr(self, name), "%", above=0)
+            BAND.require(name, getattr(self, name))
 
     def model_for(self, pair: GearPair) -> Model:
         """The model of a pair. Raises GeometryError for helical gears in a plane."""

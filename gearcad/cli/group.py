@@ -11,12 +11,15 @@ from typing import Any, NoReturn, TypeVar
 
 import click
 
-from gearcad.errors import GearcadError, ParameterError, SolverError, as_choice
+from gearcad.errors import GearcadError, ParameterError, SolverError, as_choice, printable, shown
 
 __all__ = ["Commands", "debug_option", "parse_choices", "require_new_file", "spec_argument"]
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Choice = TypeVar("Choice", bound=Enum)
+
+_LONGEST_FAULT = 500
+"""Most characters that are shown of an error nobody foresaw."""
 
 INTERRUPTED = 128 + signal.SIGINT
 """Exit status after Ctrl-C, that of a shell."""
@@ -34,7 +37,7 @@ class Commands(click.Group):
         try:
             return super().invoke(ctx)
         except click.UsageError as error:
-            click.echo(f"Error: {error.format_message()}", err=True)
+            click.echo(f"Error: {printable(error.format_message())}", err=True)
             ctx.exit(2)
         except (click.ClickException, click.Abort, click.exceptions.Exit):
             raise
@@ -48,12 +51,12 @@ class Commands(click.Group):
             if ctx.meta.get("gearcad.debug"):
                 raise
             if isinstance(error, GearcadError):
-                click.echo("".join(f"Error: {line}\n" for line in str(error).split("\n")), err=True, nl=False)
+                click.echo("".join(f"Error: {printable(line)}\n" for line in str(error).split("\n")), err=True, nl=False)
                 ctx.exit(1 if isinstance(error, SolverError) else 2)
             if isinstance(error, OSError):  # the system's fault, such as a full disk behind stdout
-                click.echo(f"Error: {error.strerror or error}", err=True)
+                click.echo(f"Error: {printable(error.strerror or str(error))}", err=True)
                 ctx.exit(1)
-            what = " ".join(f"{type(error).__name__}: {error}".split())
+            what = shown(" ".join(f"{type(error).__name__}: {error}".split()), _LONGEST_FAULT)
             click.echo(f"Error: unexpected {what} (a fault of gearcad: please report it, with what --debug shows)", err=True)
             ctx.exit(1)
 

@@ -5,15 +5,38 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_number, require_whole
+from gearcad.errors import (
+    GeometryError,
+    ParameterError,
+    as_choice,
+    plain_numbers,
+    require_number,
+    require_one_of,
+    require_whole,
+)
 from gearcad.geometry import GearPair
 from gearcad.mesh_cycle import METHOD_NAMES
+from gearcad.ranges import DAMPING, DURATION, INERTIA, SAMPLING, SPEED, STIFFNESS
 from gearcad.rating.options import RatingOptions
 
 __all__ = ["DynamicsOptions", "PairModel"]
 
 _CHART, _CAMPBELL = 1000, 41
 """Speeds where none are given."""
+
+_RANGES = {
+    "speed_from": SPEED._replace(least=0.0, signed=False),
+    "speed_to": SPEED._replace(signed=False),
+    "pinion_inertia": INERTIA,
+    "wheel_inertia": INERTIA,
+    "pinion_bearing_stiffness": STIFFNESS,
+    "wheel_bearing_stiffness": STIFFNESS,
+    "bearing_damping": DAMPING,
+    "tooth_stiffness": STIFFNESS,
+    "tooth_damping": DAMPING,
+    "duration": DURATION,
+    "sampling": SAMPLING,
+}
 
 _SWITCH = {"on": True, "off": False}
 
@@ -83,31 +106,15 @@ class DynamicsOptions:
         require_whole("seed", self.seed, at_least=0, at_most=2**32 - 1)
         if self.accuracy_grade is not None:
             require_whole("accuracy_grade", self.accuracy_grade, at_least=0, at_most=12)
-        if self.tooth_errors not in _SWITCH:
-            raise ParameterError("tooth_errors", self.tooth_errors, 'must be "on" or "off"')
+        require_one_of("tooth_errors", self.tooth_errors, _SWITCH)
         as_choice("model", self.model, PairModel)
         if self.stiffness not in (AUTO, *METHOD_NAMES) or self.stiffness == _UNRESOLVED:
             permitted = f"must be one of {', '.join(name for name in (AUTO, *METHOD_NAMES) if name != _UNRESOLVED)}"
             raise ParameterError("stiffness", self.stiffness, permitted)
         require_number("damping_ratio", self.damping_ratio, above=0, below=1)
-        for name, unit in (
-            ("speed_from", "rpm"),
-            ("speed_to", "rpm"),
-            ("pinion_inertia", "kg·m²"),
-            ("wheel_inertia", "kg·m²"),
-            ("pinion_bearing_stiffness", "N/µm"),
-            ("wheel_bearing_stiffness", "N/µm"),
-            ("tooth_stiffness", "N/µm"),
-            ("tooth_damping", "N·s/m"),
-            ("duration", "s"),
-            ("sampling", "Hz"),
-        ):
-            value = getattr(self, name)
-            if value is not None and name == "speed_from":
-                require_number(name, value, unit, at_least=0)
-            elif value is not None:
-                require_number(name, value, unit, above=0)
-        require_number("bearing_damping", self.bearing_damping, "N·s/m", at_least=0)
+        for name, permitted_range in _RANGES.items():
+            if (value := getattr(self, name)) is not None:
+                permitted_range.require(name, value)
         if (self.pinion_bearing_stiffness is None) != (self.wheel_bearing_stiffness is None):
             permitted = "must be given together with that of the other gear: both stand on bearings, or neither"
             given = "pinion" if self.wheel_bearing_stiffness is None else "wheel"

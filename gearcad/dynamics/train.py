@@ -10,6 +10,23 @@ from typing import Any
 
 from gearcad.dynamics.graph import GROUND, check_train, speed_ratios
 from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_name, require_number, require_whole
+from gearcad.ranges import (
+    ANGULAR_DAMPING,
+    BACKLASH,
+    DAMPING,
+    DAMPING_RATIO,
+    DENSITY,
+    DEVIATION,
+    INERTIA,
+    LENGTH,
+    MODULUS,
+    PRELOAD,
+    SPEED,
+    STIFFNESS,
+    TORQUE,
+    TORSIONAL_STIFFNESS,
+    Range,
+)
 
 __all__ = ["GROUND", "Inertia", "Mesh", "Shaft", "StiffnessWave", "Train", "TrainModel"]
 
@@ -46,11 +63,11 @@ class _Part:
         require_name("name", self.name)
         plain_numbers(self)
 
-    def _number(self, parameter: str, unit: str = "", **bounds: float) -> None:
+    def _number(self, parameter: str, permitted: Range) -> None:
         """Check one field, unless it is None."""
         value = getattr(self, parameter)
         if value is not None:
-            require_number(f"{self.name}.{parameter}", value, unit, **bounds)
+            permitted.require(f"{self.name}.{parameter}", value)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +79,7 @@ class Inertia(_Part):
 
     def __post_init__(self) -> None:
         self._named()
-        self._number("inertia", "kg·m²", above=0)
+        self._number("inertia", INERTIA)
         if self.name == GROUND:
             raise ParameterError("name", self.name, "is what does not turn: an inertia needs another name")
 
@@ -92,12 +109,13 @@ class Shaft(_Part):
 
     def __post_init__(self) -> None:
         self._named()
-        for parameter, unit in (("torsional_stiffness", "N·m/rad"), ("length", "mm"), ("diameter", "mm")):
-            self._number(parameter, unit, above=0)
-        self._number("shear_modulus", "MPa", above=0)
-        self._number("density", "kg/m³", above=0)
-        self._number("damping_ratio", at_least=0)
-        self._number("damping", "N·m·s/rad", at_least=0)
+        self._number("torsional_stiffness", TORSIONAL_STIFFNESS)
+        self._number("length", LENGTH)
+        self._number("diameter", LENGTH)
+        self._number("shear_modulus", MODULUS)
+        self._number("density", DENSITY)
+        self._number("damping_ratio", DAMPING_RATIO)
+        self._number("damping", ANGULAR_DAMPING)
         if self.modes is not None:
             require_whole(f"{self.name}.modes", self.modes, at_least=1, at_most=40)
         self._check_shape()
@@ -113,7 +131,7 @@ class Shaft(_Part):
         for parameter in ("length", "diameter"):
             if getattr(self, parameter) is None:
                 raise ParameterError(f"{self.name}.{parameter}", None, "must be given, or else torsional_stiffness")
-        self._number("inner_diameter", "mm", at_least=0)
+        self._number("inner_diameter", LENGTH._replace(least=0.0))
         if self.diameter is not None and self.inner_diameter >= self.diameter:
             permitted = f"must be below diameter {self.diameter:g} mm"
             raise GeometryError(f"{self.name}.inner_diameter", self.inner_diameter, permitted, "mm")
@@ -158,14 +176,14 @@ class Mesh(_Part):
         object.__setattr__(self, "shape", as_choice(f"{self.name}.shape", self.shape, StiffnessWave))
         object.__setattr__(self, "base_radii", _two_radii(self.name, self.base_radii))
         require_whole(f"{self.name}.teeth", self.teeth, at_least=1, at_most=100_000)
-        self._number("stiffness", "N/µm", above=0)
-        self._number("damping", "N·s/m", at_least=0)
-        self._number("damping_ratio", at_least=0)
-        self._number("variation", at_least=0, below=1)
-        self._number("contact_ratio", at_least=1)
-        self._number("phase", at_least=-1, at_most=1)
-        self._number("backlash", "µm", at_least=0)
-        self._number("preload", "N", at_least=0)
+        self._number("stiffness", STIFFNESS)
+        self._number("damping", DAMPING)
+        self._number("damping_ratio", DAMPING_RATIO)
+        require_number(f"{self.name}.variation", self.variation, at_least=0, below=1)
+        self._number("contact_ratio", Range("", 1.0, 100.0))
+        self._number("phase", Range("", -1.0, 1.0))
+        self._number("backlash", BACKLASH)
+        self._number("preload", PRELOAD)
         object.__setattr__(self, "pitch_deviations", _deviations(self.name, self.pitch_deviations, self.teeth))
         if not isinstance(self.internal, bool):
             raise ParameterError(f"{self.name}.internal", self.internal, "must be true or false")
@@ -192,7 +210,7 @@ def _deviations(name: str, values: Any, teeth: int) -> tuple[float, ...]:
             f"{name}.pitch_deviations", count, f"must be {teeth} numbers in µm: one for each tooth of the pinion"
         )
     for value in values:
-        require_number(f"{name}.pitch_deviations", value, "µm")
+        DEVIATION.require(f"{name}.pitch_deviations", value)
     return tuple(float(value) for value in values)
 
 
@@ -201,7 +219,7 @@ def _two_radii(name: str, values: Any) -> tuple[float, float]:
     if not isinstance(values, list | tuple) or len(values) != 2:
         raise ParameterError(f"{name}.base_radii", values, "must be two lengths in mm: of pinion and wheel")
     for value in values:
-        require_number(f"{name}.base_radii", value, "mm", above=0)
+        LENGTH.require(f"{name}.base_radii", value)
     return float(values[0]), float(values[1])
 
 
@@ -231,8 +249,8 @@ class Train:
             object.__setattr__(self, parameter, tuple(getattr(self, parameter)))
         object.__setattr__(self, "torques", dict(self.torques))
         for inertia, torque in self.torques.items():
-            require_number(f"torques.{inertia}", torque, "N·m")
-        require_number("speed", self.speed, "rpm")
+            TORQUE.require(f"torques.{inertia}", torque)
+        SPEED.require("speed", self.speed)
         require_whole("order", self.order, at_least=2, at_most=40)
         check_train(self)
         self._check_modes()

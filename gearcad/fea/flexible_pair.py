@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.errors import GeometryError, ParameterError, format_number, require_number, require_whole
+from gearcad.errors import GeometryError, ParameterError, SolverError, format_number, require_number, require_whole
 from gearcad.fea.contact import ContactSolution, solve_contact
 from gearcad.fea.elasticity import Plane, PlaneElasticity
 from gearcad.fea.flank import FlankCompliance, flank_compliance
@@ -150,6 +150,21 @@ class PairInMesh:
         """Normal force in the transverse section (N per mm of common width) at a torque on the pinion (N m)."""
         return abs(torque) * 1000 / self.base_radius / self.width
 
+    def require_narrow_contact(self, torque: float, modulus: float) -> None:
+        """Raise SolverError where the contact at the pitch point would be wider than teeth are deep: no small deformation.
+
+        `modulus` is E* (MPa).
+        """
+        whole, place = mesh_line(self.pair).whole, self.pair.path_of_contact.C
+        radius = place * (whole - place) / whole
+        half_width = math.sqrt(4 * self.force(torque) * radius / (math.pi * modulus))
+        depth = min((gear.tip_diameter - gear.root_diameter) / 2 for gear in (self.pair.pinion, self.pair.wheel))
+        if half_width > depth:
+            said = f"a torque of {format_number(torque)} N·m would make the contact {format_number(round(2 * half_width, 3))} mm wide"
+            raise SolverError(
+                f"{said} on teeth {format_number(round(depth, 3))} mm deep: the load is too great, or E too small"
+            )
+
     def roll_length(self, roll_angle: float) -> float:
         """Where the middle pair touches in the middle of the common width (mm from T1) at a roll angle of the pinion (deg)."""
         return self.pair.path_of_contact.C + math.radians(roll_angle) * self.base_radius
@@ -182,6 +197,7 @@ class FlexiblePair(PairInMesh):
 
         Raises SolverError, and GeometryError where nothing can touch.
         """
+        self.require_narrow_contact(torque, self.modulus)
         force = self.force(torque)
         # The first solution tells what each pair carries, and so how wide its contact is.
         carried = self._solve(roll_angle, force, lambda _tooth: force, single, _FIRST_CELLS)

@@ -16,6 +16,7 @@ from gearcad.geometry.interference import fillet_cut
 from gearcad.geometry.involute import involute
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.shift import least_profile_shift_sum, profile_shift_sum, zero_backlash_centre_distance
+from gearcad.ranges import OFFSET
 
 __all__ = ["CommonWidth", "GearPair"]
 
@@ -59,7 +60,7 @@ class GearPair:
         for which in ("pinion", "wheel"):
             if not isinstance(getattr(self, which), Gear):
                 raise ParameterError(which, getattr(self, which), "must be a Gear")
-        require_number("axial_offset", self.axial_offset, "mm")
+        OFFSET.require("axial_offset", self.axial_offset)
         require_name("name", self.name)
         self._check_mates()
         given = self.centre_distance

@@ -125,6 +125,7 @@ class SolidPair(PairInMesh):
 
         Raises SolverError, and GeometryError where nothing can touch.
         """
+        self.require_narrow_contact(torque, self.modulus)
         force, farthest = self.force(torque), self.farthest(torque)
         while True:
             given = self.responses(roll_angle, farthest, single=single)

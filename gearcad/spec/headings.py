@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from gearcad.errors import SpecError, format_number
+from gearcad.errors import SpecError, shown
 from gearcad.spec.cells import RawCell, plain_text
 from gearcad.spec.design import DesignKind
 from gearcad.spec.keys import COLUMNS, explain_unknown_column, nearest_table
@@ -48,8 +48,7 @@ def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
         if not fault and key in places:
             fault = f"is the same as column {column_letter(places[key])} ({headings[places[key]]}); keep one of them"
         if fault:
-            shown = heading if heading.isprintable() and len(heading) < 60 else format_number(heading)
-            faults.append(f"{where} column {column_letter(index)}: {shown}: {fault}")
+            faults.append(f"{where} column {column_letter(index)}: {shown(heading)}: {fault}")
         elif key:
             places[key] = index
         columns.append(key)

@@ -22,7 +22,9 @@ from gearcad.errors import (
     SpecError,
     as_choice,
     format_number,
+    printable,
     require_number,
+    shown,
 )
 from gearcad.geometry import NAMED_RACKS, BasicRack, Body, FlankModification, Gear, GearPair, ShiftSplit
 from gearcad.load import Load
@@ -98,35 +100,50 @@ def spec_values(path: Path | str) -> tuple[DesignKind, str, dict[str, Cell]]:
 
 def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
     """The tables of a TOML spec as they are written, and what locates a key of theirs for messages. Raises SpecError."""
-    path = Path(path)
+    path, file = Path(path), printable(str(path))
     try:
         text = path.read_bytes().decode("utf-8-sig")
     except OSError as error:
         raise SpecError(
-            f"{path}: cannot be read ({error.strerror}); give a spec file, or make one with `gearcad new`"
+            f"{file}: cannot be read ({error.strerror}); give a spec file, or make one with `gearcad new`"
         ) from error
     except UnicodeDecodeError as error:
         _refuse_table(path)
-        raise SpecError(f"{path}: is not UTF-8 text (byte {error.start}); save it as UTF-8") from error
+        raise SpecError(f"{file}: is not UTF-8 text (byte {error.start}); save it as UTF-8") from error
     try:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         _refuse_table(path)
-        raise SpecError(f"{path}{explain_syntax(error, text)}") from error
+        raise SpecError(f"{file}{explain_syntax(error, text)}") from error
     except ValueError as error:
-        raise SpecError(f"{path}: has a whole number of thousands of digits; write a smaller one") from error
+        raise SpecError(f"{file}: has a whole number of thousands of digits; write a smaller one") from error
+    except RecursionError as error:
+        raise SpecError(f"{file}: has lists or tables in each other, hundreds deep") from error
     lines = find_lines(text)
 
     def where(key: str) -> str:
         line = nearest_line(lines, key)
-        return f"{path} line {line}" if line else str(path)
+        return f"{file} line {line}" if line else file
 
+    require_sane_integers(tables, where)
     return tables, where
 
 
 def _refuse_table(path: Path) -> None:
     if is_table_name(path):
         raise SpecError(f"{path}: is a design table, not the spec of one design; use `gearcad batch {path}`")
+
+
+def require_sane_integers(content: Any, where: Where, key: str = "") -> None:
+    """Raise SpecError for a whole number, however deep in the tables of a spec, that a float could not hold."""
+    if isinstance(content, Mapping):
+        for name, inner in content.items():
+            require_sane_integers(inner, where, f"{key}.{name}" if key else name)
+    elif isinstance(content, list | tuple):
+        for number, inner in enumerate(content):
+            require_sane_integers(inner, where, f"{key}[{number}]" if isinstance(inner, Mapping) else key)
+    elif isinstance(content, int) and abs(content) > _MOST_WHOLE:
+        raise SpecError(f"{where(key)}: {shown(key)}: must be a smaller number; this is {format_number(content)}", key)
 
 
 def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name: str) -> Design:
@@ -166,7 +183,7 @@ def _kind(tables: Mapping[str, Any], where: Where) -> DesignKind:
         raise SpecError(f"{where('train')}: [train] describes a train, which only `gearcad dynamics` can treat")
     for table, content in tables.items():
         if table not in KEYS:
-            raise SpecError(f"{where(table)}: {_printable(table)}: {explain_unknown_table(table)}")
+            raise SpecError(f"{where(table)}: {shown(table)}: {explain_unknown_table(table)}")
         if not isinstance(content, Mapping):
             raise SpecError(f"{where(table)}: {table} = {format_number(content)}: must be a table, headed [{table}]")
     if "gear" in tables:
@@ -189,11 +206,9 @@ def _flatten(tables: Mapping[str, Any], where: Where) -> dict[str, _Given]:
         for field, value in _entries(content):
             key = f"{table}.{field}"
             if field not in KEYS[table]:
-                raise SpecError(f"{where(key)}: {_printable(key)}: {explain_unknown_key(table, field)}")
+                raise SpecError(f"{where(key)}: {shown(key)}: {explain_unknown_key(table, field)}")
+            require_sane_integers(value, where, key)
             if isinstance(value, int) and not isinstance(value, bool):
-                if abs(value) > _MOST_WHOLE:
-                    permitted = f"must be a smaller number; this one has {len(str(value))} digits"
-                    raise SpecError(f"{where(key)}: {key}: {permitted}", key)
                 value = value if field in WHOLE_FIELDS else float(value)
             # The sum makes -0.0 a plain zero, so that equal inputs give equal files.
             values[key] = _Given(value + 0.0 if isinstance(value, float) else value, key)
@@ -207,11 +222,6 @@ def _entries(content: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
             yield from ((f"{field}.{inner}", item) for inner, item in value.items())
         else:
             yield field, value
-
-
-def _printable(key: str) -> str:
-    """A key that TOML permits in quotes, made fit for one line."""
-    return key if key.isprintable() else repr(key)
 
 
 @dataclass(frozen=True)

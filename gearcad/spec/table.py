@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from gearcad.errors import ParameterError, SpecError, format_number
+from gearcad.errors import ParameterError, SpecError, format_number, printable, shown
 from gearcad.spec.cells import CellReader, Layout, RawCell, is_blank, is_comment, plain_text
 from gearcad.spec.design import Design, DesignKind, require_plain_name
 from gearcad.spec.headings import column_letter, kinds_of, read_headings
@@ -205,6 +205,4 @@ def _filled(sheet: Sheet) -> Iterator[Record]:
 
 def _place(table: str, number: int, index: int, name: str) -> str:
     column = "" if index < 0 else f" column {column_letter(index)}"
-    shown = name if name.isprintable() else repr(name)[1:-1]
-    shown = shown if len(shown) <= _LONGEST_SHOWN else f"{shown[:_LONGEST_SHOWN]}..."
-    return f"{table} row {number}{column}{f' ({shown})' if shown else ''}"
+    return f"{printable(table)} row {number}{column}{f' ({shown(name, _LONGEST_SHOWN)})' if name else ''}"

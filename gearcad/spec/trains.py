@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.train import Inertia, Mesh, Shaft, Train
-from gearcad.errors import InputError, SpecError, format_number
+from gearcad.errors import InputError, SpecError, format_number, shown
 from gearcad.spec.design import require_plain_name
 from gearcad.spec.reader import Where, read_tables
 
@@ -57,7 +57,7 @@ def read_train(path: Path | str) -> TrainDesign:
     tables, where = read_tables(path)
     for table in tables:
         if table not in ("train", "dynamics"):
-            raise SpecError(f"{where(table)}: [{table}] cannot stand beside [train]: permitted is [dynamics]")
+            raise SpecError(f"{where(table)}: [{shown(table)}] cannot stand beside [train]: permitted is [dynamics]")
     return _Reader(where).design(tables, Path(path).stem)
 
 
@@ -116,7 +116,7 @@ class _Reader:
             if key not in permitted:
                 near = difflib.get_close_matches(key, permitted, n=1)
                 hint = f"did you mean {near[0]}?" if near else f"permitted are {', '.join(permitted)}"
-                raise SpecError(f"{self.where(f'{owner}.{key}')}: {owner}.{key}: unknown key; {hint}")
+                raise SpecError(f"{self.where(f'{owner}.{key}')}: {shown(f'{owner}.{key}')}: unknown key; {hint}")
         return dict(content)
 
     @contextmanager
@@ -127,8 +127,8 @@ class _Reader:
         except InputError as error:
             field = error.parameter.removeprefix(f"{name}.") if name else error.parameter
             unit = f" {error.unit}" if error.unit else ""
-            shown = f"{owner}.{field}" if not name else f"{name}.{field}"
-            text = f"{self.where(f'{owner}.{field}')}: {shown} = {format_number(error.value)}{unit}: {error.permitted}"
+            key = shown(f"{owner}.{field}" if not name else f"{name}.{field}")
+            text = f"{self.where(f'{owner}.{field}')}: {key} = {format_number(error.value)}{unit}: {error.permitted}"
             raise SpecError(text, f"{owner}.{field}") from error
 
 

@@ -284,7 +284,10 @@ def test_a_gear_that_is_wrong_at_any_centre_distance_is_named_itself() -> None:
             "<pinion.centre_distance>: pinion.centre_distance: unknown key here; it belongs in [pair]",
         ),
         ({"lod": {}}, "<lod>: lod: unknown table; did you mean [load]?"),
-        ({"load": {"speed": 3}}, "<load.torque>: load.torque is missing: must be a number in N·m"),
+        (
+            {"load": {"speed": 3}},
+            "<load.torque>: load.torque is missing: must be a number, 0 or from 1e-09 to 1e+09 N·m in size",
+        ),
         ({"material": {"name": 3}}, "<material.name>: material.name = 3: must be a text"),
         ({"pinion": {"rack": "DIN867"}}, "<pinion.rack>: pinion.rack = 'DIN867': must be one of 'ISO53_A', 'ISO53_B', "),
         (
@@ -310,7 +313,10 @@ def test_a_gear_that_is_wrong_at_any_centre_distance_is_named_itself() -> None:
         ),
         ({"pair": {"axial_offset": 20}}, "<pair.axial_offset>: pair.axial_offset = 20 mm: must be between -20 and 20 mm"),
         ({"pair": {"name": "a/b"}}, "<pair.name>: pair.name = 'a/b': must be a plain file name, without / "),
-        ({"pinion": {"teeth": 10**400}}, "<pinion.teeth>: pinion.teeth: must be a smaller number; this one has 401 digits"),
+        (
+            {"pinion": {"teeth": 10**400}},
+            "<pinion.teeth>: pinion.teeth: must be a smaller number; this is a number of 401 digits",
+        ),
         ({"gear": {"teeth": 3}}, "<pair>: [pair] cannot stand beside [gear]"),
     ],
 )
@@ -380,7 +386,7 @@ def test_name_is_the_stem_of_the_file_by_default(tmp_path: Path) -> None:
         ),
         ("[gear]\nbody.bore = 3\nbody . 'bor' = 2", " line 3: gear.body.bor: unknown key"),
         ("[gear]\nteeth = 20\n", " line 1: gear.normal_module is missing: "),
-        ('[gear]\n"a\\nb" = 2\n', "'gear.a\\nb': unknown key; permitted are "),
+        ('[gear]\n"a\\nb" = 2\n', r"gear.a\nb: unknown key; permitted are "),
         ("gear.teeth = 2\n", " line 1: gear.teeth = 2: "),
         ("[gear]\nteeth = 20\nteeth = 21\n", " line 3, column 11: is not valid TOML: Cannot overwrite a value"),
         ("[gear]\nface_width = 18,3\n", "; write 18.3 with a point"),

@@ -72,7 +72,7 @@ EXAMPLES = "unknown column; must be name, or a key of a spec with its table, suc
         ("name,load.qq", [f"column B: load.qq: {PERMITTED_LOAD}"]),
         ("name,qq", [f"column B: qq: {EXAMPLES} gear.teeth or load.torque"]),
         ("name,pair.rack,qq", [f"column C: qq: {EXAMPLES} pair.normal_module, pinion.teeth or load.torque"]),
-        ('name,"a\nb"', [f"column B: 'a\\nb': {EXAMPLES} gear.teeth or load.torque"]),
+        ('name,"a\nb"', [f"column B: a\\nb: {EXAMPLES} gear.teeth or load.torque"]),
         ('name,"teeth;x"', ["column B: teeth;x: unknown column; did you mean gear.teeth?"]),
         ("name,pair.name", ["column B: pair.name: is the name of the design; write name"]),
         ("name,name", ["column B: name: is the same as column A (name); keep one of them"]),

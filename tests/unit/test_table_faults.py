@@ -67,7 +67,7 @@ FAULTS = [
     "row 19 column B (comma): pair.normal_module = '2,5': must have a decimal point: write 2.5"
     " (a decimal comma needs semicolons between the cells)",
     "row 20 column M (moved): '220': has no heading above it; a decimal comma needs semicolons between the cells",
-    "row 21 column L (unloaded): load.torque = 'heavy': must be a number in N·m",
+    "row 21 column L (unloaded): load.torque = 'heavy': must be a number, 0 or from 1e-09 to 1e+09 N·m in size",
     f"row 22 column A (two\\nlines): name = 'two\\nlines': {PLAIN}, without / \\ < > : \" | ? * and control characters",
 ]
 
@@ -101,7 +101,7 @@ def test_all_single_faults_of_a_row_are_told_from_left_to_right() -> None:
         " rack.dedendum ...",
         f"pair.rack.root_radius = '#N/A': {ERROR}",
         "pinion.body.bore = -1 mm: must be a number at least 0 mm",
-        "load.torque = 'full': must be a number in N·m",
+        "load.torque = 'full': must be a number, 0 or from 1e-09 to 1e+09 N·m in size",
     ]
 
 
@@ -113,7 +113,7 @@ def test_single_faults_behind_a_combination_that_fails_are_told_too() -> None:
     ]
     content = "name,teeth,normal_module,face_width,load.speed\na,20,2,-1,3\n"
     assert faults_of(content) == [
-        "t.csv row 2 (a): load.torque is missing: must be a number in N·m",
+        "t.csv row 2 (a): load.torque is missing: must be a number, 0 or from 1e-09 to 1e+09 N·m in size",
         "t.csv row 2 column D (a): gear.face_width = -1 mm: must be a number above 0 mm and at most 10000 mm",
     ]
     content = "name,teeth,normal_module,face_width,body.bore,body.keyway_width,body.keyway_depth\na,20,2,-1,6,9,1\n"
