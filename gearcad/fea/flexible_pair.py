@@ -160,10 +160,10 @@ class PairInMesh:
         half_width = math.sqrt(4 * self.force(torque) * radius / (math.pi * modulus))
         depth = min((gear.tip_diameter - gear.root_diameter) / 2 for gear in (self.pair.pinion, self.pair.wheel))
         if half_width > depth:
-            said = f"a torque of {format_number(torque)} N·m would make the contact {format_number(round(2 * half_width, 3))} mm wide"
-            raise SolverError(
-                f"{said} on teeth {format_number(round(depth, 3))} mm deep: the load is too great, or E too small"
+            at = (
+                f"at {format_number(torque)} N·m the contact would be {2 * half_width:.4g} mm wide on teeth {depth:.4g} mm deep"
             )
+            raise SolverError(f"{at}: the load is too great, or the modulus of elasticity too small")
 
     def roll_length(self, roll_angle: float) -> float:
         """Where the middle pair touches in the middle of the common width (mm from T1) at a roll angle of the pinion (deg)."""

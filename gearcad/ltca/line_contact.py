@@ -17,8 +17,9 @@ from gearcad.errors import SolverError
 from gearcad.fea.contact import complementary
 from gearcad.ltca.contact_lines import ContactLine, Gaps
 from gearcad.ltca.flank import SolidCompliance
+from gearcad.material import Material
 
-__all__ = ["LineSolution", "Responses", "responses", "solve_lines"]
+__all__ = ["LineSolution", "Responses", "reduced_modulus", "responses", "solve_lines"]
 
 Floats = NDArray[np.float64]
 
@@ -75,8 +76,14 @@ def responses(lines: tuple[ContactLine, ...], pinion: SolidCompliance, wheel: So
         here = slice(start, start + size)
         apart[here, here] = np.linalg.norm(line.points[:, None] - line.points, axis=-1)
         start += size
-    modulus = 1 / sum((1 - body.material.poisson_ratio**2) / body.material.youngs_modulus for body in (pinion, wheel))
-    return Responses(lines, smooth, apart, np.concatenate([line.lengths for line in lines]), modulus)
+    return Responses(
+        lines, smooth, apart, np.concatenate([line.lengths for line in lines]), reduced_modulus(pinion.material, wheel.material)
+    )
+
+
+def reduced_modulus(pinion: Material, wheel: Material) -> float:
+    """E_r (MPa): 1/E_r = sum (1 - nu^2)/E."""
+    return 1 / sum((1 - of.poisson_ratio**2) / of.youngs_modulus for of in (pinion, wheel))
 
 
 def _smooth(lines: tuple[ContactLine, ...], body: SolidCompliance, gear: int) -> Floats:

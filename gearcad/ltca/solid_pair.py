@@ -19,7 +19,7 @@ from gearcad.geometry import Gear, GearPair
 from gearcad.ltca.body import assemble_body
 from gearcad.ltca.contact_lines import contact_lines, gaps
 from gearcad.ltca.flank import SolidCompliance, solid_compliance
-from gearcad.ltca.line_contact import LineSolution, Responses, responses, solve_lines
+from gearcad.ltca.line_contact import LineSolution, Responses, reduced_modulus, responses, solve_lines
 from gearcad.ltca.solid_root import SolidFillet
 from gearcad.ltca.swept import sweep
 from gearcad.material import Material
@@ -125,7 +125,7 @@ class SolidPair(PairInMesh):
 
         Raises SolverError, and GeometryError where nothing can touch.
         """
-        self.require_narrow_contact(torque, self.modulus)
+        self.require_narrow_contact(torque, reduced_modulus(self.pinion.material, self.wheel.material))
         force, farthest = self.force(torque), self.farthest(torque)
         while True:
             given = self.responses(roll_angle, farthest, single=single)

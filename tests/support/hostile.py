@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import copy
+import csv
+import io
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import fields
@@ -17,15 +19,18 @@ from gearcad.dynamics.train import Inertia, Mesh, Shaft
 from gearcad.spec.keys import KEYS
 from gearcad.spec.starters import starter_text
 
-__all__ = ["CHEAP", "hostile_specs", "physical_specs", "run_politely", "toml_text"]
+__all__ = ["CHEAP", "hostile_rows", "hostile_specs", "physical_specs", "put", "run_politely", "toml_text"]
 
 LONGEST_LINE = 1500
 """Characters of the longest message: one that lists every permitted key."""
 
 NUMBERS = (
-    *(0, -1, 1, 2**53 + 1, 10**16, 10**400, -(10**400), 16**5000),
+    *(0, -1, 1, 2**53 + 1, 10**16, 10**400, -(10**400)),
     *(0.0, 0.5, 1e-300, 5e-324, 1e-9, 1e9, 1e16, 1e300, -1e300, float("inf"), float("nan")),
+    16**5000,
 )
+"""The last is too long for Python to write."""
+
 WORDS = ("", " ", "auto", "on", "3d", "ground", "x" * 3000, "\x1b[31mred", "a\nb", "\0", "\u202eabc", "µ", "\U0001f600")
 OTHERS = (
     True,
@@ -92,7 +97,8 @@ def _more_places(tables: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:
     yield from ((table, key) for table in ("check", "mounting", "dynamics", "load") for key in KEYS[table])
 
 
-def _put(tables: dict[str, Any], path: tuple[Any, ...], value: Any) -> None:
+def put(tables: dict[str, Any], path: tuple[Any, ...], value: Any) -> None:
+    """Set a value of a spec, in tables that are made where they are missing."""
     inner: Any = tables
     for step in path[:-1]:
         if isinstance(inner, dict) and not isinstance(inner.get(step), dict | list):
@@ -111,10 +117,28 @@ def hostile_specs(draw: st.DrawFn, *, trains: bool) -> str:
         if draw(st.integers(0, 5)) == 0:
             path = (*path[:-1], draw(st.sampled_from(WORDS))) if isinstance(path[-1], str) else path
         try:
-            _put(tables, path, copy.deepcopy(draw(hostile_values())))
+            put(tables, path, copy.deepcopy(draw(hostile_values())))
         except (TypeError, IndexError, AttributeError, KeyError):
             continue  # the first change has taken its place away
     return toml_text(tables)
+
+
+@st.composite
+def hostile_rows(draw: st.DrawFn) -> str:
+    """A table of pairs with some cells replaced or added, a heading among them now and then."""
+    rows = [
+        ["name", "pair.normal_module", "pinion.teeth", "wheel.teeth", "pinion.face_width", "wheel.face_width", "load.torque"],
+        ["a", "2", "17", "23", "20", "20", "10"],
+        ["b", "1", "12", "30", "9", "8", "3"],
+    ]
+    for _ in range(draw(st.integers(1, 3))):
+        row = draw(st.sampled_from(rows))
+        cell = draw(st.sampled_from([*WORDS, *map(str, NUMBERS[:-1])]) | st.text(max_size=20))
+        place = draw(st.integers(0, len(row)))
+        row[place : place + 1] = [cell]
+    text = io.StringIO()
+    csv.writer(text).writerows(rows)
+    return text.getvalue().encode("utf-8", "replace").decode()
 
 
 @st.composite
@@ -122,7 +146,7 @@ def physical_specs(draw: st.DrawFn, base: Mapping[str, Any], keys: tuple[tuple[A
     """A spec with physical values of any size, most of them permitted."""
     tables = copy.deepcopy(dict(base))
     for path in draw(st.lists(st.sampled_from(keys), min_size=1, max_size=2, unique=True)):
-        _put(tables, path, draw(st.integers(-12, 12).map(lambda power: 10.0**power) | st.sampled_from([0.0, -1.0, 3e6, 1e300])))
+        put(tables, path, draw(st.integers(-12, 12).map(lambda power: 10.0**power) | st.sampled_from([0.0, -1.0, 3e6, 1e300])))
     return toml_text(tables)
 
 
