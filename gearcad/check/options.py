@@ -55,7 +55,7 @@ class CheckOptions:
     `pinion_support`, `wheel_support`: how they are held there, "rigid" all round, on an elastic "shaft", by the "key", "free",
     or "auto": rigid if the rim is 1.2 tooth depths thick or the diameter is given, else free, or by the key if there is one.
     `shaft_modulus` (MPa) and `pinion_shaft_bore`, `wheel_shaft_bore` (mm, 0 for a solid one) are those of the shaft, or of a
-    ring that is the hub; solid bodies are held rigidly. `torques` (N·m
+    ring that is the hub; solid bodies know neither shaft nor key. `torques` (N·m
     on the pinion) of the sweep, () for five up to the load's. `root_band`, `stiffness_band` and `contact_band` (%): how far
     root stress, stiffness, and load and stress along the lines of contact may be from ISO 6336. `plane` is "strain" (wide
     gears) or "stress": of the plane model only, as `contact_band` is of the solid one.

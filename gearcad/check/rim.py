@@ -75,7 +75,7 @@ def bending_limits(task: Task, summary: Summary) -> Iterator[Comparison]:
         if least is None or not rim.support.bends:
             continue
         for words, value, note in (
-            ("root compression", abs(summary.root_compression[gear]), "of all teeth; where a rim bends it changes sign"),
+            ("root compression", abs(summary.root_compression[gear]), "where a rim bends it changes sign"),
             ("tension on the bore", (summary.bore_tension_pinion, summary.bore_tension_wheel)[gear], "where the rim bends"),
         ):
             source = f"limit of {task.material.name}"
@@ -88,9 +88,10 @@ def rim_warnings(task: Task, summary: Summary) -> Iterator[str]:
         if rim.support.bends:
             tension, compression = summary.root_tension[gear], summary.root_compression[gear]
             bore = (summary.bore_tension_pinion, summary.bore_tension_wheel)[gear]
+            teeth = "all its teeth" if not task.body.solid else "its loaded teeth"
             yield (
                 f"{rim.words} bends: its bore is {rim.support.words} {format_number(_bore(task, gear))} mm; root tension "
-                f"({tension:.0f} MPa) and compression ({compression:.0f} MPa) are the greatest of all its teeth, the tension "
+                f"({tension:.0f} MPa) and compression ({compression:.0f} MPa) are the greatest of {teeth}, the tension "
                 f"on its bore is {bore or 0:.0f} MPa"
             )
         elif rim.ratio < LEAST_RIM and rim.support.hold is Hold.RIGID:

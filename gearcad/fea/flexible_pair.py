@@ -45,7 +45,8 @@ class BodyModel:
     """The part of each gear that is flexible: all teeth, or `teeth` of them (odd) between cuts; held on an inner circle.
 
     `inner_diameters` (mm) None stands for the bore, or 4 m_n below the root circle where there is none; `holds` is how they are
-    held there, with a shaft of `shaft_modulus` (MPa) and `shaft_bores` (mm, 0 for solid ones). Raises ParameterError.
+    held there, with a shaft of `shaft_modulus` (MPa) and `shaft_bores` (mm, 0 for solid ones). `solid` bodies know no shaft and
+    no key. Raises ParameterError.
     """
 
     teeth: int | None = None
@@ -54,6 +55,7 @@ class BodyModel:
     holds: tuple[Hold, Hold] = (Hold.AUTO, Hold.AUTO)
     shaft_modulus: float = STEEL
     shaft_bores: tuple[float, float] = (0.0, 0.0)
+    solid: bool = False
 
     def __post_init__(self) -> None:
         if self.teeth is None:
@@ -78,21 +80,21 @@ class BodyModel:
     def support(self, gear: Gear, radius: float, which: int) -> Support:
         """What holds the pinion (0) or the wheel (1), or another gear in its place, at a radius (mm)."""
         hold, ring = self.holds[which], self.teeth is None or self.teeth >= gear.teeth
+        key = f"check.{_OWNERS[which]}_support"
         if not ring and hold not in (Hold.AUTO, Hold.RIGID):
-            key = f"check.{_OWNERS[which]}_support"
             raise ParameterError(key, hold.value, 'must be "rigid" where body_teeth is less than the full ring')
+        if self.solid and hold in (Hold.SHAFT, Hold.KEY):
+            raise ParameterError(key, hold.value, 'must be "rigid" or "free" for solid bodies')
         if hold is Hold.AUTO and (not ring or self.inner_diameters[which] is not None):
             hold = Hold.RIGID  # a circle that is given is where the body is held
         shaft = Material(youngs_modulus=self.shaft_modulus)
         with _of(_OWNERS[which]):
-            return support_of(gear, radius, hold, shaft, self.shaft_bores[which])
+            found = support_of(gear, radius, hold, shaft, self.shaft_bores[which])
+        return replace(found, hold=Hold.FREE) if self.solid and found.hold is Hold.KEY else found
 
     def of_solids(self) -> BodyModel:
-        """The same bodies as solids can be held: rigidly. Raises ParameterError if another way is asked for."""
-        for owner, hold in zip(_OWNERS, self.holds, strict=True):
-            if hold not in (Hold.AUTO, Hold.RIGID):
-                raise ParameterError(f"check.{owner}_support", hold.value, 'must be "auto" or "rigid" for solid bodies')
-        return replace(self, holds=(Hold.RIGID, Hold.RIGID))
+        """The same bodies as solids: of what can hold them, only "rigid" and "free"."""
+        return replace(self, solid=True)
 
     def describe(self, pair: GearPair) -> dict[str, str]:
         """The bodies of pinion and wheel in words."""

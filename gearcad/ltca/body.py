@@ -1,158 +1,27 @@
 """A solid gear body: equal tooth sectors, each condensed to its cuts, the loaded one and its neighbours expanded again.
 
-The inner circle, and a cut that is held, belong to a rigid hub with one dof, its turn: the row of that dof is the torque.
+A bore that is held, and a cut that is, belong to a rigid hub with one dof, its turn: the row of that dof is the torque. A bore
+that is free has a hub that follows it (see `hub`), whose six dofs are the forces that it gives back.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.fea.chain import Chain, Cuts, cut_held
-from gearcad.ltca.condensation import Condensed, condense, parts_of
-from gearcad.ltca.hexahedra import layer_matrices
+from gearcad.fea.chain import Cuts, cut_held
+from gearcad.ltca.hub import rigid_motions
+from gearcad.ltca.solid_sector import SolidSector
 from gearcad.ltca.swept import SweptMesh
 from gearcad.material import Material
-from gearcad.meshing.outline import Side
 
 __all__ = ["Moved", "SolidBody", "SolidSector", "assemble_body"]
 
 Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
-
-
-@dataclass(frozen=True)
-class SolidSector:
-    """One tooth and its share of the body, its vectors in the turning axes, at the cuts radial and tangential."""
-
-    mesh: SweptMesh
-    material: Material
-
-    @property
-    def dofs(self) -> int:
-        """Dofs of the sector, hub and cuts included."""
-        return 3 * self.mesh.nodes
-
-    @cached_property
-    def behind(self) -> Indices:
-        """Dofs of the cut behind, but for those on the hub."""
-        return _dofs(self.mesh.over(self.mesh.section.behind[:-1]))
-
-    @cached_property
-    def ahead(self) -> Indices:
-        """Dofs of the cut ahead, but for those on the hub: the k-th meets the k-th of `behind`."""
-        return _dofs(self.mesh.over(self.mesh.section.ahead[:-1]))
-
-    @cached_property
-    def hub(self) -> Indices:
-        """Dofs on the inner circle."""
-        return _dofs(self.mesh.over(self.mesh.side(Side.INNER)))
-
-    @property
-    def cut_radii(self) -> Floats:
-        """Radii (mm) of the nodes of a cut."""
-        nodes = self.mesh.over(self.mesh.section.ahead[:-1])
-        result: Floats = np.hypot(*self.mesh.in_section[nodes].T)
-        return result
-
-    @cached_property
-    def cut_turn(self) -> Any:
-        """Matrix (scipy CSR) from dofs with polar cuts to those in x, y, z of the turning axes."""
-        import scipy.sparse
-
-        angles = np.zeros(self.mesh.nodes)
-        for nodes in (self.mesh.section.ahead, self.mesh.section.behind):
-            every = self.mesh.over(nodes)
-            angles[every] = np.arctan2(*self.mesh.in_section[every].T[::-1])
-        cosine, sine, z = np.cos(angles), np.sin(angles), np.ones(len(angles))
-        diagonal, upper, lower = np.stack([cosine, cosine, z], -1).ravel(), np.zeros(self.dofs - 1), np.zeros(self.dofs - 1)
-        upper[::3], lower[::3] = -sine, sine
-        return scipy.sparse.diags([diagonal, upper, lower], [0, 1, -1], format="csr")
-
-    def stiffness(self, quads: Indices | None = None) -> Any:
-        """Matrix (scipy CSR, N/mm) over the section's quadrangles, or some of them, in the turning axes."""
-        import scipy.sparse
-
-        chosen = self.mesh.section.quads if quads is None else self.mesh.section.quads[quads]
-        row, column, value = [], [], []
-        for layer, matrices in self._layers(chosen):
-            dofs = _dofs(self.mesh.elements(chosen, layer)).reshape(len(chosen), 60).astype(np.int32)
-            row.append(np.repeat(dofs, 60, axis=1).ravel())
-            column.append(np.tile(dofs, (1, 60)).ravel())
-            value.append(matrices.ravel())
-        triple = (np.concatenate(part) for part in (value, row, column))
-        values, rows, columns = triple
-        return scipy.sparse.csr_matrix((values, (rows, columns)), shape=(self.dofs, self.dofs))
-
-    def _layers(self, quads: Indices):  # type: ignore[no-untyped-def]
-        """Each layer with the matrices of its hexahedra; equally thick layers share them."""
-        known: dict[float, Floats] = {}
-        for layer, thickness in enumerate(np.diff(self.mesh.planes)):
-            key = round(float(thickness), 9)
-            if key not in known:
-                known[key] = layer_matrices(self.mesh, quads, layer, self.material)
-            yield layer, known[key]
-
-    @cached_property
-    def condensed(self) -> Condensed:
-        """The sector with its hub held, condensed to its cuts."""
-        section, held = self.mesh.section, self.mesh.side(Side.INNER)
-        part = parts_of(section.points, section.quads, np.r_[section.behind, section.ahead, held])
-        layers = list(self._layers(section.quads))
-        local = np.full(self.dofs, -1)
-
-        def matrix_of(quads: Indices) -> tuple[Indices, Floats]:
-            elements = [_dofs(self.mesh.elements(section.quads[quads], layer)) for layer, _ in layers]
-            dofs = np.setdiff1d(np.concatenate(elements), self.hub)
-            local[dofs] = np.arange(len(dofs))
-            size = len(dofs) + 1  # the last row and column collect what is held
-            matrix = np.zeros(size * size)
-            for numbers, (_, matrices) in zip(elements, layers, strict=True):
-                place = local[numbers] % size
-                np.add.at(matrix, (place[:, :, None] * size + place[:, None, :]).ravel(), matrices[quads].ravel())
-            local[dofs] = -1
-            turn = self.cut_turn[dofs][:, dofs]
-            return dofs, turn.T @ (turn.T @ matrix.reshape(size, size)[:-1, :-1]).T
-
-        return condense(part, lambda nodes: np.sort(_dofs(self.mesh.over(nodes))), matrix_of, np.r_[self.behind, self.ahead])
-
-    @cached_property
-    def chain(self) -> Chain:
-        """The sector alone as a chain: on its cuts and the turn of its hub."""
-        condensed = self.condensed
-        solved, arriving = condensed.forward(self.hub_forces[:, None])
-        count = len(condensed.kept)
-        matrix = np.zeros((count + 1, count + 1))
-        matrix[:-1, :-1] = condensed.matrix
-        matrix[:-1, -1:] = arriving
-        matrix[-1:, :-1] = arriving.T
-        matrix[-1, -1] = self.hub_turn @ self.hub_forces - sum(float((each**2).sum()) for each in solved)
-        return Chain(matrix)
-
-    @cached_property
-    def hub_forces(self) -> Floats:
-        """Forces (dofs,) by the hub's turn of 1 rad with all else held (N)."""
-        near = np.flatnonzero(np.isin(self.mesh.section.quads, self.mesh.side(Side.INNER)).any(axis=1))
-        result: Floats = self.cut_turn.T @ (self.stiffness(near) @ (self.cut_turn @ self.hub_turn))
-        return result
-
-    @cached_property
-    def hub_turn(self) -> Floats:
-        """How the dofs of the hub move when it turns by 1 rad (mm)."""
-        x, y = self.mesh.in_section.T
-        motion = np.stack([-y, x, np.zeros(len(x))], -1).ravel()
-        held = np.zeros(self.dofs)
-        held[self.hub] = motion[self.hub]
-        result: Floats = self.cut_turn.T @ held
-        return result
-
-
-def _dofs(nodes: Indices) -> Indices:
-    return (3 * nodes[..., None] + np.arange(3)).reshape(*nodes.shape[:-1], -1)
 
 
 class Moved(NamedTuple):
@@ -177,11 +46,11 @@ class SolidBody:
 
     @cached_property
     def _around(self) -> Floats:
-        """What stands beside tooth 0: matrix on [its cut behind, its cut ahead, turn of the hub]."""
-        n = self.sector.chain.cut
+        """What stands beside tooth 0: matrix on [its cut behind, its cut ahead, hub]."""
+        n, hub = self.sector.chain.cut, len(self.sector.chain.onward)
         if not self.held:
-            swap = np.r_[n : 2 * n, 0:n, 2 * n]
-            result: Floats = self.sector.chain.repeated(self.rest).matrix[np.ix_(swap, swap)]
+            swap = np.r_[n : 2 * n, 0:n, 2 * n : 2 * n + hub]
+            result: Floats = self.sector.chain.repeated(self.rest).seen(self.sector.seen_by(1))[np.ix_(swap, swap)]
             return result
         side = self.sector.chain.repeated(self.rest // 2)
         both = np.zeros((2 * n + 1, 2 * n + 1))
@@ -195,18 +64,41 @@ class SolidBody:
         sector, condensed = self.sector, self.sector.condensed
         n = sector.chain.cut
         solved, arriving = condensed.forward(sector.cut_turn.T @ loads)
-        cuts = np.asarray(np.linalg.solve(condensed.matrix + self._around[:-1, :-1], arriving), float)
-        found = {0: condensed.backward(solved, self._placed(cuts))}
-        torques = -(sector.hub_forces @ found[0] + self._around[-1, :-1] @ cuts)
+        cuts, hub = self._joints(solved, arriving)
+        found = {0: condensed.backward(self._with_hub(solved, hub), self._placed(cuts))}
         for sense in (1, -1):
             near, far = (cuts[n:], cuts[:n]) if sense > 0 else (cuts[:n], cuts[n:])
             for k in range(1, self.neighbours + 1):
-                beyond = self._next_cut(near, far, k, sense)
+                beyond = self._next_cut(near, far, hub, k, sense)
                 both = np.concatenate([near, beyond] if sense > 0 else [beyond, near])
-                found[sense * k] = condensed.backward(None, self._placed(both))
+                own = None if hub is None else self._with_hub(None, sector.seen_by(sense * k) @ hub)
+                found[sense * k] = condensed.backward(own, self._placed(both))
                 near = beyond
         ordered = [sector.cut_turn @ found[tooth] for tooth in range(-self.neighbours, self.neighbours + 1)]
+        if hub is None:
+            torques = -(sector.hub_forces[:, 0] @ found[0] + self._around[-1, :-1] @ cuts)
+        else:
+            turn = rigid_motions(sector.mesh.points, 0.0)[..., :1]
+            per_sector = (sector.cut_turn.T @ sector.mesh.to_turning(turn).ravel()) @ sector.hub_forces
+            torques = (self.rest + 1) * per_sector[0] * hub[0]
         return Moved(np.stack(ordered), torques)
+
+    def _joints(self, solved: list[Floats], arriving: Floats) -> tuple[Floats, Floats | None]:
+        """Displacements of the cuts of tooth 0, and the dofs of a hub that follows the bore."""
+        count = len(arriving)
+        if not self.sector.free:
+            stiffness = self.sector.condensed.matrix + self._around[:count, :count]
+            return np.asarray(np.linalg.solve(stiffness, arriving), float), None
+        moved = sum((hub.T @ load for hub, load in zip(self.sector.hub_solved, solved, strict=True)), start=np.zeros(1))
+        both = np.asarray(np.linalg.solve(self.sector.chain.matrix + self._around, np.r_[arriving, -moved]), float)
+        return both[:count], both[count:]
+
+    def _with_hub(self, solved: list[Floats] | None, hub: Floats | None) -> list[Floats] | None:
+        """What `backward` needs of loads, and of the forces of the hub as the sector sees them."""
+        if hub is None:
+            return solved
+        ours = [-each @ hub for each in self.sector.hub_solved]
+        return ours if solved is None else [load + own for load, own in zip(solved, ours, strict=True)]
 
     def _placed(self, cuts: Floats) -> Floats:
         """Displacements (dofs, m) of nothing but the cuts."""
@@ -214,14 +106,14 @@ class SolidBody:
         moved[self.sector.condensed.kept] = cuts
         return moved
 
-    def _next_cut(self, near: Floats, far: Floats, k: int, sense: int) -> Floats:
-        """Displacements of the far cut of the k-th tooth ahead (or behind), from those of its near cut.
+    def _next_cut(self, near: Floats, far: Floats, hub: Floats | None, k: int, sense: int) -> Floats:
+        """Displacements of the far cut of the k-th tooth ahead (or behind), from those of its near cut and the hub's dofs.
 
         `far` is the other cut of tooth 0, at which a full ring ends.
         """
-        chain = self.sector.chain
+        chain, seen_by = self.sector.chain, self.sector.seen_by
         n = chain.cut
-        before, after = slice(0, n), slice(n, 2 * n)
+        before, after, own = slice(0, n), slice(n, 2 * n), slice(2 * n, None)
         if sense < 0:
             before, after = after, before
         stiffness, force = chain.matrix[after, after].copy(), -chain.matrix[after, before] @ near
@@ -231,6 +123,9 @@ class SolidBody:
             onward = chain.repeated(left).matrix
             stiffness += onward[before, before]
             force -= onward[before, after] @ far
+            if hub is not None:
+                first = k + 1 if sense > 0 else -k - left
+                force -= chain.matrix[after, own] @ seen_by(sense * k) @ hub + onward[before, own] @ seen_by(first) @ hub
         elif left:
             stiffness += chain.repeated(left).ended(self.cuts, self.sector.cut_radii, ahead=sense > 0)[:-1, :-1]
         elif not self.held:
@@ -242,8 +137,13 @@ class SolidBody:
         return moved
 
 
-def assemble_body(mesh: SweptMesh, teeth: int, neighbours: int, material: Material, held: int | None, cuts: Cuts) -> SolidBody:
-    """A ring of `teeth` equal sectors, or a body of `held` teeth (odd, at least 3), its outer cuts as `cuts` says."""
+def assemble_body(
+    mesh: SweptMesh, teeth: int, neighbours: int, material: Material, held: int | None, cuts: Cuts, *, free: bool = False
+) -> SolidBody:
+    """A ring of `teeth` equal sectors, or a body of `held` teeth (odd, at least 3), its outer cuts as `cuts` says.
+
+    The bore of a ring may be `free`.
+    """
     rest = (teeth if held is None else held) - 1
     # Where the ring has fewer teeth than are asked for, those on both sides would be the same.
-    return SolidBody(SolidSector(mesh, material), rest, held is not None, cuts, min(neighbours, rest // 2))
+    return SolidBody(SolidSector(mesh, material, free), rest, held is not None, cuts, min(neighbours, rest // 2))

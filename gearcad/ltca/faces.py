@@ -74,6 +74,18 @@ class Faces:
         np.add.at(result, self.nodes, nodal)
         return result
 
+    def among(self, nodes: Indices) -> Faces:
+        """The faces all of whose nodes are among some."""
+        chosen = np.isin(self.nodes, nodes).all(axis=1)
+        return Faces(self.nodes[chosen], self.points[chosen])
+
+    def smooth_forces(self, mesh: SweptMesh, traction: Callable[[Floats, Floats], Floats]) -> Floats:
+        """Nodal forces (n, 3, ...) of a smooth traction field."""
+        nodal = np.einsum("qa,mqc...->mac...", _rule(_FAR)[0], traction(*self._far))
+        result = np.zeros((mesh.nodes, *nodal.shape[2:]))
+        np.add.at(result, self.nodes, nodal)
+        return result
+
 
 def boundary_faces(mesh: SweptMesh, quads: Indices) -> Faces:
     """The faces around the hexahedra over some section quadrangles: sides of all layers, and both ends."""

@@ -92,12 +92,16 @@ class RootPeak:
 
 @dataclass(frozen=True)
 class SolidPosition(LoadedPosition):
-    """A position of solid gears: its contacts, the root stresses of both gears, and the torques (N m) on their hubs."""
+    """A position of solid gears: its contacts, the root stresses of both gears, and the torques (N m) on their hubs.
+
+    `bore_tension` (MPa) is the greatest below loaded teeth on a bore that is free.
+    """
 
     contacts: tuple[SolidContact, ...]
     tension: tuple[RootPeak, RootPeak]
     compression: tuple[RootPeak, RootPeak]
     torques: tuple[float, float]
+    bore_tension: tuple[float | None, float | None]
 
 
 @dataclass(frozen=True)
@@ -127,8 +131,8 @@ class SolidCycle:
         return max(every, key=lambda of: (of[1].peak_pressure, of[1].force))
 
     def bore_tension(self, gear: int) -> float | None:
-        """None: the bores of solid bodies are kept round."""
-        return None
+        """The greatest (MPa) on the bore of the pinion (0) or the wheel (1) below loaded teeth; None where it is kept round."""
+        return max((of for position in self.positions if (of := position.bore_tension[gear]) is not None), default=None)
 
     def worst_position(self, gear: int) -> SolidPosition:
         """The position of the greatest root tension of the pinion (0) or the wheel (1)."""
@@ -201,12 +205,13 @@ def solid_single_stiffness(model: SolidPair, torque: float, count: int = 15) -> 
 def _position(model: SolidPair, angle: float, torque: float) -> SolidPosition:
     solution = model.solve(angle, torque)
     contacts = _contacts(model, solution)
-    tension, compression, torques = [], [], []
+    tension, compression, torques, bores = [], [], [], []
     for gear, body in enumerate((model.pinion, model.wheel)):
         loads = tooth_loads(model, contacts, gear)
         pulled, pushed = (_states(fillet, loads) for fillet in model.fillets[gear])
         tension.append(_peak(model.fillets[gear][0], [state.greater for state in pulled], 1))
         compression.append(_peak(model.fillets[gear][1], [state.lesser for state in pushed], -1))
+        bores.append(_bore_tension(model.bores[gear], loads))
         torques.append(float(sum(force @ -body.torques for _, force in loads)) / 1000)
     flat = math.cos(model.helix)
     return SolidPosition(
@@ -219,6 +224,7 @@ def _position(model: SolidPair, angle: float, torque: float) -> SolidPosition:
         tension=(tension[0], tension[1]),
         compression=(compression[0], compression[1]),
         torques=(torques[0], torques[1]),
+        bore_tension=(bores[0], bores[1]),
     )
 
 
@@ -235,6 +241,10 @@ def tooth_loads(model: SolidPair, contacts: tuple[SolidContact, ...], gear: int)
 def _states(fillet: SolidFillet, loads: list[tuple[int, Floats]]) -> list[FilletState]:
     """The fillet of each tooth in contact."""
     return [fillet.state([(tooth - own, force) for tooth, force in loads]) for own, _ in loads]
+
+
+def _bore_tension(bore: SolidFillet | None, loads: list[tuple[int, Floats]]) -> float | None:
+    return None if bore is None else max(float(state.greater.max()) for state in _states(bore, loads))
 
 
 def _peak(fillet: SolidFillet, stresses: list[Floats], sign: int) -> RootPeak:

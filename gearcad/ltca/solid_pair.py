@@ -67,7 +67,7 @@ class SolidSizes:
 class SolidPair(PairInMesh):
     """The bodies of pinion and wheel, factorised and solved for loads on the flank.
 
-    `fillets` are, for pinion and wheel, the one under the loaded flank and the one behind it.
+    `fillets` are, for pinion and wheel, the one under the loaded flank and the one behind it; `bores` are those that are free.
     Modifications and mounting may be changed by `remade`: the bodies are those of the exact gears. Left flanks carry.
     """
 
@@ -77,6 +77,7 @@ class SolidPair(PairInMesh):
     wheel: SolidCompliance
     cells: int
     fillets: tuple[tuple[SolidFillet, SolidFillet], tuple[SolidFillet, SolidFillet]] = field(repr=False)
+    bores: tuple[SolidFillet | None, SolidFillet | None] = field(repr=False)
     known: dict[Any, Responses] = field(default_factory=dict, repr=False)
 
     def remade(self, pair: GearPair, mounting: Mounting) -> SolidPair:
@@ -158,10 +159,10 @@ def solid_pair(
     neighbours = max(1, math.floor(pair.total_contact_ratio + 0.2))
     gears = {"pinion": pair.pinion, "wheel": pair.wheel}
     bodies = []
-    for gear, radius in zip(gears.values(), body.inner_radii(pair), strict=True):
+    for gear, radius, support in zip(gears.values(), body.inner_radii(pair), body.supports(pair), strict=True):
         held = body.teeth if body.teeth is not None and body.teeth < gear.teeth else None
         mesh = sweep(gear, mesh_quads(gear, radius, sizes.section), sizes.layers(gear))
-        bodies.append(assemble_body(mesh, gear.teeth, neighbours, material, held, body.cuts))
+        bodies.append(assemble_body(mesh, gear.teeth, neighbours, material, held, body.cuts, free=support.bends))
     starts = (pair.path_of_contact.A, mesh_line(pair).whole - pair.path_of_contact.E)
     # Most of the work is dense algebra, which leaves Python to the other thread.
     with ThreadPoolExecutor(2) as threads:
@@ -175,7 +176,8 @@ def solid_pair(
             solved.append(job.result())
     mounted = mounting.mounted(pair)
     pinion, wheel = ((SolidFillet(each, Side.LEFT_FILLET), SolidFillet(each, Side.RIGHT_FILLET)) for each in solved)
-    return SolidPair(mounted, mounting, mesh_line(mounted), solved[0], solved[1], cells, (pinion, wheel))
+    first, second = (SolidFillet(each, Side.INNER) if each.body.sector.free else None for each in solved)
+    return SolidPair(mounted, mounting, mesh_line(mounted), solved[0], solved[1], cells, (pinion, wheel), (first, second))
 
 
 def loaded_left(pair: GearPair, torque: float) -> GearPair:

@@ -33,7 +33,10 @@ class FilletState(NamedTuple):
 
 @dataclass(frozen=True)
 class SolidFillet:
-    """The fillet under the loaded flank (LEFT_FILLET: tension) or behind it (RIGHT_FILLET), as responses of one body."""
+    """The fillet under the loaded flank (LEFT_FILLET: tension) or behind it (RIGHT_FILLET), as responses of one body.
+
+    Or the bore (INNER), where it is free.
+    """
 
     body: SolidCompliance
     side: Side
@@ -113,7 +116,12 @@ class SolidFillet:
         """Stresses (3, heights, along, loads) of tooth k by the unit loads: along the profile, across it, and shear."""
         neighbours = self.body.neighbours
         teeth = range(-neighbours, neighbours + 1)
-        found = {tooth: self._stresses(self.body.displacements[neighbours + tooth]) for tooth in teeth}
+        moved = {tooth: self.body.displacements[neighbours + tooth] for tooth in teeth}
+        if self.side is Side.INNER:
+            # The fields are taken off the tooth; the elements of the bore have all of what is far from the load.
+            moved[0] = moved[0] + self.body.taken_off
+            return {tooth: self._stresses(each) for tooth, each in moved.items()}
+        found = {tooth: self._stresses(each) for tooth, each in moved.items()}
         found[0] += self._taken_off
         return found
 

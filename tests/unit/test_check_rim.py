@@ -23,7 +23,7 @@ def _checked(bore: float, load: float = 150.0, **options: Any) -> CheckResult:
     """The FZG pair, its pinion with a bore of 50 mm at half the load of stage 9."""
     pinion = Gear(teeth=16, normal_module=4.5, face_width=14, profile_shift=0.1817, body=Body(bore=bore))
     wheel = replace(pinion, teeth=24, profile_shift=0.1715, body=Body(bore=30))
-    chosen = CheckOptions(convergence="off", positions=12, torques=(load,), **options)
+    chosen = CheckOptions(convergence="off", torques=(load,), positions=12, **options)
     material = Material(root_limit=LIMIT)
     return check_pair(GearPair(pinion=pinion, wheel=wheel), material, Load(torque=load), chosen)
 
@@ -61,9 +61,26 @@ def test_hertz_holds_for_flanks_of_a_rim_that_bends() -> None:
     assert _gate(free, "half width of contact").passed
 
 
-def test_solid_bodies_say_what_they_can() -> None:
-    with pytest.raises(ParameterError, match=r"pinion_support.*solid"):
-        BodyModel(holds=(Hold.SHAFT, Hold.AUTO)).of_solids()
+def test_solid_bodies_know_no_shaft_and_no_key() -> None:
+    keyed = Gear(teeth=16, normal_module=4.5, face_width=14, body=Body(bore=45, keyway_width=10, keyway_depth=2))
+    pair = GearPair(pinion=keyed, wheel=replace(keyed, teeth=24))
+    assert [each.hold for each in BodyModel().supports(pair)] == [Hold.KEY, Hold.RIGID]
+    assert [each.hold for each in BodyModel().of_solids().supports(pair)] == [Hold.FREE, Hold.RIGID]
+    with pytest.raises(ParameterError, match=r'pinion_support.*must be "rigid" or "free" for solid bodies'):
+        BodyModel(holds=(Hold.SHAFT, Hold.AUTO)).of_solids().supports(pair)
+
+
+@pytest.mark.long
+def test_solid_rims_bend_like_those_of_a_plane() -> None:
+    """A spur gear of 14 mm: the solid one a little more at the root, where the load is uneven, as a thick one is too."""
+    thick, plane, solid = (
+        _checked(bore, model=model, refinement=fineness).summary
+        for bore, model, fineness in ((30.0, "2d", 1.0), (50.0, "2d", 1.0), (50.0, "3d", 0.7))
+    )
+    assert plane.root_compression.pinion < 1.5 * thick.root_compression.pinion
+    assert solid.root_compression.pinion == pytest.approx(plane.root_compression.pinion, rel=0.05)
+    assert solid.bore_tension_pinion == pytest.approx(plane.bore_tension_pinion, rel=0.05)
+    assert solid.mesh_stiffness_mean == pytest.approx(plane.mesh_stiffness_mean, rel=0.06)
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -170,3 +171,105 @@ def test_torque_on_the_hub_is_that_of_the_loads(mesh: SweptMesh, loads: Any, hel
     x, y = mesh.in_section.T
     applied = np.einsum("n,nm->m", x, loads[1::3]) - np.einsum("n,nm->m", y, loads[0::3])
     assert body.solve(loads).torques == pytest.approx(applied, rel=1e-7, abs=1e-7)
+
+
+# ---------------------------------------------------------------------- free bores
+
+
+def explicit_free(sector: SolidSector, teeth: int, loads: Any) -> Any:
+    """Displacements of teeth -1, 0, 1 of a ring of all sectors in full, in fixed axes, its bore's mean motion nought.
+
+    The mean is weighted with the surface's area and leaves out what is square to it.
+    """
+    mesh, pitch = sector.mesh, 2 * np.pi / teeth
+    own = mesh.nodes
+    ahead, behind = (mesh.over(nodes) for nodes in (mesh.section.ahead, mesh.section.behind))
+    number = np.arange(teeth * own).reshape(teeth, own)
+    for tooth in range(1, teeth):
+        number[tooth, behind] = number[tooth - 1, ahead]
+    number[0, behind] = number[-1, ahead]
+    _, number = np.unique(number, return_inverse=True)
+    number = number.reshape(teeth, own)
+    size = 3 * (int(number.max()) + 1)
+    turning = sector.stiffness()
+    weights = _bore_weights(sector)
+    matrix, mean = scipy.sparse.csr_matrix((size, size)), np.zeros((size, 6))
+    places = []
+    for tooth in range(teeth):
+        angles = mesh.rate * mesh.heights + tooth * pitch
+        place = _from_axes(number[tooth], angles, size)
+        matrix = matrix + place @ turning @ place.T
+        mean += _from_axes(number[tooth], np.full(own, tooth * pitch), size) @ _turned_motions(weights, tooth * pitch)
+        places.append(place)
+    whole = scipy.sparse.bmat([[matrix, mean], [mean.T, None]], format="csc")
+    right = np.r_[places[0] @ loads, np.zeros((6, loads.shape[1]))]
+    moved = scipy.sparse.linalg.splu(whole).solve(right)[:-6]
+    return np.stack([places[k].T @ moved for k in (-1, 0, 1)])
+
+
+def _from_axes(nodes: Any, angles: Any, size: int) -> Any:
+    """Matrix from vectors at a sector's nodes, in axes turned by angles about z, to all dofs in fixed axes."""
+    count = len(nodes)
+    row, column, value = [], [], []
+    for to, of, factor in ((0, 0, np.cos(angles)), (0, 1, -np.sin(angles)), (1, 0, np.sin(angles)), (1, 1, np.cos(angles))):
+        row.append(3 * nodes + to)
+        column.append(3 * np.arange(count) + of)
+        value.append(factor)
+    row.append(3 * nodes + 2)
+    column.append(3 * np.arange(count) + 2)
+    value.append(np.ones(count))
+    parts = [np.concatenate(each) for each in (value, row, column)]
+    return scipy.sparse.csr_matrix((parts[0], (parts[1], parts[2])), shape=(size, 3 * count))
+
+
+def _turned_motions(weights: Any, angle: float) -> Any:
+    """Weights (3 n, 6) of a sector, whose motions are along its own axes, as those of motions along fixed ones."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    found = weights.copy()
+    for first in (1, 4):
+        one, two = weights[:, first], weights[:, first + 1]
+        found[:, first], found[:, first + 1] = cosine * one - sine * two, sine * one + cosine * two
+    return found
+
+
+def _bore_weights(sector: SolidSector) -> Any:
+    """Integral over the bore of N (m less its radial part), (3 nodes, 6), in fixed axes: motions m as a screw has them."""
+    from skfem import ElementQuadS2
+
+    mesh, element = sector.mesh, ElementQuadS2()
+    found = np.zeros((mesh.nodes, 3, 6))
+    arc = mesh.side(Side.INNER)
+    s, w = np.polynomial.legendre.leggauss(3)  # the area is no polynomial: other rules differ by 1e-7
+    middle = GEAR.face_width / 2
+    for layer in range(mesh.layers):
+        low, high = mesh.plane(layer), mesh.plane(layer + 1)
+        half = mesh.elements(mesh.section.quads[:1], layer)[0, 16] - mesh.section.quads[0, 0]
+        for a, b, c in zip(arc[:-1:2], arc[1::2], arc[2::2], strict=True):
+            nodes = [a + low, c + low, c + high, a + high, b + low, c + half, b + high, a + half]
+            for x, wx in zip((s + 1) / 2, w / 2, strict=True):
+                for y, wy in zip((s + 1) / 2, w / 2, strict=True):
+                    basis = [element.lbasis(np.array([[x], [y]]), k) for k in range(8)]
+                    shape = np.array([float(each[0][0]) for each in basis])
+                    slopes = np.array([each[1][:, 0] for each in basis])
+                    point, (first, second) = shape @ mesh.points[nodes], slopes.T @ mesh.points[nodes]
+                    area = np.linalg.norm(np.cross(first, second)) * wx * wy
+                    out = np.array([point[0], point[1], 0]) / np.hypot(point[0], point[1])
+                    arm = point - [0, 0, middle]
+                    shifts, turns = np.eye(3), [np.cross(axis, arm) for axis in np.eye(3)]
+                    motions = np.stack([turns[2], *shifts, turns[0], turns[1]], -1)
+                    found[nodes] += shape[:, None, None] * area * (motions - np.outer(out, out @ motions))
+    return found.reshape(-1, 6)
+
+
+def test_a_free_bore_is_that_of_the_body_in_full(mesh: SweptMesh, sector: SolidSector, loads: Any) -> None:
+    """And the cuts of all teeth up to the opposite one meet, from both sides: round the ring the way back is the way on."""
+    body = assemble_body(mesh, GEAR.teeth, 3, STEEL, None, Cuts.FIXED, free=True)
+    moved, torques = body.solve(loads)
+    reference = explicit_free(sector, GEAR.teeth, loads)
+    assert np.abs(moved[2:5] - reference).max() < EXACT * np.abs(reference).max()
+    x, y = mesh.in_section.T
+    applied = np.einsum("n,nm->m", x, loads[1::3]) - np.einsum("n,nm->m", y, loads[0::3])
+    assert torques == pytest.approx(applied, rel=1e-7, abs=1e-7)
+    polar = [body.sector.cut_turn.T @ each for each in moved]
+    for one, other in pairwise(polar):
+        assert np.abs(one[body.sector.ahead] - other[body.sector.behind]).max() < EXACT * np.abs(reference).max()
