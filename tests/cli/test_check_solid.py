@@ -31,7 +31,7 @@ modification.tip_relief_length = 1.0
 modification.lead_crowning = 3.0
 [pinion]
 teeth = 20
-body.bore = 28.0
+body.bore = 26.0
 [wheel]
 teeth = 30
 body.bore = 48.0
