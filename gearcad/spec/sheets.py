@@ -18,7 +18,7 @@ from typing import Protocol
 from gearcad.errors import SpecError
 from gearcad.spec.cells import Layout, RawCell, is_comment
 from gearcad.spec.suffixes import UNREADABLE, WORKBOOKS, is_spec_name
-from gearcad.spec.workbook import Workbook
+from gearcad.spec.workbook import open_workbook
 
 __all__ = ["Record", "Sheet", "open_sheet"]
 
@@ -46,7 +46,7 @@ def open_sheet(path: Path) -> Sheet:
     if is_spec_name(path) and path.is_file():
         raise SpecError(f"{path}: is the spec of one design, no design table; use `gearcad build {path}`")
     if suffix in WORKBOOKS:
-        return Workbook(path)
+        return open_workbook(path)
     if suffix in UNREADABLE:
         raise SpecError(f"{path}: cannot be read; save it as CSV UTF-8, or as a workbook .xlsx")
     return _open_text(path)

@@ -24,6 +24,9 @@ from gearcad.spec.table import Row
 FLAT = 50_000
 """Bytes by which the peak of memory may differ between a short table and a long one, whose rows would take 20 MB."""
 
+MODEST = 8_000_000
+"""Bytes of memory in which a workbook is refused that unpacks to more."""
+
 
 @pytest.fixture(autouse=True)
 def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -219,6 +222,56 @@ def test_the_sheet_in_front_counts() -> None:
     with pytest.raises(SpecError) as caught:
         open_table(path)
     assert str(caught.value) == "saved.xlsx: has no sheet in front; save the table by itself as .xlsx, or as CSV UTF-8"
+
+
+def inflated(part: str, old: str, new: str) -> Path:
+    """A workbook of one good row with a text in one of its parts replaced."""
+    good = workbook([GEARS.strip().split(","), ["good", 20, 2, 10]], "good.xlsx")
+    with zipfile.ZipFile(good) as before, zipfile.ZipFile("t.xlsx", "w", zipfile.ZIP_DEFLATED, compresslevel=1) as after:
+        for name in before.namelist():
+            content = before.read(name).decode()
+            assert name != SHEET or not old or old in content
+            after.writestr(name, content.replace(old, new, 1) if name == part else content)
+        if part not in before.namelist():
+            after.writestr(part, new)
+    return Path("t.xlsx")
+
+
+SHEET, STRINGS = "xl/worksheets/sheet1.xml", "xl/sharedStrings.xml"
+
+
+@pytest.mark.parametrize(
+    ("part", "old", "new", "message"),
+    [
+        (SHEET, ">good<", f">{'x' * 5_000_000}<", "t.xlsx: has a cell of more than 131072 characters"),
+        (SHEET, ">good<", f">{'x' * 140_000}<", "t.xlsx row 2: has a cell of more than 131072 characters"),
+        (
+            STRINGS,
+            "",
+            f"<sst><si><t>{'x' * 5_000_000}</t></si></sst>",
+            "t.xlsx: has a cell of more than 131072 characters",
+        ),
+        (
+            STRINGS,
+            "",
+            f"<sst>{'<si><t>a</t></si>' * 2_000_000}</sst>",
+            "t.xlsx: its xl/sharedStrings.xml has 34 MB unpacked, of which at most 32 MB are read; "
+            "save the table by itself as .xlsx, or as CSV UTF-8",
+        ),
+    ],
+    ids=["huge cell", "long cell", "huge text", "many texts"],
+)
+def test_a_workbook_larger_than_a_table_is_refused_before_it_is_unpacked(part: str, old: str, new: str, message: str) -> None:
+    inflated(part, old, new)
+    tracemalloc.start()
+    try:
+        with pytest.raises(SpecError) as caught:
+            list(open_table("t.xlsx").rows())
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert str(caught.value) == message
+    assert peak < MODEST
 
 
 def test_a_workbook_needs_openpyxl(monkeypatch: pytest.MonkeyPatch) -> None:
