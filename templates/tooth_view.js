@@ -1,4 +1,4 @@
-// Draws every figure.tooth: drag turns it, the wheel or two fingers change its size, a double click sets it back.
+// Draws every figure.tooth: drag turns it, the wheel with Ctrl or two fingers change its size; the wheel alone scrolls the page, a double click sets it back.
 "use strict";
 
 const vertexSource = `#version 300 es
@@ -83,7 +83,7 @@ function show(figure) {
     canvas.height = canvas.clientHeight * devicePixelRatio;
     const scale = view.zoom * 0.95 / data.size, least = Math.min(canvas.width, canvas.height);
     gl.viewport(0, 0, canvas.width, canvas.height);
-    gl.clearColor(1, 1, 1, 1);
+    gl.clearColor(0, 0, 0, 0);  // the page's own colour shows
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.uniformMatrix3fv(gl.getUniformLocation(made, "turn"), false, turned(view.yaw, view.pitch));
     gl.uniform2f(gl.getUniformLocation(made, "scale"), scale * least / canvas.width, scale * least / canvas.height);
@@ -120,7 +120,11 @@ function follow(canvas, start, view, change) {
     change({...view(), yaw: view().yaw + (now.x - before.x) / 120, pitch: Math.min(1.57, Math.max(-1.57, pitch))});
   });
   for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, event => fingers.delete(event.pointerId));
-  canvas.addEventListener("wheel", event => { event.preventDefault(); change(zoomed(Math.exp(-event.deltaY / 500))); }, {passive: false});
+  canvas.addEventListener("wheel", event => {
+    if (!event.ctrlKey && !event.metaKey) return;
+    event.preventDefault();
+    change(zoomed(Math.exp(-event.deltaY / 500)));
+  }, {passive: false});
   canvas.addEventListener("dblclick", () => change({...start}));
 }
 

@@ -12,6 +12,9 @@ from hypothesis import HealthCheck, settings
 # Several test processes share the cores, and numpy is not imported yet: one thread each, or they fight.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+# Files that hold a date are compared byte by byte, over midnight too.
+os.environ["SOURCE_DATE_EPOCH"] = "1700000000"
+
 settings.register_profile(
     "repeatable",
     derandomize=True,

@@ -12,6 +12,7 @@ from typing import Any, NoReturn, TypeVar
 import click
 
 from gearcad.errors import GearcadError, ParameterError, SolverError, as_choice, printable, shown
+from gearcad.output import source_date
 
 __all__ = ["Commands", "debug_option", "parse_choices", "require_new_file", "spec_argument"]
 
@@ -35,6 +36,7 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; raises SystemExit by way of `ctx.exit`."""
         try:
+            source_date()  # a date that is none is told before any work
             return super().invoke(ctx)
         except click.UsageError as error:
             click.echo(f"Error: {printable(error.format_message())}", err=True)

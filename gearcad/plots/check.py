@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gearcad.check.result import CheckResult, PlaneCheck
 from gearcad.geometry import GearPair
-from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, legend_above, prepared
+from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, legend_above, prepared, short
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -89,21 +89,21 @@ def plot_mesh_stiffness(result: CheckResult, ax: Axes | None = None) -> Axes:
         (standard.single, f"$c'$, {part}", SERIES[1], ":"),
     ):
         axes.axhline(value, color=colour, linestyle=style, linewidth=1.4, label=f"{words}: {value:.2f}")
-    axes.set_ylim(bottom=0)
     legend_above(axes, 2)
     return axes
 
 
 def plot_transmission_error(result: CheckResult, ax: Axes | None = None) -> Axes:
-    """How far the wheel lags under load over one base pitch, and how much of it each gear is."""
-    axes = prepared(ax, _ROLL, "along the line of action in µm")
+    """How far the wheel lags under load over one base pitch, and what each gear gives of it; all about their means."""
+    axes = prepared(ax, _ROLL, "along the line of action, less the mean, in µm")
     angles, error = result.cycle.values("roll_angle"), result.cycle.values("transmission_error")
-    axes.plot(angles, error, color=DARK, label="transmission error")
     parts = 1000 * result.cycle.values("approach_parts")
-    for (gear, colour, _), part in zip(GEARS, parts.T, strict=True):
-        axes.plot(angles, part, color=colour, linestyle="--", linewidth=1.2, label=f"part of the {gear}")
-    axes.set_ylim(bottom=0)
-    legend_above(axes, 3)
+    curves = [(error, "transmission error", DARK, "-", 1.5)]
+    curves += [(part, f"part of the {gear}", colour, "--", 1.2) for (gear, colour, _), part in zip(GEARS, parts.T, strict=True)]
+    for values, words, colour, style, width in curves:
+        label = f"{words}, mean {short(float(values.mean()))} µm"
+        axes.plot(angles, values - values.mean(), color=colour, linestyle=style, linewidth=width, label=label)
+    legend_above(axes, 2)
     return axes
 
 

@@ -253,6 +253,5 @@ def plot_cycle(cycle: MeshCycle, ax: Axes | None = None) -> Axes:
         axes.plot(cycle.roll_angle, values, color=SERIES[0], linewidth=1.5, linestyle=style, label=words)
     axes.axhline(cycle.tangent_mean, color=MARKED, linewidth=1.2, label="mean of the tangent")
     axes.set_xlim(float(cycle.roll_angle[0]), float(cycle.roll_angle[-1]))
-    axes.set_ylim(0, 1.08 * float(max(cycle.tangent_stiffness.max(), cycle.mesh_stiffness.max())))
     legend_above(axes, 3)
     return axes

@@ -86,8 +86,8 @@ def plot_stiffness(comparison: StiffnessComparison, ax: Axes | None = None) -> A
         else:
             places, stiffness = _along_path(comparison, cycle, cycle.mesh_stiffness)
             axes.plot(places, stiffness, color=look.colour, linestyle=look.style, linewidth=look.width, label=title)
-    greatest = max(max(cycle.maximum, cycle.tangent_mean * cycle.mean_only) for cycle in comparison.cycles)
-    axes.set_ylim(0, _HEADROOM * greatest)
+    lowest, greatest = axes.get_ylim()
+    axes.set_ylim(top=lowest + _HEADROOM * (greatest - lowest))
     _mark_mesh(axes, comparison)
     _legend_over_top_axis(axes, 2)
     return axes

@@ -5,9 +5,19 @@ from __future__ import annotations
 import math
 
 from gearcad.check.result import CheckResult
+from gearcad.geometry import GearPair
 from gearcad.plots.paper import short
 
-__all__ = ["mesh_stiffness", "root_stress", "sweep_pressure", "sweep_stiffness", "transmission_error"]
+__all__ = ["mesh_stiffness", "pair", "root_stress", "sweep_pressure", "sweep_stiffness", "transmission_error"]
+
+
+def pair(of: GearPair) -> str:
+    """Caption of the pair in mesh."""
+    return (
+        f"Transverse section, {of.pinion.teeth} teeth of the pinion (left) and {of.wheel.teeth} of the wheel at "
+        f"{short(of.centre_distance)} mm; working pitch circles, and the line of action with the path of contact from A to E "
+        "for a pinion that drives counter-clockwise."
+    )
 
 
 def mesh_stiffness(result: CheckResult) -> str:

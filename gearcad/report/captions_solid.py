@@ -125,5 +125,5 @@ def tooth_view(result: SolidCheck, gear: int) -> str:
         "where its "
         f"root tension is greatest ({short(position.tension[gear].stress)} MPa). The colours end a tenth above the greatest of "
         "the fillets: the contact, which elements of this size do not resolve, lies above. The cut faces and all of the field "
-        f"are in stress_{name}.vtu, for ParaView, which shows it with the same colours."
+        f"are in stress_{name}.vtu, for ParaView, whose colours end there too."
     )

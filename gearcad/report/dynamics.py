@@ -31,7 +31,7 @@ from gearcad.report.dynamics_tables import (
     shaft_table,
     speed_table,
 )
-from gearcad.report.figures import Picture, figure_address, picture_address
+from gearcad.report.figures import Picture, figure_address, pair_picture, picture_address
 from gearcad.report.page import page_html
 from gearcad.report.tables import gear_rows, pair_rows
 
@@ -104,6 +104,7 @@ def _pair_html(study: PairStudy, name: str) -> str:
         of=of,
         on_bearings=study.bearings is not None,
         greatest=captions.greatest(of),
+        pair_picture=pair_picture(study.pair),
         gear_rows=gear_rows(study.pair, _GEAR),
         pair_rows=pair_rows(study.pair),
         rows=pair_dynamics_rows(study),
@@ -121,6 +122,7 @@ def _contact_html(study: ContactStudy, name: str) -> str:
         "dynamics_contact.html",
         name,
         of=study,
+        pair_picture=pair_picture(study.pair),
         gear_rows=gear_rows(study.pair, _GEAR),
         pair_rows=pair_rows(study.pair),
         rows=contact_rows(study),

@@ -9,6 +9,7 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
+from gearcad.geometry import GearPair
 from gearcad.plots.check import (
     plot_contact_pressure,
     plot_load_share,
@@ -24,6 +25,7 @@ from gearcad.plots.lines import (
     plot_load_along_face,
     plot_root_along_face,
 )
+from gearcad.plots.pair import pair_inches, plot_pair
 from gearcad.plots.paper import FIGURE_INCHES, new_figure
 from gearcad.plots.stresses import plot_contact_zone, plot_depth_profile, plot_fillets, plot_stress_field, worst_fields
 from gearcad.plots.trends import plot_convergence, plot_sweep_pressure, plot_sweep_stiffness
@@ -33,7 +35,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Picture", "figure_address", "make_figures", "picture_address"]
+__all__ = ["Picture", "figure_address", "make_figures", "pair_picture", "picture_address"]
 
 Checked = TypeVar("Checked", bound=CheckResult)
 
@@ -113,6 +115,12 @@ def _trends(of: Checked, convergence: Callable[[Checked], str]) -> list[_Drawing
     if of.convergence:
         found.append(_Drawing("Convergence", partial(plot_convergence, of), convergence(of)))
     return found
+
+
+def pair_picture(pair: GearPair) -> Picture:
+    """Both gears as they stand in mesh."""
+    address = picture_address(partial(plot_pair, pair), "svg", pair_inches(pair))
+    return Picture("The pair in mesh", address, captions.pair(pair))
 
 
 def picture_address(draw: Callable[[Axes], Axes], kind: str, inches: tuple[float, float] = FIGURE_INCHES) -> str:

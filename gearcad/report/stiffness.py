@@ -14,7 +14,7 @@ from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
 from gearcad.plots.paper import short
 from gearcad.plots.stiffness import divided, parts_inches, plot_load_dependence, plot_parts_of_all, plot_stiffness
-from gearcad.report.figures import Picture, figure_address, picture_address
+from gearcad.report.figures import Picture, figure_address, pair_picture, picture_address
 from gearcad.report.page import page_html
 from gearcad.report.tables import gear_rows, load_rows, pair_rows
 from gearcad.stiffness import (
@@ -76,6 +76,7 @@ def stiffness_html(comparison: StiffnessComparison, design_name: str) -> str:
         of=comparison,
         stiffness=_section(comparison),
         figures=_figures(comparison),
+        pair_picture=pair_picture(comparison.pair),
         gear_rows=gear_rows(comparison.pair, _GEAR),
         pair_rows=pair_rows(comparison.pair),
         load_rows=load_rows(comparison.material, comparison.load, Mounting()),

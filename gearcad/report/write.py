@@ -9,7 +9,7 @@ from gearcad.check.comparison import Comparison, Role
 from gearcad.check.convergence import SOLID_ORDER
 from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
 from gearcad.plots.paper import short
-from gearcad.report.figures import make_figures
+from gearcad.report.figures import make_figures, pair_picture
 from gearcad.report.page import page_html
 from gearcad.report.reasons import stiffness_reasons
 from gearcad.report.reasons_plane import plane_root_reasons
@@ -41,6 +41,7 @@ def _sections(result: CheckResult) -> dict[str, Any]:
         "information": [_row(each) for each in information],
         "failed": [_row(each) for each in gates if not each.passed],
         "outside": [_row(each) for each in information if each.evaluated and not each.passed],
+        "pair_picture": pair_picture(result.pair),
         "gear_rows": gear_rows(result.pair),
         "pair_rows": pair_rows(result.pair),
         "load_rows": load_rows(result.material, result.load, result.mounting),

@@ -163,6 +163,12 @@ def test_data_warns_of_zero_backlash(tmp_path: Path) -> None:
     assert "zero backlash" in run("data", str(starter(tmp_path, "alm"))).stdout
 
 
+def test_a_date_that_is_none_is_told_before_any_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "yesterday")
+    told = "Error: SOURCE_DATE_EPOCH = 'yesterday': must be a whole number of seconds since 1970"
+    assert run("check", "nowhere.toml", status=2).stderr.startswith(told)
+
+
 # ---------------------------------------------------------------------- a table for a spec, and the other way round
 
 

@@ -1,20 +1,24 @@
 """The report of a check: complete, well-formed, self-contained, the same bytes every time, and deaf to nasty names."""
 
 import base64
+import platform
 import re
 from dataclasses import replace
+from datetime import date
 
 import lxml.etree
 import lxml.html
+import numpy as np
 import pytest
 from support.checks import NASTY_NAME, small_check
 
+from gearcad import __version__
 from gearcad.check.comparison import Role
 from gearcad.plots.paper import short
 from gearcad.report import report_html, write, write_report
 from gearcad.report.reasons_plane import root_at_single_contact
 
-_PICTURES = 13
+_PICTURES = 14
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +36,43 @@ def test_is_well_formed(text):
     root = lxml.etree.fromstring(text.removeprefix("<!DOCTYPE html>").strip().encode())
     assert root.tag == "html"
     ids = root.xpath("//@id")
-    assert len(ids) == len(set(ids)) == _PICTURES
+    assert len(ids) == len(set(ids)) == len(root.xpath("//figure | //h2"))
+    assert len(root.xpath("//figure")) == _PICTURES
+
+
+def test_contents_lead_to_every_section(document):
+    """Before the first of them, by anchors that are made of the titles."""
+    entries = document.xpath("//nav//a")
+    headings = document.xpath("//h2")
+    assert [entry.text_content() for entry in entries] == [heading.text_content() for heading in headings]
+    assert [entry.get("href") for entry in entries] == [f"#{heading.get('id')}" for heading in headings]
+    assert "#section-mesh-stiffness-by-other-methods" in [entry.get("href") for entry in entries]
+    assert document.xpath("count(//nav/following::h2)") == len(headings)
+
+
+def test_narrow_screens_scroll_tables_and_not_the_page(document, text):
+    """Chromium at 390 px wide found the page itself 738 px wide before."""
+    assert all(table.getparent().get("class") == "scroll" for table in document.xpath("//table"))
+    for picture in document.xpath("//figure[starts-with(@id, 'figure')]//img"):
+        assert picture.getparent().get("class") == "scroll"
+    assert ".scroll { overflow-x: auto; }" in text and "prefers-color-scheme: dark" in text
+
+
+def test_says_when_and_with_what_it_was_made(monkeypatch):
+    monkeypatch.setattr(write, "section_of_check", lambda _result: "not wanted here")
+    monkeypatch.setattr(write, "make_figures", lambda _result: [])
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    document = lxml.html.document_fromstring(report_html(small_check(), "dated"))
+    made = document.xpath("string(//footer)").strip()
+    assert made.startswith(
+        f"Made on 2023-11-14 with gearcad {__version__}, Python {platform.python_version()}, numpy {np.__version__},"
+    )
+    assert f"gearcad {__version__} · 2023-11-14 · " in document.xpath("string(//p[1])")
+    monkeypatch.delenv("SOURCE_DATE_EPOCH")
+    before = date.today()
+    document = lxml.html.document_fromstring(report_html(small_check(), "dated"))
+    shown = date.fromisoformat(document.xpath("string(//footer)").split()[2])
+    assert before <= shown <= date.today()
 
 
 def test_nasty_names_stay_text(document, text):
@@ -77,7 +117,7 @@ def test_passes_where_every_gate_does(monkeypatch):
 
 
 def test_needs_nothing_from_elsewhere(document, text):
-    assert document.xpath("//link | //iframe | //object | //embed | //a/@href") == []
+    assert document.xpath("//link | //iframe | //object | //embed | //a[not(starts-with(@href, '#'))]") == []
     addresses = document.xpath("//@src")
     assert len(addresses) == _PICTURES
     for address in addresses:

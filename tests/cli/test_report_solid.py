@@ -18,7 +18,7 @@ from gearcad.plots.paper import short
 from gearcad.plots.tooth import tooth_surface
 from gearcad.report import report_html
 
-_FIGURES, _VIEWS = 14, 2
+_FIGURES, _VIEWS, _PORTRAIT = 14, 2, 1
 
 
 @pytest.fixture(scope="module")
@@ -34,14 +34,21 @@ def document(text: str) -> lxml.html.HtmlElement:
 def test_is_well_formed_and_needs_nothing_from_elsewhere(text: str, document: lxml.html.HtmlElement) -> None:
     root = lxml.etree.fromstring(text.removeprefix("<!DOCTYPE html>").strip().encode())
     ids = root.xpath("//@id")
-    assert len(ids) == len(set(ids)) == _FIGURES + _VIEWS
-    assert document.xpath("//link | //iframe | //object | //embed | //a/@href | //script/@src") == []
+    assert len(ids) == len(set(ids)) == len(root.xpath("//figure | //h2"))
+    assert document.xpath("//link | //iframe | //object | //embed | //a[not(starts-with(@href, '#'))] | //script/@src") == []
     addresses = document.xpath("//img/@src")
-    assert len(addresses) == _FIGURES + _VIEWS
+    assert len(addresses) == len(root.xpath("//figure")) == _FIGURES + _VIEWS + _PORTRAIT
     assert all(re.match(r"data:image/(svg\+xml|png);base64,", address) for address in addresses)
     (code,) = document.xpath("//script[not(@type)]")
     assert not re.search(r"https?:|import|fetch|XMLHttpRequest|eval", code.text)
     assert "@import" not in text and "url(" not in text
+
+
+def test_the_wheel_alone_scrolls_the_page(document: lxml.html.HtmlElement) -> None:
+    (code,) = document.xpath("//script[not(@type)]")
+    handler = code.text.partition('addEventListener("wheel"')[2]
+    condition, _, rest = handler.partition("event.preventDefault()")
+    assert "if (!event.ctrlKey && !event.metaKey) return;" in condition and rest
 
 
 def test_nasty_names_stay_text(document: lxml.html.HtmlElement, text: str) -> None:
@@ -106,6 +113,6 @@ def test_backwards_and_without_a_finer_mesh(text: str) -> None:
     changed = report_html(replace(result, convergence=(), comparisons=inside, load=load), "plain")
     report = lxml.html.document_fromstring(changed)
     assert report.xpath("//h2[text()='Convergence']") == []
-    assert len(report.xpath("//figure")) == _FIGURES + _VIEWS - 1
+    assert len(report.xpath("//figure")) == _FIGURES + _VIEWS + _PORTRAIT - 1
     mirrored = "loads the right flanks: the model is the mirror image"
     assert mirrored in changed and mirrored not in text

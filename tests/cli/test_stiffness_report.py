@@ -68,8 +68,9 @@ def rows(document: lxml.html.HtmlElement) -> dict[str, list[str]]:
 
 def test_is_well_formed_and_needs_nothing_from_elsewhere(text: str, document: lxml.html.HtmlElement) -> None:
     root = lxml.etree.fromstring(text.removeprefix("<!DOCTYPE html>").strip().encode())
-    assert root.xpath("//@id") == ["figure-1", "figure-2", "figure-3"]
-    assert document.xpath("//link | //script | //iframe | //object | //embed | //a/@href") == []
+    assert root.xpath("//figure/@id") == ["pair", "figure-1", "figure-2", "figure-3"]
+    assert len(set(root.xpath("//@id"))) == len(root.xpath("//@id")) == len(root.xpath("//figure | //h2"))
+    assert document.xpath("//link | //script | //iframe | //object | //embed | //a[not(starts-with(@href, '#'))]") == []
     assert all(address.startswith("data:image/svg+xml;base64,") for address in document.xpath("//@src"))
     assert NASTY_NAME in document.xpath("string(//h1)") and "<b>tags" not in text
     assert document.xpath("//li[text()='FE contact, solid bodies: a note with <b>tags</b>']")
@@ -115,7 +116,9 @@ def test_curves_are_the_cycles_own_points(teeth: tuple[int, int], helix: float) 
     (curve,) = [line for line in axes.lines if line.get_label() == "Potential energy"]
     places, values = np.asarray(curve.get_xdata(), float), np.asarray(curve.get_ydata(), float)
     assert places.min() < path.A < path.E < places.max() and (np.diff(places) > -1e-9 * pitch).all()
-    assert axes.get_xlim()[0] <= path.A and axes.get_xlim()[1] >= path.E and axes.get_ylim()[0] == 0
+    assert axes.get_xlim()[0] <= path.A and axes.get_xlim()[1] >= path.E
+    drawn = [value for line in axes.lines for value in line.get_ydata() if line.get_transform() == axes.transData]
+    assert 0.0 < axes.get_ylim()[0] < min(drawn) < max(drawn) < axes.get_ylim()[1]  # on their own range
     inside = np.flatnonzero((places > path.A + 1e-6) & (places < path.E - 1e-6))
     apart = inside[(np.diff(places)[inside] > 1e-6) & (np.diff(places)[inside - 1] > 1e-6)]
     angles = np.degrees((places[apart] - path.C) / (comparison.pair.pinion.base_diameter / 2))

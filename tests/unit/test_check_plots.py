@@ -112,11 +112,22 @@ def test_stiffness_and_its_references():
 
 
 def test_transmission_error_and_its_parts():
+    """About their means, so that the swing is seen and not the zero."""
     result, axes = small_check(), plot_transmission_error(small_check())
-    assert list(line(axes, "transmission")[1]) == [1000 * position.approach for position in result.cycle.positions]
+    drawn = {"transmission": np.array([1000 * position.approach for position in result.cycle.positions])}
     for gear, name in enumerate(("pinion", "wheel")):
-        wanted = [1000 * position.approach_parts[gear] for position in result.cycle.positions]
-        assert list(line(axes, f"part of the {name}")[1]) == wanted
+        drawn[f"part of the {name}"] = np.array([1000 * position.approach_parts[gear] for position in result.cycle.positions])
+    for label, values in drawn.items():
+        assert line(axes, label)[1] == pytest.approx(values - values.mean(), abs=1e-9)
+    swing = np.ptp(drawn["transmission"])
+    assert np.ptp(axes.get_ylim()) < 1.3 * swing < 0.6 * drawn["transmission"].max()
+
+
+def test_stiffness_fills_its_own_range():
+    result, axes = small_check(), plot_mesh_stiffness(small_check())
+    low, high = axes.get_ylim()
+    least = min(result.summary.mesh_stiffness_min, result.rating.stiffness.single)
+    assert least - 0.1 * (high - low) < low < least
 
 
 def test_root_stress_of_both_gears():

@@ -1,0 +1,88 @@
+"""A picture of a pair: both gears in mesh as they stand, seen along their axes."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.geometry import Gear, GearPair, mesh_pose
+from gearcad.plots.paper import DARK, GEARS, MARKED, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["pair_inches", "plot_pair"]
+
+Floats = NDArray[np.float64]
+
+_CHORD = 2e-3
+"""Error of the outlines, in normal modules: nobody sees it."""
+
+_WIDTH, _LEAST, _MOST = 6.6, 2.2, 5.0
+"""Inches: width of the picture, and between what its height lies."""
+
+_MARGIN = 0.4
+"""Around the gears, in normal modules."""
+
+
+def pair_inches(pair: GearPair) -> tuple[float, float]:
+    """Size of a picture of the pair, as high as its larger gear asks for."""
+    tips = [gear.tip_diameter for gear in (pair.pinion, pair.wheel)]
+    height = _WIDTH * max(tips) / (sum(tips) / 2 + pair.centre_distance)
+    return _WIDTH, min(max(height, _LEAST), _MOST)
+
+
+def plot_pair(pair: GearPair, ax: Axes | None = None) -> Axes:
+    """A transverse section of both gears, a tooth of the pinion in a space of the wheel, by the exact outlines unmodified.
+
+    Working pitch circles are dash-dotted; the path of contact of left flanks, from A to E, is drawn on the line of action.
+    """
+    from matplotlib.patches import Circle
+
+    axes = new_figure(pair_inches(pair)).subplots() if ax is None else ax
+    turn = _helix_turn(pair)
+    gears = ((pair.pinion, 0.0, 0.0), (pair.wheel, pair.centre_distance, mesh_pose(pair, -turn).rotation))
+    for (gear, x, rotation), (_, colour, _), pitch in zip(gears, GEARS, pair.working_pitch_diameters, strict=True):
+        _fill(axes, gear, x, math.radians(rotation), colour)
+        axes.add_patch(Circle((x, 0), pitch / 2, fill=False, edgecolor=DARK, linestyle="-.", linewidth=0.7))
+        axes.plot(x, 0, "+", color=DARK, markersize=9, markeredgewidth=0.8)
+    line = _line_of_action(pair)
+    axes.plot(*line.T, color=MARKED, linewidth=0.8)
+    axes.plot(*line[1:3].T, color=DARK, linewidth=2.2, solid_capstyle="butt")
+    axes.set_aspect("equal")
+    axes.margins(0)
+    margin = _MARGIN * pair.pinion.normal_module
+    axes.set_xlim(-pair.pinion.tip_diameter / 2 - margin, pair.centre_distance + pair.wheel.tip_diameter / 2 + margin)
+    axes.set_ylim(*(side * (max(pair.pinion.tip_diameter, pair.wheel.tip_diameter) / 2 + margin) for side in (-1, 1)))
+    axes.set_axis_off()
+    return axes
+
+
+def _helix_turn(pair: GearPair) -> float:
+    """How far (deg) a helical pinion's section at the wheel's lower end is turned: what `mesh_pose` takes into account."""
+    pose, pinion = mesh_pose(pair), pair.pinion
+    return math.degrees(pose.z * math.tan(math.radians(pinion.helix_angle)) / (pinion.reference_diameter / 2))
+
+
+def _fill(axes: Axes, gear: Gear, x: float, rotation: float, colour: str) -> None:
+    """A section about (x, 0), its bore left out."""
+    from matplotlib.patches import Circle
+
+    cosine, sine = math.cos(rotation), math.sin(rotation)
+    outline = gear.profile.contour(_CHORD * gear.normal_module) @ np.array([[cosine, sine], [-sine, cosine]]) + [x, 0.0]
+    axes.fill(*outline.T, facecolor=f"{colour}40", edgecolor=colour, linewidth=0.9)
+    if gear.body.bore:
+        axes.add_patch(Circle((x, 0), gear.body.bore / 2, facecolor="white", edgecolor=colour, linewidth=0.9))
+
+
+def _line_of_action(pair: GearPair) -> Floats:
+    """T1, A, E and T2 (4, 2) in mm, where the pinion's left flanks press the wheel's."""
+    angle = math.radians(pair.working_transverse_pressure_angle)
+    base = pair.pinion.base_diameter / 2
+    path, whole = pair.path_of_contact, pair.centre_distance * math.sin(angle)
+    first = base * np.array([math.cos(angle), -math.sin(angle)])
+    result: Floats = first + np.outer([0.0, path.A, path.E, whole], [math.sin(angle), math.cos(angle)])
+    return result
