@@ -12,7 +12,7 @@ from gearcad.errors import format_number
 from gearcad.fea.support import LEAST_RIM, Hold, Support, rim_ratio
 from gearcad.geometry import Gear
 
-__all__ = ["bending_limits", "rim_gates", "rim_warnings"]
+__all__ = ["bending_limits", "bending_notes", "rim_gates", "rim_warnings"]
 
 _SAME = 1e-9
 """mm: radii that do not differ."""
@@ -80,6 +80,19 @@ def bending_limits(task: Task, summary: Summary) -> Iterator[Comparison]:
         ):
             source = f"limit of {task.material.name}"
             yield at_most(f"{words}, {rim.owner}", value, least, "MPa", source, note, Subject.STRENGTH)
+
+
+def bending_notes(task: Task, summary: Summary) -> tuple[str, str]:
+    """What the comparison of each gear's root tension with the standard's has to add where the rim bends."""
+    ratings = (task.rating.pinion, task.rating.wheel)
+    notes = [
+        f"; the rim bends: Y_B = {rating.rim_thickness_factor:.3g} raises ISO's tension, in the FE it is the compression "
+        f"({compression:.0f} MPa) that rises"
+        if rim.support.bends
+        else ""
+        for rim, rating, compression in zip(_rims(task), ratings, summary.root_compression, strict=True)
+    ]
+    return notes[0], notes[1]
 
 
 def rim_warnings(task: Task, summary: Summary) -> Iterator[str]:

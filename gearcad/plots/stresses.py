@@ -124,7 +124,8 @@ def plot_fillets(result: PlaneCheck, ax: Axes | None = None) -> Axes:
             root = angles >= _LEAST_ANGLE
             axes.plot(angles[root], stresses[root], color=colour, linestyle=style, label=f"{words}, {kind}")
         found = result.cycle.worst_position(gear).tension[gear]
-        label = f"{words}, greatest: {found.tangent_angle:.0f}°"
+        bends = (result.cycle.model.pinion, result.cycle.model.wheel)[gear].ring.support.bends
+        label = f"{words}, greatest{' of all teeth' if bends else ''}: {found.tangent_angle:.0f}°"
         axes.plot([found.tangent_angle], [found.stress], marker, color=colour, label=label)
     axes.axvline(_ISO_ANGLE, color=MARKED, linestyle=":", label="30°, ISO 6336-3")
     axes.axhline(0, color=MARKED, linewidth=0.8)

@@ -16,7 +16,7 @@ def root_at_single_contact(result: PlaneCheck, gear: int) -> float:
     model, path = result.cycle.model, result.pair.path_of_contact
     length = (path.D, model.line.whole - path.B)[gear]
     load = (0, length, model.force(result.cycle.torque))
-    return Fillets((model.pinion, model.wheel)[gear]).greatest(Side.LEFT_FILLET, [load]).stress
+    return Fillets((model.pinion, model.wheel)[gear]).extreme(Side.LEFT_FILLET, [load]).stress
 
 
 def plane_root_reasons(result: PlaneCheck) -> list[str]:
@@ -44,6 +44,11 @@ def _root_reason(result: PlaneCheck, gear: int, name: str) -> str:
             f"ISO spreads the load over b = {short(rating.width)} mm of the {name}, the finite elements over the common "
             "width of "
             f"{short(width)} mm: on that width ISO would have {short(same_width)} MPa. "
+        )
+    if (result.cycle.model.pinion, result.cycle.model.wheel)[gear].ring.support.bends:
+        text += (
+            f"The rim bends. ISO raises the tension for that, by Y_B = {rating.rim_thickness_factor:.3g}; the finite elements "
+            f"have it in the compression, {short(result.summary.root_compression[gear])} MPa, and it changes sign as the gear turns. "
         )
     return text + (
         f"What remains, {100 * (alone / same_width - 1):+.1f} % with the same load at the same place and width, is the true "

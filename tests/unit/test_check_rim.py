@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from gearcad import Body, Gear, GearPair, Load, Material
+from gearcad.check.comparison import Subject
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult
 from gearcad.check.run import check_pair
@@ -49,6 +50,9 @@ def test_a_thin_rim_held_rigidly_fails_the_check_and_a_free_one_is_judged_by_wha
     bore = free.summary.bore_tension_pinion
     assert _gate(free, "tension on the bore, pinion").computed == bore
     assert any(f"bore is {bore:.0f} MPa" in each and f"{ratio:.3g} tooth depths" in each for each in free.warnings)
+    notes = {each.quantity: each.note for each in free.comparisons if each.subject is Subject.STANDARD}
+    assert f"({free.summary.root_compression.pinion:.0f} MPa)" in notes["root stress, pinion"]
+    assert "Y_B" not in notes["root stress, wheel"]
     # The wheel is thick, and nobody bends it.
     assert _gate(free, "root compression, wheel") is None
     assert free.summary.bore_tension_wheel is None
