@@ -48,7 +48,8 @@ def _root_reason(result: PlaneCheck, gear: int, name: str) -> str:
     if (result.cycle.model.pinion, result.cycle.model.wheel)[gear].ring.support.bends:
         text += (
             f"The rim bends. ISO raises the tension for that, by Y_B = {rating.rim_thickness_factor:.3g}; the finite elements "
-            f"have it in the compression, {short(result.summary.root_compression[gear])} MPa, and it changes sign as the gear turns. "
+            f"have it in the compression, {short(result.summary.root_compression[gear])} MPa, and it changes sign as the gear "
+            "turns. "
         )
     return text + (
         f"What remains, {100 * (alone / same_width - 1):+.1f} % with the same load at the same place and width, is the true "
