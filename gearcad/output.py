@@ -20,7 +20,7 @@ try:
 except ImportError:  # Windows: there what a killed process leaves stays
     fcntl = None  # type: ignore[assignment]
 
-__all__ = ["json_text", "source_date", "staged_files", "unwritable"]
+__all__ = ["UNWRITABLE", "json_text", "source_date", "staged_files", "unwritable"]
 
 _DATE = "SOURCE_DATE_EPOCH"
 
@@ -49,8 +49,15 @@ def source_date() -> datetime | None:
         raise ParameterError(_DATE, text, permitted) from error
 
 
-def unwritable(folder: Path, error: OSError) -> OutputError:
+UNWRITABLE = (OSError, UnicodeEncodeError)
+"""What the system raises for a place that cannot be written."""
+
+
+def unwritable(folder: Path, error: OSError | UnicodeEncodeError) -> OutputError:
     """The error for a place that cannot be written, whatever the system's reason."""
+    if isinstance(error, UnicodeEncodeError):
+        reason = f"the locale has no letter {error.object[error.start]!a}"
+        return OutputError("output", str(folder), f"cannot be written ({reason}); give another name, or set LC_ALL=C.UTF-8")
     reason = error.strerror or str(error)
     return OutputError("output", str(folder), f"cannot be written ({reason}); give a folder you may write to")
 
@@ -73,7 +80,7 @@ def staged_files(folder: Path, inside: Path | None = None) -> Iterator[Path]:
             yield staging
             _move_files(staging, folder)
         finished = True
-    except OSError as error:
+    except UNWRITABLE as error:
         raise unwritable(folder, error) from error
     finally:
         if not finished:

@@ -128,15 +128,11 @@ def _dask_pool(address: str, jobs: int) -> Iterator[Pool]:
 def _client(address: str, jobs: int) -> Iterator[Any]:
     """A client of the Dask cluster, which "local" starts and ends."""
     try:
-        from distributed import Client, LocalCluster
+        from distributed import Client
     except ImportError as error:
         raise ParameterError("cluster", address, 'needs Dask: pip install "gearcad[cluster]"') from error
     if address == LOCAL_CLUSTER:
-        # Without a limit of Dask's: the memory is that of the children, which it does not see.
-        with (
-            LocalCluster(n_workers=jobs, threads_per_worker=1, memory_limit=None, dashboard_address=None) as cluster,
-            Client(cluster) as client,
-        ):
+        with _local_cluster(jobs) as cluster, Client(cluster) as client:
             yield client
         return
     try:
@@ -150,6 +146,21 @@ def _client(address: str, jobs: int) -> Iterator[Any]:
         raise ParameterError("cluster", address, permitted) from error
     with client:
         yield client
+
+
+@contextmanager
+def _local_cluster(jobs: int) -> Iterator[Any]:
+    """A cluster on this machine that nobody can look into: no dashboard, and no pages behind the ports that Dask opens."""
+    import dask
+    from distributed import LocalCluster
+
+    unseen = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}  # any port: of None it makes 8787
+    with (
+        dask.config.set({"distributed.scheduler.http.routes": [], "distributed.worker.http.routes": []}),
+        # Without a limit of Dask's: the memory is that of the children, which it does not see.
+        LocalCluster(n_workers=jobs, threads_per_worker=1, memory_limit=None, scheduler_kwargs=unseen) as cluster,
+    ):
+        yield cluster
 
 
 @contextmanager

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 from gearcad.batch.manifest import Manifest, Part, inputs_hash, publish, read_manifest
 from gearcad.batch.steps import Step, Wanted, make_parts, part_of
 from gearcad.errors import GearcadError, OutputError, SpecError
-from gearcad.output import unwritable
+from gearcad.output import UNWRITABLE, unwritable
 from gearcad.spec.table import Row
 
 __all__ = ["Record", "Status", "Task", "check_rows", "make_row"]
@@ -156,7 +156,7 @@ def _staging(task: Task, folder: Path) -> Iterator[Path]:
             raise OSError(errno.ELOOP, "it is a link, which may lead anywhere")
         staging.mkdir()
         yield staging
-    except OSError as error:
+    except UNWRITABLE as error:
         raise unwritable(folder, error) from error
     except OutputError as error:  # it names the staging folder, of which the user knows nothing
         raise OutputError("output", str(folder), error.permitted) from error.__cause__

@@ -19,7 +19,7 @@ from gearcad.batch.row import Record, Status, Task, check_rows, make_row
 from gearcad.batch.steps import Wanted
 from gearcad.batch.worker import WorkerLostError
 from gearcad.errors import OutputError, SpecError, require_number
-from gearcad.output import unwritable
+from gearcad.output import UNWRITABLE, unwritable
 from gearcad.spec.table import Row, Table, open_table
 
 __all__ = ["Progress", "Summary", "run_table"]
@@ -212,7 +212,7 @@ def _workspace(folder: Path) -> Iterator[Path]:
         lock.acquire(blocking=False)
     except Timeout as error:
         raise OutputError("output", str(folder), "is in use by another gearcad batch; wait for its end") from error
-    except OSError as error:
+    except UNWRITABLE as error:
         raise unwritable(folder, error) from error
     try:
         _clear(workspace)

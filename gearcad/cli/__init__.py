@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import logging
 import sys
 
 import click
@@ -26,6 +27,9 @@ Three commands from nothing to a pair of gears:
   gearcad build volvo-13-44.toml    writes STEP and STL to output/volvo-13-44/
 """
 
+_CHATTY = ("matplotlib", "ezdxf")
+"""Libraries that warn of a home folder in which they cannot keep their caches; they do without."""
+
 
 @click.group(cls=Commands, epilog=_EXAMPLE, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(gearcad.__version__, prog_name="gearcad")
@@ -38,6 +42,8 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # an old terminal shows ? for a Greek letter, and goes on
+    for library in _CHATTY:
+        logging.getLogger(library).setLevel(logging.ERROR)
 
 
 for _command in (new, data, build, check, stiffness, dynamics, modify, study, batch, plot):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import http.client
 import os
 import signal
 import socket
@@ -10,7 +11,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ import psutil
 import pytest
 from support import jobs
 from support.batches import GEARS, MIXED, lies, read_results, snapshot, write_table
-from support.processes import PATIENCE, run_batch, start_batch, wait_for_end, wait_until
+from support.processes import PATIENCE, below, run_batch, start_batch, wait_for_end, wait_until
 
 from gearcad.batch import Step, Summary, Wanted, run_table
 from gearcad.batch import pool as pool_module
@@ -63,6 +64,15 @@ def running_cluster(folder: Path) -> Iterator[tuple[str, psutil.Process]]:
         each.kill()
 
 
+def open_ports(processes: list[psutil.Process]) -> set[tuple[str, int]]:
+    """Address and number of every port at which one of the processes listens."""
+    found = set()
+    for each in processes:
+        with suppress(psutil.Error):
+            found |= {(of.laddr.ip, of.laddr.port) for of in each.net_connections("tcp") if of.status == psutil.CONN_LISTEN}
+    return found
+
+
 @pytest.fixture(scope="module")
 def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     with running_cluster(tmp_path_factory.mktemp("cluster")) as (address, _):
@@ -78,10 +88,25 @@ def expected(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 
 
 def test_local_cluster_makes_the_same_files(tmp_path: Path, expected: dict[str, str]) -> None:
+    """Its ports are of this machine only, and none is that of Dask's dashboard."""
     table = write_table(tmp_path / "table.csv", MIXED)
-    done = run_batch(table, "-o", tmp_path / "out", *OPTIONS, "--cluster", "local", "-j", "2")
-    assert (done.returncode, done.stderr) == (0, "")
+    ports: set[tuple[str, int]] = set()
+    with start_batch(table, "-o", tmp_path / "out", *OPTIONS, "--cluster", "local", "-j", "2") as process:
+        while process.poll() is None:
+            ports |= open_ports([psutil.Process(process.pid), *below(process)])
+            time.sleep(0.2)
+        assert (process.returncode, process.communicate()[1]) == (0, "")
     assert snapshot(tmp_path / "out") == expected
+    assert len(ports) > 3 and {address for address, _ in ports} == {"127.0.0.1"}
+    assert 8787 not in {port for _, port in ports}
+
+
+def test_local_cluster_has_no_page_to_look_at() -> None:
+    with pool_module._local_cluster(0) as cluster:
+        for path in ("/", "/status", "/info/main/workers.html", "/json/counts.json", "/metrics"):
+            connection = http.client.HTTPConnection("127.0.0.1", cluster.scheduler.http_server.port, timeout=PATIENCE)
+            connection.request("GET", path)
+            assert connection.getresponse().status == 404, path
 
 
 def test_cluster_at_an_address_makes_the_same_files_and_leaves_no_process(

@@ -378,3 +378,46 @@ print([name for name in {heavy} if name in sys.modules], file=sys.stderr)
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
     assert done.stderr == "[]\n"
+
+
+@pytest.mark.parametrize("home", ["/dev/null", "locked"])
+def test_no_home_folder_is_no_matter(home: str, tmp_path: Path) -> None:
+    """Libraries that keep caches there, matplotlib and ezdxf, do without, and say nothing."""
+    starter(tmp_path, "spur")
+    (tmp_path / "locked" / ".cache" / "ezdxf" / "font_manager_cache.json").mkdir(parents=True)
+    (tmp_path / "locked" / ".config").write_text("")
+    Path("results.csv").write_text("name,status,gear.teeth,gear.tip_diameter\na,ok,20,44\nb,ok,21,46\n")
+    environment = {key: value for key, value in os.environ.items() if not key.startswith(("XDG_", "MPL"))}
+    for command in ("build spur.toml --format dxf --quiet", "plot results.csv --x gear.teeth --y gear.tip_diameter"):
+        whole = [sys.executable, "-m", "gearcad", *command.split()]
+        done = subprocess.run(whole, env=environment | {"HOME": home}, capture_output=True, text=True)
+        assert (done.returncode, done.stderr) == (0, "")
+
+
+OLD_LOCALE = {"PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "LC_ALL": "C", "PYTHONIOENCODING": "ascii"}
+
+
+def test_name_that_the_locale_cannot_write_is_one_line(tmp_path: Path) -> None:
+    starter(tmp_path, "spur", ('name = "spur"', 'name = "rad-ä"'))
+    whole = [sys.executable, "-m", "gearcad", "build", "spur.toml", "--format", "csv", "--quiet"]
+    done = subprocess.run(whole, env=os.environ | OLD_LOCALE, capture_output=True, text=True, encoding="ascii")
+    reason = "cannot be written (the locale has no letter '\\xe4'); give another name, or set LC_ALL=C.UTF-8"
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: output = 'output/rad-?': {reason}\n")
+    assert not Path("output").exists()
+    again = subprocess.run([*whole, "-o", "out"], env=os.environ | OLD_LOCALE, capture_output=True, text=True, encoding="ascii")
+    assert (again.returncode, again.stderr) == (0, "")
+    assert json.loads(Path("out/data.json").read_text())["name"] == "rad-ä"
+
+
+def test_control_characters_never_reach_the_terminal(tmp_path: Path) -> None:
+    """In the name of a file, of a key, or of an option."""
+    name = "evil\x1b[2Jname.toml"
+    Path(name).write_text('[gear]\n"\\u001b[2J" = 1\n')
+    for arguments in (
+        ["data", name],
+        ["batch", name],
+        ["data", "spur", "--\x1b[2J"],
+        ["plot", name, "--x", "\x1b", "--y", "b"],
+    ):
+        result = run(*arguments, status=2)
+        assert result.stderr.startswith("Error: ") and result.stderr.rstrip("\n").isprintable()
