@@ -11,7 +11,16 @@ from gearcad.check.summary import figures
 from gearcad.fea.cycle import Cycle
 from gearcad.ltca.solid_cycle import SolidCycle
 
-__all__ = ["FACTORS", "FEW_POSITIONS", "FINER", "LEAST_ORDER", "SOLID_ORDER", "Convergence", "three_meshes", "two_meshes"]
+__all__ = [
+    "FACTORS",
+    "FEW_POSITIONS",
+    "LEAST_ORDER",
+    "SOLID_FACTORS",
+    "SOLID_ORDER",
+    "Convergence",
+    "three_meshes",
+    "three_solid_meshes",
+]
 
 FEW_POSITIONS = 12
 """Positions of a mesh cycle where only its extremes matter."""
@@ -25,12 +34,15 @@ LEAST_ORDER = 1.0
 _SAFETY = 1.25
 """Factor on the change to the finest mesh where the changes are too small or too uneven to show an order (Roache)."""
 
-FINER = 1.26
-"""Refinement of the second of two solid meshes: twice the dofs."""
+SOLID_FACTORS = (0.794, 1.0, 1.26)
+"""Refinement of three solid meshes, each of twice the dofs of the one before; the check itself is the middle one."""
 
 SOLID_ORDER = 2.0
-"""Order at which two solid meshes are taken to converge: less than the quadratic elements' own, for what singular corners of
-fillet and face leave of it."""
+"""The greatest order that solid meshes are credited with, and that which is taken where they show none.
+
+It is less than the quadratic elements' own, for what singular edges of tip and face leave of it; and between meshes so close to
+each other the roundings of the numbers of elements can feign any order.
+"""
 
 
 @dataclass(frozen=True)
@@ -43,11 +55,6 @@ class Convergence:
     order: float | None
     error: float
 
-    @property
-    def last_change(self) -> float:
-        """Relative change from the last mesh but one to the last."""
-        return abs(self.values[-2] / self.values[-1] - 1)
-
     def to_dict(self) -> dict[str, Any]:
         """As `check.json` has it."""
         return asdict(self)
@@ -55,30 +62,47 @@ class Convergence:
 
 def three_meshes(cycles: Iterable[Cycle]) -> tuple[Convergence, ...]:
     """From the cycles on meshes refined by FACTORS: Richardson's estimate of the middle one's error."""
-    return tuple(_richardson(quantity, values) for quantity, values in _values(cycles))
+    return tuple(_of_plane(quantity, values) for quantity, values in _values(cycles))
 
 
-def two_meshes(cycles: Iterable[SolidCycle]) -> tuple[Convergence, ...]:
-    """From the cycles on a mesh and a refined one: the change, times 1/(1 - FINER^-SOLID_ORDER)."""
-    rest = 1 / (1 - FINER**-SOLID_ORDER)
-    return tuple(
-        Convergence(quantity, values, (1.0, FINER), None, rest * abs(values[0] / values[1] - 1))
-        for quantity, values in _values(cycles)
-    )
+def three_solid_meshes(cycles: Iterable[SolidCycle]) -> tuple[Convergence, ...]:
+    """From the cycles on meshes refined by SOLID_FACTORS: Richardson's estimate of the middle one's error."""
+    return tuple(_of_solids(quantity, values) for quantity, values in _values(cycles))
 
 
 def _values(cycles: Iterable[Cycle | SolidCycle]) -> list[tuple[str, tuple[float, ...]]]:
-    """Mean mesh stiffness and root tension of both gears, mesh by mesh."""
+    """Mean mesh stiffness and root tension of both gears, mesh by mesh; a cycle is let go before the next is made."""
     few = [figures(cycle) for cycle in cycles]
     words = ("mean mesh stiffness", "root tension, pinion", "root tension, wheel")
     return list(zip(words, zip(*((of.mesh_stiffness, *of.root_tension) for of in few), strict=True), strict=True))
 
 
-def _richardson(quantity: str, values: tuple[float, ...]) -> Convergence:
+def _order(values: tuple[float, ...], refinement: float) -> float | None:
+    """Order p at which the changes from mesh to mesh fall, each finer by `refinement`; None where they change sign."""
     coarse, middle, fine = values
     first, second = coarse - middle, middle - fine
     ratio = first / second if second else math.inf
-    order = math.log2(ratio) if 0 < ratio < math.inf else None
+    return math.log(ratio) / math.log(refinement) if 0 < ratio < math.inf else None
+
+
+def _of_plane(quantity: str, values: tuple[float, ...]) -> Convergence:
+    _, middle, fine = values
+    change, order = abs((middle - fine) / fine), _order(values, 2.0)
     if order is None or order < LEAST_ORDER:
-        return Convergence(quantity, values, FACTORS, order, _SAFETY * abs(second / fine))
-    return Convergence(quantity, values, FACTORS, order, abs(second / fine) * 2**order / (2**order - 1))
+        return Convergence(quantity, values, FACTORS, order, _SAFETY * change)
+    return Convergence(quantity, values, FACTORS, order, change * 2**order / (2**order - 1))
+
+
+def _of_solids(quantity: str, values: tuple[float, ...]) -> Convergence:
+    """With an order p between LEAST_ORDER and SOLID_ORDER, or where none shows with the latter and the greater of what the two
+    changes give: delta r^p/(r^p - 1) from the finer mesh, delta/(r^p - 1) from the coarser one.
+    """
+    coarse, middle, fine = values
+    refinement = SOLID_FACTORS[2]
+    order = _order(values, refinement)
+    shown = order is not None and order >= LEAST_ORDER
+    rest = refinement ** (min(order, SOLID_ORDER) if order is not None and shown else SOLID_ORDER) - 1
+    error = abs(middle - fine) * (1 + 1 / rest)
+    if not shown:
+        error = max(error, abs(coarse - middle) / rest)
+    return Convergence(quantity, values, SOLID_FACTORS, order, error / abs(fine))

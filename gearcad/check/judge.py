@@ -11,7 +11,7 @@ from gearcad.check.rim import bending_limits, bending_notes, rim_gates
 from gearcad.check.summary import PlaneSummary, Summary
 from gearcad.fea.cycle import Cycle, PairContact
 
-__all__ = ["REACTION", "compare_plane", "material_limits", "standards"]
+__all__ = ["REACTION", "compare_plane", "material_limits", "mesh_errors", "standards"]
 
 REACTION = 0.005
 """Torque on a hub against that applied: interpolation between unit loads, not equilibrium, makes up what is missing."""
@@ -27,7 +27,7 @@ def compare_plane(
     return (
         *_hertz(cycle),
         *_reactions(cycle),
-        *_errors(convergence),
+        *mesh_errors(convergence, 3 * (_DISCRETISATION,)),
         *rim_gates(task),
         *material_limits(task, summary),
         *bending_limits(task, summary),
@@ -70,18 +70,13 @@ def _reactions(cycle: Cycle) -> Iterator[Comparison]:
         yield against(f"torque reaction of the {owner}", worst, applied, REACTION, "N·m", source, Role.GATE)
 
 
-def _errors(convergence: tuple[Convergence, ...]) -> Iterator[Comparison]:
-    for each in convergence:
-        small = "the changes are too small to show an order"
-        order = small if each.order is None or each.order < LEAST_ORDER else f"observed order {each.order:.1f}"
-        yield at_most(
-            f"discretisation error, {each.quantity}",
-            100 * each.error,
-            100 * _DISCRETISATION,
-            "%",
-            "three meshes, Richardson",
-            order,
-        )
+def mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...]) -> Iterator[Comparison]:
+    """The estimated error of each quantity against what it may be (relative)."""
+    for each, limit in zip(convergence, limits, strict=bool(convergence)):
+        unclear = "the changes from mesh to mesh show no order"
+        order = unclear if each.order is None or each.order < LEAST_ORDER else f"observed order {each.order:.1f}"
+        source = "three meshes, Richardson"
+        yield at_most(f"discretisation error, {each.quantity}", 100 * each.error, 100 * limit, "%", source, order)
 
 
 def material_limits(task: Task, summary: Summary) -> Iterator[Comparison]:

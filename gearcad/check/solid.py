@@ -1,11 +1,11 @@
-"""The check of solid bodies: one mesh cycle along lines of contact, a finer mesh to tell its error, and the verdict."""
+"""The check of solid bodies: one mesh cycle along lines of contact, other meshes to tell its error, and the verdict."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
-from gearcad.check.convergence import FEW_POSITIONS, FINER, two_meshes
+from gearcad.check.convergence import FEW_POSITIONS, SOLID_FACTORS, three_solid_meshes
 from gearcad.check.judge_solid import compare_solid
 from gearcad.check.options import Model
 from gearcad.check.result import SolidCheck, Task
@@ -38,8 +38,7 @@ def check_solid(task: Task, tell: Callable[[str], None]) -> SolidCheck:
     tell("torque sweep")
     sweep = tuple(sweep_point(run_solid_cycle(model, torque, FEW_POSITIONS)) for torque in task.torques)
     tell("convergence")
-    models = (model, _model(task, FINER)) if task.options.refines else ()
-    convergence = two_meshes([run_solid_cycle(each, task.torque, FEW_POSITIONS) for each in models]) if models else ()
+    convergence = three_solid_meshes(_refined(task, model)) if task.options.refines else ()
     tell("rating")
     comparisons = compare_solid(task, cycle, summary, convergence)
     modulus = task.material.youngs_modulus / (2 * (1 - task.material.poisson_ratio**2))
@@ -64,6 +63,11 @@ def _model(task: Task, factor: float, progress: Callable[[str], None] = lambda _
     sizes = SolidSizes().refined(factor * task.options.refinement)
     pair, mounting = loaded_left(task.pair, task.torque), replace(task.mounting, centre_distance_change=0.0)
     return solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, progress=progress)
+
+
+def _refined(task: Task, middle: SolidPair) -> Iterator[SolidCycle]:
+    for factor in SOLID_FACTORS:
+        yield run_solid_cycle(middle if factor == 1 else _model(task, factor), task.torque, FEW_POSITIONS)
 
 
 def _edge_warnings(cycle: SolidCycle, summary: SolidSummary) -> list[str]:

@@ -80,7 +80,7 @@ class SolidContact:
 class RootPeak:
     """The greatest stress of a fillet (MPa): at radius and height (mm), its angle to the middle of the tooth (deg).
 
-    `along_face` (n,) is the greatest along the profile at each height of the fillet's rows (MPa).
+    `along_face` (n,) is the greatest along the profile at each of the fillet's `heights_between` (MPa).
     """
 
     stress: float
@@ -169,7 +169,7 @@ class SolidCycle:
         """Heights (n,) in mm of the gear, and the greatest root tension of the cycle there (n,) in MPa."""
         fillet = self.model.fillets[gear][0]
         stresses: Floats = np.array([position.tension[gear].along_face for position in self.positions])
-        return fillet.heights, stresses.max(axis=0)
+        return fillet.heights_between, stresses.max(axis=0)
 
     def root_face_load_factor(self, gear: int) -> float:
         """K_F_beta: the greatest root tension over its mean along the common face width."""
@@ -249,17 +249,16 @@ def _bore_tension(bore: SolidFillet | None, loads: list[tuple[int, Floats]]) -> 
 
 def _peak(fillet: SolidFillet, stresses: list[Floats], sign: int) -> RootPeak:
     """The most stressed place of the root of the most stressed tooth."""
-    root = np.flatnonzero(fillet.is_root)
-    worst = max((sign * stress[:, root] for stress in stresses), key=np.max)
+    root, along, across = np.flatnonzero(fillet.is_root), fillet.along_root, fillet.along_face
+    every = [sign * across @ stress[:, root] @ along.T for stress in stresses]
+    worst = max(every, key=np.max)
     row, column = np.unravel_index(int(np.argmax(worst)), worst.shape)
-    at = root[column]
-    along = np.max([(sign * stress[:, root]).max(axis=1) for stress in stresses], axis=0)
     return RootPeak(
         stress=sign * float(worst[row, column]),
-        radius=float(fillet.radii[at]),
-        height=float(fillet.heights[row]),
-        tangent_angle=float(fillet.tangent_angles[at]),
-        along_face=sign * along,
+        radius=float(along[column] @ fillet.radii[root]),
+        height=float(fillet.heights_between[row]),
+        tangent_angle=float(along[column] @ fillet.tangent_angles[root]),
+        along_face=sign * np.max([stress.max(axis=1) for stress in every], axis=0),
     )
 
 

@@ -39,15 +39,16 @@ _STEP = 0.05
 """Step (mm) of that bound, so that loads and modifications that differ little share their responses."""
 
 
-_SECTION = MeshSizes(flank=0.6, corner=0.25, fillet=0.24, outline=0.8, cut=1.0, rim=4.0, growth=0.6)
+_SECTION = MeshSizes(flank=0.34, corner=0.045, fillet=0.11, outline=0.45, cut=0.3, rim=6.0, growth=0.45)
+"""Where halving any one of them moves stiffness of the FZG pair by less than 0.1 %, and its root stress by less than 0.5 %."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SolidSizes:
-    """Mesh of the solid bodies: twice the edge lengths in the `section`, mean thickness of a `layer`, in normal modules."""
+    """Mesh of the solid bodies: edge lengths in the `section`, mean thickness of a `layer`, in normal modules."""
 
     section: MeshSizes = _SECTION
-    layer: float = 0.9
+    layer: float = 0.8
     fewest_layers: int = 6
 
     def layers(self, gear: Gear) -> int:
@@ -57,7 +58,7 @@ class SolidSizes:
     def refined(self, factor: float) -> SolidSizes:
         """All edges shorter by `factor`."""
         return SolidSizes(
-            section=self.section.refined(factor),
+            section=self.section.scaled(factor),
             layer=self.layer / factor,
             fewest_layers=round(self.fewest_layers * factor),
         )

@@ -23,6 +23,9 @@ _GAUSS = 0.5 / np.sqrt(3)
 _LEAST_ANGLE = 12.0
 """Tangent angle (deg) from which on the fillet counts as the root, as in the plane model."""
 
+_STEPS = 4
+"""Steps from one point to the next in which the greatest stress is looked for."""
+
 
 class FilletState(NamedTuple):
     """Principal stresses (MPa) at the points of a fillet (heights, along the profile), the greater and the lesser."""
@@ -60,6 +63,25 @@ class SolidFillet:
     def is_root(self) -> NDArray[np.bool_]:
         """Which points (m,) along the profile are the root: above, a contact near the start of the flank presses on them."""
         return self.tangent_angles >= _LEAST_ANGLE
+
+    @cached_property
+    def along_root(self) -> Floats:
+        """Weights (n, root points) with which values at the points of the root give those along the profile there."""
+        mesh = self.body.body.sector.mesh
+        chain = mesh.section.points[mesh.side(self.side)]
+        run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(chain, axis=0).T))]
+        return _between(run[1::2][self.is_root])
+
+    @cached_property
+    def along_face(self) -> Floats:
+        """Weights (n, heights) with which values at the rows of points give those at `heights_between`."""
+        return _between(self.heights)
+
+    @property
+    def heights_between(self) -> Floats:
+        """Heights (n,) in mm of the rows and of places between them."""
+        result: Floats = self.along_face @ self.heights
+        return result
 
     def state(self, loads: list[tuple[int, Floats]]) -> FilletState:
         """Stresses on tooth 0 by loads: tooth, and force (N) at each unit load's place (see SolidCompliance.by)."""
@@ -161,3 +183,17 @@ class SolidFillet:
         plane = e / (1 - nu**2)
         stresses = (plane * (along + nu * axial), plane * (axial + nu * along), e / (2 * (1 + nu)) * shear)
         return np.stack([self._at_points(stress) for stress in stresses])
+
+
+def _between(places: Floats) -> Floats:
+    """Weights (n, places) of a spline at the places (m,) and steps between them: the greatest of a few values would depend on
+    where they happen to stand.
+    """
+    from scipy.interpolate import CubicSpline
+
+    count = len(places)
+    if count < 2:
+        return np.eye(count)
+    every = np.interp(np.arange(_STEPS * (count - 1) + 1) / _STEPS, np.arange(count), places)
+    weights: Floats = CubicSpline(places, np.eye(count))(every)
+    return weights

@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 from gearcad.errors import require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
+from gearcad.meshing.grading import graded
 
-__all__ = ["MeshSizes", "Side", "Stretch", "sector_outline"]
+__all__ = ["OTHER_SIDE", "EdgeLength", "MeshSizes", "Side", "Stretch", "edge_lengths", "sector_outline"]
 
 Floats = NDArray[np.float64]
 
-_FINE = 513
-"""Points at which a curve is sampled to measure and to grade it."""
+EdgeLength = Callable[[Floats, float], Floats]
+"""Wanted edge lengths (mm) at distances (mm) from the root side of a curve, of a given length in all."""
 
 
 class Side(Enum):
@@ -61,14 +62,17 @@ class MeshSizes:
         return replace(self, flank=0.4, corner=0.4, fillet=0.3, outline=0.5)
 
     def refined(self, factor: float) -> MeshSizes:
-        """All edges shorter by `factor`."""
-        sizes = {each.name: getattr(self, each.name) / factor for each in fields(self) if each.name != "growth"}
-        return replace(self, **sizes)
+        """All sizes smaller by `factor`; away from them edges grow as fast as before."""
+        return replace(self.scaled(factor), growth=self.growth)
+
+    def scaled(self, factor: float) -> MeshSizes:
+        """Every edge shorter by `factor`, wherever it is."""
+        return MeshSizes(**{each.name: getattr(self, each.name) / factor for each in fields(self)})
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """One stretch of the outline: `points` (4 n + 1, 2) in mm in order, exactly on it; an edge takes four steps."""
+    """One stretch of the outline: `points` (2 n + 1, 2) in mm in order, exactly on it: ends and middles of its edges."""
 
     side: Side
     points: Floats
@@ -76,12 +80,12 @@ class Stretch:
     @property
     def ends(self) -> Floats:
         """Ends of the edges (n + 1, 2)."""
-        return self.points[::4]
+        return self.points[::2]
 
     @property
     def mids(self) -> Floats:
         """Middles of the edges (n, 2)."""
-        return self.points[2::4]
+        return self.points[1::2]
 
     def backwards(self, side: Side | None = None) -> Stretch:
         """The same stretch run through from its end."""
@@ -100,7 +104,7 @@ def sector_outline(gear: Gear, inner_radius: float, sizes: MeshSizes) -> list[St
     half_pitch = math.pi / gear.teeth
     loaded = _half_tooth(gear, sizes, loaded=True)
     idle = _half_tooth(gear, sizes, loaded=False)
-    right = [stretch.mirrored(_OTHER_SIDE[stretch.side]) for stretch in idle]
+    right = [stretch.mirrored(OTHER_SIDE[stretch.side]) for stretch in idle]
     left = [stretch.backwards() for stretch in reversed(loaded)]
     cut = _cut(gear.root_diameter / 2, inner_radius, half_pitch, sizes, gear.normal_module)
     behind = cut.mirrored(Side.BEHIND).backwards()
@@ -109,7 +113,7 @@ def sector_outline(gear: Gear, inner_radius: float, sizes: MeshSizes) -> list[St
     return [*right, *left, cut, inner, behind]
 
 
-_OTHER_SIDE = {
+OTHER_SIDE = {
     Side.LEFT_ROOT: Side.RIGHT_ROOT,
     Side.LEFT_FILLET: Side.RIGHT_FILLET,
     Side.LEFT_FLANK: Side.RIGHT_FLANK,
@@ -125,55 +129,53 @@ _SIDES = {
 }
 
 
+def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> dict[CurveKind, EdgeLength]:
+    """The wanted edge lengths on the curves of half a tooth."""
+    module, grow = gear.normal_module, sizes.growth
+    fillet, other = sizes.fillet * module, sizes.outline * module
+    flank, corner = (sizes.flank * module, sizes.corner * module) if loaded else (other, other)
+
+    def on_flank(run: Floats, whole: float) -> Floats:
+        return np.minimum(flank, np.minimum(fillet + grow * run, corner + grow * (whole - run)))
+
+    return {
+        CurveKind.ROOT: lambda run, whole: np.minimum(sizes.cut * module, fillet + grow * (whole - run)),
+        CurveKind.FILLET: lambda run, _whole: np.full_like(run, fillet),
+        CurveKind.INVOLUTE: on_flank,
+        CurveKind.CHAMFER: lambda run, _whole: np.minimum(other, corner + grow * run),
+        CurveKind.TIP: lambda run, _whole: np.minimum(other, corner + grow * run),
+    }
+
+
 def _half_tooth(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> list[Stretch]:
     """Stretches of the left half, from the middle of the space to the middle of the tooth."""
-    module = gear.normal_module
-    corner = (sizes.corner if loaded else sizes.outline) * module
-    flank, fillet, other = (
-        sizes.flank * module if loaded else sizes.outline * module,
-        sizes.fillet * module,
-        sizes.outline * module,
-    )
-    grow = sizes.growth
-
-    def size(kind: CurveKind, run: Floats, whole: float) -> Floats:
-        """Wanted edge length at the distance `run` from the root side of a curve of the length `whole`."""
-        if kind is CurveKind.ROOT:
-            return np.minimum(sizes.cut * module, fillet + grow * (whole - run))
-        if kind is CurveKind.FILLET:
-            return np.full_like(run, fillet)
-        if kind is CurveKind.INVOLUTE:
-            return np.minimum(flank, np.minimum(fillet + grow * run, corner + grow * (whole - run)))
-        return np.minimum(other, corner + grow * run)
-
-    return [_graded(curve, size) for curve in gear.profile.curves]
+    lengths = edge_lengths(gear, sizes, loaded=loaded)
+    return [_graded(curve, lengths[curve.kind]) for curve in gear.profile.curves]
 
 
-def _graded(curve: Curve, size: Callable[[CurveKind, Floats, float], Floats]) -> Stretch:
+def _graded(curve: Curve, size: EdgeLength) -> Stretch:
     """The curve with edges of the wanted lengths."""
-    s = np.linspace(0.0, 1.0, _FINE)
-    run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(curve.points(s), axis=0).T))]
-    effort = 1 / size(curve.kind, run, float(run[-1]))
-    count = np.r_[0.0, np.cumsum((effort[1:] + effort[:-1]) / 2 * np.diff(run))]
-    edges = max(1, math.ceil(count[-1] - 1e-9))
-    nodes = np.interp(np.linspace(0.0, count[-1], 4 * edges + 1), count, s)
-    return Stretch(_SIDES[curve.kind], curve.points(nodes))
+    grading = graded(curve.points, size)
+    edges = max(1, math.ceil(grading.edges - 1e-9))
+    return Stretch(_SIDES[curve.kind], curve.points(grading.ends(2 * edges)))
 
 
 def _cut(outer: float, inner: float, angle: float, sizes: MeshSizes, module: float) -> Stretch:
     """The radial cut from the root circle inwards, edges growing up to the rim's."""
-    depth = outer - inner
-    run = np.linspace(0.0, depth, _FINE)
-    effort = 1 / np.minimum(sizes.rim * module, sizes.cut * module + sizes.growth * run)
-    count = np.r_[0.0, np.cumsum((effort[1:] + effort[:-1]) / 2 * np.diff(run))]
-    edges = max(2, math.ceil(count[-1]))
-    ends = outer - np.interp(np.linspace(0.0, count[-1], edges + 1), count, run)
-    steps = np.interp(np.arange(4 * edges + 1) / 4, np.arange(edges + 1), ends)
-    return Stretch(Side.AHEAD, steps[:, None] * np.array([math.cos(angle), math.sin(angle)]))
+    direction = np.array([math.cos(angle), math.sin(angle)])
+    rim, cut = sizes.rim * module, sizes.cut * module
+
+    def points(s: Floats) -> Floats:
+        result: Floats = (outer + s[:, None] * (inner - outer)) * direction
+        return result
+
+    grading = graded(points, lambda run, _whole: np.minimum(rim, cut + sizes.growth * run))
+    ends = grading.ends(max(2, math.ceil(grading.edges)))
+    return Stretch(Side.AHEAD, points(np.insert(ends, range(1, len(ends)), grading.middles(ends))))
 
 
 def _arc(radius: float, half_angle: float, size: float) -> Stretch:
     """The inner circle from plus to minus half a pitch."""
     edges = max(1, math.ceil(2 * half_angle * radius / size))
-    angles = np.linspace(half_angle, -half_angle, 4 * edges + 1)
+    angles = np.linspace(half_angle, -half_angle, 2 * edges + 1)
     return Stretch(Side.INNER, radius * np.stack([np.cos(angles), np.sin(angles)], -1))

@@ -48,14 +48,14 @@ def mesh_sector(gear: Gear, inner_radius: float, sizes: MeshSizes | None = None)
     """Mesh tooth 0 of the gear's transverse section down to `inner_radius` (mm). Raises SolverError if gmsh fails."""
     outline = sector_outline(gear, inner_radius, sizes or MeshSizes())
     corners = np.concatenate([stretch.ends[:-1] for stretch in outline])
-    points, triangles, _ = fill_polygon(corners)
+    points, triangles = fill_polygon(corners)
     return _quadratic(points, triangles, outline)
 
 
-def fill_polygon(outline: Floats, *, recombine: bool = False) -> tuple[Floats, Indices, Indices]:
-    """Points, triangles (m, 3) and quadrangles (k, 4) that fill a polygon without adding to its corners, which come first.
+def fill_polygon(outline: Floats) -> tuple[Floats, Indices]:
+    """Points and triangles (m, 3) that fill a polygon without adding to its corners, which come first.
 
-    There are quadrangles if `recombine` joins triangles where that makes good ones. Raises SolverError if gmsh fails.
+    Raises SolverError if gmsh fails.
     """
     import gmsh
 
@@ -66,7 +66,6 @@ def fill_polygon(outline: Floats, *, recombine: bool = False) -> tuple[Floats, I
         gmsh.option.set_number("Mesh.MeshSizeFromPoints", 0)
         gmsh.option.set_number("Mesh.MeshSizeExtendFromBoundary", 1)
         gmsh.option.set_number("Mesh.Algorithm", 6)
-        gmsh.option.set_number("Mesh.RecombineAll", int(recombine))
         for number, (x, y) in enumerate(outline, 1):
             gmsh.model.geo.add_point(x, y, 0, tag=number)
         for number in range(1, count + 1):
@@ -77,7 +76,7 @@ def fill_polygon(outline: Floats, *, recombine: bool = False) -> tuple[Floats, I
         gmsh.model.mesh.generate(2)
         tags, coordinates, _ = gmsh.model.mesh.get_nodes()
         corners = [int(gmsh.model.mesh.get_nodes(0, number)[0][0]) for number in range(1, count + 1)]
-        found = [gmsh.model.mesh.get_elements_by_type(kind, surface)[1].astype(int) for kind in (2, 3)]
+        found = gmsh.model.mesh.get_elements_by_type(2, surface)[1].astype(int)
     except Exception as error:
         raise SolverError(f"gmsh could not mesh the section: {error}") from error
     finally:
@@ -88,7 +87,7 @@ def fill_polygon(outline: Floats, *, recombine: bool = False) -> tuple[Floats, I
     place[order] = np.arange(len(order))
     row = np.empty(int(tags.max()) + 1, int)
     row[tags.astype(int)] = np.arange(len(tags))
-    return coordinates.reshape(-1, 3)[row[order], :2], place[found[0]].reshape(-1, 3), place[found[1]].reshape(-1, 4)
+    return coordinates.reshape(-1, 3)[row[order], :2], place[found].reshape(-1, 3)
 
 
 def _quadratic(points: Floats, triangles: Indices, outline: list[Stretch]) -> SectorMesh:

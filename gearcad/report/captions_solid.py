@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearcad.check.convergence import FINER, SOLID_ORDER
+from gearcad.check.convergence import SOLID_ORDER
 from gearcad.check.result import SolidCheck
 from gearcad.check.solid_summary import middle_contacts
 from gearcad.plots.paper import short
@@ -110,10 +110,9 @@ def convergence(result: SolidCheck) -> str:
     """Caption of the convergence."""
     errors = ", ".join(f"{100 * each.error:.2g} % ({each.quantity})" for each in result.convergence)
     return (
-        f"The same figures on the mesh of this check (1) and on one with edges {FINER:g} times shorter in all directions. Two "
-        f"meshes do not show an order: with order {SOLID_ORDER:g} the error is {1 / (1 - FINER**-SOLID_ORDER):.2f} times "
-        "the change. "
-        f"Estimated error of the check: {errors}."
+        "The same figures on three meshes, each of twice the nodes of the one before; 1 is the mesh of this check. "
+        f"Estimated error of the check: {errors}. Where no order shows between meshes so close to each other, it is taken as "
+        f"{SOLID_ORDER:g}, with the greater of the changes."
     )
 
 

@@ -21,7 +21,7 @@ from gearcad.meshing import MeshSizes
 STEEL = Material()
 SECTORS = BodyModel(teeth=3, cuts=Cuts.FIXED)
 QUICK = SolidSizes(
-    section=MeshSizes(flank=1.0, corner=0.4, fillet=0.45, outline=1.2, cut=1.2, rim=4.0, growth=0.8), layer=1.4, fewest_layers=5
+    section=MeshSizes(flank=0.5, corner=0.1, fillet=0.2, outline=0.6, cut=0.4, rim=6.0, growth=0.6), layer=1.4, fewest_layers=5
 )
 """Coarse: 8 to 12 thousand dofs a gear."""
 

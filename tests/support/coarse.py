@@ -33,7 +33,7 @@ def coarse_pair(name: str) -> GearPair:
 
 @cache
 def coarse_model(name: str) -> SolidPair:
-    """Three teeth of each gear, elements twice as long as usual."""
+    """Three teeth of each gear, with half as many elements in their sections as usual."""
     with threadpool_limits(1):
-        body, sizes = BodyModel(teeth=3), SolidSizes().refined(0.5)
+        body, sizes = BodyModel(teeth=3), SolidSizes().refined(0.7)
         return solid_pair(coarse_pair(name), Material(), body=body, sizes=sizes)

@@ -25,7 +25,7 @@ GEAR = Gear(teeth=8, normal_module=2.0, face_width=8, helix_angle=25, profile_sh
 INNER = 5.0
 """mm: radius of the hub."""
 
-SIZES = MeshSizes(flank=1.2, corner=1.0, fillet=0.8, outline=1.5, cut=1.5, rim=4.0, growth=1.0)
+SIZES = MeshSizes(flank=0.6, corner=0.5, fillet=0.4, outline=0.75, cut=0.75, rim=2.0, growth=0.5)
 """Coarse: equality of two ways through the same mesh does not depend on its fineness."""
 
 EXACT = 1e-8
