@@ -185,7 +185,7 @@ def propose(
         pair=with_amounts(pair, unmirrored(best.found.amounts, pair, torque), best.search.variants.shape),
         torque=torque,
         found=best.found,
-        variants=sum(sum(each.search.tried) for each in tried),
+        variants=sum(each.search.tried for each in tried),
         before=Figures.of(before),
         after=Figures.of(best.cycle),
         robustness=robustness,

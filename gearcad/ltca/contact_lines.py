@@ -149,7 +149,7 @@ def gaps(lines: tuple[ContactLine, ...], pair: GearPair, mounting: Mounting, hel
 
 
 def line_gap(
-    line: ContactLine, pair: GearPair, mounting: Mounting, helix: float, depths: Sequence[Floats]
+    line: ContactLine, pair: GearPair, mounting: Mounting, helix: float, depths: Sequence[Floats] | Floats
 ) -> tuple[Floats, Floats]:
     """Gaps along the normal and reduced radii (..., n) in mm of a line, flanks taken back by `depths` (..., n) in mm
     at the `places_beside` it.

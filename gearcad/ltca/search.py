@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +14,7 @@ from numpy.typing import NDArray
 from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair, ReliefShape
 from gearcad.ltca.contact_lines import gaps
+from gearcad.ltca.lattice import Goal, Ints, Lattice, Remembered
 from gearcad.ltca.line_contact import solve_lines
 from gearcad.ltca.solid_pair import SolidPair
 from gearcad.ltca.variants import AMOUNTS, Condition, Outcomes, Variants, with_amounts
@@ -20,11 +23,23 @@ __all__ = ["Found", "Search", "conditions", "start_search"]
 
 Floats = NDArray[np.float64]
 
-_HELICAL = (24, 12)
-_SPUR = (14, 24)
-"""Cells of a line of contact, and positions over a base pitch, by which a variant is judged: where a line runs across the
-flank its cells are at many places of it at once, where it does not positions must be.
+
+class _Sampling(NamedTuple):
+    """Cells of a line of contact, positions over a base pitch, and as many more at either end of the path of contact."""
+
+    cells: int
+    positions: int
+    at_ends: int
+
+
+_HELICAL = _Sampling(16, 24, 0)
+_SPUR = _Sampling(8, 32, 8)
+"""By which a variant is judged: where a line runs across the flank its cells are at many places of it at once, where it does
+not positions must be.
 """
+
+_ROUGH = 2
+"""Of that many positions a survey takes one."""
 
 _STEPS = np.array([1.0, 0.05, 1.0, 0.05, 1.0, 1.0])
 _DECIMALS = 2
@@ -52,17 +67,19 @@ _FREE = 2e-3
 _WITHIN = 1e-3
 """Share by which a bound may be passed over: less than the pressures are exact."""
 
-_NEAR = 0.1
-_NEAR_AT_LEAST = 0.1
+_OUT_OF_REACH = 1.1
+"""Share of a bound above which the pressures of all a survey saw leave no hope: it goes where they are low."""
+
+_NEAR = 0.01
 _NEAR_MOST = 48
-"""Variants count as near the best up to this share, or up to so many µm, above it; at most so many of them."""
+"""Variants count as near the best up to this share above it; at most so many of them."""
 
 _NEVER = 1e9
 """Score of a variant whose contact does not settle."""
 
-_POPULATION = 12
-_GENERATIONS = 30
-_SEED = 0
+_GENERATIONS = 15
+_STARTS = 8
+"""Generations of a survey, and from how many of its best places the search goes on."""
 
 _MISALIGNMENT = 10.0
 _PITCH_ERROR = 10.0
@@ -120,16 +137,19 @@ class Search:
     high: Floats
     start: Floats
     plain: Outcomes
-    tried: list[int] = field(default_factory=list, repr=False)
 
     @property
     def deflection(self) -> float:
         """The greatest transmission error (µm) of plain flanks."""
         return float(self.plain.transmission_errors.max())
 
+    @property
+    def tried(self) -> int:
+        """How many variants were solved under the torque, roughly or in full."""
+        return len(self._rough.known) + len(self._full.known)
+
     def outcomes(self, amounts: Floats, condition: Condition | None = None) -> Outcomes:
         """What becomes of variants (v, 6)."""
-        self.tried.append(len(amounts))
         return self.variants.outcomes(amounts, condition or Condition(self.torque))
 
     def best(self, bounds: Sequence[float]) -> Found:
@@ -138,12 +158,15 @@ class Search:
         Without contact on the edges of the tips, unless that costs more than half of what is gained.
         """
         for bound in bounds:
-            found = self.run(bound)
+            places = self._survey(bound)
+            if bound != bounds[-1] and Outcomes.of(self._rough(places)).pressures.min() > _OUT_OF_REACH * bound:
+                continue
+            found = self._settled(bound, places)
             if found.bounded:
                 break
         if found.edges_free or not found.bounded:
             return found
-        strict = self.run(bound, edges=False)
+        strict = self._settled(bound, places, edges=False)
         dearest = (found.peak_to_peak + float(self.plain.peak_to_peak[0])) / 2
         return strict if strict.bounded and strict.edges_free and strict.peak_to_peak <= dearest else found
 
@@ -158,59 +181,60 @@ class Search:
 
         `edges` tells whether those of the tips may carry load.
         """
-        from scipy.optimize import differential_evolution
+        return self._settled(bound, self._survey(bound), edges=edges)
 
-        free = np.flatnonzero(self.high > self.low)
-        seen: list[tuple[Floats, Floats]] = []
+    def _survey(self, bound: float) -> Ints:
+        """Places (v, 6) all over, the most of them where variants are good."""
+        return self._lattice.survey(self._goal(self._rough, bound, edges=True), _GENERATIONS, _nearest(self.start))
 
-        def judge(columns: Floats) -> Floats:
-            amounts = np.tile(self.low, (columns.shape[1], 1))
-            amounts[:, free] = columns.T
-            scores = self.scores(self.outcomes(amounts), bound, edges=edges)
-            seen.append((amounts, scores))
-            return scores
-
-        differential_evolution(
-            judge,
-            list(zip(self.low[free], self.high[free], strict=True)),
-            popsize=_POPULATION,
-            maxiter=_GENERATIONS,
-            init="sobol",
-            x0=np.clip(self.start, self.low, self.high)[free],
-            seed=_SEED,
-            polish=False,
-            updating="deferred",
-            vectorized=True,
-        )
-        every, scores = (np.concatenate(parts) for parts in zip(*seen, strict=True))
-        amounts = self._robust(every, scores, bound, edges)
+    def _settled(self, bound: float, places: Ints, *, edges: bool = True) -> Found:
+        """The proposal to which the best of the places lead."""
+        lattice, goal = self._lattice, self._goal(self._full, bound, edges=edges)
+        rough = self._goal(self._rough, bound, edges=edges)
+        ends = lattice.descend(goal, lattice.best_apart(places, rough.at(places), _STARTS))
+        values = goal.at(ends)
+        while True:
+            best = ends[values.argmin()]
+            ends = np.unique(np.concatenate([ends, lattice.around(best)]), axis=0)
+            values = goal.at(ends)
+            if values.min() >= goal.at(best[None])[0]:
+                break
+        amounts = self._robust(ends, values, bound)
         return Found(amounts, bound, self.outcomes(amounts[None]))
 
-    def _robust(self, amounts: Floats, scores: Floats, bound: float, edges: bool) -> Floats:
-        """Of the variants that are, rounded, near the best: the one that bears parts of the torque and misalignment best.
+    def _robust(self, places: Ints, scores: Floats, bound: float) -> Floats:
+        """Of the variants near the best: the one that bears parts of the torque and misalignment best.
 
         Pressure counts along, else the free play would go into crowning that nothing asks for.
         """
-        order = np.argsort(scores, kind="stable")
-        near = order[scores[order] <= _near(scores.min())]
-        # Spread over all that are near, the best first: neighbours of the best differ little.
-        chosen = near[np.unique(np.linspace(0, len(near) - 1, 4 * _NEAR_MOST).astype(int))]
-        nearest = amounts[chosen] / _STEPS
-        # Less relief over a greater length presses less: what rounding puts above the bound is rounded the other way.
-        softer = np.where(_STEPS < 1, np.ceil(nearest), np.floor(nearest))
-        steps = np.clip(np.concatenate([np.round(nearest), softer]), self._least, self._most)
-        # The sum makes -0.0 a plain zero.
-        rounded = np.unique(np.round(steps * _STEPS, _DECIMALS) + 0.0, axis=0)
-        found = self.outcomes(rounded)
-        again = self.scores(found, bound, edges=edges)
-        within = found.pressures <= bound * (1 + _WITHIN)
+        pressures = Outcomes.of(self._full(places)).pressures
+        within = pressures <= bound * (1 + _WITHIN)
         permitted = within if within.any() else np.ones_like(within)
-        kept = np.flatnonzero(permitted & (again <= _near(again[permitted].min())))
-        kept = kept[np.argsort(again[kept], kind="stable")][:_NEAR_MOST]
+        near = np.flatnonzero(permitted & (scores <= (1 + _NEAR) * scores[permitted].min()))
+        near = near[np.argsort(scores[near], kind="stable")][:_NEAR_MOST]
+        amounts = _amounts(places[near])
         others = [each for each in conditions(self.torque) if abs(each.torque) >= abs(self.torque) / 2]
-        burden = np.sum([self.outcomes(rounded[kept], each).peak_to_peak for each in others], axis=0)
-        best: Floats = rounded[kept[np.argmin(burden * found.pressures[kept])]]
+        burden = np.sum([self.outcomes(amounts, each).peak_to_peak for each in others], axis=0)
+        best: Floats = amounts[np.argmin(burden * pressures[near])]
         return best
+
+    def _goal(self, figures: Remembered, bound: float, *, edges: bool) -> Goal:
+        return Goal(figures, lambda rows: self.scores(Outcomes.of(rows), bound, edges=edges))
+
+    @cached_property
+    def _lattice(self) -> Lattice:
+        low, high = np.ceil(self.low / _STEPS - 1e-9), np.floor(self.high / _STEPS + 1e-9)
+        return Lattice(low.astype(np.int64), np.maximum(low, high).astype(np.int64))
+
+    @cached_property
+    def _full(self) -> Remembered:
+        return Remembered(lambda places: self.outcomes(_amounts(places)).figures)
+
+    @cached_property
+    def _rough(self) -> Remembered:
+        of, condition = self.variants, Condition(self.torque)
+        variants = replace(of, count=of.count // _ROUGH, at_ends=of.at_ends // _ROUGH)
+        return Remembered(lambda places: variants.outcomes(_amounts(places), condition).figures)
 
     def peak_to_peak(self, pair: GearPair, condition: Condition) -> float:
         """Of the transmission error (µm) of a pair with any modifications, the contact solved in full. Raises SolverError."""
@@ -219,19 +243,17 @@ class Search:
         solved = [solve_lines(given, gaps(given.lines, pair, mounting, helix), force).approach for given in of.positions]
         return float(np.ptp(solved)) / math.cos(helix) * 1000
 
-    @property
-    def _least(self) -> Floats:
-        steps: Floats = np.ceil(self.low / _STEPS - 1e-9)
-        return steps
 
-    @property
-    def _most(self) -> Floats:
-        steps: Floats = np.floor(self.high / _STEPS + 1e-9)
-        return steps
+def _nearest(amounts: Floats) -> Ints:
+    """The place (6,) nearest to amounts (6,)."""
+    result: Ints = np.rint(amounts / _STEPS).astype(np.int64)
+    return result
 
 
-def _near(best: float) -> float:
-    return best + max(_NEAR * best, _NEAR_AT_LEAST)
+def _amounts(places: Ints) -> Floats:
+    """Amounts (v, 6) of places."""
+    result: Floats = np.round(places * _STEPS, _DECIMALS)
+    return result
 
 
 def start_search(model: SolidPair, torque: float, shape: ReliefShape) -> Search:
@@ -239,13 +261,13 @@ def start_search(model: SolidPair, torque: float, shape: ReliefShape) -> Search:
     only against a misalignment of its mounting.
     """
     nothing = np.zeros(len(AMOUNTS))
-    cells, positions = _HELICAL if model.helix else _SPUR
-    bare = replace(model.remade(with_amounts(model.pair, nothing, shape), model.mounting), cells=cells, known={})
+    sampling = _HELICAL if model.helix else _SPUR
+    bare = replace(model.remade(with_amounts(model.pair, nothing, shape), model.mounting), cells=sampling.cells, known={})
     start = np.array([0.0, 0.0, 0.0, 0.0, 0.0, _aligning(bare)])
-    plain = Variants(bare, shape, positions, torque).outcomes(start[None], Condition(torque))
+    plain = Variants(bare, shape, sampling.positions, torque, sampling.at_ends).outcomes(start[None], Condition(torque))
     low, high = _bounds(bare, shape, float(plain.transmission_errors.max()))
     roomy = bare.remade(with_amounts(bare.pair, high, shape), bare.mounting)
-    variants = Variants(roomy, shape, positions, torque)
+    variants = Variants(roomy, shape, sampling.positions, torque, sampling.at_ends)
     return Search(variants, torque, low, high, start, variants.outcomes(start[None], Condition(torque)))
 
 

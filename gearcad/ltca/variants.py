@@ -1,7 +1,6 @@
 """Many modifications of the same flanks at once: transmission error and pressure of each, on bodies already solved.
 
-The bodies answer as in `line_contact`; only gaps differ between variants. The systems of all variants at a position are solved
-together, and the ellipse of a cell follows its load by the diagonal alone: other cells hardly see how wide it is.
+The bodies answer as in `line_contact`; only gaps differ between variants, and contacts are solved by `side_by_side`.
 """
 
 from __future__ import annotations
@@ -15,7 +14,8 @@ from numpy.typing import NDArray
 
 from gearcad.geometry import FlankForm, GearPair, ReliefShape
 from gearcad.ltca.contact_lines import BEND, line_gap, places_beside
-from gearcad.ltca.line_contact import OWN_DISTANCE, Responses, half_widths
+from gearcad.ltca.line_contact import Responses, half_widths
+from gearcad.ltca.side_by_side import press
 from gearcad.ltca.solid_cycle import INTERIOR
 from gearcad.ltca.solid_pair import SolidPair
 from gearcad.mounting import Mounting
@@ -35,21 +35,12 @@ AMOUNTS = (
 )
 """What varies, in the order of the columns of a table of variants; amounts in µm, lengths in mm."""
 
-_BED = 0.15
-"""Stiffness of a bed of springs, per length, that deflects about as teeth do: a share of the reduced modulus."""
-
-_LEAST = 1e-3
-"""Share of the mean load per length for which the ellipse of a cell is wide enough, however little it carries."""
-
-_OPEN = 1e-9
-"""Overlap (mm) that is rounding."""
+_ENDS = (-0.02, 0.06)
+"""Where, from the ends of the path of contact outwards and as shares of the base pitch, edges of tips carry loads that rise and
+fall within a hundredth of it."""
 
 _SHORT = 1e-6
 """Length (mm) of a relief that is not there."""
-
-_ROUNDS = 25
-_SETTLED = 1e-4
-"""Most rounds of finding the cells that carry, and the relative change of the approach at which their widths have settled."""
 
 
 @dataclass(frozen=True)
@@ -62,6 +53,8 @@ class Condition:
 
     def mounted(self, mounting: Mounting) -> Mounting:
         """The mounting with the deviations on top of its own."""
+        if not self.misalignment and not self.pitch_error:
+            return mounting
         return replace(
             mounting,
             misalignment=mounting.misalignment + self.misalignment,
@@ -71,18 +64,40 @@ class Condition:
 
 @dataclass(frozen=True)
 class Outcomes:
-    """What became of each variant (v,): transmission errors (v, positions) in µm, the greatest interior pressure of all
-    positions (v,) in MPa, and the greatest share of the load that the edges of tips carry at any position (v,).
+    """What became of each variant, at each position (v, positions): transmission errors in µm, the greatest interior pressures
+    in MPa, and the shares of the load that the edges of tips carry.
     """
 
     transmission_errors: Floats
-    pressures: Floats
-    edge_shares: Floats
+    position_pressures: Floats
+    position_edge_shares: Floats
+
+    @classmethod
+    def of(cls, figures: Floats) -> Outcomes:
+        """Those of `figures`."""
+        return cls(*np.split(figures, 3, axis=-1))
+
+    @property
+    def figures(self) -> Floats:
+        """All of them side by side (v, 3 positions)."""
+        return np.concatenate([self.transmission_errors, self.position_pressures, self.position_edge_shares], axis=-1)
 
     @property
     def peak_to_peak(self) -> Floats:
         """Of the transmission error (v,) in µm."""
-        result: Floats = np.ptp(self.transmission_errors, axis=1)
+        result: Floats = np.ptp(self.transmission_errors, axis=-1)
+        return result
+
+    @property
+    def pressures(self) -> Floats:
+        """The greatest interior pressure of all positions (v,) in MPa."""
+        result: Floats = self.position_pressures.max(axis=-1)
+        return result
+
+    @property
+    def edge_shares(self) -> Floats:
+        """The greatest share of the load that the edges of tips carry at any position (v,)."""
+        result: Floats = self.position_edge_shares.max(axis=-1)
         return result
 
 
@@ -128,7 +143,8 @@ class _Flanks:
 
 @dataclass(frozen=True)
 class Variants:
-    """Variants of the flanks of a solid pair, at `count` positions over a base pitch; what varies replaces the pair's own.
+    """Variants of the flanks of a solid pair, at `count` positions over a base pitch, and as many as `at_ends` more where a tip
+    comes into contact, and where one leaves it; what varies replaces the pair's own.
 
     `roomy` is a model of the same bodies with modifications as large as any variant's, so that its cells suffice for all.
     """
@@ -137,6 +153,7 @@ class Variants:
     shape: ReliefShape
     count: int
     torque: float
+    at_ends: int = 0
 
     @cached_property
     def plain(self) -> GearPair:
@@ -147,7 +164,24 @@ class Variants:
     def positions(self) -> tuple[Responses, ...]:
         """The responses of both bodies at each position."""
         force = self.roomy.force(self.torque)
-        return tuple(self.roomy.responses(angle, force) for angle in self.roomy.roll_angles(self.count).tolist())
+        return tuple(self.roomy.responses(angle, force) for angle in self._roll_angles.tolist())
+
+    @cached_property
+    def _roll_angles(self) -> Floats:
+        """Of the positions (deg)."""
+        pair, pitch = self.roomy.pair, self.roomy.line.pitch
+        outside = np.linspace(*_ENDS, self.at_ends) * pitch
+        ends = np.concatenate([pair.path_of_contact.A - outside, pair.path_of_contact.E + outside])
+        along = (ends - pair.path_of_contact.C + pitch / 2) % pitch - pitch / 2
+        return np.sort(np.concatenate([self.roomy.roll_angles(self.count), np.degrees(along / self.roomy.base_radius)]))
+
+    @cached_property
+    def _halfway(self) -> Floats:
+        """How far it is (mm of roll), on the longer side, to the middle between a position and the next one."""
+        lengths, pitch = np.radians(self._roll_angles) * self.roomy.base_radius, self.roomy.line.pitch
+        apart = np.diff(lengths, append=lengths[0] + pitch)
+        result: Floats = np.maximum(apart, np.roll(apart, 1)) / 2
+        return result
 
     @cached_property
     def _matrices(self) -> tuple[Floats, ...]:
@@ -167,14 +201,14 @@ class Variants:
     def outcomes(self, amounts: Floats, condition: Condition) -> Outcomes:
         """What becomes of variants (v, 6) under a condition; all infinite for one whose contact does not settle."""
         force, errors, pressures, edges = self.force(condition.torque), [], [], []
-        for given, matrix in zip(self.positions, self._matrices, strict=True):
+        for given, matrix, halfway in zip(self.positions, self._matrices, self._halfway, strict=True):
             gap, radii = self.gaps(given, amounts, condition)
-            forces, approach = _pressed(given, matrix, gap, radii, force)
+            forces, approach = press(given, matrix, gap, radii, force)
             errors.append(approach / math.cos(self.roomy.helix) * 1000)
-            pressure, edge = self._judged(given, forces, self._sharpest(given, amounts, radii), force)
+            pressure, edge = self._judged(given, forces, self._sharpest(given, amounts, radii, halfway), force)
             pressures.append(pressure)
             edges.append(edge)
-        return Outcomes(np.stack(errors, -1), np.max(pressures, axis=0), np.max(edges, axis=0))
+        return Outcomes(np.stack(errors, -1), np.stack(pressures, -1), np.stack(edges, -1))
 
     def gaps(self, given: Responses, amounts: Floats, condition: Condition) -> tuple[Floats, Floats]:
         """Gaps along the normal and reduced radii (v, n) in mm of all cells of a position."""
@@ -184,19 +218,21 @@ class Variants:
         pinion = _Flanks(self.plain.pinion.flank_form, self.shape, columns[0], length[0], columns[4], columns[5])
         wheel = _Flanks(self.plain.wheel.flank_form, self.shape, columns[2], length[1], nothing, nothing)
         mounting = condition.mounted(self.roomy.mounting)
-        found = []
-        for line in given.lines:
-            places = places_beside(line, self.plain, mounting)
-            depths = [pinion.taken_back(*one) + wheel.taken_back(*other) for one, other in places]
-            found.append(line_gap(line, self.plain, mounting, self.roomy.helix, depths))
+        # All lines, and all places beside them, at once: what costs is how often numpy is called.
+        places = np.concatenate([np.array(places_beside(line, self.plain, mounting)) for line in given.lines], axis=-1)
+        one, other = (places[:, gear].swapaxes(0, 1).reshape(2, -1) for gear in (0, 1))
+        depths = (pinion.taken_back(*one) + wheel.taken_back(*other)).reshape(len(amounts), len(places), -1)
+        found = [
+            line_gap(line, self.plain, mounting, self.roomy.helix, each.swapaxes(0, 1))
+            for line, each in zip(given.lines, given.split(depths), strict=True)
+        ]
         normal, radii = zip(*found, strict=True)
         return np.concatenate(normal, axis=1), np.concatenate(radii, axis=1)
 
-    def _sharpest(self, given: Responses, amounts: Floats, radii: Floats) -> Floats:
-        """Least radii (v, n) in mm that cells see until the next position: where a linear relief starts, flanks have a bend."""
+    def _sharpest(self, given: Responses, amounts: Floats, radii: Floats, near: float) -> Floats:
+        """Least radii (v, n) in mm that cells see as `near` (mm of roll): where a linear relief starts, flanks have a bend."""
         if self.shape is not ReliefShape.LINEAR:
             return radii
-        near = self.roomy.line.pitch / self.count / 2
         columns = amounts.T[..., None]
         bend = np.zeros_like(radii)
         for gear, form in enumerate((self.plain.pinion.flank_form, self.plain.wheel.flank_form)):
@@ -218,58 +254,3 @@ class Variants:
         )
         inside = np.minimum(to_edge, self.roomy.width / 2 - np.abs(across)) > INTERIOR * widths
         return np.where(inside, pressures, 0.0).max(axis=1), np.where(on_edge, forces, 0.0).sum(axis=1) / force
-
-
-def _pressed(given: Responses, matrix: Floats, gap: Floats, radii: Floats, force: float) -> tuple[Floats, Floats]:
-    """Forces (v, n) in N of all cells, and approaches (v,) in mm, infinite where no set of cells settles."""
-    least = _LEAST * force * given.lengths / given.lengths.sum()
-    forces, approach = _on_springs(gap, given.lengths, force, _BED * given.modulus)
-    active = forces > 0
-    found, approaches = np.zeros_like(gap), np.full(len(gap), np.inf)
-    todo = np.arange(len(gap))
-    for _ in range(_ROUNDS):
-        own = _own(given, half_widths(given, radii[todo], np.maximum(forces, least)))
-        forces, changed = _equations(matrix, own, gap[todo], force, active)
-        opening = forces @ matrix.T + own * forces + gap[todo] - changed[:, None]
-        wrong = np.where(active, forces <= 0, opening < -_OPEN)
-        settled = ~wrong.any(axis=1) & (np.abs(changed - approach) < _SETTLED * np.abs(changed))
-        found[todo[settled]], approaches[todo[settled]] = forces[settled], changed[settled]
-        left = ~settled
-        todo, forces, approach, active = todo[left], forces[left], changed[left], (active ^ wrong)[left]
-        if not len(todo):
-            break
-        empty = ~active.any(axis=1)
-        active[empty, gap[todo[empty]].argmin(axis=1)] = True
-    return found, approaches
-
-
-def _on_springs(gap: Floats, lengths: Floats, force: float, stiffness: float) -> tuple[Floats, Floats]:
-    """Forces (v, n) and approach (v,) of cells that do not feel each other: a start, closed by sorting the gaps."""
-    order = np.argsort(gap, axis=1)
-    ordered, along = np.take_along_axis(gap, order, 1), lengths[order]
-    levels = (force / stiffness + np.cumsum(along * ordered, axis=1)) / np.cumsum(along, axis=1)
-    last = (ordered < levels).sum(axis=1) - 1
-    approach = levels[np.arange(len(gap)), last]
-    return stiffness * lengths * np.maximum(approach[:, None] - gap, 0.0), approach
-
-
-def _own(given: Responses, widths: Floats) -> Floats:
-    """What the ellipse of each cell adds to its own compliance (v, n) in mm/N: the diagonal of `Responses.half_space`."""
-    result: Floats = 2 * np.arcsinh(given.lengths / 2 / (OWN_DISTANCE * widths)) / given.lengths / (math.pi * given.modulus)
-    return result
-
-
-def _equations(matrix: Floats, own: Floats, gap: Floats, force: float, active: Bools) -> tuple[Floats, Floats]:
-    """Forces and approach where exactly the `active` cells touch: systems of equal size, filled up by rows of identity."""
-    most = int(active.sum(axis=1).max())
-    cells = np.argsort(~active, axis=1, kind="stable")[:, :most]
-    real = np.take_along_axis(active, cells, 1)
-    system = matrix[cells[:, :, None], cells[:, None, :]] * (real[:, :, None] & real[:, None, :])
-    steps = np.arange(most)
-    system[:, steps, steps] += np.where(real, np.take_along_axis(own, cells, 1), 1.0)
-    right = np.stack([np.where(real, np.take_along_axis(gap, cells, 1), 0.0), real.astype(float)], -1)
-    by_gap, by_approach = np.moveaxis(np.linalg.solve(system, right), -1, 0)
-    approach = (force + by_gap.sum(axis=1)) / by_approach.sum(axis=1)
-    forces = np.zeros_like(gap)
-    np.put_along_axis(forces, cells, approach[:, None] * by_approach - by_gap, 1)
-    return forces, approach

@@ -53,6 +53,7 @@ def run(*arguments: str) -> Result:
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("gearcad.ltca.search._GENERATIONS", 4)
+    monkeypatch.setattr("gearcad.ltca.search._STARTS", 2)
     return tmp_path
 
 
@@ -134,8 +135,8 @@ def test_it_prints_before_and_after_and_warns(here: Path, monkeypatch: pytest.Mo
             (),
             "load.torque = 0 N·m: must not be 0: without torque flanks need no",
         ),
-        (SPEC, ("--pressure", "-1"), "pressure = -1 MPa: must be a number above 0 MPa"),
-        (SPEC, ("--torque", "nan"), "torque = nan N·m: must be a number in N·m"),
+        (SPEC, ("--pressure", "-1"), "pressure = -1 MPa: must be a number at least 0.001 MPa and at most 1000000 MPa"),
+        (SPEC, ("--torque", "nan"), "torque = nan N·m: must be a number, 0 or from 1e-09 to 1e+09 N·m in size"),
         (SPEC, ("--shape", "cubic"), "shape = 'cubic': must be one of 'linear', 'parabolic'"),
         (SPEC, ("-o", "pair.toml"), "output = 'pair.toml': exists; give another name, or --force to replace it"),
         (

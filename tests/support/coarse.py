@@ -16,14 +16,15 @@ TEMPLATES = Path(__file__).parents[2] / "templates"
 
 PAIRS = ("FZG C", "helical")
 
-TORQUES = {"FZG C": 302.0, "helical": 60.0}
+TORQUES = {"FZG C": 302.0, "helical": 60.0, "Alm": 12.7}
 """N·m on the pinion."""
 
 
 def coarse_pair(name: str) -> GearPair:
-    """FZG C, or one of module 2 with 20 and 30 teeth at 20 degrees."""
-    if name == "FZG C":
-        pair = read_spec(TEMPLATES / "fzg-c.toml").pair
+    """FZG C, Alm 18/161, or one of module 2 with 20 and 30 teeth at 20 degrees."""
+    specs = {"FZG C": "fzg-c.toml", "Alm": "alm-18-161.toml"}
+    if name in specs:
+        pair = read_spec(TEMPLATES / specs[name]).pair
         assert pair is not None
         return pair
     pinion = Gear(teeth=20, normal_module=2, face_width=10, helix_angle=20, tooth_thinning=0.05, body=Body(bore=28))
