@@ -10,7 +10,7 @@ from gearcad.check.options import CheckOptions
 from gearcad.check.run import Progress
 from gearcad.dynamics.options import DynamicsOptions, PairModel
 from gearcad.dynamics.pair_study import ContactStudy, PairStudy, study_contact, study_pair
-from gearcad.dynamics.study import TrainStudy, study_train
+from gearcad.dynamics.study import ModalStudy, TrainStudy, study_modes, study_train
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.material import Material
@@ -21,7 +21,7 @@ from gearcad.stiffness.methods import METHODS
 
 __all__ = ["Study", "dynamics_document", "simulate"]
 
-Study = TrainStudy | PairStudy | ContactStudy
+Study = TrainStudy | ModalStudy | PairStudy | ContactStudy
 
 _STEPS = {
     "train": ("modes", "chart", "course"),
@@ -39,6 +39,8 @@ def simulate(design: Design | TrainDesign, progress: Progress | None = None) -> 
 
     with threadpool_limits(1):  # the dense systems are small
         if isinstance(design, TrainDesign):
+            if not design.train.meshes:
+                return study_modes(design.train, design.options)
             return study_train(design.train, design.options, tell=_teller(progress, "train"))
         return _of_pair(design, progress)
 

@@ -12,6 +12,7 @@ from gearcad.cli.progress import file_progress
 
 if TYPE_CHECKING:
     from gearcad.dynamics.kv import KvChart
+    from gearcad.dynamics.modes import NaturalModes
     from gearcad.dynamics.pair_study import ContactStudy
     from gearcad.dynamics.study import TrainStudy
     from gearcad.simulate import Study
@@ -65,9 +66,12 @@ def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> Non
 def _lines(study: Study) -> list[str]:
     """What was found out, in a few lines."""
     from gearcad.dynamics.pair_study import ContactStudy, PairStudy
+    from gearcad.dynamics.study import ModalStudy
 
     if isinstance(study, ContactStudy):
         return _contact_lines(study)
+    if isinstance(study, ModalStudy):
+        return _mode_lines(study.modes)
     if not isinstance(study, PairStudy):
         return _train_lines(study)
     lines = [
@@ -81,14 +85,18 @@ def _lines(study: Study) -> list[str]:
     return lines + _train_lines(study.study)
 
 
-def _train_lines(study: TrainStudy) -> list[str]:
-    modes, meshes = study.modes, study.up.mesh_names
-    heads = "".join(f"{name + ', rpm':>16}" for name in meshes)
+def _mode_lines(modes: NaturalModes) -> list[str]:
+    heads = "".join(f"{name + ', rpm':>16}" for name in modes.meshes)
     lines = [f"{'natural frequency':<20}{'Hz':>10}{'1/s':>12}{heads}"]
     for number, (hertz, circular, speeds) in enumerate(zip(modes.frequency, modes.circular, modes.rpm, strict=True), 1):
         met = "  turns as a whole" if number <= modes.rigid else "".join(f"{speed:>16.5g}" for speed in speeds)
         lines.append(f"{number:<20}{hertz:>10.6g}{circular:>12.6g}{met}")
-    for mesh, name in enumerate(meshes):
+    return lines
+
+
+def _train_lines(study: TrainStudy) -> list[str]:
+    lines = _mode_lines(study.modes)
+    for mesh, name in enumerate(study.up.mesh_names):
         up = _peaks(study, study.up, mesh)
         down = up if study.down is None else _peaks(study, study.down, mesh)
         lines += (
@@ -96,7 +104,8 @@ def _train_lines(study: TrainStudy) -> list[str]:
             if up == down
             else [f"K_v of {name}, running up: {up}", f"K_v of {name}, running down: {down}"]
         )
-    return lines
+    factors = ", ".join(f"{factor:.3f} of {name}" for name, factor in zip(study.up.mesh_names, study.course.kv, strict=True))
+    return [*lines, f"K_v at {study.course.speed:.6g} rpm: {factors}"]
 
 
 def _peaks(study: TrainStudy, chart: KvChart, mesh: int) -> str:

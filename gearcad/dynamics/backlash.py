@@ -6,14 +6,14 @@ The damping of a mesh acts also where its flanks have parted (the oil stays). SI
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearcad.dynamics.balance import TOLERANCE, Balance, real_course
+from gearcad.dynamics.balance import Balance
+from gearcad.dynamics.continuation import Arc, follow
 from gearcad.dynamics.excitation import Excitation
 from gearcad.dynamics.floquet import growth
 from gearcad.dynamics.periodic import (
@@ -37,9 +37,6 @@ Complexes = NDArray[np.complex128]
 Bools = NDArray[np.bool_]
 Wholes = NDArray[np.intp]
 
-_MOST_POINTS = 4000
-"""Of a branch: some hundred are usual; one that runs in circles never ends."""
-
 
 class Direction(Enum):
     """How the speed changes in a sweep."""
@@ -60,6 +57,7 @@ class Branch:
     excitation: Excitation
     frequencies: Floats
     harmonics: Wholes
+    arc: Arc
     index: Wholes
     run: Wholes
     approach: Complexes
@@ -67,14 +65,20 @@ class Branch:
 
     def sweep(self, direction: Direction = Direction.UP) -> PeriodicResponse:
         """What is seen while the speed slowly rises or falls: a motion is kept as long as it lasts, then another is taken."""
+        chosen, jumps = self.seen(direction)
+        return self.response(chosen, jumps)
+
+    def seen(self, direction: Direction) -> tuple[Wholes, Floats]:
+        """Which motions (s,) a sweep shows, and the frequencies at which it goes over to another run of the branch."""
         direction = as_choice("direction", direction, Direction)
         rising = direction is Direction.UP
         order = range(len(self.frequencies)) if rising else range(len(self.frequencies) - 1, -1, -1)
         chosen = np.zeros(len(self.frequencies), int)
         jumps: list[float] = []
+        motions = np.split(np.argsort(self.index, kind="stable"), np.cumsum(np.bincount(self.index))[:-1])
         run = int(self.run.min() if rising else self.run.max())
         for i in order:
-            here = np.flatnonzero(self.index == i)
+            here = motions[i]
             lasting = here[self.stable[here]]
             pool = lasting if len(lasting) else here
             chosen[i] = pool[np.argmin(np.abs(self.run[pool] - run))]
@@ -82,25 +86,55 @@ class Branch:
             if self.run[chosen[i]] != run and i != order[0]:
                 jumps.append(float(self.frequencies[i]))
             run = int(self.run[chosen[i]])
-        return self._response(chosen, np.array(jumps))
+        return chosen, np.array(jumps)
 
-    def _response(self, chosen: Wholes, jumps: Floats) -> PeriodicResponse:
+    @property
+    def folds(self) -> Floats:
+        """Frequencies (1/s) at which the branch turns back: where a motion that lasts meets one that does not."""
+        return np.sort(self.arc.folds) / self.excitation.fundamental
+
+    def at(self, frequencies: Floats) -> Branch:
+        """The same branch at other rising frequencies (1/s), within its own; at those where a motion is found."""
+        return _crossed(self.arc, frequencies)
+
+    def with_motions(self, others: Branch) -> Branch:
+        """With those at other frequencies; its own motions come first."""
+        frequencies = np.union1d(self.frequencies, others.frequencies)
+        index = [np.searchsorted(frequencies, each.frequencies[each.index]) for each in (self, others)]
+        return replace(
+            self,
+            frequencies=frequencies,
+            index=np.concatenate(index),
+            run=np.concatenate([self.run, others.run]),
+            approach=np.concatenate([self.approach, others.approach]),
+            stable=np.concatenate([self.stable, others.stable]),
+        )
+
+    def coefficients(self) -> Complexes:
+        """(c, q, m) of all orders from 0 on."""
+        result = np.zeros((len(self.index), int(self.harmonics[-1]) + 1, self.approach.shape[2]), complex)
+        result[:, self.harmonics] = self.approach
+        return result
+
+    def response(self, chosen: Wholes, jumps: Floats | None = None) -> PeriodicResponse:
+        """Some of the motions, in this order."""
+        frequencies = self.frequencies[self.index[chosen]]
         balance = Balance(self.system, self.excitation, self.harmonics)
         approach, stable = self.approach[chosen], self.stable[chosen]
-        flexible = at_orders(self.system, balance.static, self.excitation.fundamental * self.frequencies, self.harmonics)
-        forces = balance.forces(both_sides(approach), self.excitation.fundamental * self.frequencies)[0]
+        flexible = at_orders(self.system, balance.static, self.excitation.fundamental * frequencies, self.harmonics)
+        forces = balance.forces(both_sides(approach), self.excitation.fundamental * frequencies)[0]
         turns, torques = turns_and_torques(self.system, balance.static, flexible, forces[:, len(self.harmonics) - 1 :])
         return PeriodicResponse(
             system=self.system,
             excitation=self.excitation,
-            frequencies=self.frequencies,
+            frequencies=frequencies,
             harmonics=self.harmonics,
             approach_coefficients=approach,
             inertia_coefficients=turns,
             torque_coefficients=torques,
             stable=stable,
-            jumps=jumps,
-            warnings=instability_warnings(self.frequencies, stable),
+            jumps=np.zeros(0) if jumps is None else jumps,
+            warnings=instability_warnings(frequencies, stable),
         )
 
 
@@ -128,111 +162,31 @@ def trace(system: System, excitation: Excitation, frequencies: ArrayLike, *, har
         raise ParameterError("frequencies", f"{len(speeds)} values", "must be at least two that rise")
     balance = Balance(system, excitation, harmonic_orders(excitation, harmonics))
     begin = periodic_response(system, excitation, speeds[:1], harmonics=harmonics, stability=False)
-    points = _follow(balance, both_sides(begin.approach_coefficients)[0], speeds * excitation.fundamental)
-    index, run, approach = _at_frequencies(balance, points, speeds * excitation.fundamental)
+    omegas = speeds * excitation.fundamental
+    arc = follow(balance, both_sides(begin.approach_coefficients)[0], float(omegas[0]), float(omegas[-1]))
+    branch = _crossed(arc, speeds)
+    missing = np.setdiff1d(speeds, branch.frequencies)
+    if len(missing):
+        raise SolverError(f"no periodic motion found at {missing[0]:g} 1/s")
+    return branch
+
+
+def _crossed(arc: Arc, speeds: Floats) -> Branch:
+    """The motions of a branch at frequencies that rise."""
+    balance = arc.balance
+    fundamental = balance.excitation.fundamental
+    index, run, approach = arc.crossings(speeds * fundamental)
+    kept, index = np.unique(index, return_inverse=True)
+    speeds = speeds[kept]
     slopes = balance.slopes(approach)
     return Branch(
-        system=system,
-        excitation=excitation,
+        system=balance.system,
+        excitation=balance.excitation,
         frequencies=speeds,
         harmonics=balance.orders,
+        arc=arc,
         index=index,
         run=run,
         approach=approach[:, len(balance.orders) - 1 :],
-        stable=growth(system, excitation, speeds[index], slopes) <= UNSTABLE,
+        stable=growth(balance.system, balance.excitation, speeds[index], slopes) <= UNSTABLE,
     )
-
-
-def _follow(balance: Balance, approach: Complexes, omegas: Floats) -> list[tuple[Complexes, float]]:
-    """Points (approach, omega) of the branch from the first of the frequencies to beyond the last."""
-    low, high = float(omegas[0]), float(omegas[-1])
-    started = balance.solve(approach, low)
-    if started is None:
-        raise SolverError(f"no periodic motion found at {low / balance.excitation.fundamental:g} 1/s: begin at another speed")
-    scales = np.append(np.full(approach.size, balance.scale), 0.2 * (low + high))
-    state = np.append(started.ravel(), low) / scales
-    direction = np.zeros(len(state), complex)
-    direction[-1] = 1
-    direction = _tangent(balance, state, scales, direction)
-    points = [(started, low)]
-    step, longest = 0.01, 0.1
-    while low <= points[-1][1] <= high:
-        found = _correct(balance, state + step * direction, scales, direction)
-        if step < 1e-7 or len(points) > _MOST_POINTS:
-            where = points[-1][1] / balance.excitation.fundamental
-            raise SolverError(f"the branch of periodic motions could not be followed beyond {where:g} 1/s")
-        if found is None:
-            step /= 2
-            continue
-        state, needed = found
-        direction = _tangent(balance, state, scales, direction)
-        points.append(((state * scales)[:-1].reshape(approach.shape), float((state * scales)[-1].real)))
-        step = min(longest, step * 1.5) if needed <= 4 else step
-    if points[-1][1] < low:
-        raise SolverError("the branch of periodic motions turns back to the lowest speed: begin lower")
-    return points
-
-
-def _bordered(balance: Balance, state: Complexes, scales: Floats, direction: Complexes) -> tuple[Complexes, Complexes]:
-    """Residual, and the scaled Jacobian with the direction as last row."""
-    values = state * scales
-    residual, jacobian, with_omega = balance.equations(values[:-1].reshape(len(balance.signed), -1), float(values[-1].real))
-    whole = np.zeros((len(state), len(state)), complex)
-    whole[:-1, :-1] = jacobian
-    whole[:-1, -1] = with_omega * scales[-1] / scales[0]
-    whole[-1] = direction.conj()
-    return residual / scales[0], whole
-
-
-def _tangent(balance: Balance, state: Complexes, scales: Floats, before: Complexes) -> Complexes:
-    """Unit vector along the branch, onwards."""
-    _, whole = _bordered(balance, state, scales, before)
-    right = np.zeros(len(state), complex)
-    right[-1] = 1
-    found = np.linalg.solve(whole, right)
-    return np.asarray(found / np.linalg.norm(found), complex)
-
-
-def _correct(balance: Balance, guess: Complexes, scales: Floats, direction: Complexes) -> tuple[Complexes, int] | None:
-    """The point of the branch square to the direction from a guess, and the Newton steps it took."""
-    state = guess
-    for count in range(1, 11):
-        if state[-1].real <= 0:
-            return None
-        residual, whole = _bordered(balance, state, scales, direction)
-        try:
-            change = np.linalg.solve(whole, np.append(residual, np.vdot(direction, state - guess)))
-        except np.linalg.LinAlgError:
-            return None
-        state = np.append(real_course((state - change)[:-1].reshape(len(balance.signed), -1)), (state - change)[-1].real)
-        if not np.isfinite(state).all():
-            return None
-        if np.abs(change).max() <= TOLERANCE:
-            return state, count
-    return None
-
-
-def _at_frequencies(
-    balance: Balance, points: list[tuple[Complexes, float]], omegas: Floats
-) -> tuple[Wholes, Wholes, Complexes]:
-    """Where the branch crosses each frequency: which (c,), after how many turns (c,), and the motion there (c, q, m)."""
-    index: list[int] = [0]
-    runs: list[int] = [0]
-    motions = [points[0][0]]
-    run, rising = 0, True
-    for (start, first), (end, second) in pairwise(points):
-        if (second > first) != rising:
-            run, rising = run + 1, not rising
-        inside = np.flatnonzero((omegas > min(first, second)) & (omegas <= max(first, second)))
-        for i in inside if rising else inside[::-1]:
-            part = (omegas[i] - first) / (second - first)
-            found = balance.solve(start + part * (end - start), float(omegas[i]))
-            if found is not None:
-                index.append(int(i))
-                runs.append(run)
-                motions.append(found)
-    missing = np.setdiff1d(np.arange(len(omegas)), index)
-    if len(missing):
-        where = omegas[missing[0]] / balance.excitation.fundamental
-        raise SolverError(f"no periodic motion found at {where:g} 1/s")
-    return np.array(index), np.array(runs), np.array(motions)

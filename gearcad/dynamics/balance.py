@@ -21,9 +21,13 @@ __all__ = ["TOLERANCE", "Balance", "real_course"]
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
+Bools = NDArray[np.bool_]
 Wholes = NDArray[np.intp]
 
 _MOST_NEWTON = 30
+_BLOCK = 1_000_000
+"""Complex numbers that the derivatives of one block of motions may have."""
+
 TOLERANCE = 1e-10
 """Last step of Newton's method, in static deflections."""
 
@@ -96,33 +100,48 @@ class Balance:
 
     def equations(self, approach: Complexes, omega: float) -> tuple[Complexes, Complexes, Complexes]:
         """Residual (qm,), its derivatives (qm, qm) with respect to the approach and (qm,) to omega."""
+        residual, jacobian, forces, mesh = self._linearised(approach[None], np.array([omega]))
         step = 1e-6 * omega
-        mesh = both_sides(at_orders(self.system, self.static, omega + np.array([0.0, step, -step]), self.orders).mesh)
-        forces, rate = self.forces(approach, omega)
-        residual = approach - np.einsum("hij,hj->hi", mesh[0], forces)
-        residual[len(self.orders) - 1] -= self.static.approach
-        bend = (mesh[1] - mesh[2]) / (2 * step)
-        with_omega = -np.einsum("hij,hj->hi", bend, forces) - np.einsum("hij,hj->hi", mesh[0], rate)
-        spectrum = np.fft.fft(self.slopes(approach), axis=0) / self.count
-        spectrum = spectrum - np.where(np.arange(self.count)[:, None] == 0, self.system.stiffness, 0.0)
-        coupling = spectrum[np.mod(self.signed[:, None] - self.signed, self.count)]
-        size = approach.size
-        jacobian = np.eye(size) + np.einsum("hij,hlj->hilj", mesh[0], coupling).reshape(size, size)
-        return residual.ravel(), jacobian, with_omega.ravel()
+        beside = both_sides(at_orders(self.system, self.static, omega + np.array([step, -step]), self.orders).mesh)
+        bend = (beside[0] - beside[1]) / (2 * step)
+        with_omega = -np.einsum("hij,hj->hi", bend, forces[0]) - np.einsum("hij,hj->hi", mesh[0], self.error_rates)
+        return residual[0], jacobian[0], with_omega.ravel()
 
-    def solve(self, approach: Complexes, omega: float) -> Complexes | None:
-        """The motion at a frequency, by Newton's method; `None` where it does not converge."""
+    def _linearised(self, approach: Complexes, omega: Floats) -> tuple[Complexes, Complexes, Complexes, Complexes]:
+        """Of motions (s, q, m): residuals (s, qm), derivatives (s, qm, qm), forces (s, q, m), flexibilities (s, q, m, m)."""
+        mesh = both_sides(at_orders(self.system, self.static, omega, self.orders).mesh)
+        forces = self.forces(approach, omega)[0]
+        residual = approach - np.einsum("shij,shj->shi", mesh, forces)
+        residual[:, len(self.orders) - 1] -= self.static.approach
+        spectrum = np.fft.fft(self.slopes(approach), axis=-2) / self.count
+        spectrum[:, 0] -= self.system.stiffness
+        coupling = spectrum[:, np.mod(self.signed[:, None] - self.signed, self.count)]
+        size = residual[0].size
+        jacobian = np.eye(size) + np.einsum("shij,shlj->shilj", mesh, coupling).reshape(-1, size, size)
+        return residual.reshape(-1, size), jacobian, forces, mesh
+
+    def solve(self, approach: Complexes, omega: Floats) -> tuple[Complexes, Bools]:
+        """The motions (s, q, m) at frequencies (s,), by Newton's method from near ones; and for which of them it converges."""
+        approach, found = np.array(approach), np.zeros(len(omega), bool)
+        block = max(1, _BLOCK // approach[0].size ** 2) if len(omega) else 1
+        for i in range(0, len(omega), block):
+            self._newton(approach, omega, found, np.arange(i, min(i + block, len(omega))))
+        return approach, found
+
+    def _newton(self, approach: Complexes, omega: Floats, found: Bools, rows: Wholes) -> None:
+        """Some rows, in place."""
         for _ in range(_MOST_NEWTON):
-            residual, jacobian, _unused = self.equations(approach, omega)
-            change = np.linalg.solve(jacobian, residual).reshape(approach.shape)
-            approach = real_course(approach - change)
-            if not np.isfinite(approach).all():
-                return None
-            if np.abs(change).max() <= TOLERANCE * self.scale:
-                return approach
-        return None
+            residual, jacobian, *_ = self._linearised(approach[rows], omega[rows])
+            change = np.linalg.solve(jacobian, residual[:, :, None]).reshape(len(rows), *approach.shape[1:])
+            approach[rows] = real_course(approach[rows] - change)
+            largest = np.abs(change).max(axis=(1, 2))
+            done = largest <= TOLERANCE * self.scale
+            found[rows[done]] = True
+            rows = rows[~done & np.isfinite(largest)]
+            if not len(rows):
+                return
 
 
 def real_course(approach: Complexes) -> Complexes:
-    """Coefficients (q, m) of signed orders without what rounding adds that no real motion has: Newton would let it grow."""
-    return np.asarray((approach + approach[::-1].conj()) / 2, complex)
+    """Coefficients (..., q, m) of signed orders without what rounding adds and no real motion has: it would grow."""
+    return np.asarray((approach + approach[..., ::-1, :].conj()) / 2, complex)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -26,8 +27,11 @@ _PRESSURE_ANGLE = 20.0
 _CONTACT_RATIO = 1.6
 """Of such gears, where no square wave tells it."""
 
+_HARMONICS = 12
+"""Of the tooth frequency, in the errors of teeth: they fall with the square, to thousandths of a step of one tooth."""
 
-def train_excitation(train: Train, *, grade: int | None = None, seed: int = 0, harmonics: int = 6) -> Excitation:
+
+def train_excitation(train: Train, *, grade: int | None = None, seed: int = 0) -> Excitation:
     """Stiffness waves, backlashes and pitch deviations of a train's meshes; random ones of an ISO 1328 `grade`, if given.
 
     The deviations are those of the pinions' teeth, drawn with `seed` where a mesh has none given: with the wheels' the period
@@ -36,7 +40,7 @@ def train_excitation(train: Train, *, grade: int | None = None, seed: int = 0, h
     ratios = _tooth_ratios(train)
     meshes = []
     for number, (mesh, ratio) in enumerate(zip(train.meshes, ratios, strict=True)):
-        error = _mesh_errors(mesh, grade, seed + number, harmonics) if mesh.pitch_deviations or grade is not None else None
+        error = _mesh_errors(mesh, grade, seed + number) if mesh.pitch_deviations or grade is not None else None
         meshes.append(
             MeshExcitation(
                 stiffness=_wave(mesh), phase=-360 * mesh.phase, frequency_ratio=ratio, error=error, backlash=mesh.backlash
@@ -52,18 +56,18 @@ def _wave(mesh: Mesh) -> StiffnessShape:
     return square_stiffness(mesh.contact_ratio)
 
 
-def _mesh_errors(mesh: Mesh, grade: int | None, seed: int, harmonics: int) -> TransmissionError:
+def _mesh_errors(mesh: Mesh, grade: int | None, seed: int) -> TransmissionError:
     """Of the pinion's teeth: as given, or random ones of a gear taken to have a pressure angle of 20 degrees."""
     if mesh.pitch_deviations:
         pitches = np.array(mesh.pitch_deviations)
         # What is left after a turn would be no pitch deviation.
         given = ToothDeviations(position=-np.cumsum(pitches - pitches.mean()))
-        return tooth_errors(given, contact_ratio=mesh.contact_ratio or _CONTACT_RATIO, harmonics=harmonics)
+        return tooth_errors(given, contact_ratio=mesh.contact_ratio or _CONTACT_RATIO, harmonics=_HARMONICS)
     assert grade is not None  # one of the two is there
     diameter = 2 * mesh.base_radii[0] / math.cos(math.radians(_PRESSURE_ANGLE))
     tolerances = flank_tolerances(grade, diameter, diameter / mesh.teeth)
     ratio = mesh.contact_ratio or _CONTACT_RATIO
-    return tooth_errors(random_deviations(mesh.teeth, tolerances, seed), contact_ratio=ratio, harmonics=harmonics)
+    return tooth_errors(random_deviations(mesh.teeth, tolerances, seed), contact_ratio=ratio, harmonics=_HARMONICS)
 
 
 def _tooth_ratios(train: Train) -> list[Fraction]:
@@ -128,28 +132,16 @@ def pair_train(
 
 def pair_excitation(train: Train, cycle: MeshCycle, errors: TransmissionError | None = None) -> Excitation:
     """The course of a pair's stiffness and transmission error, with the errors of its teeth."""
-    # The error has the steps of the stiffness in it, which take each other off where nothing vibrates: all that is known.
-    most = max(1, (len(cycle.roll_angle) - 1) // 4)
-    of = cycle_excitation(cycle, backlash=train.meshes[0].backlash, harmonics=most)
+    of = cycle_excitation(cycle, backlash=train.meshes[0].backlash)
     if errors is not None:
-        of = MeshExcitation(stiffness=of.stiffness, phase=of.phase, error=_together(of.error, errors), backlash=of.backlash)
+        assert of.error is not None  # a cycle has one
+        of = replace(of, error=replace(errors, line=of.error.line))
     return Excitation(meshes=(of,))
 
 
-def _together(first: TransmissionError | None, second: TransmissionError) -> TransmissionError:
-    """The sum of an error that is the same for all teeth and one that is not."""
-    if first is None:
-        return second
-    teeth, own = second.teeth, np.asarray(first.coefficients)
-    total = np.zeros(max(len(second.coefficients), teeth * (len(own) - 1) + 1), complex)
-    total[: len(second.coefficients)] += second.coefficients
-    total[: teeth * len(own) : teeth] += own
-    return TransmissionError(coefficients=total, teeth=teeth)
-
-
-def pair_errors(pair: GearPair, rating: RatingOptions, seed: int, harmonics: int) -> TransmissionError:
+def pair_errors(pair: GearPair, rating: RatingOptions, seed: int) -> TransmissionError:
     """Random pitch deviations of the rating's accuracy grade on the pinion's teeth, drawn with `seed`."""
     gear = pair.pinion
     tolerances = flank_tolerances(rating.accuracy_grade, gear.reference_diameter, gear.normal_module, rating.accuracy)
     deviations = random_deviations(gear.teeth, tolerances, seed)
-    return tooth_errors(deviations, contact_ratio=max(pair.transverse_contact_ratio, 1.001), harmonics=harmonics)
+    return tooth_errors(deviations, contact_ratio=max(pair.transverse_contact_ratio, 1.001), harmonics=_HARMONICS)

@@ -13,10 +13,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.dynamics.mesh_curves import StiffnessShape, cycle_stiffness
+from gearcad.dynamics.mesh_curves import StiffnessShape, cycle_phase, cycle_stiffness
+from gearcad.dynamics.polyline import Polyline
 from gearcad.dynamics.system import System
 from gearcad.dynamics.tooth_errors import TransmissionError
-from gearcad.errors import GeometryError, ParameterError, plain_numbers, require_number, require_whole
+from gearcad.errors import GeometryError, ParameterError, plain_numbers, require_number
 from gearcad.mesh_cycle import MeshCycle
 
 __all__ = ["Excitation", "MeshExcitation", "cycle_excitation"]
@@ -61,21 +62,18 @@ class MeshExcitation:
 
 
 def cycle_excitation(
-    cycle: MeshCycle, *, phase: float = 0.0, backlash: float | None = None, harmonics: int = 10, tangent: bool = True
+    cycle: MeshCycle, *, phase: float = 0.0, backlash: float | None = None, tangent: bool = True
 ) -> MeshExcitation:
     """Stiffness and transmission error of a MeshCycle; the mean stiffness of the mesh is its `tangent_mean` (or `mean`).
 
     The error is what is left of the loaded one without F/k: so at rest under the torque of the cycle the flanks approach
     each other by just the cycle's transmission error, modifications and nonlinear contact with it. Phase 0 is roll angle 0.
     """
-    require_whole("harmonics", harmonics, at_least=1, at_most=max(1, (len(cycle.roll_angle) - 1) // 4))
-    stiffness = cycle.tangent_stiffness if tangent else cycle.mesh_stiffness
-    free = cycle.transmission_error - cycle.force / stiffness
-    orders = np.arange(harmonics + 1)[:, None]
-    coefficients = np.exp(-2j * np.pi * orders * cycle.roll_angle / cycle.pitch_angle) @ (cycle.weights * free)
-    coefficients[0] = coefficients[0].real
     shape = cycle_stiffness(cycle, tangent=tangent)
-    error = TransmissionError(coefficients=coefficients)
+    mean = cycle.tangent_mean if tangent else cycle.mean
+    # Steps of the stiffness come again in it and take each other off where nothing vibrates: it must be as sharp as these.
+    free = cycle.transmission_error - cycle.force / (mean * shape.stiffness)
+    error = TransmissionError(line=Polyline(phase=cycle_phase(cycle), height=free))
     return MeshExcitation(stiffness=shape, phase=phase, error=error, backlash=backlash)
 
 
@@ -136,6 +134,32 @@ class Excitation:
         """Transmission error of each mesh (..., m) in m."""
         return self._errors(theta, slopes=False)
 
+    def error_course(self, count: int) -> Floats:
+        """Transmission errors (count, m) in m at even steps over the common period; those of many teeth much quicker."""
+        return self._course(count, slopes=False)
+
+    def error_slope_course(self, count: int) -> Floats:
+        """Their derivatives with respect to theta (count, m), in m/rad."""
+        return self._course(count, slopes=True)
+
+    def _course(self, count: int, *, slopes: bool) -> Floats:
+        theta = 2 * np.pi * np.arange(count) / count
+        columns = np.zeros((count, len(self.meshes)))
+        for j, (mesh, q) in enumerate(self._each()):
+            if mesh.error is None:
+                continue
+            line, step = mesh.error.line, q // mesh.error.teeth
+            # Orders that the steps cannot tell are left away.
+            orders = np.arange(min(len(mesh.error.coefficients), (count // 2 - 1) // step + 1))
+            waves = mesh.error.coefficients[: len(orders)] * np.exp(1j * mesh.lead * orders / mesh.error.teeth)
+            spectrum = np.zeros(count // 2 + 1, complex)
+            spectrum[step * orders] = waves * (1j * step * orders if slopes else 1.0)
+            columns[:, j] = np.fft.irfft(spectrum, count, norm="forward")
+            if line is not None:
+                phase = q * theta + mesh.lead
+                columns[:, j] += q * line.slopes(phase) if slopes else line.values(phase)
+        return _MICRO * columns
+
     def error_slopes(self, theta: Floats) -> Floats:
         """Its derivative with respect to theta (..., m), in m/rad."""
         return self._errors(theta, slopes=True)
@@ -147,7 +171,7 @@ class Excitation:
             if mesh.error is None:
                 continue
             step = q // mesh.error.teeth
-            own = mesh.error.coefficients[: count // step + 1]
+            own = mesh.error.orders(count // step)
             result[: step * len(own) : step, j] = _MICRO * own * np.exp(1j * mesh.lead * np.arange(len(own)) / mesh.error.teeth)
         return result
 

@@ -10,11 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gearcad.dynamics.flexibility import StaticState
 from gearcad.dynamics.response import PeriodicResponse
+from gearcad.dynamics.system import System
 from gearcad.errors import GeometryError, ParameterError, as_choice
 from gearcad.rating.dynamic_factor import DynamicFactor
 
-__all__ = ["ForceDefinition", "KvChart", "Peak", "kv_chart"]
+__all__ = ["ForceDefinition", "KvChart", "Peak", "chart_of", "extremes", "idle_shafts", "kv_chart", "torque_references"]
 
 Floats = NDArray[np.float64]
 
@@ -25,8 +27,9 @@ _PROMINENCE = 0.005
 """How far K_v must fall on both sides of a peak that counts as a resonance."""
 
 
-_IDLE = 50.0
-"""A shaft whose torque exceeds its static one so many times carries nothing at rest that a factor could refer to."""
+_IDLE, _IDLE_MOSTLY = 50.0, 3.0
+"""A shaft whose torque exceeds its static one so many times, and at half of the speeds still so many times, carries nothing at
+rest that a factor could refer to: one that only resonates is quiet at most speeds."""
 
 
 class ForceDefinition(Enum):
@@ -106,36 +109,68 @@ def kv_chart(
     the data of the pair of the first mesh. Raises GeometryError where a mesh carries no static load that K_v could refer to.
     """
     definition = as_choice("definition", definition, ForceDefinition)
-    static = response.static
-    forces = np.abs(response.system.stiffness * static.approach)
+    means = response.static.others[response.system.inertias.shape[1] :]
+    _, signs = torque_references(means, shaft_references)
+    return chart_of(
+        response.system,
+        response.static,
+        response.frequencies,
+        extremes(response, definition, signs),
+        definition=definition,
+        shaft_references=shaft_references,
+        method_b=method_b,
+        stable=response.stable,
+        warnings=response.warnings,
+    )
+
+
+def chart_of(
+    system: System,
+    static: StaticState,
+    frequencies: Floats,
+    loads: tuple[Floats, Floats, Floats],
+    *,
+    definition: ForceDefinition = ForceDefinition.SPRING,
+    shaft_references: Sequence[float | None] | None = None,
+    method_b: DynamicFactor | None = None,
+    stable: NDArray[np.bool_],
+    warnings: tuple[str, ...],
+) -> KvChart:
+    """The chart of `extremes` that were found somehow."""
+    forces = np.abs(system.stiffness * static.approach)
     if forces.min() <= 1e-9 * forces.max():
-        name = response.system.names[0][int(forces.argmin())]
+        name = system.names[0][int(forces.argmin())]
         raise GeometryError("static_force", float(forces.min()), f"of mesh {name} must not be 0 N: K_v refers to it", "N")
-    means = static.others[response.system.inertias.shape[1] :]
-    references, signs = _references(means, shaft_references)
-    factors, least, torques = _extremes(response, definition, signs)
+    means = static.others[system.inertias.shape[1] :]
+    references, _ = torque_references(means, shaft_references)
+    factors, least, torques = loads
     given = np.array([value is not None for value in shaft_references or [None] * len(means)], bool)
-    references = np.where(given | (torques.max(axis=0) < _IDLE * references), references, np.nan)
-    standard = None
-    if method_b is not None:
-        standard = method_b.values(response.frequencies * 30 / (np.pi * method_b.teeth))
+    references = np.where(given | ~idle_shafts(torques, references), references, np.nan)
     return KvChart(
-        frequencies=response.frequencies,
+        frequencies=frequencies,
         definition=definition,
         factors=factors / forces,
         least=least / forces,
         static_forces=forces,
         shaft_factors=torques / references,
         shaft_references=references,
-        standard=standard,
-        stable=response.stable,
-        mesh_names=response.system.names[0],
-        shaft_names=response.system.names[2],
-        warnings=response.warnings,
+        standard=None if method_b is None else method_b.values(frequencies * 30 / (np.pi * method_b.teeth)),
+        stable=stable,
+        mesh_names=system.names[0],
+        shaft_names=system.names[2],
+        warnings=warnings,
     )
 
 
-def _references(means: Floats, given: Sequence[float | None] | None) -> tuple[Floats, Floats]:
+def idle_shafts(torques: Floats, references: Floats) -> NDArray[np.bool_]:
+    """Which shafts (n,) have greatest torques (s, n) over speed that have little to do with those at rest (n,)."""
+    if not torques.size:
+        return np.zeros(len(references), bool)
+    idle = (torques.max(axis=0) >= _IDLE * references) & (np.median(torques, axis=0) >= _IDLE_MOSTLY * references)
+    return np.asarray(idle, bool)
+
+
+def torque_references(means: Floats, given: Sequence[float | None] | None = None) -> tuple[Floats, Floats]:
     """Reference torques (n,), and the sense (n,) in which they act: 0 where it is unknown."""
     count = len(means)
     if given is not None and len(given) != count:
@@ -150,18 +185,21 @@ def _references(means: Floats, given: Sequence[float | None] | None) -> tuple[Fl
     return references, np.where(loaded, np.sign(means), 0.0)
 
 
-def _extremes(response: PeriodicResponse, definition: ForceDefinition, signs: Floats) -> tuple[Floats, Floats, Floats]:
-    """Greatest and least forces (s, m) and greatest torques (s, n), block by block of speeds."""
-    wide = response.samples * max(response.approach_coefficients.shape[2], response.torque_coefficients.shape[2])
+def extremes(
+    response: PeriodicResponse, definition: ForceDefinition, signs: Floats, samples: int | None = None
+) -> tuple[Floats, Floats, Floats]:
+    """Greatest and least forces (s, m) and greatest torques (s, n) in the sense of `signs` (n,), block by block of speeds."""
+    count = samples or response.samples
+    wide = count * max(response.approach_coefficients.shape[2], response.torque_coefficients.shape[2])
     block = max(1, _BLOCK // wide)
     most, least, torques = [], [], []
     for i in range(0, len(response.frequencies), block):
         which = slice(i, i + block)
-        force = response.spring_forces(which)
+        force = response.spring_forces(which, count)
         if definition is ForceDefinition.WITH_DAMPING:
-            force = force + response.damping_forces(which)
+            force = force + response.damping_forces(which, count)
         force = response.senses * force
-        torque = response.shaft_torques(which)
+        torque = response.shaft_torques(which, count)
         most.append(force.max(axis=1))
         least.append(force.min(axis=1))
         torques.append(np.where(signs, torque * signs, np.abs(torque)).max(axis=1))

@@ -12,10 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gearcad.dynamics.polyline import Polyline
 from gearcad.errors import ParameterError, plain_numbers, require_number
 from gearcad.mesh_cycle import MeshCycle
 
-__all__ = ["CosineStiffness", "CurveStiffness", "StiffnessShape", "cycle_stiffness", "square_stiffness"]
+__all__ = ["CosineStiffness", "CurveStiffness", "StiffnessShape", "cycle_phase", "cycle_stiffness", "square_stiffness"]
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -63,56 +64,37 @@ class CosineStiffness(StiffnessShape):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class CurveStiffness(StiffnessShape):
-    """Straight lines between corners: `phase` (n,) rises over exactly 2 pi, and stands twice where `stiffness` (n,) jumps.
-
-    The stiffness may have any unit: it is divided by its mean. Where both ends differ, it jumps there too.
-    """
+    """Straight lines between corners, as a Polyline has them, of `stiffness` (n,) in any unit: it is divided by its mean."""
 
     phase: Floats
     stiffness: Floats
 
     def __post_init__(self) -> None:
-        phase, stiffness = (np.array(each, float) for each in (self.phase, self.stiffness))
-        steps = np.diff(phase)
-        if phase.shape != stiffness.shape or len(phase) < 2 or not np.isfinite(phase).all() or (steps < 0).any():
-            raise ParameterError("phase", f"{len(phase)} values", "must rise, with one stiffness each")
-        if abs(phase[-1] - phase[0] - 2 * np.pi) > 1e-9:
-            raise ParameterError("phase", float(phase[-1] - phase[0]), "must rise over exactly 2 pi rad", "rad")
-        if not np.isfinite(stiffness).all() or stiffness.min() <= 0:
-            raise ParameterError("stiffness", float(stiffness.min()), "must be above 0 at every phase of the mesh")
-        mean = steps @ (stiffness[1:] + stiffness[:-1]) / (4 * np.pi)
-        for name, array in (("phase", phase), ("stiffness", stiffness / mean)):
-            array.flags.writeable = False
-            object.__setattr__(self, name, array)
+        line = Polyline(phase=self.phase, height=self.stiffness)
+        if line.height.min() <= 0:
+            raise ParameterError("stiffness", float(line.height.min()), "must be above 0 at every phase of the mesh")
+        line = Polyline(phase=line.phase, height=line.height / line.mean)
+        object.__setattr__(self, "phase", line.phase)
+        object.__setattr__(self, "stiffness", line.height)
+        object.__setattr__(self, "_line", line)
+
+    @property
+    def line(self) -> Polyline:
+        """Of mean 1."""
+        return self._line  # type: ignore[attr-defined,no-any-return]
 
     def values(self, phase: ArrayLike) -> Floats:
         """At any phases (rad)."""
-        start = self.phase[0]
-        within = np.mod(np.asarray(phase, float) - start, 2 * np.pi) + start
-        return np.asarray(np.interp(within, self.phase, self.stiffness), float)
+        return self.line.values(phase)
 
     def coefficients(self, count: int) -> Complexes:
-        """Fourier coefficients (count + 1,), exactly those of the straight lines.
-
-        Integrated by parts twice: i n c_n is the coefficient of the slope, plus what the jumps add.
-        """
-        order = np.arange(1, count + 1)[:, None]
-        waves = np.exp(-1j * order * self.phase)
-        steps, rises = np.diff(self.phase), np.diff(self.stiffness)
-        straight = steps > 0
-        slopes = rises[straight] / steps[straight]
-        by_slopes = (np.diff(waves, axis=1)[:, straight] @ slopes) * 1j / order[:, 0]
-        by_jumps = waves[:, :-1][:, ~straight] @ rises[~straight] + waves[:, 0] * (self.stiffness[0] - self.stiffness[-1])
-        return np.concatenate([[1.0 + 0j], (by_slopes + by_jumps) / (2j * np.pi * order[:, 0])])
+        """Fourier coefficients (count + 1,), exactly those of the straight lines."""
+        return self.line.coefficients(count)
 
     @property
     def jumps(self) -> Floats:
         """Phases from 0 to 2 pi where the stiffness jumps."""
-        found = self.phase[:-1][(np.diff(self.phase) == 0) & (np.diff(self.stiffness) != 0)]
-        # What interpolation leaves between two ends that should agree is no jump.
-        if abs(self.stiffness[0] - self.stiffness[-1]) > 1e-9:
-            found = np.append(found, self.phase[0])
-        return np.unique(np.mod(found, 2 * np.pi))
+        return self.line.jumps
 
 
 def square_stiffness(contact_ratio: float, pair_ratio: float = 1.0) -> CurveStiffness:
@@ -131,7 +113,11 @@ def square_stiffness(contact_ratio: float, pair_ratio: float = 1.0) -> CurveStif
 
 def cycle_stiffness(cycle: MeshCycle, *, tangent: bool = True) -> CurveStiffness:
     """The curve of a MeshCycle; phase 0 is roll angle 0. Tangent stiffness is that of small vibrations about the load."""
-    turn = 2 * np.pi / cycle.pitch_angle
-    phase = cycle.roll_angle * turn
+    return CurveStiffness(phase=cycle_phase(cycle), stiffness=cycle.tangent_stiffness if tangent else cycle.mesh_stiffness)
+
+
+def cycle_phase(cycle: MeshCycle) -> Floats:
+    """Phases (n,) of the roll angles of a MeshCycle, over exactly 2 pi."""
+    phase = cycle.roll_angle * (2 * np.pi / cycle.pitch_angle)
     phase[-1] = phase[0] + 2 * np.pi
-    return CurveStiffness(phase=phase, stiffness=cycle.tangent_stiffness if tangent else cycle.mesh_stiffness)
+    return phase

@@ -61,8 +61,9 @@ class DynamicsOptions:
     """Options of a study of the dynamics. Raises ParameterError and GeometryError.
 
     Of trains and pairs: chart over `speeds` speeds of the (first) pinion (None: 1000, or 41 of a contact model) from
-    `speed_from` to `speed_to` (rpm; None: up to half as much again as its last resonance), with so many `harmonics` of the
-    tooth frequency; `frequencies` natural frequencies of a train; `accuracy_grade` (ISO 1328-1; None: that of the rating) is
+    `speed_from` to `speed_to` (rpm; None: up to half as much again as its last resonance), and as many between them as
+    its maxima need; with at most so many `harmonics` of the tooth frequency (None: as many as leave out less than a hundredth
+    of the load); `frequencies` natural frequencies of a train; `accuracy_grade` (ISO 1328-1; None: that of the rating) is
     that of K_v by ISO 6336-1 and, with `tooth_errors` "on", of random pitch deviations of the pinions' teeth, drawn with
     `seed`.
 
@@ -79,7 +80,7 @@ class DynamicsOptions:
     speed_from: float | None = None
     speed_to: float | None = None
     speeds: int | None = None
-    harmonics: int = 6
+    harmonics: int | None = None
     frequencies: int = 8
     accuracy_grade: int | None = None
     tooth_errors: str = "off"
@@ -101,7 +102,8 @@ class DynamicsOptions:
         plain_numbers(self)
         if self.speeds is not None:
             require_whole("speeds", self.speeds, at_least=2, at_most=20_000)
-        require_whole("harmonics", self.harmonics, at_least=1, at_most=40)
+        if self.harmonics is not None:
+            require_whole("harmonics", self.harmonics, at_least=1, at_most=1000)
         require_whole("frequencies", self.frequencies, at_least=1, at_most=200)
         require_whole("seed", self.seed, at_least=0, at_most=2**32 - 1)
         if self.accuracy_grade is not None:

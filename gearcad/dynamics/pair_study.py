@@ -151,7 +151,7 @@ def study_pair(
     assert options.accuracy_grade is not None  # it has one now
     rating = replace(rating, accuracy_grade=options.accuracy_grade)
     train = pair_train(pair, cycle, inertias, torque=cycle.torque, speed=load.speed, damping_ratio=options.damping_ratio)
-    errors = pair_errors(pair, rating, options.seed, options.harmonics) if options.errors else None
+    errors = pair_errors(pair, rating, options.seed) if options.errors else None
     excitation = pair_excitation(train, cycle, errors)
     factor, unrated = _method_b(pair, material, load, inertias, rating)
     bearings = _on_bearings(train, pair, options, masses)

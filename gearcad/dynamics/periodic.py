@@ -22,10 +22,13 @@ from gearcad.errors import ParameterError, SolverError, require_whole
 __all__ = [
     "UNSTABLE",
     "at_orders",
+    "bonded",
     "both_sides",
     "checked_frequencies",
     "harmonic_orders",
+    "instability_warnings",
     "periodic_response",
+    "runs",
     "turns_and_torques",
 ]
 
@@ -187,14 +190,14 @@ def _approaches(
 def instability_warnings(speeds: Floats, stable: NDArray[np.bool_]) -> tuple[str, ...]:
     if stable.all():
         return ()
-    ranges = [f"{part[0]:g}" if len(part) == 1 else f"{part[0]:g} to {part[-1]:g}" for part in _runs(speeds, ~stable)]
+    ranges = [f"{part[0]:g}" if len(part) == 1 else f"{part[0]:g} to {part[-1]:g}" for part in runs(speeds, ~stable)]
     return (
         f"parametric instability: vibrations grow without bound at tooth frequencies (1/s) {', '.join(ranges)}; "
         "what is given there is a periodic motion that does not last",
     )
 
 
-def _runs(speeds: Floats, marked: NDArray[np.bool_]) -> list[Floats]:
+def runs(speeds: Floats, marked: NDArray[np.bool_]) -> list[Floats]:
     """Neighbouring speeds that are marked, run by run."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]]).astype(int)))
     return [speeds[start:end] for start, end in edges.reshape(-1, 2)]
@@ -204,15 +207,15 @@ def _with_parting(result: PeriodicResponse) -> PeriodicResponse:
     """With a warning where the linear response has flanks that pull."""
     per = max(1, _BLOCK // (result.samples * result.approach_coefficients.shape[2]))
     starts = range(0, len(result.frequencies), per)
-    linear = replace(result, excitation=_bonded(result.excitation))
+    linear = replace(result, excitation=bonded(result.excitation))
     least = np.concatenate([(linear.senses * linear.spring_forces(slice(i, i + per))).min(axis=(1, 2)) for i in starts])
     if (least >= 0).all():
         return result
-    ranges = [f"{part[0]:g} to {part[-1]:g}" for part in _runs(result.frequencies, least < 0)]
+    ranges = [f"{part[0]:g} to {part[-1]:g}" for part in runs(result.frequencies, least < 0)]
     text = f"flanks would part at tooth frequencies (1/s) {', '.join(ranges)}: a sweep with backlash shows what happens there"
     return replace(linear, warnings=(*result.warnings, text))
 
 
-def _bonded(excitation: Excitation) -> Excitation:
+def bonded(excitation: Excitation) -> Excitation:
     """The same with flanks that never part."""
     return Excitation(meshes=tuple(replace(mesh, backlash=None) for mesh in excitation.meshes))

@@ -75,14 +75,14 @@ class PeriodicResponse:
     def spring_forces(self, which: slice = slice(None), count: int | None = None) -> Floats:
         """k(t) g(y - e) (s, t, m) in N: what the teeth carry, without damping."""
         theta = self.phases(count)
-        gap = self.approach(which, count) - self.excitation.errors(theta)
+        gap = self.approach(which, count) - self.excitation.error_course(len(theta))
         return self.excitation.ratios(theta) * self.system.stiffness * pressed(gap, self.excitation.backlashes, self.senses)
 
     def damping_forces(self, which: slice = slice(None), count: int | None = None) -> Floats:
         """c (y' - e') (s, t, m) in N."""
         speed = self.excitation.fundamental * self.frequencies[which]
         slopes = self.approach_coefficients[which] * 1j * self.harmonics[:, None]
-        rates = self._course(slopes, count) - self.excitation.error_slopes(self.phases(count))
+        rates = self._course(slopes, count) - self.excitation.error_slope_course(count or self.samples)
         return np.asarray(self.system.mesh_damping * speed[:, None, None] * rates, float)
 
     def _course(self, coefficients: Complexes, count: int | None) -> Floats:

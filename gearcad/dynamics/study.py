@@ -10,22 +10,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearcad.dynamics.backlash import Direction, trace
 from gearcad.dynamics.driving import train_excitation
 from gearcad.dynamics.excitation import Excitation
-from gearcad.dynamics.kv import KvChart, kv_chart
+from gearcad.dynamics.kv import KvChart
 from gearcad.dynamics.lines import system
 from gearcad.dynamics.modes import NaturalModes, natural_modes
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.periodic import harmonic_orders, periodic_response
 from gearcad.dynamics.response import PeriodicResponse
+from gearcad.dynamics.speed_chart import OverSpeed, over_speed
 from gearcad.dynamics.system import System
 from gearcad.dynamics.train import Train, TrainModel
-from gearcad.errors import SolverError
+from gearcad.errors import GeometryError
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 
-__all__ = ["Course", "TrainStudy", "study_train"]
+__all__ = ["Course", "ModalStudy", "TrainStudy", "study_modes", "study_train"]
 
 Floats = NDArray[np.float64]
 
@@ -35,23 +34,23 @@ _BEYOND = 1.5
 _SHARE = 0.02
 """Of a mode's potential energy that a mesh must hold for the mode to be a resonance of it."""
 
-_SWEEP_HARMONICS = 12
-"""Fewest harmonics of motions in which flanks part."""
+_DRAWN = 512
+"""Samples of a course over a tooth, at least; 16 of the quickest vibration."""
 
-_MOST_UNKNOWNS = 80
-"""Most harmonics, of all meshes together, of motions that are followed: the errors of 18 teeth would take minutes."""
-
-_STUCK = "flanks are taken to stick to each other"
+_LOWER, _RUN_UP = 3.0, 60
+"""Where flanks part at a speed beyond the chart, the run up to it begins at the speed over the first, and has so many steps."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Course:
     """One speed (rpm of the first pinion) over the common period: `turn` (t,) in tooth periods of the first mesh.
 
-    `approach` (t, m) of the flanks in µm, `force` (t, m) in N with that of the dampers, `shaft_torque` (t, n) in N·m.
+    `approach` (t, m) of the flanks in µm, `force` (t, m) in N with that of the dampers, `shaft_torque` (t, n) in N·m; `kv` (m,)
+    is K_v of each mesh there.
     """
 
     speed: float
+    kv: Floats
     turn: Floats
     approach: Floats
     force: Floats
@@ -60,6 +59,46 @@ class Course:
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it."""
         return {name: value if isinstance(value, float) else value.tolist() for name, value in vars(self).items()}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ModalStudy:
+    """A train without meshes: nothing shakes it, but it has its natural modes."""
+
+    train: Train
+    options: DynamicsOptions
+    modes: NaturalModes
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What to know before trusting it."""
+        return _missed(self.train, self.modes)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it: no chart, no course."""
+        return {"model": self.train.model.value, "modes": self.modes.to_dict(), "warnings": list(self.warnings)}
+
+    def arrays(self) -> dict[str, Floats]:
+        """As the .npz file has them."""
+        return _mode_arrays(self.modes)
+
+
+def _missed(train: Train, modes: NaturalModes) -> tuple[str, ...]:
+    if not modes.missed or train.model is TrainModel.MODES:
+        return ()
+    return (
+        f"natural frequencies below the highest listed that this model does not have: {modes.missed}; "
+        'the model "exact" has them all',
+    )
+
+
+def _mode_arrays(modes: NaturalModes) -> dict[str, Floats]:
+    return {
+        "mode_frequency": modes.frequency,
+        "mode_shape": modes.shape,
+        "shaft_places": modes.places,
+        "shaft_shape": modes.shaft_shape,
+    }
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -92,13 +131,8 @@ class TrainStudy:
     def warnings(self) -> tuple[str, ...]:
         """What to know before trusting it."""
         down = self.down.warnings if self.down is not None else ()
-        found = list(dict.fromkeys((*self.notes, *self.up.warnings, *down)))
-        if self.modes.missed and self.train.model is not TrainModel.MODES:
-            found.append(
-                f"natural frequencies below the highest listed that this model does not have: {self.modes.missed}; "
-                'the model "exact" has them all'
-            )
-        return tuple(found)
+        found = dict.fromkeys((*self.notes, *self.up.warnings, *down))
+        return (*found, *_missed(self.train, self.modes))
 
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it; frequencies in Hz and 1/s, speeds in rpm."""
@@ -121,10 +155,7 @@ class TrainStudy:
             "speed": self.speeds,
             "kv": self.up.factors,
             "shaft_overload": self.up.shaft_factors,
-            "mode_frequency": self.modes.frequency,
-            "mode_shape": self.modes.shape,
-            "shaft_places": self.modes.places,
-            "shaft_shape": self.modes.shaft_shape,
+            **_mode_arrays(self.modes),
             **{f"course_{name}": np.asarray(value) for name, value in vars(self.course).items()},
         }
         if self.down is not None:
@@ -132,6 +163,12 @@ class TrainStudy:
         if self.up.standard is not None:
             found["kv_iso6336"] = self.up.standard
         return found
+
+
+def study_modes(train: Train, options: DynamicsOptions | None = None) -> ModalStudy:
+    """The natural modes alone, of any train. Raises ParameterError."""
+    options = options or DynamicsOptions()
+    return ModalStudy(train=train, options=options, modes=natural_modes(train, count=options.frequencies))
 
 
 def study_train(
@@ -149,29 +186,36 @@ def study_train(
     `of` stands in for the train's system in the charts, with the same meshes.
     Raises ParameterError, GeometryError and SolverError.
     """
+    if not train.meshes:
+        raise GeometryError(
+            "meshes", 0, "must be one at least: without teeth nothing shakes a train; study_modes has its modes"
+        )
     options = (options or DynamicsOptions()).graded(RatingOptions())
     tell("modes")
     modes = natural_modes(train, count=options.frequencies)
     of = of or system(train)
     if excitation is None:
         grade = options.accuracy_grade if options.errors else None
-        excitation = train_excitation(train, grade=grade, seed=options.seed, harmonics=options.harmonics)
-    speeds = _speeds(train, options, modes) * math.pi * train.meshes[0].teeth / 30
+        excitation = train_excitation(train, grade=grade, seed=options.seed)
+    frequency = math.pi * train.meshes[0].teeth / 30
+    speeds, asked = _speeds(train, options, modes) * frequency, abs(train.speed) * frequency
+    if speeds[0] <= asked <= speeds[-1]:
+        speeds = np.union1d(speeds, asked)
     tell("chart")
-    up, down, notes = _responses(of, excitation, speeds, options.harmonics)
-    charts = [kv_chart(each, method_b=method_b) for each in (up, down) if each is not None]
+    over = over_speed(of, excitation, speeds, harmonics=options.harmonics, method_b=method_b)
     tell("course")
+    course, more = _course(train, over, asked)
     return TrainStudy(
         train=train,
         options=options,
         system=of,
         excitation=excitation,
         modes=modes,
-        up=charts[0],
-        down=charts[1] if down is not None else None,
-        jumps=(up.jumps, down.jumps if down is not None else np.zeros(0)),
-        course=_course(train, up, charts[0]),
-        notes=notes,
+        up=over.up,
+        down=over.down,
+        jumps=over.jumps,
+        course=course,
+        notes=tuple(dict.fromkeys((*over.notes, *more))),
         method_b=method_b,
     )
 
@@ -186,36 +230,33 @@ def _speeds(train: Train, options: DynamicsOptions, modes: NaturalModes) -> Floa
     return np.linspace(first, last, options.chart_speeds)
 
 
-def _responses(
-    of: System, excitation: Excitation, speeds: Floats, harmonics: int
-) -> tuple[PeriodicResponse, PeriodicResponse | None, tuple[str, ...]]:
-    """Linear where flanks cannot part or never do; else what is seen running up, and running down. And what went wrong."""
-    linear = periodic_response(of, excitation, speeds, harmonics=harmonics)
-    if not excitation.parting or (linear.stable.all() and kv_chart(linear).least.min() > 0):
-        return linear, None, ()
-    harmonics = max(harmonics, _SWEEP_HARMONICS)
-    unknowns = len(of.stiffness) * len(harmonic_orders(excitation, harmonics))
-    if unknowns > _MOST_UNKNOWNS:
-        note = f"{_STUCK}: motions in which they part would have {unknowns} harmonics here; leave tooth errors out to see them"
-        return linear, None, (note,)
-    try:
-        branch = trace(of, excitation, speeds, harmonics=harmonics)
-    except SolverError as error:
-        return linear, None, (f"{_STUCK}, for want of a motion in which they part: {error}",)
-    return branch.sweep(Direction.UP), branch.sweep(Direction.DOWN), ()
+def _course(train: Train, over: OverSpeed, asked: float) -> tuple[Course, tuple[str, ...]]:
+    """At the frequency of the train's speed, or where the first mesh's K_v is greatest; and what to know about it."""
+    frequency = asked or float(over.up.frequencies[over.up.factors[:, 0].argmax()])
+    response, notes = over.response(frequency), tuple[str, ...]()
+    within = over.up.frequencies[0] <= frequency <= over.up.frequencies[-1]
+    if not within and over.excitation.parting and _pull(response):
+        run_up = np.geomspace(frequency / _LOWER, frequency, _RUN_UP)
+        beyond = over_speed(over.curves.system, over.excitation, run_up, harmonics=over.curves.harmonics)
+        response, notes = beyond.response(frequency), beyond.notes
+    return _drawn(train, response), notes
 
 
-def _course(train: Train, response: PeriodicResponse, chart: KvChart) -> Course:
-    """At the train's speed, or where the first mesh's K_v is greatest."""
-    asked = train.speed * math.pi * train.meshes[0].teeth / 30
-    row = int(np.abs(response.frequencies - asked).argmin()) if asked else int(chart.factors[:, 0].argmax())
-    which = slice(row, row + 1)
-    force = response.spring_forces(which) + response.damping_forces(which)
-    phases = response.phases() / (2 * np.pi) * response.excitation.orders[0]
+def _pull(response: PeriodicResponse) -> bool:
+    """Whether flanks pull in a linear motion."""
+    return bool((response.senses * response.spring_forces()).min() <= 0)
+
+
+def _drawn(train: Train, response: PeriodicResponse) -> Course:
+    count = max(_DRAWN * max(response.excitation.orders), 8 * int(response.harmonics[-1]))
+    spring = response.spring_forces(count=count)
+    phases = response.phases(count) / (2 * np.pi) * response.excitation.orders[0]
+    crests = (response.senses * spring).max(axis=(0, 1))
     return Course(
-        speed=float(response.frequencies[row] * 30 / (math.pi * train.meshes[0].teeth)),
+        speed=float(response.frequencies[0] * 30 / (math.pi * train.meshes[0].teeth)),
+        kv=crests / np.abs(response.system.stiffness * response.static.approach),
         turn=phases,
-        approach=1e6 * response.approach(which)[0],
-        force=force[0],
-        shaft_torque=response.shaft_torques(which)[0],
+        approach=1e6 * response.approach(count=count)[0],
+        force=(spring + response.damping_forces(count=count))[0],
+        shaft_torque=response.shaft_torques(count=count)[0],
     )

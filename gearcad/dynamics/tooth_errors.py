@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gearcad.dynamics.polyline import Polyline
 from gearcad.errors import ParameterError, plain_numbers, require_number, require_whole
 from gearcad.rating.iso1328 import FlankTolerances
 
@@ -26,12 +27,14 @@ Complexes = NDArray[np.complex128]
 class TransmissionError:
     """e(phase) = sum_n c_n e^(i n phase/teeth) in µm: how far unloaded flanks must approach each other until they touch.
 
-    `coefficients` (n + 1,) are those from 0 on, over a period of `teeth` teeth of the mesh (1: the same for all teeth).
-    The phase, 2 pi over a tooth, is the mesh's own: that of its stiffness.
+    `coefficients` (n + 1,) are those from 0 on, over a period of `teeth` teeth of the mesh (1: the same for all teeth); what
+    comes again with every tooth may be given by straight lines instead, or besides: `line`, in µm. The phase, 2 pi over a
+    tooth, is the mesh's own: that of its stiffness.
     """
 
-    coefficients: Complexes
+    coefficients: Complexes = field(default_factory=lambda: np.zeros(1, complex))
     teeth: int = 1
+    line: Polyline | None = None
 
     def __post_init__(self) -> None:
         require_whole("teeth", self.teeth, at_least=1, at_most=1_000_000)
@@ -43,13 +46,27 @@ class TransmissionError:
 
     def values(self, phase: ArrayLike) -> Floats:
         """e (µm) at any phases (rad)."""
-        return self._sum(self.coefficients, phase)
+        steady = 0.0 if self.line is None else self.line.values(phase)
+        return np.asarray(self._sum(self.coefficients, phase) + steady, float)
 
     def slopes(self, phase: ArrayLike) -> Floats:
         """de/dphase (µm/rad) at any phases (rad)."""
-        return self._sum(self.coefficients * 1j * np.arange(len(self.coefficients)) / self.teeth, phase)
+        steady = 0.0 if self.line is None else self.line.slopes(phase)
+        own = self.coefficients * 1j * np.arange(len(self.coefficients)) / self.teeth
+        return np.asarray(self._sum(own, phase) + steady, float)
+
+    def orders(self, count: int) -> Complexes:
+        """Fourier coefficients (count + 1,) in µm, of n turns of the phase in `teeth` teeth."""
+        result = np.zeros(count + 1, complex)
+        own = self.coefficients[: count + 1]
+        result[: len(own)] = own
+        if self.line is not None:
+            result[:: self.teeth] += self.line.coefficients(count // self.teeth)
+        return result
 
     def _sum(self, coefficients: Complexes, phase: ArrayLike) -> Floats:
+        if not coefficients.any():
+            return np.zeros(np.shape(phase))
         turns = np.asarray(phase, float)[..., None] * (np.arange(len(coefficients)) / self.teeth)
         weights = np.where(np.arange(len(coefficients)) == 0, 1, 2) * coefficients
         result: Floats = (np.exp(1j * turns) @ weights).real

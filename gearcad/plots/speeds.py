@@ -75,7 +75,7 @@ def plot_factors(study: TrainStudy, ax: Axes | None = None, frequencies: Sequenc
     _shade_unstable(axes, study)
     _mark_parting(axes, study)
     _mark_modes(axes, _mode_lines(study, frequencies))
-    if study.train.speed:
+    if study.speeds[0] <= abs(study.train.speed) <= study.speeds[-1]:
         axes.plot(abs(study.train.speed), 0, "^", color=DARK, transform=axes.get_xaxis_transform(), label="speed asked for")
     _finish(axes, study)
     return axes

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gearcad.dynamics.pair_study import ContactStudy, PairStudy
-from gearcad.dynamics.study import TrainStudy
+from gearcad.dynamics.study import ModalStudy, TrainStudy
 from gearcad.plots.paper import short
 from gearcad.plots.speeds import shafts_with_reference
 from gearcad.plots.trains import MOST_SHAPES
@@ -15,7 +15,7 @@ from gearcad.stiffness import METHODS
 __all__ = ["campbell", "course", "cycle", "energies", "factors", "greatest", "history", "shaft_overload", "shapes"]
 
 
-def shapes(study: TrainStudy) -> str:
+def shapes(study: TrainStudy | ModalStudy) -> str:
     """Caption of the mode shapes."""
     modes = study.modes
     drawn = f"The first {MOST_SHAPES} of {len(modes)} natural modes" if len(modes) > MOST_SHAPES else "The natural modes"
@@ -32,7 +32,7 @@ def shapes(study: TrainStudy) -> str:
     return text
 
 
-def energies(study: TrainStudy) -> str:
+def energies(study: TrainStudy | ModalStudy) -> str:
     """Caption of the modal energies."""
     modes = study.modes
     text = "Where a mode has its energy: bodies that move, and springs that give way. "

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gearcad.dynamics.pair_study import ContactStudy, PairStudy
-from gearcad.dynamics.study import TrainStudy
+from gearcad.dynamics.study import ModalStudy, TrainStudy
 from gearcad.dynamics.train import TrainModel
 from gearcad.plots.campbell import plot_campbell, plot_motion, plot_spectrum
 from gearcad.plots.speeds import (
@@ -60,21 +60,44 @@ _MODELS = {
 }
 
 
-def write_dynamics_report(study: TrainStudy | PairStudy | ContactStudy, name: str, path: Path) -> None:
+def write_dynamics_report(study: TrainStudy | ModalStudy | PairStudy | ContactStudy, name: str, path: Path) -> None:
     """Write the report of a study of the design `name` to `path`; the same study gives the same bytes."""
     path.write_text(dynamics_html(study, name), encoding="utf-8")
 
 
-def dynamics_html(study: TrainStudy | PairStudy | ContactStudy, name: str) -> str:
+def dynamics_html(study: TrainStudy | ModalStudy | PairStudy | ContactStudy, name: str) -> str:
     """The report as one HTML document without links."""
     if isinstance(study, TrainStudy):
         return _train_html(study, name)
+    if isinstance(study, ModalStudy):
+        return _modes_html(study, name)
     return _pair_html(study, name) if isinstance(study, PairStudy) else _contact_html(study, name)
+
+
+def _modes_html(study: ModalStudy, name: str) -> str:
+    return page_html(
+        "dynamics_modes.html",
+        name,
+        of=study,
+        parts=[inertia_table(study), *([shaft_table(study)] if study.train.shafts else [])],
+        model=_MODELS[study.train.model],
+        modes=mode_table(study.modes),
+        shape_figures=_shape_figures(study),
+        warnings=study.warnings,
+    )
+
+
+def _shape_figures(study: TrainStudy | ModalStudy) -> list[Picture]:
+    train, modes = study.train, study.modes
+    shapes, energies = partial(plot_shapes, train, modes), partial(plot_energies, modes)
+    return [
+        _figure("Natural modes", shapes, shapes_inches(train, modes), captions.shapes(study)),
+        _figure("Energy of the modes", energies, energies_inches(modes), captions.energies(study)),
+    ]
 
 
 def _train_html(study: TrainStudy, name: str) -> str:
     train, modes = study.train, study.modes
-    shapes, energies = partial(plot_shapes, train, modes), partial(plot_energies, modes)
     return page_html(
         "dynamics_train.html",
         name,
@@ -85,10 +108,7 @@ def _train_html(study: TrainStudy, name: str) -> str:
         modes=mode_table(modes),
         most=MOST_PEAKS,
         peaks=peak_table(study),
-        shape_figures=[
-            _figure("Natural modes", shapes, shapes_inches(train, modes), captions.shapes(study)),
-            _figure("Energy of the modes", energies, energies_inches(modes), captions.energies(study)),
-        ],
+        shape_figures=_shape_figures(study),
         speed_figures=_speed_figures(study),
         warnings=study.warnings,
     )

@@ -10,7 +10,7 @@ import numpy as np
 from gearcad.dynamics.campbell import CampbellStudy
 from gearcad.dynamics.modes import NaturalModes
 from gearcad.dynamics.shafts import shaft_inertia, shaft_stiffness
-from gearcad.dynamics.study import TrainStudy
+from gearcad.dynamics.study import ModalStudy, TrainStudy
 from gearcad.dynamics.train import Mesh, Shaft, StiffnessWave, TrainModel
 from gearcad.plots.paper import short
 
@@ -30,6 +30,9 @@ _NONE = "–"  # an en dash where there is no value
 
 _NEAR = 0.04
 """How far a resonance may be from a natural frequency whose name it gets: damping and parting flanks move it."""
+
+_NAMED = 8
+"""Harmonics of a tooth frequency that give a resonance its name: beyond, each lies near the next."""
 
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
@@ -51,32 +54,38 @@ class Table(NamedTuple):
 # ---------------------------------------------------------------------- parts of a train
 
 
-def inertia_table(study: TrainStudy) -> Table:
+def inertia_table(study: TrainStudy | ModalStudy) -> Table:
     """Inertias of the train with the torques on them and their speeds."""
     train, ratios = study.train, study.train.speed_ratios
+    first = "pinion" if train.meshes else "inertia"
     rows = [
         (each.name, short(each.inertia), short(train.torques.get(each.name, 0.0)), short(ratios[each.name]))
         for each in train.inertias
     ]
-    return Table(("inertia", "kg·m²", "torque, N·m", "turns per turn of the first pinion"), rows)
+    return Table(("inertia", "kg·m²", "torque, N·m", f"turns per turn of the first {first}"), rows)
 
 
-def shaft_table(study: TrainStudy) -> Table:
+def shaft_table(study: TrainStudy | ModalStudy) -> Table:
     """Shafts, and where the chart has them, their greatest overload."""
-    chart = study.up
-    heads = ("shaft", "from, to", "stiffness, N·m/rad", "inertia, kg·m²", "damping", "at rest, N·m", "overload", "at rpm")
+    heads = ("shaft", "from, to", "stiffness, N·m/rad", "inertia, kg·m²", "damping")
+    charted = isinstance(study, TrainStudy)
     rows = []
     for shaft in study.train.shafts:
-        own = chart.shaft_names.index(shaft.name) if shaft.name in chart.shaft_names else None
-        known = own is not None and bool(np.isfinite(chart.shaft_factors[:, own]).all())
-        overload = (_NONE, _NONE, _NONE)
-        if own is not None and known:
-            row = int(chart.shaft_factors[:, own].argmax())
-            overload = tuple(map(short, (chart.shaft_references[own], chart.shaft_factors[row, own], study.speeds[row])))  # type: ignore[assignment]
+        overload = _overload(study, shaft) if isinstance(study, TrainStudy) else ()
         mass = 0.0 if study.train.model is TrainModel.MASSLESS else shaft_inertia(shaft)
         fixed = (f"{shaft.start}, {shaft.end}", short(shaft_stiffness(shaft)), _or_none(mass), _shaft_damping(shaft))
         rows.append((_shaft_words(shaft), *fixed, *overload))
-    return Table(heads, rows, 2)
+    return Table((*heads, "at rest, N·m", "overload", "at rpm") if charted else heads, rows, 2)
+
+
+def _overload(study: TrainStudy, shaft: Shaft) -> tuple[str, ...]:
+    """Torque at rest, greatest overload and its speed, where the chart has them."""
+    chart = study.up
+    own = chart.shaft_names.index(shaft.name) if shaft.name in chart.shaft_names else None
+    if own is None or not np.isfinite(chart.shaft_factors[:, own]).all():
+        return _NONE, _NONE, _NONE
+    row = int(chart.shaft_factors[:, own].argmax())
+    return tuple(map(short, (chart.shaft_references[own], chart.shaft_factors[row, own], study.speeds[row])))
 
 
 def _shaft_words(shaft: Shaft) -> str:
@@ -192,7 +201,7 @@ def _near(study: TrainStudy, natural: np.ndarray, mesh: int, frequency: float) -
     found = [
         (harmonic, abs(harmonic * _ratio(study, other) * frequency / circular - 1), mode + 1, other)
         for other in range(len(study.excitation.meshes))
-        for harmonic in range(1, study.options.harmonics + 1)
+        for harmonic in range(1, _NAMED + 1)
         for mode, circular in enumerate(natural)
         if circular
     ]

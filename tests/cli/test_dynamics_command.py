@@ -65,7 +65,11 @@ def test_a_train(here: Path) -> None:
     assert max(peak["factor"] for peak in peaks) == pytest.approx(1.55, abs=0.01)
     assert min(abs(peak["frequency"] - 12650) for peak in peaks) < 150
     with np.load("output/train-1-stage/dynamics.npz", allow_pickle=False) as arrays:
-        assert arrays["kv"].shape == (160, 1) and arrays["mode_shape"].shape == (3, 2)
+        assert (
+            arrays["kv"].shape == (len(document["speed"]), 1)
+            and len(document["speed"]) >= 160
+            and arrays["mode_shape"].shape == (3, 2)
+        )
         assert arrays["kv"][:, 0].tolist() == document["chart"]["kv"]["mesh"]
 
 
@@ -103,11 +107,37 @@ def test_a_pair_without_further_data(here: Path) -> None:
     natural = math.sqrt(1e6 * document["mesh_stiffness_tangent_mean"] / mass) / (2 * math.pi)
     assert document["modes"]["frequency"] == pytest.approx([0.0, natural], rel=1e-6, abs=1e-6)
     assert document["stiffness_method"] == "plane-strain"
-    # The steps of 120 positions leave some per cent where nothing vibrates.
-    assert document["chart"]["kv"]["mesh"][0] == pytest.approx(1, abs=0.06)
-    assert len(document["chart"]["kv_iso6336"]) == 1000 and document["resonance_speed_iso6336"] > 1000
+    assert document["chart"]["kv"]["mesh"][0] == pytest.approx(1, abs=0.01)
+    assert len(document["chart"]["kv_iso6336"]) == len(document["speed"]) >= 1000 and document["resonance_speed_iso6336"] > 1000
     assert f"{document['resonance_speed_iso6336']:.5g} rpm" in result.stdout
-    assert document["course"]["speed"] == pytest.approx(6000, rel=0.1)
+    assert document["course"]["speed"] == pytest.approx(6000, rel=1e-12)
+
+
+def test_a_small_pair_has_dynamics_without_the_standard(here: Path) -> None:
+    """ISO 1328-1 ends at module 0.5: only the comparison with ISO 6336-1 goes, with the reason."""
+    small = PAIR.replace(
+        "normal_module = 2.0\nface_width = 20.0\ntooth_thinning = 0.05", "normal_module = 0.3\nface_width = 3.0"
+    )
+    small = small.replace("body.bore = 12.0\n", "").replace("body.bore = 20.0\n", "").replace("torque = 50.0", "torque = 0.05")
+    result = run("dynamics", spec(small + "pinion_inertia = 3e-10\nwheel_inertia = 1.5e-9\n"), "--quiet")
+    assert result.exit_code == 0, result.output
+    document = json.loads(Path("output/it/dynamics.json").read_text(encoding="utf-8"))
+    assert max(document["chart"]["kv"]["mesh"]) > 1.5
+    assert document["chart"]["kv_iso6336"] is None and document["resonance_speed_iso6336"] is None
+    assert any("reference_diameter" in each or "normal_module" in each for each in document["warnings"])
+
+
+def test_a_train_without_teeth(here: Path) -> None:
+    """Two discs on a spring: its mode, no chart."""
+    discs = "".join(f'[[train.inertia]]\nname = "{name}"\ninertia = 0.02\n' for name in "ab")
+    shaft = '[[train.shaft]]\nname = "s"\nstart = "a"\nend = "b"\ntorsional_stiffness = 4e4\n'
+    result = run("dynamics", spec(f'[train]\nname = "two"\n{discs}{shaft}'), "--quiet")
+    assert result.exit_code == 0, result.output
+    assert f"{math.sqrt(2 * 4e4 / 0.02):.6g}" in result.stdout and "K_v" not in result.stdout
+    document = json.loads(Path("output/two/dynamics.json").read_text(encoding="utf-8"))
+    assert document["modes"]["circular"] == pytest.approx([0, 2000], abs=1e-6) and "chart" not in document
+    page = Path("output/two/dynamics.html").read_text(encoding="utf-8")
+    assert "Natural modes" in page and "Without teeth in mesh nothing shakes the train" in page
 
 
 def test_a_pair_on_bearings(here: Path) -> None:
@@ -115,6 +145,7 @@ def test_a_pair_on_bearings(here: Path) -> None:
     found = {}
     for stiffness in ("1e7", "100.0"):
         bearings = f"speeds = 40\npinion_bearing_stiffness = {stiffness}\nwheel_bearing_stiffness = {stiffness}"
+        bearings += "\nbearing_damping = 100.0"
         result = run("dynamics", spec(PAIR.replace("speeds = 40", bearings)), "--quiet", "--json")
         assert result.exit_code == 0, result.output
         found[stiffness] = json.loads(result.stdout)
@@ -122,8 +153,11 @@ def test_a_pair_on_bearings(here: Path) -> None:
     assert stiff["frequencies_on_bearings"][1] == pytest.approx(stiff["modes"]["frequency"][1], rel=1e-4)
     assert soft["frequencies_on_bearings"][1] < 0.7 * soft["modes"]["frequency"][1]
     alone = json.loads(run("dynamics", spec(PAIR), "--quiet", "--json").stdout)
-    assert stiff["chart"]["kv"]["mesh"] == pytest.approx(alone["chart"]["kv"]["mesh"], rel=1e-3)
-    assert soft["chart"]["kv"]["mesh"] != pytest.approx(alone["chart"]["kv"]["mesh"], rel=0.05)
+    # Maxima find speeds of their own: compared at those that were asked for.
+    asked = np.intersect1d(stiff["speed"], np.intersect1d(soft["speed"], alone["speed"]))
+    at_asked = [np.array(each["chart"]["kv"]["mesh"])[np.isin(each["speed"], asked)] for each in (stiff, soft, alone)]
+    assert len(asked) >= 40 and at_asked[0] == pytest.approx(at_asked[2], rel=1e-3)
+    assert at_asked[1] != pytest.approx(at_asked[2], rel=0.05)
 
 
 def test_pitch_deviations_given_or_drawn(here: Path) -> None:
@@ -165,7 +199,7 @@ def test_tooth_errors_and_flanks_that_part_are_too_much(here: Path) -> None:
     text = PAIR.replace("speeds = 40", "speeds = 20\nspeed_to = 30000.0\ntooth_errors = 'on'")
     result = run("dynamics", spec(text), "--quiet")
     assert result.exit_code == 0, result.output
-    assert re.search(r"Warning: flanks are taken to stick to each other: .* would have \d+ harmonics here", result.stdout)
+    assert re.search(r"Warning: flanks are taken to stick to each other, for .* would have \d+ harmonics here", result.stdout)
 
 
 def test_the_contact_model_of_the_thesis(here: Path) -> None:
