@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, NamedTuple
 from gearcad.errors import GeometryError, ParameterError, require_number
 from gearcad.geometry import Gear, GearPair, mesh_pose
 from gearcad.output import json_text, staged_files
+from gearcad.progress import Progress
 from gearcad.spec.design import Design
 
 if TYPE_CHECKING:
     from gearcad.solids import Facets
 
-__all__ = ["DEFAULT_FORMATS", "Format", "Progress", "build"]
+__all__ = ["DEFAULT_FORMATS", "Format", "build"]
 
 
 class Format(Enum):
@@ -35,9 +36,6 @@ DEFAULT_FORMATS = (Format.STEP, Format.STL)
 
 _SCENES = (Format.THREE_MF, Format.GLB)
 _ASSEMBLED = (Format.STEP, *_SCENES)
-
-Progress = Callable[[str, int, int], None]
-"""Called before each file with its name, how many are done, and how many there are."""
 
 
 class _Step(NamedTuple):

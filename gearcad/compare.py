@@ -9,13 +9,15 @@ from typing import Any
 
 from gearcad import __version__
 from gearcad.check.options import CheckOptions
-from gearcad.check.run import Progress
+from gearcad.geometry import GearPair
+from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.progress import Expected, Progress
 from gearcad.spec.design import Design
-from gearcad.stiffness.comparison import StiffnessComparison, compare_methods
+from gearcad.stiffness.comparison import StiffnessComparison, compare_methods, expected_methods
 from gearcad.stiffness.methods import METHODS
 
-__all__ = ["compare", "curves_csv", "stiffness_document"]
+__all__ = ["compare", "curves_csv", "expected_comparison", "stiffness_document"]
 
 _COLUMNS = ("method", "roll_angle", "path_position", "mesh_stiffness", "tangent_stiffness", "transmission_error")
 
@@ -27,7 +29,7 @@ def compare(
 
     Raises ParameterError for a design without pair or load, and what `compare_methods` raises.
     """
-    pair, load = design.loaded_pair("no mesh", "stiffness depends on it")
+    pair, load = _loaded(design)
     from threadpoolctl import threadpool_limits
 
     # The dense systems are small, and solid bodies are solved side by side: more threads cost more than they bring.
@@ -40,8 +42,19 @@ def compare(
             body=(design.check or CheckOptions()).body,
             mounting=design.mounting,
             positions=positions,
-            progress=progress or (lambda _method, _done, _all: None),
+            progress=progress,
         )
+
+
+def expected_comparison(design: Design, methods: Sequence[str] = tuple(METHODS), positions: int = 0) -> Expected:
+    """What `compare` is expected to take. Raises ParameterError for a design without pair or load."""
+    pair, _ = _loaded(design)
+    body, material = (design.check or CheckOptions()).body, design.material or Material()
+    return expected_methods(pair, material, methods, body=body, mounting=design.mounting, positions=positions)
+
+
+def _loaded(design: Design) -> tuple[GearPair, Load]:
+    return design.loaded_pair("no mesh", "stiffness depends on it")
 
 
 def stiffness_document(comparison: StiffnessComparison, name: str, harmonics: int = 0) -> dict[str, Any]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -20,6 +19,7 @@ from gearcad.ltca.solid_pair import SolidPair, SolidSizes, loaded_left, solid_pa
 from gearcad.ltca.variants import AMOUNTS, Condition, with_amounts
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.progress import Progress
 from gearcad.ranges import STRENGTH, TORQUE
 from gearcad.spec.design import Design
 
@@ -27,10 +27,7 @@ __all__ = ["Figures", "Proposal", "Robustness", "propose", "unmirrored"]
 
 Floats = NDArray[np.float64]
 
-Progress = Callable[[str, int, int], None]
-"""Called with what is being done, how many steps are done, and how many there are."""
-
-_STEPS = ("body of the pinion", "body of the wheel", "mesh cycle", "search", "robustness")
+_STEPS = ("bodies of pinion and wheel", "mesh cycle", "search", "robustness")
 
 _MORE_PRESSURE = 1.05
 """Share of the pressure of the plain flanks that a proposal may reach where the material's limit is out of reach."""
@@ -192,9 +189,9 @@ def propose(
     )
 
 
-def _tell(progress: Progress | None, step: str) -> None:
+def _tell(progress: Progress | None, step: str, share: float = 0.0) -> None:
     if progress is not None:
-        progress(step, _STEPS.index(step), len(_STEPS))
+        progress(step, _STEPS.index(step) + share, len(_STEPS))
 
 
 def _task(design: Design, torque: float | None, pressure: float | None) -> tuple[GearPair, float]:
@@ -227,7 +224,7 @@ def _model(design: Design, pair: GearPair, torque: float, options: CheckOptions,
         body=options.body,
         sizes=SolidSizes().refined(options.refinement),
         mounting=replace(mounting, centre_distance_change=0.0),
-        progress=lambda gear: _tell(progress, f"body of the {gear}"),
+        tell=lambda share: _tell(progress, _STEPS[0], share),
     )
 
 

@@ -7,7 +7,6 @@ from typing import Any
 
 from gearcad import __version__
 from gearcad.check.options import CheckOptions
-from gearcad.check.run import Progress
 from gearcad.dynamics.options import DynamicsOptions, PairModel
 from gearcad.dynamics.pair_study import ContactStudy, PairStudy, study_contact, study_pair
 from gearcad.dynamics.study import ModalStudy, TrainStudy, study_modes, study_train
@@ -15,6 +14,7 @@ from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.progress import Progress
 from gearcad.spec.design import Design
 from gearcad.spec.trains import TrainDesign
 from gearcad.stiffness.methods import METHODS

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from gearcad.check.convergence import FACTORS, FEW_POSITIONS, three_meshes
 from gearcad.check.judge import compare_plane
@@ -17,16 +17,21 @@ from gearcad.fea.elasticity import PlaneElasticity
 from gearcad.fea.flexible_pair import FlexiblePair, flexible_pair
 from gearcad.fea.plane_limits import plane_pressure, thin_faces
 from gearcad.meshing import MeshSizes
+from gearcad.progress import Agenda
 
-__all__ = ["PLANE_STEPS", "check_plane", "plane_warnings"]
+__all__ = ["PLANE_MEMORY", "PLANE_STEPS", "check_plane", "plane_warnings"]
 
 _WORTH_A_WORD = 0.01
 """How much wider than the mesh a root carries before it is told."""
 
-PLANE_STEPS = ("mesh cycle", "convergence", "torque sweep", "rating")
+PLANE_STEPS = {"mesh cycle": 1.0, "convergence": 3.0, "torque sweep": 0.5, "rating": 0.1}
+"""Seconds expected of each step."""
+
+PLANE_MEMORY = 0.4e9
+"""Bytes."""
 
 
-def check_plane(task: Task, tell: Callable[[str], None]) -> PlaneCheck:
+def check_plane(task: Task, tell: Agenda) -> PlaneCheck:
     """Check in the transverse section through the middle of the common face width. Raises what `check_pair` does."""
     tell("mesh cycle")
     model = _model(task, 1.0)

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
+from gearcad.check.expected import expected_solid, solid_steps
 from gearcad.check.options import CheckOptions, Model
-from gearcad.check.plane import PLANE_STEPS, check_plane
+from gearcad.check.plane import PLANE_MEMORY, PLANE_STEPS, check_plane
 from gearcad.check.result import CheckResult, Task
-from gearcad.check.solid import SOLID_STEPS, check_solid
+from gearcad.check.solid import check_solid
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.progress import Agenda, Expected, Progress
 from gearcad.rating.options import RatingOptions
 
-__all__ = ["Progress", "check_pair"]
-
-Progress = Callable[[str, int, int], None]
-"""Called with what is being done, how many steps are done, and how many there are."""
+__all__ = ["check_pair", "expected_check"]
 
 
 def check_pair(
@@ -35,6 +32,35 @@ def check_pair(
     `rating` is what the references by ISO 6336 or DIN 3990 go by.
     Raises ParameterError and GeometryError for input that cannot be checked, SolverError where a solver fails.
     """
+    task = _task(pair, material, load, options, mounting, rating)
+    if task.options.model_for(pair) is Model.PLANE:
+        return check_plane(task, Agenda(progress, PLANE_STEPS))
+    return check_solid(task, Agenda(progress, solid_steps(task)))
+
+
+def expected_check(
+    pair: GearPair,
+    material: Material,
+    load: Load,
+    options: CheckOptions | None = None,
+    mounting: Mounting | None = None,
+    rating: RatingOptions | None = None,
+) -> Expected:
+    """What `check_pair` is expected to take. Raises what it raises for input that cannot be checked."""
+    task = _task(pair, material, load, options, mounting, rating)
+    if task.options.model_for(pair) is Model.PLANE:
+        return Expected(sum(PLANE_STEPS.values()), PLANE_MEMORY)
+    return expected_solid(task)
+
+
+def _task(
+    pair: GearPair,
+    material: Material,
+    load: Load,
+    options: CheckOptions | None,
+    mounting: Mounting | None,
+    rating: RatingOptions | None,
+) -> Task:
     options, mounting = options or CheckOptions(), mounting or Mounting()
     task = Task(
         pair=mounting.mounted(pair),
@@ -45,13 +71,7 @@ def check_pair(
         rating_options=rating or RatingOptions(),
     )
     _require_meshing(task)
-    if options.model_for(pair) is Model.PLANE:
-        return check_plane(task, _teller(progress, PLANE_STEPS))
-    return check_solid(task, _teller(progress, SOLID_STEPS))
-
-
-def _teller(progress: Progress | None, steps: tuple[str, ...]) -> Callable[[str], None]:
-    return lambda step: progress(step, steps.index(step), len(steps)) if progress is not None else None
+    return task
 
 
 def _require_meshing(task: Task) -> None:

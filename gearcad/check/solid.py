@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 from gearcad.check.convergence import FEW_POSITIONS, SOLID_FACTORS, three_solid_meshes
+from gearcad.check.expected import BODIES, COARSER, CYCLE, FINER, RATING, SWEEP, sizes_of
 from gearcad.check.judge_solid import compare_solid
 from gearcad.check.options import Model
 from gearcad.check.result import SolidCheck, Task
@@ -14,32 +15,30 @@ from gearcad.check.solid_summary import SolidSummary, summarise_solid
 from gearcad.check.sweep import sweep_point
 from gearcad.check.warnings import corner_warnings, general_warnings
 from gearcad.ltca.solid_cycle import SolidCycle, run_solid_cycle, solid_single_stiffness
-from gearcad.ltca.solid_pair import SolidPair, SolidSizes, loaded_left, solid_pair
+from gearcad.ltca.solid_pair import SolidPair, loaded_left, solid_pair
+from gearcad.progress import Agenda, Share
 
-__all__ = ["SOLID_STEPS", "check_solid"]
-
-SOLID_STEPS = ("body of the pinion", "body of the wheel", "mesh cycle", "torque sweep", "convergence", "rating")
+__all__ = ["check_solid"]
 
 _EDGE_RATIO = 1.5
 """Pressure beside an edge, over the greatest away from edges, from which on it is worth a warning."""
 
 
-def check_solid(task: Task, tell: Callable[[str], None]) -> SolidCheck:
+def check_solid(task: Task, agenda: Agenda) -> SolidCheck:
     """Check the bodies over their face widths. Raises what `check_pair` does.
 
     The model's left flanks carry. A negative torque loads the right ones: the pair is then mirrored in the plane x-z, which
     turns helix angles over and leaves heights and radii as they are, and all results are those of its left flanks. The
     mounting's misalignment is always that of the flanks that carry.
     """
-    model = _model(task, 1.0, lambda gear: tell(f"body of the {gear}"))
-    tell("mesh cycle")
-    cycle = run_solid_cycle(model, task.torque, task.options.positions_of(Model.SOLID))
+    model = _model(task, 1.0, agenda.within(BODIES))
+    positions = task.options.positions_of(Model.SOLID)
+    cycle = run_solid_cycle(model, task.torque, positions, agenda.counted(CYCLE, "position"))
     summary = summarise_solid(cycle, solid_single_stiffness(model, task.torque))
-    tell("torque sweep")
+    agenda(SWEEP)
     sweep = tuple(sweep_point(run_solid_cycle(model, torque, FEW_POSITIONS)) for torque in task.torques)
-    tell("convergence")
-    convergence = three_solid_meshes(_refined(task, model)) if task.options.refines else ()
-    tell("rating")
+    convergence = three_solid_meshes(_refined(task, model, agenda)) if task.options.refines else ()
+    agenda(RATING)
     comparisons = compare_solid(task, cycle, summary, convergence)
     modulus = task.material.youngs_modulus / (2 * (1 - task.material.poisson_ratio**2))
     warnings = (
@@ -59,15 +58,18 @@ def check_solid(task: Task, tell: Callable[[str], None]) -> SolidCheck:
     )
 
 
-def _model(task: Task, factor: float, progress: Callable[[str], None] = lambda _gear: None) -> SolidPair:
-    sizes = SolidSizes().refined(factor * task.options.refinement)
+def _model(task: Task, factor: float, tell: Share) -> SolidPair:
+    sizes = sizes_of(task, factor)
     pair, mounting = loaded_left(task.pair, task.torque), replace(task.mounting, centre_distance_change=0.0)
-    return solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, progress=progress)
+    return solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, tell=tell)
 
 
-def _refined(task: Task, middle: SolidPair) -> Iterator[SolidCycle]:
-    for factor in SOLID_FACTORS:
-        yield run_solid_cycle(middle if factor == 1 else _model(task, factor), task.torque, FEW_POSITIONS)
+def _refined(task: Task, middle: SolidPair, agenda: Agenda) -> Iterator[SolidCycle]:
+    """The cycles of coarser, own and finer bodies; none but the own are kept."""
+    coarser, _, finer = SOLID_FACTORS
+    yield run_solid_cycle(_model(task, coarser, agenda.within(COARSER)), task.torque, FEW_POSITIONS)
+    yield run_solid_cycle(middle, task.torque, FEW_POSITIONS)
+    yield run_solid_cycle(_model(task, finer, agenda.within(FINER)), task.torque, FEW_POSITIONS)
 
 
 def _edge_warnings(cycle: SolidCycle, summary: SolidSummary) -> list[str]:

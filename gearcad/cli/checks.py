@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gearcad.cli.group import debug_option, spec_argument
-from gearcad.cli.progress import file_progress
+from gearcad.cli.progress import job_progress
 from gearcad.cli.verdict import print_verdict
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
     Writes check.json and report.html, and for solid bodies the stresses in the loaded teeth (stress_*.vtu). Exit status 1 if a
     gate is not passed or cannot be evaluated; [check] in SPEC sets model, body, torques and bands.
     """
-    from gearcad.assess import assess
+    from gearcad.assess import assess, expected_assessment
     from gearcad.check.document import check_document
     from gearcad.check.options import CheckOptions
     from gearcad.output import json_text, staged_files
@@ -43,7 +43,7 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
     design = read_spec(spec)
     if model is not None:
         design = replace(design, check=replace(design.check or CheckOptions(), model=model))
-    with file_progress(shown=not quiet) as progress:
+    with job_progress(shown=not quiet, expected=None if quiet else expected_assessment(design)) as progress:
         result = assess(design, progress)
     document = check_document(result)
     folder = output if output is not None else Path("output") / design.name

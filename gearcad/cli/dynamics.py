@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gearcad.cli.group import debug_option, spec_argument
-from gearcad.cli.progress import file_progress
+from gearcad.cli.progress import job_progress
 
 if TYPE_CHECKING:
     from gearcad.dynamics.kv import KvChart
@@ -45,7 +45,7 @@ def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> Non
     from gearcad.spec.trains import holds_train, read_train
 
     design = read_train(spec) if holds_train(spec) else read_spec(spec)
-    with file_progress(shown=not quiet) as progress:
+    with job_progress(shown=not quiet) as progress:
         study = simulate(design, progress)
     document = dynamics_document(study, design.name)
     folder = output if output is not None else Path("output") / design.name

@@ -9,7 +9,7 @@ import click
 
 import gearcad
 from gearcad.cli.group import debug_option, require_new_file, spec_argument
-from gearcad.cli.progress import file_progress
+from gearcad.cli.progress import job_progress
 
 if TYPE_CHECKING:
     from gearcad.modify import Proposal
@@ -55,7 +55,7 @@ def modify(
     design = read_spec(spec)
     path = output or Path(f"{design.name}-modified.toml")
     require_new_file(path, force)
-    with file_progress(shown=not quiet) as progress:
+    with job_progress(shown=not quiet) as progress:
         proposal = propose(design, torque=torque, pressure=pressure, shape=wanted, progress=progress)
     text = edit_spec(spec.read_bytes().decode("utf-8-sig"), proposal.changes, proposal.notes)
     with staged_files(path.parent) as staging:

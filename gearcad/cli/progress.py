@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,11 +13,17 @@ import click
 
 if TYPE_CHECKING:
     from gearcad.batch import Progress as RowProgress
-    from gearcad.build import Progress
+    from gearcad.progress import Expected, Progress
 
-__all__ = ["file_progress", "row_progress"]
+__all__ = ["file_progress", "job_progress", "row_progress"]
 
 _SECONDS_BETWEEN_LINES = 5.0
+
+_LONG = 10.0
+"""Seconds from which on it is worth telling beforehand what a job takes."""
+
+_SETTLED = 0.1
+"""Share of a job from which on its own pace tells the time left."""
 
 
 @contextmanager
@@ -30,12 +38,84 @@ def file_progress(*, shown: bool) -> Iterator[Progress | None]:
 
     console = Console(stderr=True)
     if not console.is_terminal:
-        yield lambda file, done, total: click.echo(f"[{done + 1}/{total}] {file}", err=True)
+        yield lambda file, done, total: click.echo(f"[{done + 1:.0f}/{total:.0f}] {file}", err=True)
         return
     columns = (TextColumn("{task.description:<15}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Bar(*columns, console=console, transient=True) as bar:
         task = bar.add_task("", total=None)
         yield lambda file, done, total: bar.update(task, description=file, completed=done, total=total)
+
+
+@contextmanager
+def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[Progress | None]:
+    """What a job takes, if that is long, then percent and time left: a bar on a terminal, a line now and then elsewhere."""
+    if not shown:
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, TaskProgressColumn, TextColumn
+    from rich.progress import Progress as Bar
+
+    if expected is not None and expected.seconds >= _LONG:
+        click.echo(f"takes {_about(expected.seconds)} and {_about_memory(expected.memory)} of memory", err=True)
+    clock = _Clock(expected)
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield _JobLines(clock)
+        return
+    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TextColumn("{task.fields[left]}"))
+    with Bar(*columns, console=console, transient=True) as bar:
+        task = bar.add_task("", total=None, left="")
+        yield lambda what, done, whole: bar.update(
+            task, description=what, completed=done, total=whole, left=clock.left(done / whole)
+        )
+
+
+class _Clock:
+    """How long a job still takes: by its expected time at first, by its own pace later."""
+
+    def __init__(self, expected: Expected | None) -> None:
+        self.began, self.expected = time.monotonic(), expected
+
+    def left(self, share: float) -> str:
+        """In words, as far as it is known."""
+        gone = time.monotonic() - self.began
+        if share > _SETTLED and gone > 1:
+            seconds = gone * (1 - share) / share
+        elif self.expected is not None:
+            seconds = self.expected.seconds * (1 - share)
+        else:
+            return ""
+        return f"{_about(seconds)} left"
+
+
+def _about(seconds: float) -> str:
+    """A time that is known roughly."""
+    if seconds < 90:
+        step = 1 if seconds < 10 else 5
+        return f"about {max(step * round(seconds / step), 1)} s"
+    return f"about {round(seconds / 60)} min" if seconds < 5400 else f"about {seconds / 3600:.1f} h"
+
+
+def _about_memory(size: float) -> str:
+    """A size in bytes that is known roughly."""
+    return f"{size / 1e9:.1f} GB" if size >= 0.95e9 else f"{100 * math.ceil(size / 1e8)} MB"
+
+
+class _JobLines:
+    """Progress where there is no terminal: a line for each step, and every few seconds."""
+
+    def __init__(self, clock: _Clock) -> None:
+        self.clock = clock
+        self.last, self.step = -math.inf, ""
+
+    def __call__(self, what: str, done: float, whole: float) -> None:
+        now, step = time.monotonic(), re.sub(r"\d+", "", what)  # positions are counted within a step
+        if step == self.step and now - self.last < _SECONDS_BETWEEN_LINES:
+            return
+        self.last, self.step = now, step
+        left = self.clock.left(done / whole)
+        click.echo(f"[{math.floor(100 * done / whole):3d} %] {what}{left and f', {left}'}", err=True)
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gearcad.cli.group import debug_option, spec_argument
-from gearcad.cli.progress import file_progress
+from gearcad.cli.progress import job_progress
 
 if TYPE_CHECKING:
     from gearcad.stiffness import StiffnessComparison
@@ -53,7 +53,7 @@ def stiffness(
     Writes stiffness.json, stiffness.csv (the curves) and stiffness.html. Bodies are held where [check] in SPEC says, or in
     their bores. A method that cannot treat the pair is left out, with its reason.
     """
-    from gearcad.compare import compare, curves_csv, stiffness_document
+    from gearcad.compare import compare, curves_csv, expected_comparison, stiffness_document
     from gearcad.errors import ParameterError, require_whole
     from gearcad.output import json_text, staged_files
     from gearcad.report import write_stiffness_report
@@ -67,7 +67,8 @@ def stiffness(
     most = min(positions or METHODS[name].default_positions for name in wanted) // 4
     require_whole("fourier", harmonics, at_least=0, at_most=max(most, 0))
     design = read_spec(spec)
-    with file_progress(shown=not quiet) as progress:
+    expected = None if quiet else expected_comparison(design, wanted, positions)
+    with job_progress(shown=not quiet, expected=expected) as progress:
         comparison = compare(design, wanted, positions, progress)
     document = stiffness_document(comparison, design.name, harmonics)
     folder = output if output is not None else Path("output") / design.name

@@ -18,6 +18,7 @@ from gearcad.ltca.hub import rigid_motions
 from gearcad.ltca.solid_sector import SolidSector
 from gearcad.ltca.swept import SweptMesh
 from gearcad.material import Material
+from gearcad.progress import Share, unheard
 
 __all__ = ["Moved", "SolidBody", "SolidSector", "assemble_body"]
 
@@ -138,12 +139,20 @@ class SolidBody:
 
 
 def assemble_body(
-    mesh: SweptMesh, teeth: int, neighbours: int, material: Material, held: int | None, cuts: Cuts, *, free: bool = False
+    mesh: SweptMesh,
+    teeth: int,
+    neighbours: int,
+    material: Material,
+    held: int | None,
+    cuts: Cuts,
+    *,
+    free: bool = False,
+    tell: Share = unheard,
 ) -> SolidBody:
     """A ring of `teeth` equal sectors, or a body of `held` teeth (odd, at least 3), its outer cuts as `cuts` says.
 
-    The bore of a ring may be `free`.
+    The bore of a ring may be `free`; `tell` hears how much of the condensation is done.
     """
     rest = (teeth if held is None else held) - 1
     # Where the ring has fewer teeth than are asked for, those on both sides would be the same.
-    return SolidBody(SolidSector(mesh, material, free), rest, held is not None, cuts, min(neighbours, rest // 2))
+    return SolidBody(SolidSector(mesh, material, free, tell), rest, held is not None, cuts, min(neighbours, rest // 2))

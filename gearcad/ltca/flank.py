@@ -20,6 +20,7 @@ from gearcad.ltca.faces import boundary_faces
 from gearcad.ltca.swept import SweptMesh, turned
 from gearcad.material import Material
 from gearcad.meshing.outline import Side
+from gearcad.progress import Share, unheard
 
 __all__ = ["SolidCompliance", "SolidFlank", "solid_compliance"]
 
@@ -216,8 +217,11 @@ class _Spline:
         return result
 
 
-def solid_compliance(gear: Gear, body: SolidBody, material: Material, start: float) -> SolidCompliance:
-    """Solve the body for unit loads on some rows and columns of the flank, from the roll length `start` (mm) up."""
+def solid_compliance(gear: Gear, body: SolidBody, material: Material, start: float, tell: Share = unheard) -> SolidCompliance:
+    """Solve the body for unit loads on some rows and columns of the flank, from the roll length `start` (mm) up.
+
+    `tell` hears how much of what comes before the body's own part is done: the fields of the loads.
+    """
     sector = body.sector
     mesh, flank = sector.mesh, SolidFlank(gear, sector.mesh.rate)
     nodes, grid = _flank_grid(flank, mesh)
@@ -232,6 +236,7 @@ def solid_compliance(gear: Gear, body: SolidBody, material: Material, start: flo
     for column, (where, direction) in enumerate(zip(at, inward, strict=True)):
         singular[touched, :, column] = field.displacement(mesh.points[touched], where, direction)
         forces[:, :, column] = -faces.forces(mesh, partial(field.traction, at=where, inward=direction), where)
+        tell((column + 1) / len(at))
     taken_off = mesh.to_turning(singular).reshape(sector.dofs, -1)
     right = sector.stiffness(near) @ taken_off + mesh.to_turning(forces).reshape(sector.dofs, -1)
     moved = body.solve(right)

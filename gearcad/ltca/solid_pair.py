@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -18,17 +18,19 @@ from gearcad.fea.mesh_positions import MeshLine, mesh_line
 from gearcad.geometry import Gear, GearPair
 from gearcad.ltca.body import assemble_body
 from gearcad.ltca.contact_lines import contact_lines, gaps
+from gearcad.ltca.cost import BodyCost, body_cost
 from gearcad.ltca.flank import SolidCompliance, solid_compliance
 from gearcad.ltca.line_contact import LineSolution, Responses, reduced_modulus, responses, solve_lines
 from gearcad.ltca.solid_root import SolidFillet
-from gearcad.ltca.swept import sweep
+from gearcad.ltca.swept import SweptMesh, sweep
 from gearcad.material import Material
 from gearcad.meshing import MeshSizes
 from gearcad.meshing.outline import Side
 from gearcad.meshing.quads import mesh_quads
 from gearcad.mounting import Mounting
+from gearcad.progress import Expected, Share, unheard
 
-__all__ = ["SolidPair", "SolidSizes", "loaded_left", "solid_pair"]
+__all__ = ["SolidPair", "SolidSizes", "expected_bodies", "loaded_left", "solid_pair"]
 
 Floats = NDArray[np.float64]
 
@@ -38,6 +40,12 @@ _SOFT = 8000.0
 _STEP = 0.05
 """Step (mm) of that bound, so that loads and modifications that differ little share their responses."""
 
+
+SIDE_BY_SIDE = 0.75
+"""Time of both gears, solved side by side, over the sum of their times."""
+
+_TICK = 0.2
+"""Seconds between looks at how far they are."""
 
 _SECTION = MeshSizes(flank=0.34, corner=0.045, fillet=0.11, outline=0.45, cut=0.3, rim=6.0, growth=0.45)
 """Where halving any one of them moves stiffness of the FZG pair by less than 0.1 %, and its root stress by less than 0.5 %."""
@@ -150,35 +158,71 @@ def solid_pair(
     sizes: SolidSizes | None = None,
     mounting: Mounting | None = None,
     cells: int = 60,
-    progress: Callable[[str], None] = lambda _gear: None,
+    tell: Share = unheard,
 ) -> SolidPair:
     """Mesh, condense and solve both gears, side by side; a line of contact has `cells` over the common face width.
 
-    Raises SolverError, ParameterError and GeometryError.
+    `tell` hears how much is done, from the thread that called. Raises SolverError, ParameterError and GeometryError.
     """
     body, sizes, mounting = (body or BodyModel()).of_solids(), sizes or SolidSizes(), mounting or Mounting()
-    neighbours = max(1, math.floor(pair.total_contact_ratio + 0.2))
-    gears = {"pinion": pair.pinion, "wheel": pair.wheel}
-    bodies = []
-    for gear, radius, support in zip(gears.values(), body.inner_radii(pair), body.supports(pair), strict=True):
-        held = body.teeth if body.teeth is not None and body.teeth < gear.teeth else None
-        mesh = sweep(gear, mesh_quads(gear, radius, sizes.section), sizes.layers(gear))
-        bodies.append(assemble_body(mesh, gear.teeth, neighbours, material, held, body.cuts, free=support.bends))
+    gears, neighbours = (pair.pinion, pair.wheel), _neighbours(pair)
     starts = (pair.path_of_contact.A, mesh_line(pair).whole - pair.path_of_contact.E)
-    # Most of the work is dense algebra, which leaves Python to the other thread.
-    with ThreadPoolExecutor(2) as threads:
-        jobs = [
-            threads.submit(solid_compliance, gear, solid, material, start)
-            for gear, solid, start in zip(gears.values(), bodies, starts, strict=True)
-        ]
-        solved = []
-        for owner, job in zip(gears, jobs, strict=True):
-            progress(owner)
-            solved.append(job.result())
+    jobs = []
+    for gear, mesh, support, start in zip(gears, _meshes(pair, body, sizes), body.supports(pair), starts, strict=True):
+        held = body.teeth if body.teeth is not None and body.teeth < gear.teeth else None
+        heard = _Heard(body_cost(mesh, held or gear.teeth, neighbours))
+        solid = assemble_body(
+            mesh, gear.teeth, neighbours, material, held, body.cuts, free=support.bends, tell=heard.condensation
+        )
+        jobs.append((heard, partial(solid_compliance, gear, solid, material, start, heard.fields)))
+    solved = _side_by_side(jobs, tell)
     mounted = mounting.mounted(pair)
     pinion, wheel = ((SolidFillet(each, Side.LEFT_FILLET), SolidFillet(each, Side.RIGHT_FILLET)) for each in solved)
     first, second = (SolidFillet(each, Side.INNER) if each.body.sector.free else None for each in solved)
     return SolidPair(mounted, mounting, mesh_line(mounted), solved[0], solved[1], cells, (pinion, wheel), (first, second))
+
+
+def expected_bodies(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> Expected:
+    """What `solid_pair` is expected to take. Raises what it does for bodies that cannot be meshed."""
+    body, gears = body.of_solids(), (pair.pinion, pair.wheel)
+    meshes = zip(gears, _meshes(pair, body, sizes), strict=True)
+    costs = [body_cost(mesh, min(body.teeth or gear.teeth, gear.teeth), _neighbours(pair)) for gear, mesh in meshes]
+    return Expected(SIDE_BY_SIDE * sum(cost.seconds for cost in costs), sum(cost.memory for cost in costs))
+
+
+def _neighbours(pair: GearPair) -> int:
+    """Teeth on each side of the loaded one that others' loads can move."""
+    return max(1, math.floor(pair.total_contact_ratio + 0.2))
+
+
+def _meshes(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> list[SweptMesh]:
+    gears = zip((pair.pinion, pair.wheel), body.inner_radii(pair), strict=True)
+    return [sweep(gear, mesh_quads(gear, radius, sizes.section), sizes.layers(gear)) for gear, radius in gears]
+
+
+class _Heard:
+    """How many of the seconds that a body is expected to take are over, told by the thread that solves it."""
+
+    def __init__(self, cost: BodyCost) -> None:
+        self.cost, self.seconds = cost, 0.0
+
+    def fields(self, share: float) -> None:
+        self.seconds = share * self.cost.fields
+
+    def condensation(self, share: float) -> None:
+        self.seconds = self.cost.fields + share * self.cost.condensation
+
+
+def _side_by_side(jobs: Sequence[tuple[_Heard, Callable[[], SolidCompliance]]], tell: Share) -> list[SolidCompliance]:
+    """Both gears in threads: most of the work is dense algebra, which leaves Python to the other thread."""
+    whole = sum(heard.cost.seconds for heard, _ in jobs)
+    tell(0.0)
+    with ThreadPoolExecutor(len(jobs)) as threads:
+        running = [threads.submit(job) for _, job in jobs]
+        while wait(running, _TICK).not_done:
+            done = (heard.cost.seconds if job.done() else heard.seconds for (heard, _), job in zip(jobs, running, strict=True))
+            tell(sum(done) / whole)
+        return [job.result() for job in running]
 
 
 def loaded_left(pair: GearPair, torque: float) -> GearPair:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -16,6 +16,7 @@ from gearcad.ltca.hub import bore_forces, seen_at
 from gearcad.ltca.swept import SweptMesh
 from gearcad.material import Material
 from gearcad.meshing.outline import Side
+from gearcad.progress import Share, unheard
 
 __all__ = ["SolidSector"]
 
@@ -27,12 +28,13 @@ Indices = NDArray[np.int64]
 class SolidSector:
     """One tooth and its share of the body, its vectors in the turning axes, at the cuts radial and tangential.
 
-    Its bore is held by the hub, or `free`.
+    Its bore is held by the hub, or `free`. `tell` hears how much of its condensation is done.
     """
 
     mesh: SweptMesh
     material: Material
     free: bool = False
+    tell: Share = field(default=unheard, compare=False, repr=False)
 
     @property
     def dofs(self) -> int:
@@ -125,7 +127,8 @@ class SolidSector:
             turn = self.cut_turn[dofs][:, dofs]
             return dofs, turn.T @ (turn.T @ matrix.reshape(size, size)[:-1, :-1]).T
 
-        return condense(part, lambda nodes: np.sort(_dofs(self.mesh.over(nodes))), matrix_of, np.r_[self.behind, self.ahead])
+        kept = np.r_[self.behind, self.ahead]
+        return condense(part, lambda nodes: np.sort(_dofs(self.mesh.over(nodes))), matrix_of, kept, self.tell)
 
     @cached_property
     def chain(self) -> Chain:

@@ -18,9 +18,11 @@ from gearcad.fea.elasticity import Plane, PlaneElasticity
 from gearcad.fea.flexible_pair import FlexiblePair, PairInMesh, flexible_pair
 from gearcad.fea.plane_limits import thin_faces
 from gearcad.load import Load
+from gearcad.ltca.cost import POSITION_SECONDS
 from gearcad.ltca.solid_cycle import solid_single_stiffness
-from gearcad.ltca.solid_pair import SolidPair, loaded_left, solid_pair
+from gearcad.ltca.solid_pair import SolidPair, SolidSizes, expected_bodies, loaded_left, solid_pair
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.progress import Expected
 from gearcad.stiffness.method import StiffnessMethod
 
 __all__ = ["ContactMethod", "PlaneStrainContact", "PlaneStressContact", "SolidContact"]
@@ -29,6 +31,10 @@ Floats = NDArray[np.float64]
 
 _STEP = 0.02
 """Relative change of the torque on both sides of the load between which the tangent stiffness is taken."""
+
+
+_SOLUTIONS = 2
+"""What all loads at a position take, for slopes and load dependence, over what the first takes."""
 
 
 class _Loaded(NamedTuple):
@@ -99,6 +105,7 @@ class PlaneContact(ContactMethod):
 
     plane: ClassVar[Plane]
     default_positions: ClassVar[int] = 120
+    seconds: ClassVar[float] = 3.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -174,9 +181,20 @@ class SolidContact(ContactMethod):
         left = torque > 0
         if left not in self._models:
             mounting = replace(self.mounting, centre_distance_change=0.0)
-            pair = loaded_left(self.mounted, torque)
-            self._models[left] = solid_pair(pair, self.material, body=self.body, mounting=mounting)
+            pair, share = loaded_left(self.mounted, torque), self._bodies.seconds / self.expected.seconds
+            self._models[left] = solid_pair(
+                pair, self.material, body=self.body, mounting=mounting, tell=lambda done: self.tell(share * done)
+            )
         return self._models[left]
+
+    @cached_property
+    def _bodies(self) -> Expected:
+        return expected_bodies(self.mounted, self.body, SolidSizes())
+
+    @property
+    def expected(self) -> Expected:
+        positions = self.positions or self.default_positions
+        return Expected(self._bodies.seconds + _SOLUTIONS * positions * POSITION_SECONDS, self._bodies.memory)
 
     def _at(self, roll_angle: float, torque: float) -> _Loaded:
         model = self.model(torque)

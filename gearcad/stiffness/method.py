@@ -14,6 +14,7 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
+from gearcad.progress import Expected, Share, unheard
 
 __all__ = ["StiffnessMethod"]
 
@@ -33,6 +34,8 @@ class StiffnessMethod(ABC):
     body: BodyModel = field(default_factory=BodyModel)
     mounting: Mounting = field(default_factory=Mounting)
     positions: int = 0
+    tell: Share = field(default=unheard, compare=False, repr=False)
+    """Hears how much of a long method is done."""
 
     name: ClassVar[str]
     title: ClassVar[str]
@@ -41,6 +44,8 @@ class StiffnessMethod(ABC):
     load_dependent: ClassVar[bool] = True
     load_positions: ClassVar[int] = 48
     """Positions, 0 for as many as ever, at which other loads than that of the pair are tried."""
+    seconds: ClassVar[float] = 0.2
+    """What the method is expected to take."""
 
     def __post_init__(self) -> None:
         if self.positions != 0:
@@ -59,6 +64,11 @@ class StiffnessMethod(ABC):
         if not load.torque:
             raise ParameterError("load.torque", load.torque, "must not be 0: stiffness depends on the load", "N·m")
         return self._cycle(load, positions or self.positions or self.default_positions)
+
+    @property
+    def expected(self) -> Expected:
+        """What a comparison is expected to take with this method: its cycle under several loads."""
+        return Expected(self.seconds, 0.0)
 
     @abstractmethod
     def _cycle(self, load: Load, count: int) -> MeshCycle: ...

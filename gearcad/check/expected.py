@@ -1,0 +1,52 @@
+"""The steps of a check of solid bodies, and what they are expected to take."""
+
+from __future__ import annotations
+
+from gearcad.check.convergence import FEW_POSITIONS, SOLID_FACTORS
+from gearcad.check.options import Model
+from gearcad.check.result import Task
+from gearcad.ltca.cost import POSITION_SECONDS
+from gearcad.ltca.solid_pair import SolidSizes, expected_bodies, loaded_left
+from gearcad.progress import Expected
+
+__all__ = ["BODIES", "COARSER", "CYCLE", "FINER", "RATING", "SWEEP", "expected_solid", "sizes_of", "solid_steps"]
+
+BODIES, CYCLE, SWEEP, RATING = "bodies of pinion and wheel", "mesh cycle", "torque sweep", "rating"
+COARSER, FINER = "coarser bodies, for the error", "finer bodies, for the error"
+
+_SINGLE_POSITIONS = 15
+_RATING_SECONDS = 0.2
+
+_PROGRAM = 0.15e9
+"""Bytes of Python and its libraries."""
+
+
+def sizes_of(task: Task, factor: float) -> SolidSizes:
+    """Sizes of the check's mesh, refined by a factor."""
+    return SolidSizes().refined(factor * task.options.refinement)
+
+
+def _bodies(task: Task) -> dict[str, Expected]:
+    factors = dict(zip((COARSER, BODIES, FINER), SOLID_FACTORS, strict=True))
+    wanted = (BODIES, COARSER, FINER) if task.options.refines else (BODIES,)
+    pair = loaded_left(task.pair, task.torque)
+    return {name: expected_bodies(pair, task.body, sizes_of(task, factors[name])) for name in wanted}
+
+
+def solid_steps(task: Task) -> dict[str, float]:
+    """Seconds expected of each step, in order."""
+    bodies = {name: each.seconds + FEW_POSITIONS * POSITION_SECONDS for name, each in _bodies(task).items()}
+    positions = task.options.positions_of(Model.SOLID) + _SINGLE_POSITIONS
+    return {
+        BODIES: bodies.pop(BODIES),
+        CYCLE: positions * POSITION_SECONDS,
+        SWEEP: len(task.torques) * FEW_POSITIONS * POSITION_SECONDS,
+        **bodies,
+        RATING: _RATING_SECONDS,
+    }
+
+
+def expected_solid(task: Task) -> Expected:
+    """Of the whole check: the bodies of the check's own mesh are kept while the others are solved."""
+    memory = [each.memory for each in _bodies(task).values()]
+    return Expected(sum(solid_steps(task).values()), _PROGRAM + memory[0] + max(memory[1:], default=0.0))

@@ -1,0 +1,49 @@
+"""How far a long job is, in one shape for all jobs, and what it is expected to take."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+__all__ = ["Agenda", "Expected", "Progress", "Share", "unheard"]
+
+Progress = Callable[[str, float, float], None]
+"""Called with what is being done, how much of the job is done, and how much there is: in files, steps or seconds expected."""
+
+Share = Callable[[float], None]
+"""Called with the share (0 ... 1) of one step that is done."""
+
+
+def unheard(_share: float) -> None:
+    """A Share for those who do not ask."""
+
+
+class Expected(NamedTuple):
+    """What a job is expected to take: seconds on a usual computer, and bytes of memory at the most. Both are rough."""
+
+    seconds: float
+    memory: float
+
+
+class Agenda:
+    """The steps of a job in order, with the seconds that each is expected to take; called at the begin of each, and within."""
+
+    def __init__(self, progress: Progress | None, steps: Mapping[str, float]) -> None:
+        self._progress, self._steps = progress, steps
+        self._all = sum(steps.values())
+
+    def __call__(self, step: str, share: float = 0.0, detail: str = "") -> None:
+        """Tell that a share of a step is done; `detail` says more of what is being done."""
+        if self._progress is None:
+            return
+        names = list(self._steps)
+        before = sum(self._steps[name] for name in names[: names.index(step)])
+        self._progress(f"{step}, {detail}" if detail else step, before + share * self._steps[step], self._all)
+
+    def within(self, step: str, detail: str = "") -> Share:
+        """What tells the share of one step."""
+        return lambda share: self(step, share, detail)
+
+    def counted(self, step: str, word: str) -> Callable[[int, int], None]:
+        """What tells that `done` of `count` things, called `word`, are done."""
+        return lambda done, count: self(step, done / count, f"{word} {done + 1} of {count}")

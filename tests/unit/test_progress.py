@@ -1,0 +1,150 @@
+"""How far long jobs are: never backwards, on stderr only, and what they take is told before they start."""
+
+from __future__ import annotations
+
+import json
+import re
+import tracemalloc
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+from support.coarse import coarse_pair
+from threadpoolctl import threadpool_limits
+
+from gearcad import Load, Material
+from gearcad.cli import main
+from gearcad.cli import progress as shown
+from gearcad.fea.flexible_pair import BodyModel
+from gearcad.ltca.solid_pair import SolidPair, SolidSizes, expected_bodies, solid_pair
+from gearcad.progress import Agenda, Expected, Share
+from gearcad.stiffness import contact
+from gearcad.stiffness.comparison import compare_methods
+
+SPEC = """
+[pair]
+normal_module = 2.0
+face_width = 6.0
+tooth_thinning = 0.05
+[pinion]
+teeth = 20
+[wheel]
+teeth = 30
+[load]
+torque = 40.0
+[check]
+model = "3d"
+body_teeth = 3
+refinement = 0.35
+positions = 12
+torques = [40.0]
+"""
+
+LINE = re.compile(r"\[ *(\d+) %\] (.+?)(?:, about (\d+) (?:s|min) left)?")
+
+
+def test_steps_count_by_the_seconds_they_are_expected_to_take() -> None:
+    told: list[tuple[str, float, float]] = []
+    agenda = Agenda(lambda *each: told.append(each), {"bodies": 30.0, "cycle": 9.0, "rating": 1.0})
+    agenda("bodies")
+    agenda.within("bodies")(0.5)
+    agenda.counted("cycle", "position")(2, 3)
+    agenda("rating", detail="flanks")
+    assert told == [
+        ("bodies", 0.0, 40.0),
+        ("bodies", 15.0, 40.0),
+        ("cycle, position 3 of 3", 36.0, 40.0),
+        ("rating, flanks", 39.0, 40.0),
+    ]
+    Agenda(None, {"bodies": 1.0})("bodies")  # nobody asks
+
+
+@pytest.fixture(scope="module")
+def checked(tmp_path_factory: pytest.TempPathFactory) -> Result:
+    """A check of solid bodies, its progress shown, where there is no terminal."""
+    place = tmp_path_factory.mktemp("progress")
+    (place / "spur.toml").write_text(SPEC, encoding="utf-8")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(shown, "_LONG", 0.01)
+        return CliRunner().invoke(main, ["check", str(place / "spur.toml"), "--json", "-o", str(place / "out")])
+
+
+def test_percent_and_time_left_stand_on_stderr(checked: Result) -> None:
+    assert json.loads(checked.stdout)["kind"] == "check"
+    first, *rest = checked.stderr.splitlines()
+    assert re.fullmatch(r"takes about \d+ s and \d+(?:\.\d)? [MG]B of memory", first)
+    found = [LINE.fullmatch(line) for line in rest]
+    percents = [int(each[1]) for each in found if each]
+    assert len(percents) == len(rest) and percents[0] == 0
+    assert percents == sorted(percents) and percents[-1] <= 100
+    assert all(each[3] for each in found[:2] if each)
+
+
+def test_a_check_tells_of_bodies_positions_and_other_meshes(checked: Result) -> None:
+    steps = [each[2] for line in checked.stderr.splitlines() if (each := LINE.fullmatch(line))]
+    told = list(dict.fromkeys(re.sub(r" \d+ of \d+", "", step) for step in steps))
+    assert told == [
+        "bodies of pinion and wheel",
+        "mesh cycle, position",
+        "torque sweep",
+        "coarser bodies, for the error",
+        "finer bodies, for the error",
+        "rating",
+    ]
+
+
+def test_stiffness_of_solids_tells_how_far_its_bodies_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The bodies' share is most of the method's, which is most of all methods'."""
+
+    def coarse(*given: Any, tell: Share, **options: Any) -> SolidPair:
+        made = solid_pair(*given, sizes=SolidSizes().refined(0.35), **options)
+        for share in (0.0, 0.5, 1.0):
+            tell(share)
+        return made
+
+    monkeypatch.setattr(contact, "solid_pair", coarse)
+    told: list[tuple[str, float, float]] = []
+    pair, load, body = coarse_pair("helical"), Load(torque=60.0), BodyModel(teeth=3)
+    with threadpool_limits(1):
+        compare_methods(
+            pair, Material(), load, ("iso6336", "3d"), body=body, positions=12, progress=lambda *each: told.append(each)
+        )
+    assert [what for what, _, _ in told] == ["iso6336", "3d", "3d", "3d", "3d"]
+    expected = expected_bodies(pair, body, SolidSizes()).seconds
+    begin, _, half, whole = (done for _, done, _ in told[1:])
+    assert half - begin == pytest.approx(expected / 2)
+    assert whole - begin == pytest.approx(expected)
+    assert [every for _, _, every in told] == pytest.approx([begin + expected] * 5, rel=0.5)
+
+
+def test_lines_come_now_and_then(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """A step is told when it begins and every five seconds; time left goes by what was expected, later by the pace."""
+    now = 1000.0
+    monkeypatch.setattr(shown.time, "monotonic", lambda: now)
+    with shown.job_progress(shown=True, expected=Expected(7300.0, 2.46e9)) as told:
+        assert told is not None
+        for second, (what, done) in enumerate([("a", 0.0), ("a", 1.0), ("b, 1 of 9", 2.0), ("b, 2 of 9", 3.0), ("c", 9.0)]):
+            now = 1000.0 + second
+            told(what, done, 100.0)
+        now = 1060.0
+        told("c", 50.0, 100.0)
+    assert capsys.readouterr().err.splitlines() == [
+        "takes about 2.0 h and 2.5 GB of memory",
+        "[  0 %] a, about 2.0 h left",
+        "[  2 %] b, 1 of 9, about 2.0 h left",
+        "[  9 %] c, about 1.8 h left",
+        "[ 50 %] c, about 60 s left",
+    ]
+
+
+def test_memory_of_bodies_is_what_was_expected() -> None:
+    """Within a third, both gears side by side; arrays of numpy are traced."""
+    pair, body, sizes = coarse_pair("helical"), BodyModel(), SolidSizes().refined(0.5)
+    tracemalloc.start()
+    try:
+        with threadpool_limits(1):
+            solid_pair(pair, Material(), body=body, sizes=sizes)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert expected_bodies(pair, body, sizes).memory == pytest.approx(peak, rel=1 / 3)
