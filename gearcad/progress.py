@@ -30,7 +30,7 @@ class Agenda:
 
     def __init__(self, progress: Progress | None, steps: Mapping[str, float]) -> None:
         self._progress, self._steps = progress, steps
-        self._all = sum(steps.values())
+        self._all = sum(steps.values()) or 1.0  # steps that take nothing are still told
 
     def __call__(self, step: str, share: float = 0.0, detail: str = "") -> None:
         """Tell that a share of a step is done; `detail` says more of what is being done."""
