@@ -35,6 +35,9 @@ _PILOTS = 48
 _DRAWN = 256
 """Harmonics of a motion that is drawn: flanks that touch again do so within a hundredth of a tooth."""
 
+_CLOSE = 0.01
+"""Relative: speeds so near to a resonance of a low harmonic are looked at, however many high ones there are."""
+
 _STUCK = "flanks are taken to stick to each other"
 
 
@@ -125,16 +128,24 @@ def _refined(curves: SpeedCurves, frequencies: Floats) -> tuple[Told, Floats]:
 
     Also frequencies (x,) at which there might be sharper ones, but that are too low to look for them.
     """
-    told, more = curves.told(frequencies)
-    skipped = np.zeros(0)
+    told, narrow = curves.told(frequencies)
+    skipped, more = np.zeros(0), narrow
     for _ in range(MOST_ROUNDS):
         more = np.setdiff1d(np.union1d(more, speeds_between(told.frequencies, curves.curves(told))), told.frequencies)
-        searched = curves.searched(more)
+        searched = curves.searched(more) | _near(more, narrow)
         skipped, more = np.union1d(skipped, more[~searched]), more[searched]
         if not len(more):
             break
         told, more = Told.joined(told, curves.told(more)[0]).rising(), np.zeros(0)
     return told, skipped
+
+
+def _near(frequencies: Floats, places: Floats) -> Bools:
+    """Which of the frequencies (s,) lie close to any of the places (p,)."""
+    known = np.sort(places)
+    after = np.searchsorted(known, frequencies)
+    beside = np.stack([np.concatenate([[-np.inf], known, [np.inf]])[after + side] for side in (0, 1)])
+    return np.asarray((np.abs(beside - frequencies) <= _CLOSE * frequencies).any(axis=0), bool)
 
 
 def _together(told: Told, stable: Bools, branch: Parted, direction: Direction) -> tuple[Told, Bools, Floats]:

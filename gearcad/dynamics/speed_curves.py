@@ -268,6 +268,7 @@ class SpeedCurves:
         step = np.gradient(places)[_nearest(places, met)] if len(places) > 1 else np.zeros_like(met)
         # Those of neighbouring orders that are wider than their distance make no peaks of their own.
         apart = modes.ratio * orders < _APART * np.gcd.reduce(self.excitation.orders)
+        apart &= orders <= HIGHEST_SOUGHT * max(self.excitation.orders)
         wanted = inside & apart & (heights > FELT) & (modes.ratio * met < step)
         found = [
             centre * (1 + ratio * _ladder(reach / (ratio * centre)))
