@@ -167,7 +167,7 @@ def test_pitch_deviations_given_or_drawn(here: Path) -> None:
     given[4], given[5] = 40.0, -40.0
     found = []
     for more in (f"pitch_deviations = {given}\n", "", "drawn", "drawn", "other"):
-        text = TRAIN.replace("speeds = 160", "speeds = 20")
+        text = TRAIN.replace("speeds = 160", "speeds = 20\nspeed_from = 9000.0")
         if more in ("drawn", "other"):
             text += f"tooth_errors = 'on'\naccuracy_grade = 7\nseed = {int(more == 'other')}\n"
         else:
