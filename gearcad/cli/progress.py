@@ -78,14 +78,12 @@ class _Clock:
         self.began, self.expected = time.monotonic(), expected
 
     def left(self, share: float) -> str:
-        """In words, as far as it is known."""
-        gone = time.monotonic() - self.began
-        if share > _SETTLED and gone > 1:
-            seconds = gone * (1 - share) / share
-        elif self.expected is not None:
-            seconds = self.expected.seconds * (1 - share)
-        else:
+        """In words; nothing where shares are those of steps, which take what they take."""
+        if self.expected is None:
             return ""
+        gone = time.monotonic() - self.began
+        settled = share > _SETTLED and gone > 1
+        seconds = gone * (1 - share) / share if settled else self.expected.seconds * (1 - share)
         return f"{_about(seconds)} left"
 
 

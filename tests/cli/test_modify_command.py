@@ -119,7 +119,7 @@ def test_it_prints_before_and_after_and_warns(here: Path, monkeypatch: pytest.Mo
     assert len(row.split()) == 5
     assert "bound of the contact pressure: 150 MPa" in lines
     assert "MPa, above the bound of 150 MPa" in result.stderr
-    assert "[5/5] robustness" in result.stderr
+    assert "[ 75 %] robustness\n" in result.stderr
 
 
 @pytest.mark.parametrize(

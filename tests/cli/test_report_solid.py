@@ -66,7 +66,8 @@ def test_holds_every_comparison(document: lxml.html.HtmlElement) -> None:
     failed = [each.quantity for each in wanted if each.role is Role.GATE and not each.passed]
     tensions = small_solid_check().summary.root_tension._asdict()
     overloaded = [f"root stress, {gear}" for gear, tension in tensions.items() if tension > 300.0]
-    assert failed == ["discretisation error, mean mesh stiffness", *overloaded]
+    # The pinion's bore of 28 mm leaves a rim of 1.1 tooth depths, which three teeth between held cuts do not bend.
+    assert failed == ["discretisation error, mean mesh stiffness", "tooth depth over rim, pinion", *overloaded]
 
 
 @pytest.mark.parametrize("gear", [0, 1])
