@@ -34,8 +34,8 @@ _BEYOND = 1.5
 _SHARE = 0.02
 """Of a mode's potential energy that a mesh must hold for the mode to be a resonance of it."""
 
-_DRAWN = 512
-"""Samples of a course over a tooth, at least; 16 of the quickest vibration."""
+_DRAWN, _DRAWN_OF_MANY = 1024, 256
+"""Samples of a course over a tooth, at least, and over each of many; 8 of the quickest vibration that could be felt."""
 
 _LOWER, _RUN_UP = 3.0, 60
 """Where flanks part at a speed beyond the chart, the run up to it begins at the speed over the first, and has so many steps."""
@@ -239,7 +239,10 @@ def _course(train: Train, over: OverSpeed, asked: float) -> tuple[Course, tuple[
         run_up = np.geomspace(frequency / _LOWER, frequency, _RUN_UP)
         beyond = over_speed(over.curves.system, over.excitation, run_up, harmonics=over.curves.harmonics)
         response, notes = beyond.response(frequency), beyond.notes
-    return _drawn(train, response), notes
+    samples = max(_DRAWN, _DRAWN_OF_MANY * max(over.excitation.orders))
+    if over.curves.resolvable:
+        samples = max(samples, 8 * int(over.curves.felt_orders(np.array([frequency]))[0]))
+    return _drawn(train, response, samples), notes
 
 
 def _pull(response: PeriodicResponse) -> bool:
@@ -247,16 +250,18 @@ def _pull(response: PeriodicResponse) -> bool:
     return bool((response.senses * response.spring_forces()).min() <= 0)
 
 
-def _drawn(train: Train, response: PeriodicResponse) -> Course:
-    count = max(_DRAWN * max(response.excitation.orders), 8 * int(response.harmonics[-1]))
+def _drawn(train: Train, response: PeriodicResponse, samples: int) -> Course:
+    """With about so many samples; K_v is that of more."""
+    step = max(1, 8 * int(response.harmonics[-1]) // samples)
+    count = max(samples, 8 * int(response.harmonics[-1]) // step * step)
     spring = response.spring_forces(count=count)
     phases = response.phases(count) / (2 * np.pi) * response.excitation.orders[0]
     crests = (response.senses * spring).max(axis=(0, 1))
     return Course(
         speed=float(response.frequencies[0] * 30 / (math.pi * train.meshes[0].teeth)),
         kv=crests / np.abs(response.system.stiffness * response.static.approach),
-        turn=phases,
-        approach=1e6 * response.approach(count=count)[0],
-        force=(spring + response.damping_forces(count=count))[0],
-        shaft_torque=response.shaft_torques(count=count)[0],
+        turn=phases[::step],
+        approach=1e6 * response.approach(count=count)[0, ::step],
+        force=(spring + response.damping_forces(count=count))[0, ::step],
+        shaft_torque=response.shaft_torques(count=count)[0, ::step],
     )
