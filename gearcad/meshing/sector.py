@@ -17,6 +17,9 @@ __all__ = ["MeshSizes", "SectorMesh", "fill_polygon", "mesh_sector"]
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
+_DIGITS = 9
+"""Decimals of the extent of a polygon that gmsh is told: far below any edge, far above the last bits."""
+
 _EDGES = ((0, 1), (1, 2), (2, 0))
 """Vertices of the three edges of a triangle, in the order of its mid-side nodes."""
 
@@ -66,7 +69,9 @@ def fill_polygon(outline: Floats) -> tuple[Floats, Indices]:
         gmsh.option.set_number("Mesh.MeshSizeFromPoints", 0)
         gmsh.option.set_number("Mesh.MeshSizeExtendFromBoundary", 1)
         gmsh.option.set_number("Mesh.Algorithm", 6)
-        for number, (x, y) in enumerate(outline, 1):
+        # In round numbers of its own extent: which triangles a polygon gets must not hang on its size, or on the last bits.
+        extent = float(np.abs(outline).max())
+        for number, (x, y) in enumerate(np.round(outline / extent, _DIGITS), 1):
             gmsh.model.geo.add_point(x, y, 0, tag=number)
         for number in range(1, count + 1):
             gmsh.model.geo.add_line(number, number % count + 1, tag=number)
@@ -87,7 +92,9 @@ def fill_polygon(outline: Floats) -> tuple[Floats, Indices]:
     place[order] = np.arange(len(order))
     row = np.empty(int(tags.max()) + 1, int)
     row[tags.astype(int)] = np.arange(len(tags))
-    return coordinates.reshape(-1, 3)[row[order], :2], place[found].reshape(-1, 3)
+    points = extent * coordinates.reshape(-1, 3)[row[order], :2]
+    points[: len(outline)] = outline
+    return points, place[found].reshape(-1, 3)
 
 
 def _quadratic(points: Floats, triangles: Indices, outline: list[Stretch]) -> SectorMesh:

@@ -149,7 +149,7 @@ def test_root_factors() -> None:
     assert rims == pytest.approx([1, 1, 1, 1.6 * math.log(2.242 / 0.8)], abs=1e-4)
     deep = [deep_tooth_factor(ratio, 4, iso) for ratio in (1.6, 2.05, 2.05 + 1e-12, 2.2, 2.5, 2.6)]
     assert deep == pytest.approx([1, 1, 1.0007, 0.9008, 0.701, 0.7], abs=1e-9)
-    assert deep_tooth_factor(2.3, 5, iso) == deep_tooth_factor(2.3, None, iso) == deep_tooth_factor(2.3, 4, din) == 1
+    assert deep_tooth_factor(2.3, 5, iso) == deep_tooth_factor(2.3, 4, din) == 1
     assert rim_thickness_factor(0.8, din) == 1
 
 
