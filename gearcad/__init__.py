@@ -4,6 +4,18 @@ Everywhere, in every argument, field, property, file and message: lengths in mm,
 stresses in MPa, speeds in rpm, masses in kg, times in s; deviations and deflections in µm. z is the gear axis; tooth 0
 is centred on +x at z = 0; the teeth span z = 0 ... face width. Right-hand helix angles are positive. Profile shift is
 in normal modules.
+
+>>> from gearcad import Gear, GearPair, Load
+>>> pair = GearPair(pinion=Gear(teeth=20, normal_module=2, face_width=20), wheel=Gear(teeth=30, normal_module=2, face_width=20))
+>>> pair.wheel
+Gear(teeth=30, normal_module=2.0, face_width=20.0)
+>>> round(pair.transverse_contact_ratio, 3)
+1.605
+
+What is done with a pair under a load: `gearcad.assess.assess(pair, Load(torque=60))` checks it, `gearcad.compare.compare` tells
+its mesh stiffness by every method, `gearcad.simulate.simulate` its dynamics, `gearcad.modify.propose` its tip relief, and
+`gearcad.rating.rate(pair, material, load)` rates it. Each takes, beside the pair and the load, `material`, `mounting` and the
+options of the tables of a spec by their names. `gearcad.solids` makes solids and files.
 """
 
 from __future__ import annotations
@@ -29,21 +41,6 @@ if TYPE_CHECKING:
     from gearcad.load import Load
     from gearcad.material import Material
     from gearcad.mounting import Mounting
-else:
-
-    def __getattr__(name: str) -> object:
-        """A name is imported when it is first asked for: until then the command line is as quick to start as to be stopped."""
-        from importlib import import_module
-
-        homes = ("errors", "geometry", "load", "material", "mounting")
-        if name in homes:
-            return import_module(f"{__name__}.{name}")
-        for home in homes if name in __all__ else ():
-            module = import_module(f"{__name__}.{home}")
-            if name in module.__all__:
-                return globals().setdefault(name, getattr(module, name))
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-
 
 __all__ = [
     "ISO53_A",
@@ -71,6 +68,16 @@ __all__ = [
 ]
 
 __version__ = "0.1.0"
+
+if not TYPE_CHECKING:
+    from gearcad.lazy import lazily
+
+    __getattr__ = lazily(
+        __name__,
+        __all__,
+        ("errors", "geometry", "load", "material", "mounting"),
+        ("assess", "check", "compare", "dynamics", "modify", "rating", "simulate", "solids", "spec", "stiffness"),
+    )
 
 
 def __dir__() -> list[str]:

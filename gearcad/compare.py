@@ -1,11 +1,11 @@
-"""Compare: the mesh stiffness of what a spec describes, by every method."""
+"""Compare: the mesh stiffness of a pair, or of what a spec describes, by every method."""
 
 from __future__ import annotations
 
 import csv
 import io
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Unpack
 
 from gearcad import __version__
 from gearcad.check.options import CheckOptions
@@ -13,7 +13,7 @@ from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.progress import Expected, Progress
-from gearcad.spec.design import Design
+from gearcad.spec.design import Design, Inputs, as_design
 from gearcad.stiffness.comparison import StiffnessComparison, compare_methods, expected_methods
 from gearcad.stiffness.methods import METHODS
 
@@ -23,13 +23,27 @@ _COLUMNS = ("method", "roll_angle", "path_position", "mesh_stiffness", "tangent_
 
 
 def compare(
-    design: Design, methods: Sequence[str] = tuple(METHODS), positions: int = 0, progress: Progress | None = None
+    subject: Design | GearPair,
+    load: Load | None = None,
+    *,
+    methods: Sequence[str] = tuple(METHODS),
+    positions: int = 0,
+    progress: Progress | None = None,
+    **inputs: Unpack[Inputs],
 ) -> StiffnessComparison:
-    """Mesh stiffness of the design's pair as mounted, under its load, its bodies held as its [check] says.
+    """Mesh stiffness of a pair as mounted, under a load, by `methods`, its bodies held as `check` says.
+
+    `material`, `mounting` and `check`, as the load, stand in place of those of a design; a pair has the defaults.
+
+    >>> from gearcad import Gear, GearPair, Load
+    >>> gears = [Gear(teeth=z, normal_module=2, face_width=20, tooth_thinning=0.03) for z in (20, 30)]
+    >>> compare(GearPair(pinion=gears[0], wheel=gears[1]), Load(torque=60), methods=["iso6336", "potential-energy"])
+    <StiffnessComparison of 'pair' at 60 N·m: iso6336 303.1, potential-energy 431.1 N/µm>
 
     Raises ParameterError for a design without pair or load, and what `compare_methods` raises.
     """
-    pair, load = _loaded(design)
+    design = as_design(subject, load, **inputs)
+    pair, given = _loaded(design)
     from threadpoolctl import threadpool_limits
 
     # The dense systems are small, and solid bodies are solved side by side: more threads cost more than they bring.
@@ -37,7 +51,7 @@ def compare(
         return compare_methods(
             pair,
             design.material or Material(),
-            load,
+            given,
             methods,
             body=(design.check or CheckOptions()).body,
             mounting=design.mounting,

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from gearcad.errors import plain_numbers
 from gearcad.ranges import APPLICATION_FACTOR, SPEED, TORQUE
+from gearcad.reprs import concise
 
 __all__ = ["Load"]
 
@@ -20,6 +21,8 @@ class Load:
     torque: float
     speed: float = 0.0
     application_factor: float = 1.0
+
+    __repr__ = concise
 
     def __post_init__(self) -> None:
         plain_numbers(self)

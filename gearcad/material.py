@@ -8,6 +8,7 @@ from enum import StrEnum
 
 from gearcad.errors import ParameterError, as_choice, plain_numbers
 from gearcad.ranges import DENSITY, MODULUS, POISSON_RATIO, STRENGTH
+from gearcad.reprs import concise
 
 __all__ = ["Material", "MaterialGroup"]
 
@@ -54,6 +55,8 @@ class Material:
     root_limit: float | tuple[float, float] | None = None
     group: MaterialGroup | None = None
     contact_endurance_limit: float | None = None
+
+    __repr__ = concise
 
     def __post_init__(self) -> None:
         plain_numbers(self)

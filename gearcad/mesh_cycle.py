@@ -80,6 +80,9 @@ class MeshCycle:
     mean_only: bool = False
     notes: tuple[str, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<MeshCycle by {self.method} at {self.torque:g} N·m: {self.mean:.4g} N/µm, {len(self.roll_angle)} roll angles>"
+
     def __post_init__(self) -> None:
         arrays = [self.roll_angle, self.mesh_stiffness, self.tangent_stiffness, self.transmission_error]
         arrays += [self.load_share, *self.compliance_parts.values()]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from gearcad.check.options import CheckOptions, Model
 from gearcad.check.solid_summary import worst_cell
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair, ReliefShape
+from gearcad.load import Load
 from gearcad.ltca.search import Found, Search, conditions, start_search
 from gearcad.ltca.solid_cycle import SolidCycle, run_solid_cycle
 from gearcad.ltca.solid_pair import SolidPair, SolidSizes, loaded_left, solid_pair
@@ -21,7 +22,7 @@ from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.progress import Progress
 from gearcad.ranges import STRENGTH, TORQUE
-from gearcad.spec.design import Design
+from gearcad.spec.design import Design, Inputs, as_design
 
 __all__ = ["Figures", "Proposal", "Robustness", "propose", "unmirrored"]
 
@@ -92,6 +93,10 @@ class Proposal:
     after: Figures
     robustness: tuple[Robustness, ...]
 
+    def __repr__(self) -> str:
+        errors = (each.transmission_error_peak_to_peak for each in (self.before, self.after))
+        return f"<Proposal for {self.design.name!r} at {self.torque:g} N·m: {' -> '.join(f'{each:.3g}' for each in errors)} µm>"
+
     @property
     def name(self) -> str:
         """Of the modified design."""
@@ -145,19 +150,24 @@ class Proposal:
 
 
 def propose(
-    design: Design,
+    subject: Design | GearPair,
+    load: Load | None = None,
     *,
     torque: float | None = None,
     pressure: float | None = None,
     shape: ReliefShape | None = None,
     progress: Progress | None = None,
+    **inputs: Unpack[Inputs],
 ) -> Proposal:
-    """Search tip relief and crowning for a design; `torque` (N·m on the pinion) None stands for its load's, `pressure` (MPa)
-    None for the material's limit or, where that is out of reach, a little more than without modifications, `shape` None for
-    the better one.
+    """Search tip relief and crowning for a pair under a load.
+
+    `torque` (N·m on the pinion) None stands for the load's, `pressure` (MPa) None for the material's limit or, where that is
+    out of reach, a little more than without modifications, `shape` None for the better one. `material`, `mounting` and
+    `check`, as the load, stand in place of those of a design.
 
     Raises ParameterError for a design without pair or load, and what `gearcad.ltca` does.
     """
+    design = as_design(subject, load, **inputs)
     pair, torque = _task(design, torque, pressure)
     from threadpoolctl import threadpool_limits
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from gearcad.errors import GeometryError, InputError, format_number, plain_numbers, require_number
 from gearcad.geometry import GearPair
 from gearcad.ranges import OFFSET
+from gearcad.reprs import concise
 
 __all__ = ["Mounting"]
 
@@ -31,6 +32,8 @@ class Mounting:
     pinion_pitch_error: float = 0.0
     wheel_pitch_error: float = 0.0
     centre_distance_change: float = 0.0
+
+    __repr__ = concise
 
     def __post_init__(self) -> None:
         plain_numbers(self)

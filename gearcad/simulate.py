@@ -1,9 +1,9 @@
-"""Simulate: the dynamics of what a spec describes - a pair of gears, or a train."""
+"""Simulate: the dynamics of a pair of gears, or of a train."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Unpack
 
 from gearcad import __version__
 from gearcad.check.options import CheckOptions
@@ -12,10 +12,11 @@ from gearcad.dynamics.pair_study import ContactStudy, PairStudy, study_contact, 
 from gearcad.dynamics.study import ModalStudy, TrainStudy, study_modes, study_train
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
+from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.progress import Progress
-from gearcad.spec.design import Design
+from gearcad.spec.design import Design, Inputs, as_design
 from gearcad.spec.trains import TrainDesign
 from gearcad.stiffness.methods import METHODS
 
@@ -30,19 +31,28 @@ _STEPS = {
 }
 
 
-def simulate(design: Design | TrainDesign, progress: Progress | None = None) -> Study:
-    """The study of a train, or of a design's pair as mounted, under its load.
+def simulate(
+    subject: Design | GearPair | TrainDesign,
+    load: Load | None = None,
+    *,
+    progress: Progress | None = None,
+    **inputs: Unpack[Inputs],
+) -> Study:
+    """The study of a train, or of a pair as mounted, under a load, with the options of `dynamics`.
+
+    `material`, `mounting`, `check` and `dynamics`, as the load, stand in place of those of a design; a pair has the defaults,
+    and a train holds its own.
 
     Raises ParameterError for a design without pair or load, and what the studies raise.
     """
     from threadpoolctl import threadpool_limits
 
     with threadpool_limits(1):  # the dense systems are small
-        if isinstance(design, TrainDesign):
-            if not design.train.meshes:
-                return study_modes(design.train, design.options)
-            return study_train(design.train, design.options, tell=_teller(progress, "train"))
-        return _of_pair(design, progress)
+        if isinstance(subject, TrainDesign):
+            if not subject.train.meshes:
+                return study_modes(subject.train, subject.options)
+            return study_train(subject.train, subject.options, tell=_teller(progress, "train"))
+        return _of_pair(as_design(subject, load, **inputs), progress)
 
 
 def _of_pair(design: Design, progress: Progress | None) -> PairStudy | ContactStudy:

@@ -20,6 +20,7 @@ from gearcad.fea.flexible_pair import BodyModel
 from gearcad.fea.support import STEEL, Hold
 from gearcad.geometry import GearPair
 from gearcad.ranges import BAND, LENGTH, MODULUS, TORQUE
+from gearcad.reprs import concise
 
 __all__ = ["CheckOptions", "Model"]
 
@@ -79,6 +80,8 @@ class CheckOptions:
     root_band: float = 25.0
     stiffness_band: float = 25.0
     contact_band: float = 25.0
+
+    __repr__ = concise
 
     def __post_init__(self) -> None:
         plain_numbers(self)

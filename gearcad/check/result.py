@@ -91,6 +91,9 @@ class CheckResult(Task):
 
     model: ClassVar[Model]
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self.pair.name!r} at {self.torque:g} N·m: {self.verdict}>"
+
     @property
     def bodies(self) -> dict[str, str]:
         """How each body is taken, in words."""
@@ -137,7 +140,7 @@ class CheckResult(Task):
         return (*self.warnings, *(f"rating: {warning}" for warning in self.rating.warnings))
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class PlaneCheck(CheckResult):
     """A check in the transverse section through the middle of the common face width."""
 
@@ -147,7 +150,7 @@ class PlaneCheck(CheckResult):
     model: ClassVar[Model] = Model.PLANE
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class SolidCheck(CheckResult):
     """A check of solid bodies; under a negative torque `cycle` is that of the mirrored pair."""
 

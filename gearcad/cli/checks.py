@@ -44,7 +44,7 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
     if model is not None:
         design = replace(design, check=replace(design.check or CheckOptions(), model=model))
     with job_progress(shown=not quiet, expected=None if quiet else expected_assessment(design)) as progress:
-        result = assess(design, progress)
+        result = assess(design, progress=progress)
     document = check_document(result)
     folder = output if output is not None else Path("output") / design.name
     with staged_files(folder) as staging:

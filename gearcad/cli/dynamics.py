@@ -46,7 +46,7 @@ def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> Non
 
     design = read_train(spec) if holds_train(spec) else read_spec(spec)
     with job_progress(shown=not quiet) as progress:
-        study = simulate(design, progress)
+        study = simulate(design, progress=progress)
     document = dynamics_document(study, design.name)
     folder = output if output is not None else Path("output") / design.name
     with staged_files(folder) as staging:

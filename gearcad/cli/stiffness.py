@@ -69,7 +69,7 @@ def stiffness(
     design = read_spec(spec)
     expected = None if quiet else expected_comparison(design, wanted, positions)
     with job_progress(shown=not quiet, expected=expected) as progress:
-        comparison = compare(design, wanted, positions, progress)
+        comparison = compare(design, methods=wanted, positions=positions, progress=progress)
     document = stiffness_document(comparison, design.name, harmonics)
     folder = output if output is not None else Path("output") / design.name
     with staged_files(folder) as staging:

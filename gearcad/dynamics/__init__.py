@@ -1,1 +1,31 @@
 """Dynamics of gear pairs and trains."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from gearcad.dynamics.options import DynamicsOptions
+    from gearcad.dynamics.pair_study import ContactStudy, PairStudy
+    from gearcad.dynamics.study import ModalStudy, TrainStudy, study_modes, study_train
+    from gearcad.dynamics.train import Inertia, Mesh, Shaft, StiffnessWave, Train, TrainModel
+else:
+    from gearcad.lazy import lazily
+
+__all__ = [
+    "ContactStudy",
+    "DynamicsOptions",
+    "Inertia",
+    "Mesh",
+    "ModalStudy",
+    "PairStudy",
+    "Shaft",
+    "StiffnessWave",
+    "Train",
+    "TrainModel",
+    "TrainStudy",
+    "study_modes",
+    "study_train",
+]
+
+if not TYPE_CHECKING:
+    __getattr__ = lazily(__name__, __all__, ("options", "train", "study", "pair_study"))

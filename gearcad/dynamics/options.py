@@ -18,6 +18,7 @@ from gearcad.geometry import GearPair
 from gearcad.mesh_cycle import METHOD_NAMES
 from gearcad.ranges import DAMPING, DURATION, INERTIA, SAMPLING, SPEED, STIFFNESS
 from gearcad.rating.options import RatingOptions
+from gearcad.reprs import concise
 
 __all__ = ["DynamicsOptions", "PairModel"]
 
@@ -97,6 +98,8 @@ class DynamicsOptions:
     tooth_damping: float | None = None
     duration: float = 1.0
     sampling: float = 200_000.0
+
+    __repr__ = concise
 
     def __post_init__(self) -> None:
         plain_numbers(self)

@@ -53,6 +53,9 @@ class PairStudy:
     bearings: PairOnBearings | None
     unrated: str = ""
 
+    def __repr__(self) -> str:
+        return f"<PairStudy of {self.pair.name!r}: {self.study!r}>"
+
     @property
     def warnings(self) -> tuple[str, ...]:
         """What to know before trusting it."""
@@ -93,6 +96,9 @@ class ContactStudy:
     model: ContactModel
     study: CampbellStudy
     history: TimeHistory
+
+    def __repr__(self) -> str:
+        return f"<ContactStudy of {self.pair.name!r}: {len(self.study.speeds)} speeds up to {self.study.speeds.max():.6g} rpm>"
 
     @property
     def warnings(self) -> tuple[str, ...]:

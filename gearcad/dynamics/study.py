@@ -117,6 +117,9 @@ class TrainStudy:
     notes: tuple[str, ...]
     method_b: DynamicFactor | None
 
+    def __repr__(self) -> str:
+        return f"<TrainStudy of {self.train.name!r}: {len(self.speeds)} speeds up to {self.speeds.max():.6g} rpm>"
+
     @property
     def speeds(self) -> Floats:
         """Of the charts (s,): rpm of the first mesh's pinion."""

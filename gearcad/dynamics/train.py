@@ -27,6 +27,7 @@ from gearcad.ranges import (
     TORSIONAL_STIFFNESS,
     Range,
 )
+from gearcad.reprs import concise
 
 __all__ = ["GROUND", "Inertia", "Mesh", "Shaft", "StiffnessWave", "Train", "TrainModel"]
 
@@ -77,6 +78,8 @@ class Inertia(_Part):
     name: str
     inertia: float
 
+    __repr__ = concise
+
     def __post_init__(self) -> None:
         self._named()
         self._number("inertia", INERTIA)
@@ -106,6 +109,8 @@ class Shaft(_Part):
     damping_ratio: float = 0.0
     damping: float = 0.0
     modes: int | None = None
+
+    __repr__ = concise
 
     def __post_init__(self) -> None:
         self._named()
@@ -170,6 +175,8 @@ class Mesh(_Part):
     preload: float = 0.0
     pitch_deviations: tuple[float, ...] = ()
     internal: bool = False
+
+    __repr__ = concise
 
     def __post_init__(self) -> None:
         self._named()
@@ -240,6 +247,8 @@ class Train:
     torques: Mapping[str, float] = field(default_factory=dict)
     speed: float = 0.0
     order: int = 12
+
+    __repr__ = concise
 
     def __post_init__(self) -> None:
         require_name("name", self.name)

@@ -7,6 +7,7 @@ from enum import Enum
 
 from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_number
 from gearcad.geometry.limits import at_most
+from gearcad.reprs import concise
 
 __all__ = ["Body", "HubSide"]
 
@@ -48,6 +49,8 @@ class Body:
     tip_chamfer: float = 0.0
     web_thickness: float = 0.0
     rim_thickness: float = 0.0
+
+    __repr__ = concise
 
     def __post_init__(self) -> None:
         plain_numbers(self)

@@ -14,3 +14,5 @@ class Derived(float):
     """
 
     __slots__ = ()
+
+    derived = True

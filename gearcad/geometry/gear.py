@@ -12,9 +12,11 @@ from gearcad.geometry import feasibility, inspection
 from gearcad.geometry.body import Body
 from gearcad.geometry.derived import Derived
 from gearcad.geometry.modification import FlankForm, FlankModification, check_flanks
+from gearcad.geometry.picture import gear_html
 from gearcad.geometry.profile import ToothProfile, base_half_angle
 from gearcad.geometry.rack import ISO53_A, BasicRack
 from gearcad.geometry.trochoid import ToolTip
+from gearcad.reprs import concise
 
 __all__ = ["Gear"]
 
@@ -54,6 +56,9 @@ class Gear:
     modification: FlankModification = field(default=FlankModification())
     tip_diameter: float = Derived("nan")
     root_diameter: float = Derived("nan")
+
+    __repr__ = concise
+    _repr_html_ = gear_html
 
     def __post_init__(self) -> None:
         plain_numbers(self)

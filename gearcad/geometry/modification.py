@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearcad.errors import GeometryError, as_choice, plain_numbers, require_number
 from gearcad.geometry.limits import at_most
+from gearcad.reprs import concise
 
 if TYPE_CHECKING:
     from gearcad.geometry.gear import Gear
@@ -83,6 +84,8 @@ class FlankModification:
     end_relief_shape: ReliefShape = ReliefShape.LINEAR
     helix_angle_modification: float = 0.0
     twist: float = 0.0
+
+    __repr__ = concise
 
     def __post_init__(self) -> None:
         plain_numbers(self)

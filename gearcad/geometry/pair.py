@@ -15,8 +15,10 @@ from gearcad.geometry.gear import Gear
 from gearcad.geometry.interference import fillet_cut
 from gearcad.geometry.involute import involute
 from gearcad.geometry.limits import at_least, at_most
+from gearcad.geometry.picture import pair_html
 from gearcad.geometry.shift import least_profile_shift_sum, profile_shift_sum, zero_backlash_centre_distance
 from gearcad.ranges import OFFSET
+from gearcad.reprs import concise
 
 __all__ = ["CommonWidth", "GearPair"]
 
@@ -54,6 +56,9 @@ class GearPair:
     centre_distance: float = Derived("nan")
     axial_offset: float = 0.0
     name: str = "pair"
+
+    __repr__ = concise
+    _repr_html_ = pair_html
 
     def __post_init__(self) -> None:
         plain_numbers(self)

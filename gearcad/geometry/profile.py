@@ -46,6 +46,9 @@ class ToothProfile:
     tool: ToolTip
     tip_chamfer: float = 0.0
 
+    def __repr__(self) -> str:
+        return f"<ToothProfile: {self.teeth:.6g} teeth, diameters {self.root_diameter:.6g} to {self.tip_diameter:.6g} mm>"
+
     def __post_init__(self) -> None:
         if self.root_diameter <= 0:
             raise GeometryError("root_diameter", self.root_diameter, "must be above 0 mm: the tool reaches the axis", "mm")

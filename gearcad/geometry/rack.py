@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from gearcad.errors import ParameterError, plain_numbers, require_number
+from gearcad.reprs import concise
 
 __all__ = ["ISO53_A", "ISO53_B", "ISO53_C", "ISO53_D", "NAMED_RACKS", "BasicRack"]
 
@@ -27,6 +28,8 @@ class BasicRack:
     addendum: float = 1.0
     dedendum: float = 1.25
     root_radius: float | Literal["full"] = 0.38
+
+    __repr__ = concise
 
     def __post_init__(self) -> None:
         plain_numbers(self)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from gearcad.errors import as_choice, plain_numbers, require_whole
 from gearcad.rating.editions import Edition
 from gearcad.rating.iso1328 import Accuracy, grades
+from gearcad.reprs import concise
 
 __all__ = ["RatingOptions"]
 
@@ -21,6 +22,8 @@ class RatingOptions:
     standard: Edition = Edition.ISO_2006
     accuracy: Accuracy = Accuracy.ISO_1995
     accuracy_grade: int = 6
+
+    __repr__ = concise
 
     def __post_init__(self) -> None:
         plain_numbers(self)

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from enum import Enum
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 from gearcad.check.options import CheckOptions
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.errors import ParameterError
+from gearcad.errors import ParameterError, as_choice
 from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.rating.options import RatingOptions
+from gearcad.reprs import concise
 
-__all__ = ["Design", "DesignKind", "require_plain_name"]
+__all__ = ["Design", "DesignKind", "Inputs", "as_design", "require_plain_name"]
 
 LONGEST_NAME = 100
 """Most characters of a design's name: it becomes a folder, and file systems stop at 255 bytes."""
@@ -51,7 +52,10 @@ class Design:
     dynamics: DynamicsOptions | None = None
     rating: RatingOptions | None = None
 
+    __repr__ = concise
+
     def __post_init__(self) -> None:
+        object.__setattr__(self, "kind", as_choice("kind", self.kind, DesignKind))
         require_plain_name(self.name)
         if (self.kind is DesignKind.GEAR) != (self.gear is not None) or (self.kind is DesignKind.PAIR) != (
             self.pair is not None
@@ -103,6 +107,25 @@ class Design:
         if self.rating is not None:
             document["rating"] = asdict(self.rating)
         return document
+
+
+class Inputs(TypedDict, total=False):
+    """What a job may be given beside a pair and its load, under the names of a spec's tables."""
+
+    material: Material
+    mounting: Mounting
+    check: CheckOptions
+    dynamics: DynamicsOptions
+    rating: RatingOptions
+
+
+def as_design(subject: Design | GearPair, load: Load | None = None, **inputs: Unpack[Inputs]) -> Design:
+    """A design as it is, or that of a pair, with what is given in place of its own. Raises ParameterError."""
+    if isinstance(subject, GearPair):
+        subject = Design(kind=DesignKind.PAIR, name=subject.name, pair=subject)
+    if not isinstance(subject, Design):
+        raise ParameterError("subject", subject, "must be a GearPair or a Design")
+    return replace(subject, load=subject.load if load is None else load, **inputs)
 
 
 def require_plain_name(name: Any) -> None:

@@ -52,6 +52,10 @@ class StiffnessComparison:
     load_points: tuple[LoadPoint, ...]
     left_out: Mapping[str, str]
 
+    def __repr__(self) -> str:
+        means = ", ".join(f"{cycle.method} {cycle.mean:.4g}" for cycle in self.cycles)
+        return f"<StiffnessComparison of {self.pair.name!r} at {self.load.torque:g} N·m: {means} N/µm>"
+
     @property
     def reference(self) -> MeshCycle | None:
         """What the others are measured by: the 3D contact, if it is there."""

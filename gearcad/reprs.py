@@ -1,0 +1,24 @@
+"""How our types show themselves in a Python session: one line, with only what was given."""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, fields
+from enum import Enum
+from typing import Any
+
+__all__ = ["concise"]
+
+
+def concise(self: Any) -> str:
+    """The `__repr__` of a dataclass: the fields that differ from their defaults, as one would type them.
+
+    Values that say they are `derived` are left out, so that the text evaluates to an equal object.
+    """
+    given = []
+    for each in fields(self):
+        value, default = getattr(self, each.name), each.default
+        if each.default_factory is not MISSING:
+            default = each.default_factory()
+        if not getattr(value, "derived", False) and (default is MISSING or value != default):
+            given.append(f"{each.name}={(value.value if isinstance(value, Enum) else value)!r}")
+    return f"{type(self).__name__}({', '.join(given)})"

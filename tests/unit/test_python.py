@@ -1,0 +1,143 @@
+"""gearcad from Python: what objects show of themselves, and jobs on a pair that no spec describes."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ElementTree
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gearcad
+from gearcad import (
+    ISO53_C,
+    BasicRack,
+    Body,
+    FlankModification,
+    Gear,
+    HubSide,
+    Load,
+    Material,
+    Mounting,
+    ParameterError,
+    ReliefShape,
+    check,
+    dynamics,
+    spec,
+)
+from gearcad.check import CheckOptions
+from gearcad.compare import compare
+from gearcad.dynamics import DynamicsOptions
+from gearcad.modify import propose
+from gearcad.simulate import simulate
+from gearcad.spec import Design, as_design, read_spec
+from gearcad.spec.trains import read_train
+from tests.support.coarse import coarse_pair
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+
+FZG_C = coarse_pair("FZG C")
+
+VOLVO = read_spec(TEMPLATES / "volvo-13-44.toml")
+
+NAMES = {name: getattr(package, name) for package in (gearcad, check, dynamics, spec) for name in package.__all__}
+
+PIXEL = 1.5
+"""Of the picture: outlines may touch, and polygons are 0.2 of one off."""
+
+
+@pytest.mark.parametrize(
+    "shown",
+    [
+        Gear(teeth=20, normal_module=2, face_width=10),
+        Gear(teeth=20, normal_module=2, face_width=10, tip_diameter=43.5, rack=ISO53_C, name="first"),
+        VOLVO.pair,
+        VOLVO,
+        FlankModification(tip_relief=20, tip_relief_length=2, tip_relief_shape=ReliefShape.PARABOLIC),
+        Body(bore=10, hub_diameter=20, hub_length=3, hub_side=HubSide.BOTH),
+        BasicRack(root_radius="full"),
+        Material(contact_limit=[1200, 1300]),
+        Load(torque=-1 / 3),
+        Mounting(misalignment=5),
+        CheckOptions(model="3d", torques=[10, 20]),
+        DynamicsOptions(),
+        read_train(TEMPLATES / "train-1-stage.toml").train,
+    ],
+    ids=lambda each: type(each).__name__,
+)
+def test_an_input_shows_in_one_line_what_was_given(shown: object) -> None:
+    assert eval(repr(shown), NAMES) == shown
+    assert "\n" not in repr(shown)
+
+
+def test_nothing_that_is_a_default_or_derived_is_shown() -> None:
+    assert repr(Gear(teeth=20, normal_module=2, face_width=10)) == "Gear(teeth=20, normal_module=2.0, face_width=10.0)"
+    assert repr(Material()) == "Material()"
+    assert len(repr(VOLVO.pair)) < 600
+    assert repr(FZG_C.pinion.profile) == "<ToothProfile: 16 teeth, diameters 62.3853 to 82.4567 mm>"
+
+
+def polygons(html: str) -> list[np.ndarray]:
+    outlines = re.findall(r'd="M([^Za]*)Z', html)
+    return [np.array([place.split(",") for place in outline.split()], float) * [1, -1] for outline in outlines]
+
+
+def test_a_notebook_shows_the_gears_in_mesh() -> None:
+    pair = VOLVO.pair  # helical, of unequal widths: seen where the pinion begins, the wheel stands turned
+    assert pair is not None
+    pinion, wheel = polygons(pair._repr_html_())
+    for outline, gear, x in ((pinion, pair.pinion, 0.0), (wheel, pair.wheel, pair.centre_distance)):
+        radii = np.hypot(outline[:, 0] - x, outline[:, 1])
+        assert radii.max() == pytest.approx(gear.tip_diameter / 2, abs=0.1)
+        assert radii.min() == pytest.approx(gear.root_diameter / 2, abs=0.1)
+    from matplotlib.path import Path as Outline
+
+    pixel = (pair.centre_distance + (pair.pinion.tip_diameter + pair.wheel.tip_diameter) / 2) / 240
+    for one, other in ((pinion, wheel), (wheel, pinion)):
+        inside = one[Outline(other).contains_points(one)]
+        depth = [np.hypot(*(other - place).T).min() for place in inside]
+        assert max(depth, default=0.0) < PIXEL * pixel
+    nearest = min(np.hypot(*(pinion - place).T).min() for place in wheel)
+    assert nearest < PIXEL * pixel
+
+
+def test_what_a_notebook_shows_is_small_and_sound() -> None:
+    gear = Gear(teeth=31, normal_module=0.02, face_width=0.2, name="<b>&", body=Body(bore=0.3))
+    for shown in (gear, VOLVO.pair):
+        html = shown._repr_html_()
+        assert len(html) < 30_000
+        ElementTree.fromstring(html.replace("cellpadding=3", ""))
+    assert "&lt;b&gt;&amp;" in gear._repr_html_()
+    assert "<b>" not in gear._repr_html_()
+    assert "tip diameter" in gear._repr_html_()
+
+
+def test_a_job_takes_a_pair_and_a_load_as_it_takes_a_design() -> None:
+    load, material = Load(torque=302), Material(youngs_modulus=210000)
+    design = as_design(FZG_C, load, material=material)
+    assert isinstance(design, Design)
+    assert (design.pair, design.load, design.material, design.name) == (FZG_C, load, material, FZG_C.name)
+    other = as_design(design, Load(torque=100), mounting=Mounting(misalignment=5))
+    assert (other.load, other.material) == (Load(torque=100), material)
+    one = compare(FZG_C, load, methods=["iso6336"], material=material)
+    two = compare(design, methods=["iso6336"])
+    assert one.cycles[0].mean == two.cycles[0].mean
+    assert repr(one.cycles[0]).startswith("<MeshCycle by iso6336 at 302 N·m: ")
+
+
+@pytest.mark.parametrize("job", [compare, simulate, propose])
+def test_a_job_without_a_load_or_on_something_else_is_one_line(job: object) -> None:
+    with pytest.raises(ParameterError, match=r"load\.torque = None: must be given"):
+        job(FZG_C)
+    with pytest.raises(ParameterError, match="subject = 3: must be a GearPair or a Design"):
+        job(3)
+
+
+@pytest.mark.parametrize("room", ["check", "dynamics", "geometry", "meshing", "rating", "solids", "spec", "stiffness"])
+def test_every_package_says_what_it_has(room: str) -> None:
+    package = import_module(f"gearcad.{room}")
+    assert [name for name in package.__all__ if getattr(package, name, None) is None] == []
+    with pytest.raises(AttributeError, match="has no attribute 'nothing'"):
+        package.nothing  # noqa: B018
