@@ -181,7 +181,7 @@ def propose(
         tried = [
             _tried(model, torque, each, limits, count, pressure is not None) for each in ([shape] if shape else ReliefShape)
         ]
-        best = min(tried, key=lambda each: (not each.found.bounded, each.found.bound not in limits, each.peak_to_peak))
+        best = _best(tried, limits)
         _tell(progress, "robustness")
         pairs = (model.pair, best.cycle.model.pair)
         robustness = tuple(
@@ -271,6 +271,21 @@ def _tried(model: SolidPair, torque: float, shape: ReliefShape, limits: list[flo
         found = replace(search.best([found.bound / over]), bound=found.bound)
         cycle = _cycle(model, found, shape, torque, count)
     return _Tried(search, found, cycle)
+
+
+def _best(tried: list[_Tried], limits: list[float]) -> _Tried:
+    """The one that keeps to the bound, to that of the material first; of several the one of least transmission error, unless
+    another is worth its price for edges of tips out of contact.
+    """
+
+    def missed(each: _Tried) -> tuple[bool, bool]:
+        return not each.found.bounded, each.found.bound not in limits
+
+    alike = [each for each in tried if missed(each) == min(map(missed, tried))]
+    least = min(alike, key=lambda each: each.peak_to_peak)
+    dearest = least.search.dearest(least.peak_to_peak)
+    free = [each for each in alike if each.found.edges_free and each.peak_to_peak <= dearest]
+    return min(free or [least], key=lambda each: each.peak_to_peak)
 
 
 def _cycle(model: SolidPair, found: Found, shape: ReliefShape, torque: float, count: int) -> SolidCycle:

@@ -167,8 +167,12 @@ class Search:
         if found.edges_free or not found.bounded:
             return found
         strict = self._settled(bound, places, edges=False)
-        dearest = (found.peak_to_peak + float(self.plain.peak_to_peak[0])) / 2
-        return strict if strict.bounded and strict.edges_free and strict.peak_to_peak <= dearest else found
+        worth = strict.peak_to_peak <= self.dearest(found.peak_to_peak)
+        return strict if strict.bounded and strict.edges_free and worth else found
+
+    def dearest(self, peak_to_peak: float) -> float:
+        """What (µm) edges of tips out of contact may cost against a peak to peak: half of what that gains on plain flanks."""
+        return (peak_to_peak + float(self.plain.peak_to_peak[0])) / 2
 
     def scores(self, found: Outcomes, bound: float, *, edges: bool) -> Floats:
         """What is to be least (v,): peak to peak of the transmission error in µm, and what broken bounds cost."""

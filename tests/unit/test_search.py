@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from gearcad.ltca.search import Found, Search, start_search
 from gearcad.ltca.solid_cycle import run_solid_cycle
 from gearcad.ltca.solid_pair import loaded_left
 from gearcad.ltca.variants import Condition, with_amounts
-from gearcad.modify import unmirrored
+from gearcad.modify import _best, unmirrored
 from tests.support.coarse import PAIRS, TORQUES, coarse_model, coarse_pair
 
 TORQUE = TORQUES["FZG C"]
@@ -167,3 +168,25 @@ def test_amounts_found_on_the_mirror_image_are_those_of_the_pair(name: str) -> N
     assert with_amounts(pair, unmirrored(amounts, pair, 1.0), ReliefShape.LINEAR) == with_amounts(
         pair, amounts, ReliefShape.LINEAR
     )
+
+
+@pytest.mark.parametrize(
+    ("errors", "free", "chosen"),
+    [
+        ((5.1, 5.6), (False, True), 1),  # half of what 5.1 gains on 15 is the most that free edges may cost
+        ((5.1, 10.2), (False, True), 0),
+        ((5.1, 5.6), (False, False), 0),
+        ((5.6, 5.1), (True, True), 1),
+    ],
+)
+def test_of_two_shapes_the_one_with_free_edges_is_proposed_if_it_is_worth_it(
+    search: Search, errors: tuple[float, float], free: tuple[bool, bool], chosen: int
+) -> None:
+    assert search.dearest(5.1) == pytest.approx((5.1 + float(search.plain.peak_to_peak[0])) / 2)
+    tried = [
+        SimpleNamespace(found=SimpleNamespace(bounded=True, bound=1800.0, edges_free=edges), peak_to_peak=error, search=search)
+        for error, edges in zip(errors, free, strict=True)
+    ]
+    assert _best(tried, []) is tried[chosen]
+    broken = SimpleNamespace(found=SimpleNamespace(bounded=False, bound=1800.0, edges_free=True), peak_to_peak=1.0, search=search)
+    assert _best([broken, *tried], []) is tried[chosen]
