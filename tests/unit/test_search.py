@@ -188,5 +188,6 @@ def test_of_two_shapes_the_one_with_free_edges_is_proposed_if_it_is_worth_it(
         for error, edges in zip(errors, free, strict=True)
     ]
     assert _best(tried, []) is tried[chosen]
-    broken = SimpleNamespace(found=SimpleNamespace(bounded=False, bound=1800.0, edges_free=True), peak_to_peak=1.0, search=search)
+    unbounded = SimpleNamespace(bounded=False, bound=1800.0, edges_free=True)
+    broken = SimpleNamespace(found=unbounded, peak_to_peak=1.0, search=search)
     assert _best([broken, *tried], []) is tried[chosen]
