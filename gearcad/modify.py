@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.check.options import CheckOptions, Model
-from gearcad.check.solid_summary import worst_cell
+from gearcad.check.solid_summary import worst_place
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair, ReliefShape
 from gearcad.load import Load
@@ -53,14 +53,17 @@ class Figures:
 
     @classmethod
     def of(cls, cycle: SolidCycle) -> Figures:
-        """Those of a cycle."""
-        worst = worst_cell(cycle)
+        """Those of a cycle. Raises ParameterError where no place of contact is away from edges."""
+        worst = worst_place(cycle)
+        if worst is None:
+            permitted = "must leave a place of contact away from the edges of the flanks: beside them no pressure is told"
+            raise ParameterError("torque", cycle.torque, permitted, "N·m")
         first, second, third = cycle.harmonics[:3].tolist()
         pinion, wheel = (cycle.worst_position(gear).tension[gear].stress for gear in (0, 1))
         return cls(
             transmission_error_peak_to_peak=float(np.ptp(cycle.values("transmission_error"))),
             transmission_error_harmonics=(first, second, third),
-            contact_pressure=float(worst.contact.pressures[worst.cell]),
+            contact_pressure=worst.of(worst.contact.pressures),
             root_tension_pinion=pinion,
             root_tension_wheel=wheel,
             face_load_factor=cycle.face_load_factor,

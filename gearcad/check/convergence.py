@@ -45,6 +45,14 @@ each other the roundings of the numbers of elements can feign any order.
 """
 
 
+_FIGURES = {
+    "mean mesh stiffness": "mesh_stiffness_mean",
+    "root tension, pinion": "root_tension_pinion",
+    "root tension, wheel": "root_tension_wheel",
+}
+"""What is watched, in words, and its name in a summary."""
+
+
 @dataclass(frozen=True)
 class Convergence:
     """One quantity on meshes of falling size; `order` observed (None where the changes show none); `error` relative."""
@@ -54,6 +62,11 @@ class Convergence:
     factors: tuple[float, ...]
     order: float | None
     error: float
+
+    @property
+    def key(self) -> str:
+        """Of the figure in a summary."""
+        return _FIGURES[self.quantity]
 
     def to_dict(self) -> dict[str, Any]:
         """As `check.json` has it."""
@@ -71,10 +84,12 @@ def three_solid_meshes(cycles: Iterable[SolidCycle]) -> tuple[Convergence, ...]:
 
 
 def _values(cycles: Iterable[Cycle | SolidCycle]) -> list[tuple[str, tuple[float, ...]]]:
-    """Mean mesh stiffness and root tension of both gears, mesh by mesh; a cycle is let go before the next is made."""
-    few = [figures(cycle) for cycle in cycles]
-    words = ("mean mesh stiffness", "root tension, pinion", "root tension, wheel")
-    return list(zip(words, zip(*((of.mesh_stiffness, *of.root_tension) for of in few), strict=True), strict=True))
+    """Mean mesh stiffness - of the even positions, the same on every mesh - and root tension of both gears, mesh by mesh.
+
+    A cycle is let go before the next is made.
+    """
+    found = [(float(cycle.values("stiffness").mean()), *figures(cycle).root_tension) for cycle in cycles]
+    return list(zip(_FIGURES, zip(*found, strict=True), strict=True))
 
 
 def _order(values: tuple[float, ...], refinement: float) -> float | None:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict
 from typing import Any
 
 from gearcad.check.document_solid import load_distribution, over_face, solid_mesh
 from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
 from gearcad.fea.cycle import PairContact
+from gearcad.fea.extremes import Extreme
 from gearcad.fea.flank import FlankCompliance
-from gearcad.ltca.solid_cycle import SolidContact
+from gearcad.ltca.solid_contact import SolidContact
 from gearcad.meshing.quality import mesh_quality
 
 __all__ = ["check_document"]
@@ -29,6 +31,8 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "positions": len(result.cycle.positions),
         "mesh_cycle": _cycle(result),
         "summary": result.summary.to_dict(),
+        "not_evaluated": result.summary.missing,
+        "extremes": {name: _extreme(of) for name, of in result.summary.extremes.items()},
         "torque_sweep": [point.to_dict() for point in result.sweep],
         "rating": result.rating.to_dict(),
         "convergence": [each.to_dict() for each in result.convergence],
@@ -38,6 +42,13 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "strength": result.strength.value,
         "passed": result.passed,
     }
+
+
+def _extreme(of: Extreme | None) -> dict[str, float | None] | None:
+    """Value, roll angle, and what the positions may miss of it (relative; null where nothing is known of that)."""
+    if of is None:
+        return None
+    return {"value": of.value, "roll_angle": of.roll_angle, "error": of.error if math.isfinite(of.error) else None}
 
 
 def _of_model(result: CheckResult) -> dict[str, Any]:
@@ -82,5 +93,5 @@ def _cycle(result: CheckResult) -> dict[str, Any]:
 
 
 def _pressure(contact: PairContact | SolidContact) -> float | None:
-    inside = contact.interior.any() if isinstance(contact, SolidContact) else contact.interior
+    inside = len(contact.inside) if isinstance(contact, SolidContact) else contact.interior
     return contact.peak_pressure if inside else None

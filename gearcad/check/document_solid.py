@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from gearcad.ltca.flank import SolidCompliance
-from gearcad.ltca.solid_cycle import SolidContact, SolidCycle
+from gearcad.ltca.solid_contact import SolidContact
+from gearcad.ltca.solid_cycle import SolidCycle
 
 __all__ = ["load_distribution", "over_face", "solid_mesh"]
 

@@ -30,7 +30,7 @@ def face_factors(task: Task) -> FaceFactors:
     return FaceFactors(misalignment, flank, root_face_load_factor(flank, width_to_height(task.pair)))
 
 
-def _mismatch(task: Task) -> OfGears:
+def _mismatch(task: Task) -> OfGears[float]:
     """By how much (µm) the gap grows towards larger z over the common width, by the helix angle modification of each gear."""
     width, carries_left = task.pair.common_width.width, task.torque > 0
     found = []

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from gearcad.check.comparison import Comparison, Role, Subject, against, at_most
 from gearcad.check.convergence import LEAST_ORDER, Convergence
+from gearcad.check.extremes import STRESSES
 from gearcad.check.result import Task
 from gearcad.check.rim import bending_limits, bending_notes, rim_gates
 from gearcad.check.summary import PlaneSummary, Summary
 from gearcad.fea.cycle import Cycle, PairContact
 
-__all__ = ["REACTION", "compare_plane", "material_limits", "mesh_errors", "standards"]
+__all__ = ["REACTION", "compare_plane", "farness", "material_limits", "mesh_errors", "sampling", "standards"]
 
 REACTION = 0.005
 """Torque on a hub against that applied: interpolation between unit loads, not equilibrium, makes up what is missing."""
 
 _HERTZ = 0.01
 _DISCRETISATION = 0.01
+_SAMPLING = 0.002
 
 
 def compare_plane(
@@ -25,9 +28,10 @@ def compare_plane(
 ) -> tuple[Comparison, ...]:
     """All comparisons, gates first."""
     return (
-        *_hertz(cycle),
+        *_hertz(cycle, summary),
         *_reactions(cycle),
-        *mesh_errors(convergence, 3 * (_DISCRETISATION,)),
+        *mesh_errors(convergence, 3 * (_DISCRETISATION,), summary),
+        *sampling(summary),
         *rim_gates(task),
         *material_limits(task, summary),
         *bending_limits(task, summary),
@@ -35,24 +39,33 @@ def compare_plane(
     )
 
 
-def _hertz(cycle: Cycle) -> Iterator[Comparison]:
+def farness(computed: float, expected: float) -> float:
+    """Relative distance; infinite for what is no number, which is the worst of all."""
+    found = abs(computed / expected - 1)
+    return found if math.isfinite(found) else math.inf
+
+
+def _hertz(cycle: Cycle, summary: PlaneSummary) -> Iterator[Comparison]:
     """Peak pressure and half width against two cylinders under the load carried, where they are furthest apart."""
     contacts = list(cycle.interior_contacts)
     source = "Hertz: two cylinders of the flanks' curvature under the load that this pair of teeth carries"
 
     def deviation(of: tuple[object, PairContact], name: str, reference: str) -> float:
         computed, expected = float(getattr(of[1], name)), float(getattr(of[1], reference))
-        return abs(computed / expected - 1)
+        return farness(computed, expected)
 
     for words, name, reference, unit in (
         ("peak contact pressure", "peak_pressure", "hertz_pressure", "MPa"),
         ("half width of contact", "half_width", "hertz_half_width", "mm"),
     ):
         if not contacts:
+            reason = summary.missing["contact_pressure"]
+            yield against(words, None, None, _HERTZ, unit, source, Role.GATE, reason=reason)
             continue
         position, contact = max(contacts, key=lambda of: deviation(of, name, reference))
         note = f"the worst of {len(contacts)} interior contacts, at roll angle {position.roll_angle:.2f} deg"
-        yield against(words, getattr(contact, name), getattr(contact, reference), _HERTZ, unit, source, Role.GATE, note)
+        reason = "its pressures have no width to tell" if math.isnan(getattr(contact, name)) else ""
+        yield against(words, getattr(contact, name), getattr(contact, reference), _HERTZ, unit, source, Role.GATE, note, reason)
 
 
 def _reactions(cycle: Cycle) -> Iterator[Comparison]:
@@ -62,47 +75,59 @@ def _reactions(cycle: Cycle) -> Iterator[Comparison]:
     for gear, (owner, body) in enumerate((("pinion", model.pinion), ("wheel", model.wheel))):
         reactions = [
             sum(body.hub_torque(contact.centre(gear)) * contact.force for contact in position.contacts) * model.width / 1000
-            for position in cycle.positions
+            for position in cycle.every
         ]
         applied = force * body.flank.base_radius
-        worst = max(reactions, key=lambda reaction: abs(reaction - applied))
+        worst = max(reactions, key=lambda reaction: farness(reaction, applied))
         source = "equilibrium: the torque that is applied through the teeth"
         yield against(f"torque reaction of the {owner}", worst, applied, REACTION, "N·m", source, Role.GATE)
 
 
-def mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...]) -> Iterator[Comparison]:
-    """The estimated error of each quantity against what it may be (relative)."""
+def mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...], summary: Summary) -> Iterator[Comparison]:
+    """The estimated error of each quantity, by mesh and positions together, against what it may be (relative)."""
     for each, limit in zip(convergence, limits, strict=bool(convergence)):
         unclear = "the changes from mesh to mesh show no order"
         order = unclear if each.order is None or each.order < LEAST_ORDER else f"observed order {each.order:.1f}"
-        source = "three meshes, Richardson"
-        yield at_most(f"discretisation error, {each.quantity}", 100 * each.error, 100 * limit, "%", source, order)
+        between = summary.sampling_error[each.key]
+        source = "three meshes, Richardson, and what the positions may miss"
+        note = f"{100 * each.error:.2g} % by the mesh ({order}), {100 * between:.2g} % by the positions"
+        told = 100 * (each.error + between)
+        yield at_most(f"discretisation error, {each.quantity}", told, 100 * limit, "%", source, note)
+
+
+def sampling(summary: Summary) -> Iterator[Comparison]:
+    """What the positions may miss of the stresses that are told, at the worst of them."""
+    errors = {each.name: summary.sampling_error.get(each.name, math.inf) for each in STRESSES}
+    worst = max(errors, key=lambda name: errors[name])
+    words = worst.replace("_", " ")
+    unknown = f"{words}: {summary.missing.get(worst, 'nothing is known of what stands beside it')}"
+    yield at_most(
+        "sampling error of the stresses",
+        100 * errors[worst],
+        100 * _SAMPLING,
+        "%",
+        "what can stand between the positions, by the curve beside them",
+        f"the worst is that of the {words}",
+        reason="" if math.isfinite(errors[worst]) else unknown,
+    )
 
 
 def material_limits(task: Task, summary: Summary) -> Iterator[Comparison]:
     """What the material gives a limit for."""
     material = task.material
-    for words, value, limit, note in (
-        (
-            "contact pressure",
-            summary.contact_pressure,
-            material.contact_limit,
-            "the greatest away from the corners of the flanks",
-        ),
-        ("root stress, pinion", summary.root_tension.pinion, material.root_limit, "tension"),
-        ("root stress, wheel", summary.root_tension.wheel, material.root_limit, "tension"),
-        (
-            "von Mises stress below the flank",
-            summary.von_mises,
-            material.yield_strength,
-            f"{summary.von_mises_depth:.3g} mm deep",
-        ),
+    deep = f"{summary.von_mises_depth:.3g} mm deep" if summary.von_mises_depth is not None else ""
+    away, missing = "the greatest away from the corners of the flanks", summary.missing.get
+    for words, value, limit, note, reason in (
+        ("contact pressure", summary.contact_pressure, material.contact_limit, away, missing("contact_pressure", "")),
+        ("root stress, pinion", summary.root_tension.pinion, material.root_limit, "tension", ""),
+        ("root stress, wheel", summary.root_tension.wheel, material.root_limit, "tension", ""),
+        ("von Mises stress below the flank", summary.von_mises, material.yield_strength, deep, missing("von_mises", "")),
     ):
         if isinstance(limit, tuple):
             note += f"; the limit of this material lies between {limit[0]:g} and {limit[1]:g} MPa, and the lower one counts"
             limit = limit[0]
         if limit is not None:
-            yield at_most(words, value, limit, "MPa", f"limit of {material.name}", note, Subject.STRENGTH)
+            yield at_most(words, value, limit, "MPa", f"limit of {material.name}", note, Subject.STRENGTH, reason)
 
 
 def standards(task: Task, summary: Summary) -> Iterator[Comparison]:

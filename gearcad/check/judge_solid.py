@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from gearcad.check.comparison import Comparison, Role, against
 from gearcad.check.convergence import Convergence
 from gearcad.check.face import face_factors
-from gearcad.check.judge import REACTION, material_limits, mesh_errors, standards
+from gearcad.check.judge import REACTION, farness, material_limits, mesh_errors, sampling, standards
 from gearcad.check.result import Task
 from gearcad.check.rim import bending_limits, rim_gates
 from gearcad.check.solid_summary import SolidSummary
@@ -27,7 +27,8 @@ def compare_solid(
     """All comparisons, gates first."""
     return (
         *_reactions(cycle),
-        *mesh_errors(convergence, _ERRORS),
+        *mesh_errors(convergence, _ERRORS, summary),
+        *sampling(summary),
         *rim_gates(task),
         *material_limits(task, summary),
         *bending_limits(task, summary),
@@ -39,43 +40,27 @@ def compare_solid(
 
 def _reactions(cycle: SolidCycle) -> Iterator[Comparison]:
     """Torque on the hub of each gear against that applied, at the position where they differ most."""
-    source = f"equilibrium: the torque that is applied through the teeth, at the worst of {len(cycle.positions)} positions"
+    source = f"equilibrium: the torque that is applied through the teeth, at the worst of {len(cycle.every)} positions"
     force = cycle.model.force(cycle.torque) * cycle.model.width / 1000
     for gear, (owner, body) in enumerate((("pinion", cycle.model.pinion), ("wheel", cycle.model.wheel))):
         applied = force * body.flank.base_radius
-        worst = max((position.torques[gear] for position in cycle.positions), key=lambda torque: abs(torque - applied))
+        worst = max((position.torques[gear] for position in cycle.every), key=lambda torque: farness(torque, applied))
         yield against(f"torque reaction of the {owner}", worst, applied, REACTION, "N·m", source, Role.GATE)
 
 
 def _contact(task: Task, summary: SolidSummary) -> Iterator[Comparison]:
     """Pressure and lines of contact against part 2 of the standard and the geometry."""
-    band, rating, cells = task.options.contact_band / 100, task.rating, "the FE's is the greatest of all cells away from edges"
+    band, rating = task.options.contact_band / 100, task.rating
+    away, middle = "the FE's is the greatest of all places away from edges", "in the middle of the common face width"
     standard = rating.edition.dated_part(2)
     nominal = rating.flank.nominal_stress * math.sqrt(rating.application_factor)
-    for words, value, reference, source, note in (
-        (
-            "contact pressure, pinion",
-            summary.contact_pressure,
-            rating.contact_stresses[0],
-            f"Z_B sigma_H0, {standard} Method B",
-            cells,
-        ),
-        (
-            "contact pressure, wheel",
-            summary.contact_pressure,
-            rating.contact_stresses[1],
-            f"Z_D sigma_H0, {standard} Method B",
-            cells,
-        ),
-        (
-            "contact pressure at the pitch point",
-            summary.contact_pressure_pitch_point,
-            nominal,
-            f"sigma_H0, {standard} Method B",
-            "in the middle of the common face width",
-        ),
+    for words, key, reference, source, note in (
+        ("contact pressure, pinion", "contact_pressure", rating.contact_stresses[0], "Z_B sigma_H0", away),
+        ("contact pressure, wheel", "contact_pressure", rating.contact_stresses[1], "Z_D sigma_H0", away),
+        ("contact pressure at the pitch point", "contact_pressure_pitch_point", nominal, "sigma_H0", middle),
     ):
-        yield against(words, value, reference, band, "MPa", source, Role.INFORMATION, note)
+        value, source, reason = getattr(summary, key), f"{source}, {standard} Method B", summary.missing.get(key, "")
+        yield against(words, value, reference, band, "MPa", source, Role.INFORMATION, note, reason)
     lengths = contact_line_lengths(task.pair)
     yield against(
         "mean length of the lines of contact",
@@ -96,6 +81,7 @@ def _contact(task: Task, summary: SolidSummary) -> Iterator[Comparison]:
         "F_bn over the least length of the lines of contact",
         Role.INFORMATION,
         "rigid gears, load even along all lines, where these are shortest: the FE is above it by how uneven the load is",
+        summary.missing.get("line_load_max", ""),
     )
 
 

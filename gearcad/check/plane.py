@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from gearcad.check.convergence import FACTORS, FEW_POSITIONS, three_meshes
+from gearcad.check.extremes import PLANE, ROOTS, STRESSES
 from gearcad.check.judge import compare_plane
 from gearcad.check.options import Model
 from gearcad.check.result import PlaneCheck, Task
@@ -35,16 +36,16 @@ def check_plane(task: Task, tell: Agenda) -> PlaneCheck:
     """Check in the transverse section through the middle of the common face width. Raises what `check_pair` does."""
     tell("mesh cycle")
     model = _model(task, 1.0)
-    cycle = run_cycle(model, task.torque, task.options.positions_of(Model.PLANE))
+    cycle = run_cycle(model, task.torque, task.options.positions_of(Model.PLANE)).searched(PLANE)
     summary = summarise(cycle, single_stiffness(model, task.torque))
     tell("convergence")
     convergence = three_meshes(_refined(task, model)) if task.options.refines else ()
     tell("torque sweep")
-    sweep = tuple(sweep_point(run_cycle(model, torque, FEW_POSITIONS)) for torque in task.torques)
+    sweep = tuple(sweep_point(run_cycle(model, torque, FEW_POSITIONS).searched(STRESSES)) for torque in task.torques)
     tell("rating")
     comparisons = compare_plane(task, cycle, summary, convergence)
     warnings = (
-        *general_warnings(task, cycle, summary.contact_pressure / model.modulus),
+        *general_warnings(task, cycle, summary),
         *rim_warnings(task, summary),
         *corner_warnings(cycle, summary),
         *plane_warnings(task, model.pinion.elasticity),
@@ -69,7 +70,8 @@ def _model(task: Task, factor: float) -> FlexiblePair:
 
 def _refined(task: Task, middle: FlexiblePair) -> Iterator[Cycle]:
     for factor in FACTORS:
-        yield run_cycle(middle if factor == 1 else _model(task, factor), task.torque, FEW_POSITIONS)
+        model = middle if factor == 1 else _model(task, factor)
+        yield run_cycle(model, task.torque, FEW_POSITIONS).searched(ROOTS)
 
 
 def plane_warnings(task: Task, elasticity: PlaneElasticity) -> Iterator[str]:

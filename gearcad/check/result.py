@@ -62,16 +62,17 @@ class Task:
 
 
 class SweepPoint(NamedTuple):
-    """One torque (N·m on the pinion) of the sweep: mean mesh stiffness (N/(mm µm)), greatest pressure and root tensions (MPa).
+    """One torque (N·m on the pinion) of the sweep: mean mesh stiffness (N/(mm µm)), greatest pressure (None where all contacts
+    are near edges) and root tensions (MPa).
 
     `torsional_stiffness` is M/phi of each gear (N·m/rad).
     """
 
     torque: float
     mesh_stiffness: float
-    contact_pressure: float
-    root_tension: OfGears
-    torsional_stiffness: OfGears
+    contact_pressure: float | None
+    root_tension: OfGears[float]
+    torsional_stiffness: OfGears[float]
 
     def to_dict(self) -> dict[str, Any]:
         """As `check.json` has it."""

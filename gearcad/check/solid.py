@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from gearcad.check.convergence import FEW_POSITIONS, SOLID_FACTORS, three_solid_meshes
 from gearcad.check.expected import BODIES, COARSER, CYCLE, FINER, RATING, SWEEP, sizes_of
+from gearcad.check.extremes import ROOTS, SOLID, STRESSES
 from gearcad.check.judge_solid import compare_solid
 from gearcad.check.options import Model
 from gearcad.check.result import SolidCheck, Task
@@ -33,16 +34,15 @@ def check_solid(task: Task, agenda: Agenda) -> SolidCheck:
     """
     model = _model(task, 1.0, agenda.within(BODIES))
     positions = task.options.positions_of(Model.SOLID)
-    cycle = run_solid_cycle(model, task.torque, positions, agenda.counted(CYCLE, "position"))
+    cycle = run_solid_cycle(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
     summary = summarise_solid(cycle, solid_single_stiffness(model, task.torque))
     agenda(SWEEP)
-    sweep = tuple(sweep_point(run_solid_cycle(model, torque, FEW_POSITIONS)) for torque in task.torques)
+    sweep = tuple(sweep_point(run_solid_cycle(model, torque, FEW_POSITIONS).searched(STRESSES)) for torque in task.torques)
     convergence = three_solid_meshes(_refined(task, model, agenda)) if task.options.refines else ()
     agenda(RATING)
     comparisons = compare_solid(task, cycle, summary, convergence)
-    modulus = task.material.youngs_modulus / (2 * (1 - task.material.poisson_ratio**2))
     warnings = (
-        *general_warnings(task, cycle, summary.contact_pressure / modulus),
+        *general_warnings(task, cycle, summary),
         *rim_warnings(task, summary),
         *corner_warnings(cycle, summary),
         *_edge_warnings(cycle, summary),
@@ -67,14 +67,18 @@ def _model(task: Task, factor: float, tell: Share) -> SolidPair:
 def _refined(task: Task, middle: SolidPair, agenda: Agenda) -> Iterator[SolidCycle]:
     """The cycles of coarser, own and finer bodies; none but the own are kept."""
     coarser, _, finer = SOLID_FACTORS
-    yield run_solid_cycle(_model(task, coarser, agenda.within(COARSER)), task.torque, FEW_POSITIONS)
-    yield run_solid_cycle(middle, task.torque, FEW_POSITIONS)
-    yield run_solid_cycle(_model(task, finer, agenda.within(FINER)), task.torque, FEW_POSITIONS)
+    yield _few(_model(task, coarser, agenda.within(COARSER)), task)
+    yield _few(middle, task)
+    yield _few(_model(task, finer, agenda.within(FINER)), task)
+
+
+def _few(model: SolidPair, task: Task) -> SolidCycle:
+    return run_solid_cycle(model, task.torque, FEW_POSITIONS).searched(ROOTS)
 
 
 def _edge_warnings(cycle: SolidCycle, summary: SolidSummary) -> list[str]:
-    greatest = max(float(contact.pressures.max()) for position in cycle.positions for contact in position.contacts)
-    if greatest < _EDGE_RATIO * summary.contact_pressure:
+    greatest = max(float(contact.pressures.max()) for position in cycle.every for contact in position.contacts)
+    if summary.contact_pressure is not None and greatest < _EDGE_RATIO * summary.contact_pressure:
         return []
     return [
         f"beside the edges of the flanks the pressure is up to {greatest:.0f} MPa, by Hertz's formula, which no edge fits; "

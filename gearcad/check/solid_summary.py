@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.check.summary import OfGears, Summary, common_summary
-from gearcad.ltca.solid_cycle import SolidContact, SolidCycle, SolidPosition
+from gearcad.ltca.solid_contact import INTERIOR, SolidContact
+from gearcad.ltca.solid_cycle import SolidCycle, SolidPosition, solid_pitch_point_contact
 from gearcad.rating import LineContact
 
-__all__ = ["MiddleContact", "SolidSummary", "WorstCell", "middle_contacts", "summarise_solid", "worst_cell"]
+__all__ = ["MiddleContact", "SolidSummary", "WorstPlace", "middle_contacts", "summarise_solid", "worst_place"]
 
 Floats = NDArray[np.float64]
 
@@ -32,22 +32,26 @@ class SolidSummary(Summary):
     """
 
     transmission_error_harmonics: tuple[float, ...]
-    contact_pressure_across: float
-    contact_pressure_radius: OfGears
-    root_tension_height: OfGears
-    root_tension_radius: OfGears
+    contact_pressure_across: float | None
+    contact_pressure_radius: OfGears[float] | OfGears[None]
+    root_tension_height: OfGears[float]
+    root_tension_radius: OfGears[float]
     contact_length_mean: float
-    line_load_max: float
+    line_load_max: float | None
     face_load_factor: float
-    root_face_load_factor: OfGears
+    root_face_load_factor: OfGears[float]
 
 
-class WorstCell(NamedTuple):
-    """The cell of the greatest pressure away from the edges of the flanks, or of all where no cell is away from them."""
+class WorstPlace(NamedTuple):
+    """Where the greatest pressure away from the edges of the flanks is: `place` in cells of the line."""
 
     position: SolidPosition
     contact: SolidContact
-    cell: int
+    place: float
+
+    def of(self, values: Floats) -> float:
+        """What values (n,) of the line's cells are there."""
+        return float(self.contact.at(values, self.place))
 
 
 class MiddleContact(NamedTuple):
@@ -59,17 +63,18 @@ class MiddleContact(NamedTuple):
     half_width: float
 
 
-def worst_cell(cycle: SolidCycle) -> WorstCell:
-    """Where the greatest pressure is."""
-    position, contact = cycle.worst_contact
-    pressures = np.where(contact.interior, contact.pressures, 0.0) if contact.interior.any() else contact.pressures
-    return WorstCell(position, contact, int(np.argmax(pressures)))
+def worst_place(cycle: SolidCycle) -> WorstPlace | None:
+    """Where the greatest pressure is; None if no place is away from the edges."""
+    if (worst := cycle.worst_contact) is None:
+        return None
+    position, contact = worst
+    return WorstPlace(position, contact, float(contact.inside[contact.at(contact.pressures, contact.inside).argmax()]))
 
 
 def middle_contacts(cycle: SolidCycle) -> list[MiddleContact]:
     """All contacts of the cycle in the order in which one pair of teeth goes through them; 0 where the middle is unloaded."""
     found = []
-    for position in cycle.positions:
+    for position in cycle.every:
         for contact in position.contacts:
             across = contact.line.across
             place = float(contact.line.nominal[0] - across[0] * math.tan(cycle.model.helix))
@@ -80,40 +85,77 @@ def middle_contacts(cycle: SolidCycle) -> list[MiddleContact]:
 
 def summarise_solid(cycle: SolidCycle, single: float) -> SolidSummary:
     """Summarise a cycle; `single` is the stiffness of one pair of teeth alone."""
-    _, contact, cell = worst_cell(cycle)
-    below = line_contact(cycle, contact, cell).greatest_von_mises
-    lengths = (contact.line.pinion[0][cell], contact.line.wheel[0][cell])
-    bases = (cycle.model.pinion.flank.base_radius, cycle.model.wheel.flank.base_radius)
     peaks = [cycle.worst_position(gear).tension[gear] for gear in (0, 1)]
-    places, shares, pressures, widths = np.array(middle_contacts(cycle)).T
-    at_pitch = [float(np.interp(cycle.model.pair.path_of_contact.C, places, of)) for of in (pressures, widths, shares)]
-    common = common_summary(cycle, single) | {"contact_pressure": float(contact.pressures[cell])}
+    worst, at_pitch = worst_place(cycle), solid_pitch_point_contact(cycle.model, cycle.torque)
+    pressure, width, reason = _at_pitch(at_pitch)
+    common = common_summary(cycle, single)
+    line_load = common["extremes"]["line_load_max"]
     return SolidSummary(
         **common,
-        contact_pressure_pitch_point=at_pitch[0],
-        half_width_pitch_point=at_pitch[1],
-        share_pitch_point=at_pitch[2],
-        von_mises=below.value,
-        von_mises_depth=below.depth,
+        **_at_worst(cycle, worst),
+        contact_pressure_pitch_point=pressure,
+        half_width_pitch_point=width,
+        share_pitch_point=at_pitch.share if at_pitch is not None else 0.0,
         corner_positions=sum(any(each.edge for each in position.contacts) for position in cycle.positions),
         transmission_error_harmonics=tuple(cycle.harmonics[:_HARMONICS].tolist()),
-        contact_pressure_across=float(contact.line.across[cell]),
-        contact_pressure_radius=OfGears(*map(math.hypot, bases, lengths)),
         root_tension_height=OfGears(*(peak.height for peak in peaks)),
         root_tension_radius=OfGears(*(peak.radius for peak in peaks)),
         contact_length_mean=float(np.mean([_loaded_length(position) for position in cycle.positions])),
-        line_load_max=max(_interior_loads(cycle), default=float(contact.line_loads[cell])),
+        line_load_max=line_load.value if line_load is not None else None,
         face_load_factor=cycle.face_load_factor,
         root_face_load_factor=OfGears(*(cycle.root_face_load_factor(gear) for gear in (0, 1))),
+        missing=(dict.fromkeys(_AT_PITCH, reason) if reason else {}) | ({} if worst else _nothing_inside(cycle)),
     )
 
 
-def line_contact(cycle: SolidCycle, contact: SolidContact, cell: int) -> LineContact:
-    """Two cylinders of the curvature of the flanks under the line load of a cell."""
+_AT_PITCH = ("contact_pressure_pitch_point", "half_width_pitch_point")
+
+_AT_WORST = ("contact_pressure", "contact_pressure_across", "contact_pressure_radius", "von_mises", "von_mises_depth")
+
+
+def _nothing_inside(cycle: SolidCycle) -> dict[str, str]:
+    """Why the figures of the worst place are not told."""
+    reason = (
+        f"at none of {len(cycle.every)} positions do places more than {INTERIOR:g} half widths away from the edges of both "
+        "flanks carry a tenth of the load"
+    )
+    return dict.fromkeys((*_AT_WORST, "line_load_max"), reason)
+
+
+def _at_worst(cycle: SolidCycle, worst: WorstPlace | None) -> dict[str, Any]:
+    """Where the greatest pressure is, and the stress below it."""
+    if worst is None:
+        return dict.fromkeys(_AT_WORST[1:]) | {"contact_pressure_radius": OfGears(None, None)}
+    line, below = worst.contact.line, line_contact(cycle, worst).greatest_von_mises
+    bases = (cycle.model.pinion.flank.base_radius, cycle.model.wheel.flank.base_radius)
+    lengths = (worst.of(line.pinion[0]), worst.of(line.wheel[0]))
+    return {
+        "von_mises": below.value,
+        "von_mises_depth": below.depth,
+        "contact_pressure_across": worst.of(line.across),
+        "contact_pressure_radius": OfGears(*map(math.hypot, bases, lengths)),
+    }
+
+
+def _at_pitch(contact: SolidContact | None) -> tuple[float | None, float | None, str]:
+    """Pressure and half width at the pitch point in the middle of the common face width, or why there are none."""
+    if contact is None:
+        return None, None, "the pair of teeth at the pitch point does not touch"
+    across = contact.line.across
+    place = float(np.interp(0, across, np.arange(len(across)), math.nan, math.nan))
+    if math.isnan(place) or not min(contact.forces[[math.floor(place), math.ceil(place)]]) > 0:
+        return None, None, "nothing is carried at the pitch point in the middle of the common face width"
+    if not float(contact.at(contact.margin, place)) > 0:
+        return None, None, f"the pitch point lies within {INTERIOR:g} half widths of an edge"
+    return float(contact.at(contact.pressures, place)), float(contact.at(contact.half_widths, place)), ""
+
+
+def line_contact(cycle: SolidCycle, worst: WorstPlace) -> LineContact:
+    """Two cylinders of the curvature of the flanks under the line load of a place."""
     materials = (cycle.model.pinion.material, cycle.model.wheel.material)
     return LineContact(
-        load_per_width=float(contact.line_loads[cell]),
-        radius=float(contact.radii[cell]),
+        load_per_width=worst.of(worst.contact.line_loads),
+        radius=worst.of(worst.contact.radii),
         modulus=1 / sum((1 - of.poisson_ratio**2) / of.youngs_modulus for of in materials),
         poisson_ratio=materials[0].poisson_ratio,
     )
@@ -121,8 +163,3 @@ def line_contact(cycle: SolidCycle, contact: SolidContact, cell: int) -> LineCon
 
 def _loaded_length(position: SolidPosition) -> float:
     return sum(float(contact.line.lengths[contact.forces > 0].sum()) for contact in position.contacts)
-
-
-def _interior_loads(cycle: SolidCycle) -> Iterator[float]:
-    contacts = (contact for position in cycle.positions for contact in position.contacts)
-    return (float(contact.line_loads[contact.interior].max()) for contact in contacts if contact.interior.any())

@@ -15,7 +15,7 @@ __all__ = ["sweep_point"]
 def sweep_point(cycle: Cycle | SolidCycle) -> SweepPoint:
     """The figures of a cycle at its torque."""
     few, model = figures(cycle), cycle.model
-    turns = np.array([position.approach_parts for position in cycle.positions]).mean(axis=0)
+    turns, _ = cycle.mean("approach_parts")
     # A gear whose flank gives way by u along the line of action turns by u/r_b under the torque F r_b.
     radii = np.array([model.pair.pinion.base_diameter, model.pair.wheel.base_diameter]) / 2
     force = model.force(cycle.torque) * model.width

@@ -12,14 +12,20 @@ from gearcad.ltca.solid_cycle import SolidCycle
 __all__ = ["corner_warnings", "general_warnings"]
 
 _ABSURD = 0.03
-"""Pressure over modulus above which strains are no longer small."""
+"""Stress over modulus above which strains are no longer small."""
 
 
-def general_warnings(task: Task, cycle: Cycle | SolidCycle, strain: float) -> Iterator[str]:
-    """Of the pair, of the load (`strain` is the greatest pressure over the modulus), and of the bodies."""
+def general_warnings(task: Task, cycle: Cycle | SolidCycle, summary: Summary) -> Iterator[str]:
+    """Of the pair, of the load, and of the bodies."""
     yield from task.pair.warnings
-    if strain > _ABSURD:
-        yield f"the contact pressure is {strain:.1%} of the modulus: linear elasticity means little there"
+    modulus = task.material.youngs_modulus
+    across = modulus / (2 * (1 - task.material.poisson_ratio**2))
+    for words, stress, stiff in (
+        ("contact pressure", summary.contact_pressure or 0.0, across),
+        ("root stress", max(summary.root_tension), modulus),
+    ):
+        if stress > _ABSURD * stiff:
+            yield f"the {words} is {stress / stiff:.1%} of the modulus: linear elasticity means little there"
     gears, bodies = (task.pair.pinion, task.pair.wheel), (cycle.model.pinion, cycle.model.wheel)
     given = task.body.inner_diameters
     for name, gear, body, inner in zip(("pinion", "wheel"), gears, bodies, given, strict=True):

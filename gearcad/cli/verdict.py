@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from gearcad.check.comparison import Comparison, Role
@@ -42,7 +43,7 @@ def print_verdict(name: str, result: CheckResult) -> None:
     if console.width < _WIDE:
         rows = [_Line(row.cells[:-1], row.style) for row in rows]
     lines = [*_aligned(rows), (_WORDS, "")]
-    lines += [(f"Not evaluated: {each.quantity}: {each.reason}", "yellow") for each in result.comparisons if not each.evaluated]
+    lines += [(f"Not evaluated: {', '.join(quantities)}: {reason}", "yellow") for reason, quantities in _reasons(result)]
     lines += [(f"Warning: {notice}", "yellow") for notice in result.notices]
     verdict = f"{name} at {result.torque:g} N·m: {result.verdict}"
     lines.append((verdict, "bold green" if result.passed else "bold red"))
@@ -63,6 +64,15 @@ def _row(of: Comparison) -> _Line:
     figures = ("-" if value is None else f"{value:.5g}" for value in (of.computed, of.reference))
     cells = (word, of.quantity, *figures, of.unit, deviation, permitted, of.source.split(":")[0])
     return _Line(cells, "" if of.passed else "bold red" if gate else "yellow")
+
+
+def _reasons(result: CheckResult) -> Iterable[tuple[str, list[str]]]:
+    """Why quantities were not evaluated, each reason once."""
+    found: dict[str, list[str]] = {}
+    for each in result.comparisons:
+        if not each.evaluated:
+            found.setdefault(each.reason, []).append(each.quantity)
+    return found.items()
 
 
 def _aligned(rows: list[_Line]) -> list[tuple[str, str]]:

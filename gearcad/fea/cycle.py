@@ -12,13 +12,15 @@ from numpy.typing import NDArray
 
 from gearcad.fea.contact import ContactPair, ContactSolution
 from gearcad.fea.flexible_pair import FlexiblePair
-from gearcad.fea.root import Fillets, FilletStress, ToothLoad, seen_from
+from gearcad.fea.loaded import LoadedCycle, LoadedPosition
+from gearcad.fea.root import FilletStress, ToothLoad, seen_from
 from gearcad.geometry.contact import usable_path
 from gearcad.meshing.outline import Side
 
 __all__ = [
+    "FAIR",
+    "INTERIOR",
     "Cycle",
-    "LoadedPosition",
     "PairContact",
     "Position",
     "pitch_point_contact",
@@ -29,8 +31,11 @@ __all__ = [
 
 Floats = NDArray[np.float64]
 
-_INTERIOR = 3.0
+INTERIOR = 3.0
 """Half widths from the ends of both involutes beyond which a contact is that of two cylinders."""
+
+FAIR = 0.1
+"""Share of the load below which a contact is coming in or leaving, and its pressure is not that of the load."""
 
 
 @dataclass(frozen=True)
@@ -73,48 +78,27 @@ class PairContact:
     @property
     def interior(self) -> bool:
         """True where the ends of both flanks, and their tip and root reliefs, are some half widths away."""
-        return self.even_distance > _INTERIOR * self.hertz_half_width
+        return self.even_distance > INTERIOR * self.hertz_half_width
 
     @cached_property
     def half_width(self) -> float:
-        """Half width by a fit of p^2 over x^2 in the loaded cells: counting cells would be quantised."""
+        """Half width by a fit of p^2 over x^2 in the loaded cells: counting cells would be quantised.
+
+        NaN where too few cells are loaded, or their pressures have no such shape.
+        """
         loaded = self.pressures > 0.5 * self.peak_pressure
         x, squared = self.pair.cells.place[loaded], self.pressures[loaded] ** 2
         if len(x) < 4:
             return math.nan
         middle, scale = x.mean(), np.ptp(x)
         two, one, zero = np.polyfit((x - middle) / scale, squared, 2)
-        return float(scale * math.sqrt(max(one**2 - 4 * two * zero, 0.0)) / (2 * abs(two)))
+        inside = one**2 - 4 * two * zero
+        return float(scale * math.sqrt(inside) / (2 * abs(two))) if two < 0 < inside else math.nan
 
     def centre(self, gear: int) -> float:
         """Roll length (mm) at the centre of pressure on the pinion (0) or the wheel (1)."""
         lengths = (self.pair.cells.pinion, self.pair.cells.wheel)[gear]
         return float((lengths * self.pressures).sum() / self.pressures.sum())
-
-
-@dataclass(frozen=True)
-class LoadedPosition:
-    """One position of a mesh under load: approach and each gear's part of it along the line of action (mm).
-
-    `rigid_approach` (mm) is what of the approach needs no load: until teeth touch whose flanks are modified or out of place.
-    `force` is the normal force in the transverse section (N per mm of common face width).
-    """
-
-    roll_angle: float
-    approach: float
-    approach_parts: tuple[float, float]
-    rigid_approach: float
-    force: float
-
-    @property
-    def stiffness(self) -> float:
-        """N/(mm um): normal force over the approach under load, per mm of common face width."""
-        return self.force / ((self.approach - self.rigid_approach) * 1000)
-
-    @property
-    def transmission_error(self) -> float:
-        """um along the line of action by which the wheel lags."""
-        return self.approach * 1000
 
 
 @dataclass(frozen=True)
@@ -129,56 +113,58 @@ class Position(LoadedPosition):
     compression: tuple[FilletStress, FilletStress]
     bore_tension: tuple[float | None, float | None]
 
+    @property
+    def interior_contacts(self) -> tuple[PairContact, ...]:
+        """Contacts away from the ends of the flanks that carry a fair share."""
+        return tuple(contact for contact in self.contacts if contact.interior and contact.share > FAIR)
+
+    @property
+    def contact_pressure(self) -> float:
+        """The greatest pressure (MPa) of them; NaN if there are none."""
+        return max((contact.peak_pressure for contact in self.interior_contacts), default=math.nan)
+
 
 @dataclass(frozen=True)
-class Cycle:
-    """All positions of one base pitch at one torque (N m on the pinion)."""
-
-    model: FlexiblePair
-    torque: float
-    positions: tuple[Position, ...]
-
-    def values(self, name: str) -> Floats:
-        """A quantity of every position, such as "stiffness"."""
-        return np.array([getattr(position, name) for position in self.positions])
+class Cycle(LoadedCycle[FlexiblePair, Position]):
+    """That of the plane model."""
 
     @property
     def interior_contacts(self) -> Iterator[tuple[Position, PairContact]]:
         """Contacts away from the ends of the flanks that carry a fair share."""
-        for position in self.positions:
-            for contact in position.contacts:
-                if contact.interior and contact.share > 0.1:
-                    yield position, contact
+        for position in self.every:
+            for contact in position.interior_contacts:
+                yield position, contact
 
     @property
-    def worst_contact(self) -> tuple[Position, PairContact]:
-        """The contact of the greatest pressure away from the ends of the flanks; if none is, that of the greatest load."""
-        inside = list(self.interior_contacts)
-        if inside:
-            return max(inside, key=lambda of: of[1].peak_pressure)
-        every = [(position, contact) for position in self.positions for contact in position.contacts]
-        return max(every, key=lambda of: of[1].force)
+    def worst_contact(self) -> tuple[Position, PairContact] | None:
+        """The contact of the greatest pressure away from the ends of the flanks; None if all are near them."""
+        return max(self.interior_contacts, key=lambda of: of[1].peak_pressure, default=None)
 
-    def bore_tension(self, gear: int) -> float | None:
-        """The greatest (MPa) on the bore of the pinion (0) or the wheel (1); None where it is kept round."""
-        return max((of for position in self.positions if (of := position.bore_tension[gear]) is not None), default=None)
+    @property
+    def heaviest_contact(self) -> tuple[Position, PairContact]:
+        """The contact of the greatest load, wherever it is."""
+        every = [(position, contact) for position in self.every for contact in position.contacts]
+        return max(every, key=lambda of: of[1].force)
 
     def worst_position(self, gear: int) -> Position:
         """The position of the greatest root tension of the pinion (0) or the wheel (1)."""
-        return max(self.positions, key=lambda position: position.tension[gear].stress)
+        return max(self.every, key=lambda position: position.tension[gear].stress)
+
+    def solve(self, angle: float) -> Position:
+        """The position at a roll angle (deg). Raises SolverError."""
+        return _position(self.model, angle, self.torque)
 
 
 def run_cycle(model: FlexiblePair, torque: float, count: int = 60) -> Cycle:
     """Solve `count` positions over one base pitch. Raises SolverError."""
-    roots = (Fillets(model.pinion), Fillets(model.wheel))
-    angles = model.roll_angles(count)
-    return Cycle(model, torque, tuple(_position(model, roots, float(angle), torque) for angle in angles))
+    positions = tuple(_position(model, angle, torque) for angle in model.roll_angles(count).tolist())
+    return Cycle(model, torque, positions)
 
 
-def pitch_point_contact(model: FlexiblePair, torque: float) -> PairContact:
-    """The contact of the middle pair at the pitch point."""
+def pitch_point_contact(model: FlexiblePair, torque: float) -> PairContact | None:
+    """The contact of the middle pair at the pitch point; None if that pair does not touch there."""
     contacts = _contacts(model, model.solve(0.0, torque))
-    return next(contact for contact in contacts if contact.pair.tooth == 0)
+    return next((contact for contact in contacts if contact.pair.tooth == 0), None)
 
 
 def single_stiffness(model: FlexiblePair, torque: float, count: int = 25) -> float:
@@ -191,15 +177,15 @@ def single_stiffness(model: FlexiblePair, torque: float, count: int = 25) -> flo
     return model.force(torque) / (min(approaches) * 1000)
 
 
-def _position(model: FlexiblePair, roots: tuple[Fillets, Fillets], angle: float, torque: float) -> Position:
+def _position(model: FlexiblePair, angle: float, torque: float) -> Position:
     solution = model.solve(angle, torque)
     contacts = _contacts(model, solution)
     loads = [tooth_loads(contacts, gear) for gear in (0, 1)]
     tension, compression = (
-        tuple(root.extreme(side, seen) for root, seen in zip(roots, loads, strict=True))
+        tuple(root.extreme(side, seen) for root, seen in zip(model.fillets, loads, strict=True))
         for side in (Side.LEFT_FILLET, Side.RIGHT_FILLET)
     )
-    bore = tuple(root.bore_tension(seen) for root, seen in zip(roots, loads, strict=True))
+    bore = tuple(root.bore_tension(seen) for root, seen in zip(model.fillets, loads, strict=True))
     return Position(
         angle,
         solution.approach,

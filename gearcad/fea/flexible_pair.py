@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from gearcad.fea.elasticity import Plane, PlaneElasticity
 from gearcad.fea.flank import FlankCompliance, flank_compliance
 from gearcad.fea.mesh_positions import MeshLine, contact_pairs, mesh_line, rigid_approach
 from gearcad.fea.ring import Cuts, Ring, assemble
+from gearcad.fea.root import Fillets
 from gearcad.fea.support import STEEL, Hold, Support, support_of
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material
@@ -139,6 +141,11 @@ class PairInMesh:
     pair: GearPair
 
     @property
+    def repeats(self) -> bool:
+        """True if one base pitch is like the next: no tooth differs from the others."""
+        return True
+
+    @property
     def width(self) -> float:
         """Common face width (mm), on which all of the load is."""
         return self.pair.common_width.width
@@ -184,6 +191,16 @@ class FlexiblePair(PairInMesh):
     line: MeshLine
     pinion: FlankCompliance
     wheel: FlankCompliance
+
+    @property
+    def repeats(self) -> bool:
+        """True unless the middle pair of teeth stands proud."""
+        return not self.line.proud
+
+    @cached_property
+    def fillets(self) -> tuple[Fillets, Fillets]:
+        """Stresses of the roots of both gears, as responses to loads on their flanks."""
+        return Fillets(self.pinion), Fillets(self.wheel)
 
     @property
     def modulus(self) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -155,8 +156,12 @@ def _overlap(line: MeshLine, pinion_length: float) -> tuple[float, float]:
     )
 
 
+@lru_cache(1024)
 def _nearest(line: MeshLine, tooth: int, pinion_length: float) -> tuple[float, float] | None:
-    """The least gap (mm) between the flanks of a pair of teeth, and its place along the tangent; None if they do not face."""
+    """The least gap (mm) between the flanks of a pair of teeth, and its place along the tangent; None if they do not face.
+
+    Known for the last positions: every torque and every step of its solution asks for it again.
+    """
     low, high = _overlap(line, pinion_length)
     if low >= high:
         return None
@@ -165,8 +170,14 @@ def _nearest(line: MeshLine, tooth: int, pinion_length: float) -> tuple[float, f
         return place**2 * line.whole / 2 / pinion_length / (line.whole - pinion_length), place
     places = np.linspace(low, high, _SAMPLES)
     gap = _gap(line, tooth, pinion_length, places)[2]
-    least = int(gap.argmin())
-    return float(gap[least]), float(places[least])
+    # The top of a parabola between the samples: else contact would jump from one to the next as gears roll.
+    least = min(max(int(gap.argmin()), 1), _SAMPLES - 2)
+    before, at, after = gap[least - 1 : least + 2]
+    bend = before - 2 * at + after
+    aside = float(np.clip((before - after) / (2 * bend), -1, 1)) if bend > 0 else 0.0
+    return float(at - (before - after) * aside / 2 + bend * aside**2 / 2), float(
+        places[least] + aside * (places[1] - places[0])
+    )
 
 
 def _gap(line: MeshLine, tooth: int, pinion_length: float, place: Floats) -> tuple[Floats, Floats, Floats]:

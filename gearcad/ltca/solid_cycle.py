@@ -10,70 +10,25 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.fea.cycle import LoadedPosition
+from gearcad.fea.cycle import FAIR
+from gearcad.fea.loaded import LoadedCycle, LoadedPosition
 from gearcad.geometry.contact import usable_path
-from gearcad.ltca.contact_lines import ContactLine
 from gearcad.ltca.line_contact import LineSolution
+from gearcad.ltca.solid_contact import INTERIOR, SolidContact
 from gearcad.ltca.solid_pair import SolidPair
 from gearcad.ltca.solid_root import FilletState, SolidFillet
 
 __all__ = [
     "RootPeak",
-    "SolidContact",
     "SolidCycle",
     "SolidPosition",
     "run_solid_cycle",
+    "solid_pitch_point_contact",
     "solid_single_stiffness",
     "tooth_loads",
 ]
 
 Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
-
-INTERIOR = 3.0
-"""Half widths from the edges of both flanks beyond which a contact is that of two cylinders."""
-
-
-@dataclass(frozen=True)
-class SolidContact:
-    """One pair of teeth in contact: per cell of its line (n,) forces in N, half widths in mm, peak pressures in MPa.
-
-    `interior` cells are away from all edges of both flanks; at the others the pressure depends on the edge.
-    """
-
-    line: ContactLine
-    forces: Floats
-    half_widths: Floats
-    pressures: Floats
-    radii: Floats
-    interior: Bools
-    share: float
-
-    @property
-    def tooth(self) -> int:
-        """Tooth of the pinion, 0 is the middle one."""
-        return self.line.tooth
-
-    @property
-    def force(self) -> float:
-        """Normal force (N)."""
-        return float(self.forces.sum())
-
-    @property
-    def line_loads(self) -> Floats:
-        """Normal load per length of the line (n,) in N/mm."""
-        result: Floats = self.forces / self.line.lengths
-        return result
-
-    @property
-    def edge(self) -> bool:
-        """True if the edge of a tip carries load."""
-        return bool((self.line.on_edge & (self.forces > 0)).any())
-
-    @property
-    def peak_pressure(self) -> float:
-        """Greatest pressure (MPa) of the interior cells, 0 if there are none."""
-        return float(np.where(self.interior, self.pressures, 0.0).max())
 
 
 @dataclass(frozen=True)
@@ -103,18 +58,32 @@ class SolidPosition(LoadedPosition):
     torques: tuple[float, float]
     bore_tension: tuple[float | None, float | None]
 
+    @property
+    def interior_contacts(self) -> tuple[SolidContact, ...]:
+        """Contacts with places away from all edges, if these places together carry a fair share of the load."""
+        inside = sum(float(contact.forces[contact.interior].sum()) for contact in self.contacts)
+        if inside <= FAIR * sum(contact.force for contact in self.contacts):
+            return ()
+        return tuple(contact for contact in self.contacts if len(contact.inside))
+
+    @property
+    def contact_pressure(self) -> float:
+        """Greatest pressure (MPa) of them away from all edges, NaN if there are none."""
+        return max((contact.peak_pressure for contact in self.interior_contacts), default=math.nan)
+
+    @property
+    def line_load(self) -> float:
+        """Greatest line load (N/mm) of them away from all edges, NaN if there are none."""
+        return max((contact.peak_line_load for contact in self.interior_contacts), default=math.nan)
+
 
 @dataclass(frozen=True)
-class SolidCycle:
-    """All positions of one base pitch at one torque (N m on the pinion)."""
+class SolidCycle(LoadedCycle[SolidPair, SolidPosition]):
+    """That of solid gears."""
 
-    model: SolidPair
-    torque: float
-    positions: tuple[SolidPosition, ...]
-
-    def values(self, name: str) -> Floats:
-        """A quantity of every position, such as "stiffness"."""
-        return np.array([getattr(position, name) for position in self.positions])
+    def solve(self, angle: float) -> SolidPosition:
+        """The position at a roll angle (deg). Raises SolverError."""
+        return _position(self.model, angle, self.torque)
 
     @property
     def harmonics(self) -> Floats:
@@ -125,23 +94,25 @@ class SolidCycle:
         return result
 
     @property
-    def worst_contact(self) -> tuple[SolidPosition, SolidContact]:
-        """The contact of the greatest interior pressure."""
-        every = [(position, contact) for position in self.positions for contact in position.contacts]
-        return max(every, key=lambda of: (of[1].peak_pressure, of[1].force))
+    def worst_contact(self) -> tuple[SolidPosition, SolidContact] | None:
+        """The contact of the greatest pressure away from all edges; None if there is none."""
+        every = ((position, contact) for position in self.every for contact in position.interior_contacts)
+        return max(every, key=lambda of: of[1].peak_pressure, default=None)
 
-    def bore_tension(self, gear: int) -> float | None:
-        """The greatest (MPa) on the bore of the pinion (0) or the wheel (1) below loaded teeth; None where it is kept round."""
-        return max((of for position in self.positions if (of := position.bore_tension[gear]) is not None), default=None)
+    @property
+    def heaviest_contact(self) -> tuple[SolidPosition, SolidContact]:
+        """The contact of the greatest load, wherever it is."""
+        every = [(position, contact) for position in self.every for contact in position.contacts]
+        return max(every, key=lambda of: of[1].force)
 
     def worst_position(self, gear: int) -> SolidPosition:
         """The position of the greatest root tension of the pinion (0) or the wheel (1)."""
-        return max(self.positions, key=lambda position: position.tension[gear].stress)
+        return max(self.every, key=lambda position: position.tension[gear].stress)
 
     @cached_property
     def load_along_face(self) -> tuple[Floats, Floats]:
-        """Places across the common width (n,) in mm from its middle, and the load per width there (n,) in N/mm, mean of all
-        positions: transverse normal force of all lines.
+        """Places across the common width (n,) in mm from its middle, and the load per width there (n,) in N/mm, mean of the
+        even positions: transverse normal force of all lines.
         """
         count, width = self.model.cells, self.model.width
         step = width / count
@@ -168,7 +139,7 @@ class SolidCycle:
     def root_along_face(self, gear: int) -> tuple[Floats, Floats]:
         """Heights (n,) in mm of the gear, and the greatest root tension of the cycle there (n,) in MPa."""
         fillet = self.model.fillets[gear][0]
-        stresses: Floats = np.array([position.tension[gear].along_face for position in self.positions])
+        stresses: Floats = np.array([position.tension[gear].along_face for position in self.every])
         return fillet.heights_between, stresses.max(axis=0)
 
     def root_face_load_factor(self, gear: int) -> float:
@@ -189,6 +160,12 @@ def run_solid_cycle(
         progress(done, count)
         positions.append(_position(model, angle, torque))
     return SolidCycle(model, torque, tuple(positions))
+
+
+def solid_pitch_point_contact(model: SolidPair, torque: float) -> SolidContact | None:
+    """The contact of the pair whose line crosses the pitch point in the middle of the face; None if it does not touch."""
+    contacts = _contacts(model, model.solve(0.0, torque))
+    return next((contact for contact in contacts if contact.tooth == 0), None)
 
 
 def solid_single_stiffness(model: SolidPair, torque: float, count: int = 15) -> float:
@@ -270,6 +247,6 @@ def _contacts(model: SolidPair, solution: LineSolution) -> tuple[SolidContact, .
     for line, forces, widths, pressures, radii in zip(given.lines, *(given.split(part) for part in parts), strict=True):
         if forces.sum() > 0:
             to_end = model.width / 2 - np.abs(line.across)
-            interior = (line.edge_distance > INTERIOR * widths) & (to_end > INTERIOR * widths) & (forces > 0)
-            found.append(SolidContact(line, forces, widths, pressures, radii, interior, float(forces.sum() / total)))
+            margin = np.minimum(line.edge_distance, to_end) - INTERIOR * widths
+            found.append(SolidContact(line, forces, widths, pressures, radii, margin, float(forces.sum() / total)))
     return tuple(found)

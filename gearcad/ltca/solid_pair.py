@@ -96,6 +96,11 @@ class SolidPair(PairInMesh):
         return replace(self, pair=mounted, mounting=mounting, line=mesh_line(mounted), known=known)
 
     @property
+    def repeats(self) -> bool:
+        """True unless the middle pair of teeth stands proud."""
+        return not self.mounting.pitch_error
+
+    @property
     def helix(self) -> float:
         """Base helix angle of the pinion (rad), signed."""
         return self.pinion.flank.helix

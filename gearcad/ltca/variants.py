@@ -16,7 +16,7 @@ from gearcad.geometry import FlankForm, GearPair, ReliefShape
 from gearcad.ltca.contact_lines import BEND, line_gap, places_beside
 from gearcad.ltca.line_contact import Responses, half_widths
 from gearcad.ltca.side_by_side import press
-from gearcad.ltca.solid_cycle import INTERIOR
+from gearcad.ltca.solid_contact import INTERIOR
 from gearcad.ltca.solid_pair import SolidPair
 from gearcad.mounting import Mounting
 

@@ -81,7 +81,7 @@ def plot_mesh_stiffness(result: CheckResult, ax: Axes | None = None) -> Axes:
     """Mesh stiffness over one base pitch, its mean and the greatest of a single pair, beside c_gamma and c' of ISO 6336-1."""
     axes = prepared(ax, _ROLL, "stiffness in N/(mm µm)")
     summary, standard, part = result.summary, result.rating.stiffness, result.rating.edition.part(1)
-    axes.plot(result.cycle.values("roll_angle"), result.cycle.values("stiffness"), color=SERIES[0], label="mesh stiffness")
+    axes.plot(result.cycle.course("roll_angle"), result.cycle.course("stiffness"), color=SERIES[0], label="mesh stiffness")
     for value, words, colour, style in (
         (summary.mesh_stiffness_mean, "its mean", SERIES[0], "--"),
         (standard.mesh_alpha, rf"$c_{{\gamma\alpha}}$, {part}", SERIES[1], "--"),
@@ -96,13 +96,14 @@ def plot_mesh_stiffness(result: CheckResult, ax: Axes | None = None) -> Axes:
 def plot_transmission_error(result: CheckResult, ax: Axes | None = None) -> Axes:
     """How far the wheel lags under load over one base pitch, and what each gear gives of it; all about their means."""
     axes = prepared(ax, _ROLL, "along the line of action, less the mean, in µm")
-    angles, error = result.cycle.values("roll_angle"), result.cycle.values("transmission_error")
-    parts = 1000 * result.cycle.values("approach_parts")
-    curves = [(error, "transmission error", DARK, "-", 1.5)]
-    curves += [(part, f"part of the {gear}", colour, "--", 1.2) for (gear, colour, _), part in zip(GEARS, parts.T, strict=True)]
-    for values, words, colour, style, width in curves:
-        label = f"{words}, mean {short(float(values.mean()))} µm"
-        axes.plot(angles, values - values.mean(), color=colour, linestyle=style, linewidth=width, label=label)
+    cycle = result.cycle
+    curves = [("transmission error", cycle.course("transmission_error"), cycle.mean("transmission_error")[0], DARK, "-", 1.5)]
+    parts, means = 1000 * cycle.course("approach_parts"), 1000 * cycle.mean("approach_parts")[0]
+    for (gear, colour, _), part, mean in zip(GEARS, parts.T, means, strict=True):
+        curves.append((f"part of the {gear}", part, mean, colour, "--", 1.2))
+    for words, values, mean, colour, style, width in curves:
+        label = f"{words}, mean {short(float(mean))} µm"
+        axes.plot(cycle.course("roll_angle"), values - mean, color=colour, linestyle=style, linewidth=width, label=label)
     legend_above(axes, 2)
     return axes
 
@@ -110,11 +111,11 @@ def plot_transmission_error(result: CheckResult, ax: Axes | None = None) -> Axes
 def plot_root_stress(result: CheckResult, ax: Axes | None = None) -> Axes:
     """Greatest tension and compression of both fillets over one base pitch, beside the root stress of ISO 6336-3."""
     axes = prepared(ax, _ROLL, "root stress in MPa")
-    angles = result.cycle.values("roll_angle")
+    angles = result.cycle.course("roll_angle")
     standard = r"$\sigma_{F0}$" if result.load.application_factor == 1 else r"$\sigma_{F0} K_A$"
     for gear, (words, colour, _) in enumerate(GEARS):
         for name, style in (("tension", "-"), ("compression", "--")):
-            stresses = [getattr(position, name)[gear].stress for position in result.cycle.positions]
+            stresses = [getattr(position, name)[gear].stress for position in result.cycle.every]
             axes.plot(angles, stresses, color=colour, linestyle=style, label=f"{words}, {name}")
         reference = result.rating.root_stresses[gear]
         axes.axhline(reference, color=colour, linestyle=":", linewidth=1.4, label=f"{words}, {standard} = {reference:.0f} MPa")
@@ -126,7 +127,7 @@ def plot_root_stress(result: CheckResult, ax: Axes | None = None) -> Axes:
 
 def _along_path(result: PlaneCheck) -> list[PairContact]:
     """All contacts of the cycle in the order in which one pair of teeth goes through them."""
-    contacts = [contact for position in result.cycle.positions for contact in position.contacts]
+    contacts = [contact for position in result.cycle.every for contact in position.contacts]
     return sorted(contacts, key=lambda contact: contact.pair.pinion)
 
 

@@ -73,8 +73,7 @@ class Cells(NamedTuple):
 
 def loaded_cells(result: SolidCheck) -> Cells:
     """All of a cycle."""
-    contacts = [contact for position in result.cycle.positions for contact in position.contacts]
-
+    contacts = [contact for position in result.cycle.every for contact in position.contacts]
     lines = [contact.line for contact in contacts]
     pinion, wheel = (np.concatenate(of, axis=1) for of in ([line.pinion for line in lines], [line.wheel for line in lines]))
     return Cells(
@@ -90,12 +89,12 @@ def loaded_cells(result: SolidCheck) -> Cells:
 
 
 def plot_line_loads(result: SolidCheck, ax: Axes | None = None) -> Axes:
-    """Line load over the plane of action, and the lines of contact of the position with the greatest pressure."""
+    """Line load over the plane of action, and the lines of contact of the position with the greatest pressure, or load."""
     axes = new_figure().subplots() if ax is None else ax
     cells = loaded_cells(result)
     cells = cells.only(~cells.on_edge | (cells.line_load > 0))
-    _map(axes, cells.place, cells.across, cells.line_load, cells.interior, "line load in N/mm")
-    position, _ = result.cycle.worst_contact
+    _map(axes, cells.place, cells.across, cells.line_load, result.summary.line_load_max, "line load in N/mm")
+    position, _ = result.cycle.worst_contact or result.cycle.heaviest_contact
     for contact in position.contacts:
         axes.plot(contact.line.nominal, contact.line.across, color="white", linewidth=1.2, linestyle="--")
     axes.set_xlabel(PATH)
@@ -112,7 +111,7 @@ def plot_contact_pattern(result: SolidCheck, gear: int, ax: Axes | None = None) 
     axes = new_figure().subplots() if ax is None else ax
     cells, own = loaded_cells(result), (result.pair.pinion, result.pair.wheel)[gear]
     cells = cells.only(~cells.on_edge)
-    _map(axes, cells.heights[gear], cells.rolls[gear], cells.pressure, cells.interior, "pressure in MPa")
+    _map(axes, cells.heights[gear], cells.rolls[gear], cells.pressure, result.summary.contact_pressure, "pressure in MPa")
     form = own.flank_form
     z, roll = np.array([0, 1, 1, 0, 0]) * form.width, np.array([0, 0, 1, 1, 0]) * (form.last - form.first) + form.first
     axes.plot(z, roll, color=DARK, linewidth=1.2, label=f"flank of the {GEARS[gear][0]}, tip above")
@@ -125,10 +124,10 @@ def plot_contact_pattern(result: SolidCheck, gear: int, ax: Axes | None = None) 
     return axes
 
 
-def _map(axes: Axes, x: Floats, y: Floats, values: Floats, interior: Bools, words: str) -> None:
-    """Greatest values at every place as colours, which end at the greatest away from edges."""
+def _map(axes: Axes, x: Floats, y: Floats, values: Floats, most: float | None, words: str) -> None:
+    """Greatest values at every place as colours, which end at the greatest away from edges, if there is one."""
     (x, y), found = _greatest(x, y, values)
-    most = float(values[interior].max()) if interior.any() else float(values.max())
+    most = float(found.max()) if most is None else most
     drawn = axes.tripcolor(_joined(x, y), found, shading="gouraud", vmin=0, vmax=most, cmap=_COLOUR_MAP)
     drawn.set_rasterized(True)
     axes.figure.colorbar(drawn, ax=axes, label=words, extend="max" if found.max() > most else "neither")

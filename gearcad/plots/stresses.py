@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from gearcad.check.result import PlaneCheck
 from gearcad.fea.cycle import root_loads
 from gearcad.fea.elasticity import Plane
-from gearcad.fea.root import Fillets
 from gearcad.fea.stress_field import ToothField, contact_frame, tooth_field
 from gearcad.fea.subsurface import strip_stresses
 from gearcad.meshing.outline import Side
@@ -20,7 +19,7 @@ from gearcad.rating import LineContact, Stresses
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from gearcad.fea.cycle import PairContact
+    from gearcad.fea.cycle import PairContact, Position
 
 __all__ = [
     "depth_stresses",
@@ -30,6 +29,7 @@ __all__ = [
     "plot_depth_profile",
     "plot_fillets",
     "plot_stress_field",
+    "shown_contact",
     "worst_fields",
 ]
 
@@ -53,9 +53,14 @@ _LEAST_ANGLE, _ISO_ANGLE = 20.0, 30.0
 """Tangent angles (deg) from which on a fillet is the root, and where ISO 6336-3 looks."""
 
 
+def shown_contact(result: PlaneCheck) -> tuple[Position, PairContact]:
+    """The contact of the greatest pressure away from corners, or that of the greatest load where all are near them."""
+    return result.cycle.worst_contact or result.cycle.heaviest_contact
+
+
 def worst_fields(result: PlaneCheck) -> list[ToothField]:
-    """Stresses in three teeth of each gear at the position of the greatest pressure away from corners."""
-    position, contact = result.cycle.worst_contact
+    """Stresses in three teeth of each gear at the position of the contact that is shown."""
+    position, contact = shown_contact(result)
     teeth = range(contact.pair.tooth - 1, contact.pair.tooth + 2)
     return [tooth_field(result.cycle, position, gear, tooth) for gear in (0, 1) for tooth in teeth]
 
@@ -65,7 +70,7 @@ def plot_stress_field(result: PlaneCheck, ax: Axes | None = None, fields: list[T
 
     `fields` are those of `worst_fields`, if they are at hand.
     """
-    position, _ = result.cycle.worst_contact
+    position, _ = shown_contact(result)
     most = max(abs(stress.stress) for stress in (*position.tension, *position.compression))
     module = result.pair.pinion.normal_module
     fields = worst_fields(result) if fields is None else fields
@@ -74,7 +79,7 @@ def plot_stress_field(result: PlaneCheck, ax: Axes | None = None, fields: list[T
 
 def plot_contact_zone(result: PlaneCheck, ax: Axes | None = None, fields: list[ToothField] | None = None) -> Axes:
     """Von Mises stress around the contact of `plot_stress_field`, some half widths wide."""
-    _, contact = result.cycle.worst_contact
+    _, contact = shown_contact(result)
     fields = worst_fields(result) if fields is None else fields
     most = max(float(field.von_mises.max()) for field in fields)
     return _plot_field(result, ax, fields, _ZONE * contact.hertz_half_width, most, ((0.5, 0.06), (0.5, 0.94)))
@@ -85,7 +90,7 @@ def _plot_field(
 ) -> Axes:
     """Fields within `reach` (mm) of the worst contact, colours up to `most` (MPa), the gears' names at parts of the axes."""
     axes = new_figure().subplots() if ax is None else ax
-    (x, y), _ = contact_frame(result.cycle, result.cycle.worst_contact[1])
+    (x, y), _ = contact_frame(result.cycle, shown_contact(result)[1])
     for field in fields:
         drawn = axes.tripcolor(
             *field.points.T, field.triangles, field.von_mises, shading="gouraud", vmin=0, vmax=most, cmap=_COLOUR_MAP
@@ -106,8 +111,7 @@ def _plot_field(
 
 def fillet_curve(result: PlaneCheck, gear: int, side: Side) -> tuple[Floats, Floats]:
     """Tangent angles (deg) and stresses (MPa) along a fillet of the most stressed tooth when its gear's tension is greatest."""
-    body = (result.cycle.model.pinion, result.cycle.model.wheel)[gear]
-    fillets = Fillets(body)
+    fillets = result.cycle.model.fillets[gear]
     seen = root_loads(result.cycle.worst_position(gear).contacts, gear)
     worst = max(seen, key=lambda loads: fillets.greatest(Side.LEFT_FILLET, loads).stress)
     angles = fillets.places(side)[1]
@@ -136,7 +140,7 @@ def plot_fillets(result: PlaneCheck, ax: Axes | None = None) -> Axes:
 def plot_depth_profile(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     """Stresses below the middle of the worst contact by the pressures found (lines), and by Hertz (dots)."""
     axes = prepared(ax, "depth below the flank in mm", "stress in MPa")
-    _, contact = result.cycle.worst_contact
+    _, contact = shown_contact(result)
     depth = contact.hertz_half_width * np.linspace(0.02, _DEEPEST, 200)
     found, hertz = depth_stresses(result, contact, depth), hertz_contact(result, contact).stresses(depth)
     for (name, words), colour in zip(_DEPTH_WORDS.items(), SERIES, strict=True):

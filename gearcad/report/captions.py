@@ -8,7 +8,12 @@ from gearcad.check.result import CheckResult
 from gearcad.geometry import GearPair
 from gearcad.plots.paper import short
 
-__all__ = ["mesh_stiffness", "pair", "root_stress", "sweep_pressure", "sweep_stiffness", "transmission_error"]
+__all__ = ["mesh_stiffness", "number", "pair", "root_stress", "sweep_pressure", "sweep_stiffness", "transmission_error"]
+
+
+def number(value: float | None) -> str:
+    """A figure, or that there is none."""
+    return "none" if value is None else short(value)
 
 
 def pair(of: GearPair) -> str:
@@ -35,8 +40,8 @@ def mesh_stiffness(result: CheckResult) -> str:
 
 def transmission_error(result: CheckResult) -> str:
     """Caption of the transmission error."""
-    parts = 1000 * result.cycle.values("approach_parts").mean(axis=0)
-    total = float(result.cycle.values("transmission_error").mean())
+    parts = 1000 * result.cycle.mean("approach_parts")[0]
+    total = float(result.cycle.mean("transmission_error")[0])
     return (
         "How far the wheel lags behind the pinion along the line of action; it swings by "
         f"{short(result.summary.transmission_error_peak_to_peak)} µm. Of {short(total)} µm on the mean the pinion gives "
@@ -63,9 +68,11 @@ def root_stress(result: CheckResult) -> str:
 
 def sweep_pressure(result: CheckResult) -> str:
     """Caption of the pressure over torque."""
-    exponent = _exponent(result, [point.contact_pressure for point in result.sweep])
+    pressures = [point.contact_pressure for point in result.sweep if point.contact_pressure is not None]
+    exponent = _exponent(result, pressures) if len(pressures) == len(result.sweep) else None
     roots = [_exponent(result, [point.root_tension[gear] for point in result.sweep]) for gear in (0, 1)]
-    text = "Greatest pressure away from the corners at each torque. "
+    text = "Greatest pressure away from the corners at each torque"
+    text += "; none where all contacts are near them. " if len(pressures) < len(result.sweep) else ". "
     if exponent is not None:
         text += (
             f"It grows as the torque to the power {exponent:.2f}: not linearly, because the contact widens with the load "

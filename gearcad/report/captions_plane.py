@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from gearcad.check.result import PlaneCheck
+from gearcad.fea.cycle import PairContact
 from gearcad.fea.stress_field import ToothField
 from gearcad.plots.paper import short
-from gearcad.plots.stresses import hertz_contact
+from gearcad.plots.stresses import hertz_contact, shown_contact
+from gearcad.report.captions import number
 
 __all__ = [
     "contact_pressure",
@@ -23,10 +25,15 @@ __all__ = [
 
 def stress_field(result: PlaneCheck) -> str:
     """Caption of the teeth."""
-    position, contact = result.cycle.worst_contact
+    position, contact = shown_contact(result)
+    where = (
+        f"the contact pressure away from the corners of the flanks is greatest ({short(contact.peak_pressure)} MPa)"
+        if result.cycle.worst_contact is not None
+        else "a pair of teeth carries most; no contact of this load is away from the corners of the flanks"
+    )
     return (
-        f"Von Mises stress of both gears at roll angle {position.roll_angle:.2f}°, where the contact pressure away from the "
-        f"corners of the flanks is greatest ({short(contact.peak_pressure)} MPa). Look at the fillets below the contact: "
+        f"Von Mises stress of both gears at roll angle {position.roll_angle:.2f}°, where {where}. "
+        "Look at the fillets below the contact: "
         "tension on "
         "the loaded side, compression behind. The colours end a tenth above the greatest fillet stress of this position; the "
         "contact lies above and is shown in the next figure. The teeth are drawn as they stand before they bend; loads on "
@@ -35,17 +42,19 @@ def stress_field(result: PlaneCheck) -> str:
     )
 
 
-def contact_zone(result: PlaneCheck, fields: list[ToothField]) -> str:
+def contact_zone(result: PlaneCheck, contact: PairContact, fields: list[ToothField]) -> str:
     """Caption of the zone of contact."""
     most = max(float(field.von_mises.max()) for field in fields)
     alone = result.summary.von_mises_half_plane
-    _, contact = result.cycle.worst_contact
-    return (
+    text = (
         f"The same contact, {short(2 * contact.half_width)} mm wide. The finite elements carry the smooth part of the field; "
         "that of the pressures is added in closed form, as on a half-plane along the flank's tangent, so that nothing of the "
-        f"contact rests on the size of an element. The greatest von Mises stress here is {short(most)} MPa; a half-plane "
-        "under the same "
-        f"pressures alone has {short(alone)} MPa. The difference of "
+        f"contact rests on the size of an element. The greatest von Mises stress here is {short(most)} MPa"
+    )
+    if alone is None:
+        return text + "."
+    return text + (
+        f"; a half-plane under the same pressures alone has {short(alone)} MPa. The difference of "
         f"{100 * (most / alone - 1):+.1f} % is the stress of the tooth itself."
     )
 
@@ -60,8 +69,10 @@ def contact_pressure(result: PlaneCheck) -> str:
         text += (
             f"At the {len(contacts)} contacts away from the ends of the flanks it differs from Hertz's pressure under the "
             "load that "
-            f"the pair carries by {100 * worst:.2f} % at most; the greatest is {short(result.summary.contact_pressure)} MPa. "
+            f"the pair carries by {100 * worst:.2f} % at most; the greatest is {number(result.summary.contact_pressure)} MPa. "
         )
+    else:
+        text += "At no position is a contact away from the ends of the flanks: there is no pressure to tell. "
     text += (
         "Near the ends of a flank, and where a corner touches, no line is drawn: that pressure is decided by the edge, not by "
     )
@@ -70,9 +81,8 @@ def contact_pressure(result: PlaneCheck) -> str:
     return text
 
 
-def depth_profile(result: PlaneCheck) -> str:
+def depth_profile(result: PlaneCheck, contact: PairContact) -> str:
     """Caption of the depth profiles."""
-    _, contact = result.cycle.worst_contact
     hertz = hertz_contact(result, contact)
     peak, shear = hertz.greatest_von_mises, hertz.greatest_shear
     return (
@@ -82,8 +92,8 @@ def depth_profile(result: PlaneCheck) -> str:
         "stress, "
         f"{short(peak.value)} MPa, {short(peak.depth)} mm deep, and the greatest shear, {short(shear.value)} MPa, "
         f"{short(shear.depth)} mm "
-        f"deep; in the teeth the greatest von Mises stress is {short(result.summary.von_mises)} MPa at "
-        f"{short(result.summary.von_mises_depth)} mm."
+        f"deep; in the teeth the greatest von Mises stress is {number(result.summary.von_mises)} MPa at "
+        f"{number(result.summary.von_mises_depth)} mm."
     )
 
 
@@ -124,8 +134,6 @@ def convergence(result: PlaneCheck) -> str:
 
 def share_at(result: PlaneCheck, length: float) -> float:
     """Load share of a pair of teeth at a place on the line of action (mm from T1), between the positions solved."""
-    contacts = sorted(
-        (contact.pair.pinion, contact.share) for position in result.cycle.positions for contact in position.contacts
-    )
+    contacts = sorted((contact.pair.pinion, contact.share) for position in result.cycle.every for contact in position.contacts)
     places, shares = zip(*contacts, strict=True)
     return float(np.interp(length, places, shares))

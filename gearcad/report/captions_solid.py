@@ -8,6 +8,7 @@ from gearcad.check.convergence import SOLID_ORDER
 from gearcad.check.result import SolidCheck
 from gearcad.check.solid_summary import middle_contacts
 from gearcad.plots.paper import short
+from gearcad.report.captions import number
 
 __all__ = [
     "contact_pattern",
@@ -24,14 +25,16 @@ __all__ = [
 def line_loads(result: SolidCheck) -> str:
     """Caption of the load over the plane of action."""
     summary = result.summary
-    position, _ = result.cycle.worst_contact
+    worst = result.cycle.worst_contact
+    position, _ = worst or result.cycle.heaviest_contact
+    where = "the pressure away from the edges is greatest" if worst else "a pair of teeth carries most, all of it beside edges"
     corners, count = summary.corner_positions, len(result.cycle.positions)
     touch = f"The edge of a tip carries at {corners} of {count} positions" if corners else "No edge of a tip carries"
     return (
         "Load per length of the lines of contact, of all positions together, over the plane of action: each pair of teeth "
         "crosses it once, from left to right. Dashed: the lines of contact at roll angle "
-        f"{position.roll_angle:.2f}°, where the pressure away from the edges is greatest. Colours end at "
-        f"{short(summary.line_load_max)} N/mm, the greatest away from the edges. {touch}: beyond A and E, where no flank "
+        f"{position.roll_angle:.2f}°, where {where}. Colours end at "
+        f"{number(summary.line_load_max)} N/mm, the greatest away from the edges. {touch}: beyond A and E, where no flank "
         "meets a "
         "flank any more."
     )
@@ -43,8 +46,8 @@ def contact_pattern(result: SolidCheck, gear: int) -> str:
     return (
         f"Greatest pressure at each place of the {name}'s flank while it goes through the mesh: the contact pattern, as "
         "marking "
-        f"compound would show it. The greatest away from the edges is {short(summary.contact_pressure)} MPa at radius "
-        f"{short(summary.contact_pressure_radius[gear])} mm, {short(summary.contact_pressure_across)} mm from the middle "
+        f"compound would show it. The greatest away from the edges is {number(summary.contact_pressure)} MPa at radius "
+        f"{number(summary.contact_pressure_radius[gear])} mm, {number(summary.contact_pressure_across)} mm from the middle "
         "of the "
         "common width; brighter places beside edges are Hertz's formula with the load of that place, which no edge fits. Edges "
         "of tips are left out."

@@ -71,12 +71,17 @@ def make_figures(result: CheckResult) -> list[Picture]:
 def _plane_drawings(of: PlaneCheck) -> list[_Drawing]:
     fields, words = worst_fields(of), captions_plane
     teeth, zone = (partial(plot, of, fields=fields) for plot in (plot_stress_field, plot_contact_zone))
-    along_path = "Pressure along the path of contact"
+    along_path, worst = "Pressure along the path of contact", of.cycle.worst_contact
+    around, below = [], []
+    if worst is not None:
+        caption = words.contact_zone(of, worst[1], fields)
+        around = [_Drawing("Stress around the contact", lambda ax: zone(ax=ax), caption, "png")]
+        below = [_Drawing("Stresses below the flank", partial(plot_depth_profile, of), words.depth_profile(of, worst[1]))]
     return [
         _Drawing("Stress in the teeth", lambda ax: teeth(ax=ax), words.stress_field(of), "png"),
-        _Drawing("Stress around the contact", lambda ax: zone(ax=ax), words.contact_zone(of, fields), "png"),
+        *around,
         _Drawing(along_path, partial(plot_contact_pressure, of), words.contact_pressure(of)),
-        _Drawing("Stresses below the flank", partial(plot_depth_profile, of), words.depth_profile(of)),
+        *below,
         _Drawing("Load share", partial(plot_load_share, of), words.load_share(of)),
         *_over_mesh(of),
         _Drawing("Stress along the fillets", partial(plot_fillets, of), words.fillets(of)),

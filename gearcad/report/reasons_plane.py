@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from gearcad.check.result import PlaneCheck
-from gearcad.fea.root import Fillets
 from gearcad.meshing.outline import Side
 from gearcad.plots.paper import short
 from gearcad.report.captions_plane import share_at
@@ -16,7 +15,7 @@ def root_at_single_contact(result: PlaneCheck, gear: int) -> float:
     model, path = result.cycle.model, result.pair.path_of_contact
     length = (path.D, model.line.whole - path.B)[gear]
     load = (0, length, model.force(result.cycle.torque))
-    return Fillets((model.pinion, model.wheel)[gear]).extreme(Side.LEFT_FILLET, [load]).stress
+    return model.fillets[gear].extreme(Side.LEFT_FILLET, [load]).stress
 
 
 def plane_root_reasons(result: PlaneCheck) -> list[str]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from gearcad.check.face import face_factors
 from gearcad.check.result import SolidCheck
-from gearcad.check.solid_summary import worst_cell
+from gearcad.check.solid_summary import WorstPlace, worst_place
 from gearcad.geometry.contact import contact_line_lengths
 from gearcad.plots.paper import short
 
@@ -50,14 +50,12 @@ def face_reasons(result: SolidCheck) -> list[str]:
     summary, rating, factors = result.summary, result.rating, face_factors(result)
     length = contact_line_lengths(result.pair).mean
     mean = rating.normal_force * rating.application_factor / length
-    position, contact, cell = worst_cell(result.cycle)
+    worst = worst_place(result.cycle)
     across, load = result.cycle.load_along_face
     greatest = across[np.abs(load - summary.face_load_factor * load.mean()).argmin()]
+    pressure = "none away from the edges" if worst is None else _pressure_reason(worst)
     return [
-        f"Pressure: {short(summary.contact_pressure)} MPa at roll angle {position.roll_angle:.2f}°, "
-        f"{short(summary.contact_pressure_across)} mm from the middle of the common width, where the line load is "
-        f"{short(float(contact.line_loads[cell]))} N/mm and the reduced radius {short(float(contact.radii[cell]))} mm. ISO "
-        "has the "
+        f"Pressure: {pressure}. ISO has the "
         f"mean, F_bn K_A over {short(length)} mm of lines: {short(mean)} N/mm, on the radius "
         f"{short(rating.pitch_point.radius)} mm "
         "of the pitch point, and carries it to the inner point of single contact by Z_B and Z_D.",
@@ -70,3 +68,12 @@ def face_reasons(result: SolidCheck) -> list[str]:
         "modifications make; ends of the faces, at which the teeth are stiffer or softer, crowning and relief, and the turning "
         "of the bodies are in the finite elements alone.",
     ]
+
+
+def _pressure_reason(worst: WorstPlace) -> str:
+    line = worst.contact
+    return (
+        f"{short(worst.of(line.pressures))} MPa at roll angle {worst.position.roll_angle:.2f}°, "
+        f"{short(worst.of(line.line.across))} mm from the middle of the common width, where the line load is "
+        f"{short(worst.of(line.line_loads))} N/mm and the reduced radius {short(worst.of(line.radii))} mm"
+    )

@@ -52,6 +52,9 @@ _FORCES = 1e-6
 _NODAL = 0.06
 """A stress averaged at nodes against that at the points between them: 4 % on elements as coarse as these."""
 
+_BETWEEN = 0.03
+"""What 12 positions miss of an extreme."""
+
 _EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7))
 """Corners between which nodes 8 to 19 of VTK's quadratic hexahedron lie."""
 
@@ -130,15 +133,17 @@ def test_hubs_feel_the_torque(document: dict) -> None:
 
 def test_summary_is_that_of_the_lists(document: dict) -> None:
     cycle, summary = document["mesh_cycle"], document["summary"]
-    assert summary["mesh_stiffness_mean"] == pytest.approx(np.mean(cycle["mesh_stiffness"]))
-    assert summary["transmission_error_peak_to_peak"] == pytest.approx(np.ptp(cycle["transmission_error"]))
+    assert summary["mesh_stiffness_mean"] == pytest.approx(np.mean(cycle["mesh_stiffness"]), rel=_BETWEEN)
+    swing = np.ptp(cycle["transmission_error"])
+    assert swing <= summary["transmission_error_peak_to_peak"] < (1 + 10 * _BETWEEN) * swing
     turns = 2 * np.pi * np.arange(12) / 12
     for harmonic, amplitude in enumerate(summary["transmission_error_harmonics"], start=1):
         wave = np.exp(1j * harmonic * turns) @ cycle["transmission_error"]
         assert amplitude == pytest.approx(2 * abs(wave) / 12, abs=1e-9)
     for gear in ("pinion", "wheel"):
         along = document["face"][gear]
-        assert max(cycle[f"root_stress_{gear}"]) == summary[f"root_tension_{gear}"] == max(along["root_tension"])
+        most = max(cycle[f"root_stress_{gear}"])
+        assert most <= summary[f"root_tension_{gear}"] == max(along["root_tension"]) < (1 + _BETWEEN) * most
         assert along["height"][int(np.argmax(along["root_tension"]))] == summary[f"root_tension_height_{gear}"]
     cells = [
         (line["pressure"][k], line["line_load"][k], line["across"][k])
@@ -147,9 +152,16 @@ def test_summary_is_that_of_the_lists(document: dict) -> None:
         for k in range(len(line["across"]))
         if line["interior"][k]
     ]
-    assert max(cells)[0] == summary["contact_pressure"]
-    assert max(cells)[2] == summary["contact_pressure_across"]
-    assert max(load for _, load, _ in cells) == summary["line_load_max"]
+    # Between the positions, and between the last cell inside and the first that an edge reaches, there can be more.
+    most, _, across = max(cells)
+    assert most <= summary["contact_pressure"] < (1 + 2 * _BETWEEN) * most
+    assert summary["contact_pressure_across"] == pytest.approx(across, abs=0.5)
+    most = max(load for _, load, _ in cells)
+    assert most <= summary["line_load_max"] < (1 + 2 * _BETWEEN) * most
+    for name in ("contact_pressure", "line_load_max", "root_tension_pinion", "root_tension_wheel"):
+        found = document["extremes"][name]
+        assert found["value"] == summary[name] and found["error"] < 0.002
+        assert document["torque_sweep"][1].get(name, summary[name]) == pytest.approx(summary[name], rel=0.002)
 
 
 def test_misalignment_and_modifications_are_told(document: dict, folder: Path) -> None:

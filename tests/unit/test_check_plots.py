@@ -73,7 +73,7 @@ def test_pressure_is_drawn_inside_the_flanks_only():
     places, pressures = line(axes, "finite elements")
     inside = {contact.pair.pinion: contact for _, contact in small_check().cycle.interior_contacts}
     assert set(inside) <= set(places[~np.isnan(pressures)])
-    every = {c.pair.pinion: c for position in small_check().cycle.positions for c in position.contacts}
+    every = {c.pair.pinion: c for position in small_check().cycle.every for c in position.contacts}
     assert list(places) == sorted(every)
     for place, pressure, hertz in zip(places, pressures, line(axes, "Hertz")[1], strict=True):
         contact = every[place]
@@ -87,7 +87,7 @@ def test_pressure_is_drawn_inside_the_flanks_only():
 
 def test_share_of_every_contact():
     places, shares = line(plot_load_share(small_check()), "finite elements")
-    every = {c.pair.pinion: c.share for position in small_check().cycle.positions for c in position.contacts}
+    every = {c.pair.pinion: c.share for position in small_check().cycle.every for c in position.contacts}
     assert dict(zip(places, shares, strict=True)) == every
 
 
@@ -100,8 +100,8 @@ def test_path_is_marked_where_it_is():
 def test_stiffness_and_its_references():
     result, axes = small_check(), plot_mesh_stiffness(small_check())
     angles, stiffness = line(axes, "mesh stiffness")
-    assert list(angles) == [position.roll_angle for position in result.cycle.positions]
-    assert list(stiffness) == [position.stiffness for position in result.cycle.positions]
+    assert list(angles) == [position.roll_angle for position in result.cycle.every]
+    assert list(stiffness) == [position.stiffness for position in result.cycle.every]
     for label, value in (
         ("its mean", result.summary.mesh_stiffness_mean),
         (r"$c_{\gamma", result.rating.stiffness.mesh_alpha),
@@ -114,13 +114,16 @@ def test_stiffness_and_its_references():
 def test_transmission_error_and_its_parts():
     """About their means, so that the swing is seen and not the zero."""
     result, axes = small_check(), plot_transmission_error(small_check())
-    drawn = {"transmission": np.array([1000 * position.approach for position in result.cycle.positions])}
+    error = result.cycle.mean("transmission_error")[0]
+    drawn = {"transmission": np.array([1000 * position.approach for position in result.cycle.every]) - error}
     for gear, name in enumerate(("pinion", "wheel")):
-        drawn[f"part of the {name}"] = np.array([1000 * position.approach_parts[gear] for position in result.cycle.positions])
+        part = np.array([1000 * position.approach_parts[gear] for position in result.cycle.every])
+        drawn[f"part of the {name}"] = part - 1000 * result.cycle.mean("approach_parts")[0][gear]
     for label, values in drawn.items():
-        assert line(axes, label)[1] == pytest.approx(values - values.mean(), abs=1e-9)
+        assert line(axes, label)[1] == pytest.approx(values, abs=1e-9)
     swing = np.ptp(drawn["transmission"])
-    assert np.ptp(axes.get_ylim()) < 1.3 * swing < 0.6 * drawn["transmission"].max()
+    assert swing == pytest.approx(result.summary.transmission_error_peak_to_peak)
+    assert np.ptp(axes.get_ylim()) < 1.3 * swing < 0.6 * (drawn["transmission"] + error).max()
 
 
 def test_stiffness_fills_its_own_range():
@@ -134,7 +137,7 @@ def test_root_stress_of_both_gears():
     result, axes = small_check(), plot_root_stress(small_check())
     for gear, name in enumerate(("pinion", "wheel")):
         for kind in ("tension", "compression"):
-            wanted = [getattr(position, kind)[gear].stress for position in result.cycle.positions]
+            wanted = [getattr(position, kind)[gear].stress for position in result.cycle.every]
             assert list(line(axes, f"{name}, {kind}")[1]) == wanted
         assert set(line(axes, rf"{name}, $\sigma")[1]) == {result.rating.root_stresses[gear]}
     assert set(line(axes, "limit")[1]) == {430.0}

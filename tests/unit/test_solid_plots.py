@@ -84,7 +84,7 @@ def test_cells_lie_on_the_line_of_action():
 def test_share_is_that_of_every_contact():
     result = small_solid_check()
     places, shares = line(plot_lines_share(result), "finite elements")
-    assert sorted(shares) == sorted(c.share for position in result.cycle.positions for c in position.contacts)
+    assert sorted(shares) == sorted(c.share for position in result.cycle.every for c in position.contacts)
     assert list(places) == sorted(places) == [each.place for each in middle_contacts(result.cycle)]
 
 
