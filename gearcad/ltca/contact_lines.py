@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.fea.mesh_positions import MeshLine
-from gearcad.geometry import GearPair
+from gearcad.geometry import Gear, GearPair
 from gearcad.ltca.flank import Places, SolidFlank
 from gearcad.mounting import Mounting
 
@@ -154,11 +154,12 @@ def line_gap(
     """Gaps along the normal and reduced radii (..., n) in mm of a line, flanks taken back by `depths` (..., n) in mm
     at the `places_beside` it.
     """
-    before, here, after = depths
+    here, before, middle, after = depths
     step = BEND * pair.pinion.normal_module
-    curvature = np.maximum(line.curvature + (after - 2 * here + before) / step**2, _LEAST_BEND * line.curvature)
+    bend = (after - 2 * middle + before) / step**2
+    curvature = np.maximum(line.curvature + bend, _LEAST_BEND * line.curvature)
     # Where the depth slopes, the flanks are nearest a little aside: the gap is a parabola there.
-    slope = np.where(line.on_edge, 0.0, (after - before) / (2 * step))
+    slope = np.where(line.on_edge, 0.0, (after - before) / (2 * step) - bend * _aside(line, pair, mounting))
     transverse = line.gap + here - slope**2 / (2 * curvature)
     if line.tooth == 0:
         transverse = transverse - mounting.pitch_error / 1000
@@ -168,22 +169,51 @@ def line_gap(
 
 
 def places_beside(line: ContactLine, pair: GearPair, mounting: Mounting) -> list[tuple[Places, Places]]:
-    """Places on the pinion's and the wheel's flank a little before the line, on it, and after it along the tangent, towards
-    the pinion's tip; three are what it takes to tell slope and curvature.
+    """Places on the pinion's and the wheel's flank on the line, and three along the tangent, towards the pinion's tip, which
+    are what it takes to tell slope and curvature: a little before the line, on it and after it, or at the ends of the flanks
+    as near to it as they all lie on them.
 
     The wheel has slid along the tangent where its axis is turned across, so that the pinion meets it nearer to its tip.
     """
-    step = BEND * pair.pinion.normal_module
-    slid = mounting.misalignment_across / 1000 / pair.common_width.width * line.across
-    sides = ((pair.pinion, line.pinion, 1, 0.0), (pair.wheel, line.wheel, -1, slid))
+    step, aside = BEND * pair.pinion.normal_module, _aside(line, pair, mounting)
     found = []
-    for place in (-step, 0.0, step):
+    for place in (np.zeros_like(aside), aside - step, aside, aside + step):
         pinion, wheel = (
             (np.sqrt(np.maximum(lengths**2 + gear.base_diameter * (sense * place + moved), 0.0)), heights)
-            for gear, (lengths, heights), sense, moved in sides
+            for gear, (lengths, heights), sense, moved in _sides(line, pair, mounting)
         )
         found.append((pinion, wheel))
     return found
+
+
+def _sides(line: ContactLine, pair: GearPair, mounting: Mounting) -> tuple[tuple[Gear, Places, int, Floats], ...]:
+    """Both gears with their places, the sense of the tangent towards their tips, and how far (n,) in mm they slid along it."""
+    slid = mounting.misalignment_across / 1000 / pair.common_width.width * line.across
+    return (pair.pinion, line.pinion, 1, np.zeros_like(slid)), (pair.wheel, line.wheel, -1, slid)
+
+
+def _aside(line: ContactLine, pair: GearPair, mounting: Mounting) -> Floats:
+    """How far (n,) in mm along the tangent slope and curvature are taken from the line, so that no end of a flank is passed:
+    beyond it a modification goes on no more.
+    """
+    step, low, high = (
+        BEND * pair.pinion.normal_module,
+        np.full_like(line.across, -math.inf),
+        np.full_like(line.across, math.inf),
+    )
+    for gear, (lengths, _), sense, moved in _sides(line, pair, mounting):
+        form = gear.flank_form
+        first, last = ((end**2 - lengths**2) / gear.base_diameter - moved for end in (form.first, form.last))
+        low, high = (
+            (np.maximum(low, first), np.minimum(high, last))
+            if sense > 0
+            else (
+                np.maximum(low, -last),
+                np.minimum(high, -first),
+            )
+        )
+    result: Floats = np.clip(0.0, low + step, high - step)
+    return result
 
 
 def _taken_back(pair: GearPair, places: tuple[Places, Places]) -> Floats:
