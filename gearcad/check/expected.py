@@ -15,6 +15,9 @@ BODIES, CYCLE, SWEEP, RATING = "bodies of pinion and wheel", "mesh cycle", "torq
 COARSER, FINER = "coarser bodies, for the error", "finer bodies, for the error"
 
 _SINGLE_POSITIONS = 15
+
+_SOUGHT = 2
+"""How many times the positions asked for there are with those between them, where extremes are sought."""
 _RATING_SECONDS = 0.2
 
 _PROGRAM = 0.15e9
@@ -35,12 +38,13 @@ def _bodies(task: Task) -> dict[str, Expected]:
 
 def solid_steps(task: Task) -> dict[str, float]:
     """Seconds expected of each step, in order."""
-    bodies = {name: each.seconds + FEW_POSITIONS * POSITION_SECONDS for name, each in _bodies(task).items()}
-    positions = task.options.positions_of(Model.SOLID) + _SINGLE_POSITIONS
+    few = _SOUGHT * FEW_POSITIONS * POSITION_SECONDS
+    bodies = {name: each.seconds + few for name, each in _bodies(task).items()}
+    positions = _SOUGHT * task.options.positions_of(Model.SOLID) + _SINGLE_POSITIONS
     return {
         BODIES: bodies.pop(BODIES),
         CYCLE: positions * POSITION_SECONDS,
-        SWEEP: len(task.torques) * FEW_POSITIONS * POSITION_SECONDS,
+        SWEEP: len(task.torques) * few,
         **bodies,
         RATING: _RATING_SECONDS,
     }

@@ -9,7 +9,7 @@ from gearcad.fea.cycle import Cycle, Position
 from gearcad.fea.extremes import Extreme, Quantity
 from gearcad.ltca.solid_cycle import SolidCycle, SolidPosition
 
-__all__ = ["PLANE", "ROOTS", "SOLID", "STRESSES", "Extremes", "found"]
+__all__ = ["PLANE", "PRESSURE", "ROOTS", "SOLID", "STRESSES", "Extremes", "found"]
 
 _Position: TypeAlias = Position | SolidPosition
 _Quantities: TypeAlias = tuple[Quantity[_Position], ...]
@@ -37,7 +37,8 @@ def _bore(gear: int) -> Quantity[_Position]:
 
 
 ROOTS: _Quantities = (_tension(0), _tension(1))
-STRESSES: _Quantities = (*ROOTS, Quantity("contact_pressure", lambda position: position.contact_pressure))
+PRESSURE: Quantity[_Position] = Quantity("contact_pressure", lambda position: position.contact_pressure)
+STRESSES: _Quantities = (*ROOTS, PRESSURE)
 
 _COURSES: _Quantities = (
     Quantity("transmission_error_max", lambda position: position.transmission_error, swing=True),

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from gearcad.check.comparison import Comparison, Role, Subject, against, at_most
 from gearcad.check.convergence import LEAST_ORDER, Convergence
-from gearcad.check.extremes import STRESSES
+from gearcad.check.extremes import PRESSURE, ROOTS
 from gearcad.check.result import Task
 from gearcad.check.rim import bending_limits, bending_notes, rim_gates
 from gearcad.check.summary import PlaneSummary, Summary
@@ -20,7 +20,9 @@ REACTION = 0.005
 
 _HERTZ = 0.01
 _DISCRETISATION = 0.01
-_SAMPLING = 0.002
+
+SAMPLING = 0.002
+"""What positions may miss of a stress."""
 
 
 def compare_plane(
@@ -95,21 +97,20 @@ def mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...],
         yield at_most(f"discretisation error, {each.quantity}", told, 100 * limit, "%", source, note)
 
 
-def sampling(summary: Summary) -> Iterator[Comparison]:
-    """What the positions may miss of the stresses that are told, at the worst of them."""
-    errors = {each.name: summary.sampling_error.get(each.name, math.inf) for each in STRESSES}
-    worst = max(errors, key=lambda name: errors[name])
-    words = worst.replace("_", " ")
-    unknown = f"{words}: {summary.missing.get(worst, 'nothing is known of what stands beside it')}"
-    yield at_most(
-        "sampling error of the stresses",
-        100 * errors[worst],
-        100 * _SAMPLING,
-        "%",
-        "what can stand between the positions, by the curve beside them",
-        f"the worst is that of the {words}",
-        reason="" if math.isfinite(errors[worst]) else unknown,
-    )
+def sampling(summary: Summary, of_pressure: float = SAMPLING) -> Iterator[Comparison]:
+    """What the positions may miss of the stresses that are told, against what they may (relative)."""
+    errors = summary.sampling_error
+    for words, names, limit in (("root stresses", ROOTS, SAMPLING), ("contact pressure", (PRESSURE,), of_pressure)):
+        worst = max((each.name for each in names), key=lambda name: errors.get(name, math.inf))
+        error = errors.get(worst, math.inf)
+        yield at_most(
+            f"sampling error of the {words}",
+            100 * error,
+            100 * limit,
+            "%",
+            "what can stand between the positions, by the curve beside them",
+            reason="" if math.isfinite(error) else summary.missing.get(worst, "nothing is known of what stands beside it"),
+        )
 
 
 def material_limits(task: Task, summary: Summary) -> Iterator[Comparison]:

@@ -77,7 +77,7 @@ def test_a_pressure_that_no_contact_has_is_absent() -> None:
 def test_gates_without_a_figure_fail_and_say_why(overloaded: object) -> None:
     result: CheckResult = overloaded()  # type: ignore[operator]
     silent = {each.quantity: each for each in result.comparisons if each.role is Role.GATE and not each.evaluated}
-    wanted = {"sampling error of the stresses", "contact pressure", "von Mises stress below the flank"}
+    wanted = {"sampling error of the contact pressure", "contact pressure", "von Mises stress below the flank"}
     wanted |= {"peak contact pressure", "half width of contact"} if isinstance(result, PlaneCheck) else set()
     assert set(silent) == wanted
     assert all("half widths" in each.reason and not each.passed for each in silent.values())
