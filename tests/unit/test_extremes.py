@@ -138,7 +138,7 @@ def missed(cycle: Cycle | SolidCycle, dense: Cycle | SolidCycle, quantity: Quant
     return float((values.max() - quantity.sign * found.value) / (np.ptp(values) if quantity.swing else abs(values.max())))
 
 
-@pytest.mark.parametrize(("torque", "relief"), [(302.0, 0.0), (20.0, 0.0), (302.0, 20.0)])
+@pytest.mark.parametrize(("torque", "relief"), [pytest.param(302.0, 0.0, marks=pytest.mark.long), (20.0, 0.0), (302.0, 20.0)])
 def test_a_plane_cycle_is_exact_whatever_its_positions(torque: float, relief: float) -> None:
     """12 even positions miss 2 to 5 % of some of these, 60 still 0.6 %."""
     model = plane(relief)
@@ -158,7 +158,7 @@ def test_a_plane_cycle_is_exact_whatever_its_positions(torque: float, relief: fl
     assert len(cycle.positions) == 17 and cycle.values("stiffness").shape == (17,)
 
 
-@pytest.mark.parametrize(("name", "torque"), [("FZG C", 302.0), ("helical", 12.0)])
+@pytest.mark.parametrize(("name", "torque"), [pytest.param("FZG C", 302.0, marks=pytest.mark.long), ("helical", 12.0)])
 def test_a_solid_cycle_is_exact_too(name: str, torque: float) -> None:
     """Of the lightly loaded helical pair 24 even positions miss 7 % of the pressure and 15 % of the line load."""
     model = coarse_model(name)

@@ -88,7 +88,7 @@ def test_gates_without_a_figure_fail_and_say_why(overloaded: object) -> None:
     assert any("the root stress is" in text and "linear elasticity means little" in text for text in warnings)
 
 
-@pytest.mark.parametrize("overloaded", [overloaded_plane, overloaded_solid])
+@pytest.mark.parametrize("overloaded", [overloaded_plane, pytest.param(overloaded_solid, marks=pytest.mark.long)])
 def test_the_report_says_what_is_not_there(overloaded: object, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(write, "section_of_check", lambda _result: "none here")
     result: CheckResult = overloaded()  # type: ignore[operator]
