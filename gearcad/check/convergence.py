@@ -38,7 +38,7 @@ SOLID_FACTORS = (0.794, 1.0, 1.26)
 """Refinement of three solid meshes, each of twice the dofs of the one before; the check itself is the middle one."""
 
 SOLID_ORDER = 2.0
-"""The greatest order that solid meshes are credited with, and that which is taken where they show none.
+"""The greatest order that solid meshes are credited with, and that which is taken where they show a lower one than 1.
 
 It is less than the quadratic elements' own, for what singular edges of tip and face leave of it; and between meshes so close to
 each other the roundings of the numbers of elements can feign any order.
@@ -109,8 +109,10 @@ def _of_plane(quantity: str, values: tuple[float, ...]) -> Convergence:
 
 
 def _of_solids(quantity: str, values: tuple[float, ...]) -> Convergence:
-    """With an order p between LEAST_ORDER and SOLID_ORDER, or where none shows with the latter and the greater of what the two
-    changes give: delta r^p/(r^p - 1) from the finer mesh, delta/(r^p - 1) from the coarser one.
+    """Where the changes go back and forth, their range, twice the uncertainty of F. Stern et al. (J. Fluids Eng. 123, 2001).
+
+    Else with an order p between LEAST_ORDER and SOLID_ORDER, or where less shows with the latter and the greater of what the
+    two changes give: delta r^p/(r^p - 1) from the finer mesh, delta/(r^p - 1) from the coarser one.
     """
     coarse, middle, fine = values
     refinement = SOLID_FACTORS[2]
@@ -118,6 +120,8 @@ def _of_solids(quantity: str, values: tuple[float, ...]) -> Convergence:
     shown = order is not None and order >= LEAST_ORDER
     rest = refinement ** (min(order, SOLID_ORDER) if order is not None and shown else SOLID_ORDER) - 1
     error = abs(middle - fine) * (1 + 1 / rest)
-    if not shown:
+    if (coarse - middle) * (middle - fine) < 0:
+        error = max(values) - min(values)
+    elif not shown:
         error = max(error, abs(coarse - middle) / rest)
     return Convergence(quantity, values, SOLID_FACTORS, order, error / abs(fine))

@@ -114,8 +114,8 @@ def convergence(result: SolidCheck) -> str:
     errors = ", ".join(f"{100 * each.error:.2g} % ({each.quantity})" for each in result.convergence)
     return (
         "The same figures on three meshes, each of twice the nodes of the one before; 1 is the mesh of this check. "
-        f"Estimated error of the check: {errors}. Where no order shows between meshes so close to each other, it is taken as "
-        f"{SOLID_ORDER:g}, with the greater of the changes."
+        f"Estimated error of the check: {errors}. Between meshes so close to each other roundings can feign or hide an order: "
+        f"no more than {SOLID_ORDER:g} is credited, and where the values go back and forth their range is the error."
     )
 
 
