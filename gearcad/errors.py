@@ -189,7 +189,8 @@ def require_name(parameter: str, value: Any) -> None:
 def require_whole(parameter: str, value: Any, *, at_least: int, at_most: int) -> None:
     """Raise ParameterError unless `value` is a whole number (`int`) in the closed interval."""
     if isinstance(value, bool) or not isinstance(value, int) or not at_least <= value <= at_most:
-        written = f" (write {value:.0f}, not {value!r})" if isinstance(value, float) and value.is_integer() else ""
+        inside = isinstance(value, float) and value.is_integer() and at_least <= value <= at_most
+        written = f" (write {value:.0f}, not {value!r})" if inside else ""
         raise ParameterError(parameter, value, f"must be a whole number from {at_least} to {at_most}{written}")
 
 

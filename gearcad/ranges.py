@@ -36,19 +36,26 @@ __all__ = [
 
 
 class Range(NamedTuple):
-    """A unit, and the least and most that a quantity can be in it; a `signed` one is 0 or of such a size with either sign."""
+    """A unit, and the least and most that a quantity can be in it; a `signed` one is 0 or of such a size with either sign.
+
+    One that `may_vanish` is 0 or from `least` on.
+    """
 
     unit: str
     least: float
     most: float
     signed: bool = False
+    may_vanish: bool = False
 
     def require(self, parameter: str, value: Any) -> None:
         """Raise ParameterError unless `value` is a number inside."""
-        if not self.signed:
+        if not (self.signed or self.may_vanish):
             require_number(parameter, value, self.unit, at_least=self.least, at_most=self.most)
-        elif not is_finite_number(value) or (value != 0 and not self.least <= abs(value) <= self.most):
-            permitted = f"must be a number, 0 or from {self.least:g} to {self.most:g} {self.unit} in size"
+            return
+        inside = is_finite_number(value) and self.least <= (abs(value) if self.signed else value) <= self.most
+        if not inside and not (is_finite_number(value) and value == 0):
+            size = " in size" if self.signed else ""
+            permitted = f"must be a number, 0 or from {self.least:g} to {self.most:g} {self.unit}{size}"
             raise ParameterError(parameter, value, permitted, self.unit if isinstance(value, int | float) else "")
 
 
@@ -79,7 +86,7 @@ STIFFNESS = Range("N/µm", 1e-9, 1e9)
 DAMPING_RATIO = Range("", 0.0, 100.0)
 DAMPING = Range("N·s/m", 0.0, 1e15)
 ANGULAR_DAMPING = Range("N·m·s/rad", 0.0, 1e15)
-PRELOAD = Range("N", 0.0, 1e12)
+PRELOAD = Range("N", 1e-9, 1e12, may_vanish=True)
 BACKLASH = Range("µm", 0.0, 1e7)
 DEVIATION = Range("µm", 1e-6, 1e6, signed=True)
 DURATION = Range("s", 1e-9, 1e6)

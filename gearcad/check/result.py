@@ -129,8 +129,8 @@ class CheckResult(Task):
     @property
     def verdict(self) -> str:
         """Numerics and strength in one line."""
-        said = {Verdict.PASSED: "passed", Verdict.FAILED: "NOT passed"}
-        numerics, strength = said.get(self.numerics, "not judged"), said.get(self.strength, "not judged: no limit given")
+        numerics = "NOT passed" if self.numerics is Verdict.FAILED else self.numerics.value
+        strength = "not judged: no limit given" if self.strength is Verdict.NOT_JUDGED else self.strength.value
         if self.without_limit and self.strength is not Verdict.NOT_JUDGED:
             strength += f"; not judged, no limit given: {', '.join(self.without_limit)}"
         return f"numerics {numerics}; strength {strength}"

@@ -136,6 +136,11 @@ class DynamicsOptions:
         return self.speeds or _CHART
 
     @property
+    def slowest(self) -> float:
+        """Part of its highest speed at which a chart begins, if nothing is said of it: few speeds asked for hide none."""
+        return 1 / max(self.chart_speeds, _CHART)
+
+    @property
     def campbell_speeds(self) -> int:
         """Of a Campbell study."""
         return self.speeds or _CAMPBELL

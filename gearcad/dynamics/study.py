@@ -37,6 +37,11 @@ _SHARE = 0.02
 _DRAWN, _DRAWN_OF_MANY = 1024, 256
 """Samples of a course over a tooth, at least, and over each of many; 8 of the quickest vibration that could be felt."""
 
+_UNRESOLVED = (
+    "at the speed asked for, harmonics beyond the {most} orders that are solved meet natural frequencies that can be felt: "
+    "K_v and the course there are not those of the whole motion"
+)
+
 _LOWER, _RUN_UP = 3.0, 60
 """Where flanks part at a speed beyond the chart, the run up to it begins at the speed over the first, and has so many steps."""
 
@@ -229,7 +234,7 @@ def _speeds(train: Train, options: DynamicsOptions, modes: NaturalModes) -> Floa
     if last is None:
         felt = (modes.potential_meshes > _SHARE).any(axis=1)
         last = _BEYOND * float(modes.rpm[felt].max()) if felt.any() else _BEYOND * float(modes.rpm.max())
-    first = options.speed_from if options.speed_from else last / options.chart_speeds
+    first = options.speed_from if options.speed_from else last * options.slowest
     return np.linspace(first, last, options.chart_speeds)
 
 
@@ -244,7 +249,10 @@ def _course(train: Train, over: OverSpeed, asked: float) -> tuple[Course, tuple[
         response, notes = beyond.response(frequency), beyond.notes
     samples = max(_DRAWN, _DRAWN_OF_MANY * max(over.excitation.orders))
     if over.curves.resolvable:
-        samples = max(samples, 8 * int(over.curves.felt_orders(np.array([frequency]))[0]))
+        felt, most = float(over.curves.felt_orders(np.array([frequency]))[0]), over.curves.most_orders
+        samples = max(samples, 8 * int(min(felt, most)))
+        if felt > most:
+            notes = (*notes, _UNRESOLVED.format(most=most))
     return _drawn(train, response, samples), notes
 
 

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.errors import GeometryError, ParameterError, SolverError, format_number, require_number, require_whole
+from gearcad.errors import GeometryError, ParameterError, format_number, require_number, require_whole
 from gearcad.fea.contact import ContactSolution, solve_contact
 from gearcad.fea.elasticity import Plane, PlaneElasticity
 from gearcad.fea.flank import FlankCompliance, flank_compliance
@@ -160,19 +160,19 @@ class PairInMesh:
         return abs(torque) * 1000 / self.base_radius / self.width
 
     def require_narrow_contact(self, torque: float, modulus: float) -> None:
-        """Raise SolverError where the contact at the pitch point would be wider than teeth are deep: no small deformation.
+        """Raise ParameterError where the contact at the pitch point would be wider than teeth are deep: no small deformation.
 
-        `modulus` is E* (MPa).
+        `modulus` is E* (MPa); half width by Hertz.
         """
         whole, place = mesh_line(self.pair).whole, self.pair.path_of_contact.C
         radius = place * (whole - place) / whole
         half_width = math.sqrt(4 * self.force(torque) * radius / (math.pi * modulus))
         depth = min((gear.tip_diameter - gear.root_diameter) / 2 for gear in (self.pair.pinion, self.pair.wheel))
         if half_width > depth:
-            at = (
-                f"at {format_number(torque)} N·m the contact would be {2 * half_width:.4g} mm wide on teeth {depth:.4g} mm deep"
-            )
-            raise SolverError(f"{at}: the load is too great, or the modulus of elasticity too small")
+            most = abs(torque) * (depth / half_width) ** 2  # the half width goes with the root of the load
+            permitted = f"must be at most {most:.4g} N·m in size for these teeth and this modulus of elasticity"
+            why = f"the contact would be {2 * half_width:.4g} mm wide on teeth {depth:.4g} mm deep"
+            raise ParameterError("torque", torque, f"{permitted}: {why}", "N·m")
 
     def roll_length(self, roll_angle: float) -> float:
         """Where the middle pair touches in the middle of the common width (mm from T1) at a roll angle of the pinion (deg)."""

@@ -237,7 +237,9 @@ def root_warnings(pair: GearPair, gear: Gear, rating: RootRating, owner: str) ->
         found.append(f"{owner} root: Y_S is stated for q_s from 1 to 8, here {rating.section.notch_parameter:.3g}")
     if (rim := rim_thickness_ratio(gear)) < RIM_LIMIT:
         said = "is at most 0.5, which the standard asks to avoid" if rim <= 0.5 else f"weakens the root (below {RIM_LIMIT:g})"
-        found.append(f"{owner} rim: {rim:.3g} tooth heights under the root {said}; Y_B = {rating.rim_thickness_factor:.4g}")
+        factor = rating.rim_thickness_factor
+        known = f"Y_B = {factor:.4g}" if factor > 1 else "the standard chosen has no factor for it"
+        found.append(f"{owner} rim: {rim:.3g} tooth heights under the root {said}; {known}")
     if (ratio := _virtual_contact_ratio(pair)) >= 2:
         found.append(f"{owner} root: Y_F assumes that one pair of teeth carries alone, but eps_alphan is {ratio:.4f}")
     return found

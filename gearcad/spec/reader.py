@@ -55,6 +55,9 @@ WHOLE_FIELDS = (
 )
 """Fields that are whole numbers; elsewhere 2 means 2.0."""
 
+_DEEPEST = 50
+"""Levels of tables and lists in each other: no key of ours needs more than a few."""
+
 _MOST_WHOLE = 10**15
 
 Cell = int | float | str | tuple[float, ...]
@@ -134,14 +137,16 @@ def _refuse_table(path: Path) -> None:
         raise SpecError(f"{path}: is a design table, not the spec of one design; use `gearcad batch {path}`")
 
 
-def require_sane_integers(content: Any, where: Where, key: str = "") -> None:
-    """Raise SpecError for a whole number, however deep in the tables of a spec, that a float could not hold."""
+def require_sane_integers(content: Any, where: Where, key: str = "", depth: int = 0) -> None:
+    """Raise SpecError for a whole number in the tables of a spec that a float could not hold, and for tables too deep."""
+    if depth > _DEEPEST:
+        raise SpecError(f"{where(key)}: {shown(key)}: has lists or tables in each other, more than {_DEEPEST} deep", key)
     if isinstance(content, Mapping):
         for name, inner in content.items():
-            require_sane_integers(inner, where, f"{key}.{name}" if key else name)
+            require_sane_integers(inner, where, f"{key}.{name}" if key else name, depth + 1)
     elif isinstance(content, list | tuple):
         for number, inner in enumerate(content):
-            require_sane_integers(inner, where, f"{key}[{number}]" if isinstance(inner, Mapping) else key)
+            require_sane_integers(inner, where, f"{key}[{number}]" if isinstance(inner, Mapping) else key, depth + 1)
     elif isinstance(content, int) and abs(content) > _MOST_WHOLE:
         raise SpecError(f"{where(key)}: {shown(key)}: must be a smaller number; this is {format_number(content)}", key)
 

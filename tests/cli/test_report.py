@@ -97,7 +97,7 @@ def test_holds_every_comparison_with_its_verdict_in_words(document):
 def test_verdict_comes_first_and_names_what_failed(document):
     verdict = document.xpath("//div[contains(@class, 'verdict')]")[0]
     assert verdict.get("class") == "verdict bad"
-    said = "Numerics passed; strength NOT passed; not judged, no limit given: von Mises stress below the flank."
+    said = "Numerics passed; strength failed; not judged, no limit given: von Mises stress below the flank."
     assert verdict.text_content().strip().startswith(said)
     failed = [each.quantity for each in small_check().comparisons if each.role is Role.GATE and not each.passed]
     assert failed == ["contact pressure"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 import tempfile
 import tomllib
 from pathlib import Path
@@ -97,6 +98,8 @@ def test_what_no_gear_can_be(key: str, value: Any, said: str) -> None:
         ),
         (("shaft", 0, "length"), 1e-300, "length = 1e-300 mm: must be a number at least 0.001 mm and at most 10000000 mm"),
         (("shaft", 0, "name"), "x" * 3000, "x..."),
+        (("mesh", 0, "preload"), 1e-300, "preload = 1e-300 N: must be a number, 0 or from 1e-09 to 1e+12 N"),
+        (("mesh", 0, "teeth"), [1e300, 20], "must be a whole number from 1 to"),
     ],
 )
 def test_what_no_train_can_be(path: tuple[Any, ...], value: Any, said: str) -> None:
@@ -113,6 +116,11 @@ def test_five_hundred_lists_in_each_other() -> None:
     assert "lists or tables in each other, hundreds deep" in result.stderr
 
 
+def test_a_thousand_tables_in_each_other() -> None:
+    result = run_politely("data", spec_file("[gear]\nteeth = 20\n[x" + 1000 * ".a" + "]"))
+    assert result.exit_code == 2 and "has lists or tables in each other, more than 50 deep" in result.stderr
+
+
 @pytest.mark.parametrize(("torque", "modulus"), [(3e6, 206000.0), (TORQUE.most, 206000.0), (302.0, 0.1)])
 def test_load_that_no_teeth_can_carry_is_said_with_its_torque(torque: float, modulus: float) -> None:
     """a = sqrt(4 F rho/(pi E*)) at the pitch point, above the depth of the teeth."""
@@ -120,9 +128,11 @@ def test_load_that_no_teeth_can_carry_is_said_with_its_torque(torque: float, mod
     put(spec, ("load", "torque"), torque)
     put(spec, ("material", "youngs_modulus"), modulus)
     result = run_politely("check", spec_file(toml_text(spec)), "--quiet")
-    assert result.exit_code == 1
+    assert result.exit_code == 2
     width = 48.88 * (torque / 3e6 * 206000 / modulus) ** 0.5
-    assert f"at {torque:.10g} N·m the contact would be {width:.4g} mm wide on teeth 10.04 mm deep" in result.stderr
+    assert f"the contact would be {width:.4g} mm wide on teeth 10.04 mm deep" in result.stderr
+    (most,) = re.findall(r"must be at most (\S+) N·m in size", result.stderr)
+    assert float(most) == pytest.approx(torque * (2 * 10.04 / width) ** 2, rel=2e-3)
 
 
 PHYSICAL = (

@@ -67,7 +67,7 @@ _LIMITS = ("contact pressure", "root stress", "von Mises stress below the flank"
         (
             [gate(999.0), gate(999.0, Subject.STRENGTH)],
             Material(contact_limit=1.0, root_limit=1.0, yield_strength=1.0),
-            "numerics NOT passed; strength NOT passed",
+            "numerics NOT passed; strength failed",
             False,
         ),
         (
