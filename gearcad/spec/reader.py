@@ -128,7 +128,7 @@ def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
         line = nearest_line(lines, key)
         return f"{file} line {line}" if line else file
 
-    require_sane_integers(tables, where)
+    require_sane_tables(tables, where)
     return tables, where
 
 
@@ -137,16 +137,16 @@ def _refuse_table(path: Path) -> None:
         raise SpecError(f"{path}: is a design table, not the spec of one design; use `gearcad batch {path}`")
 
 
-def require_sane_integers(content: Any, where: Where, key: str = "", depth: int = 0) -> None:
+def require_sane_tables(content: Any, where: Where, key: str = "", depth: int = 0) -> None:
     """Raise SpecError for a whole number in the tables of a spec that a float could not hold, and for tables too deep."""
     if depth > _DEEPEST:
         raise SpecError(f"{where(key)}: {shown(key)}: has lists or tables in each other, more than {_DEEPEST} deep", key)
     if isinstance(content, Mapping):
         for name, inner in content.items():
-            require_sane_integers(inner, where, f"{key}.{name}" if key else name, depth + 1)
+            require_sane_tables(inner, where, f"{key}.{name}" if key else name, depth + 1)
     elif isinstance(content, list | tuple):
         for number, inner in enumerate(content):
-            require_sane_integers(inner, where, f"{key}[{number}]" if isinstance(inner, Mapping) else key, depth + 1)
+            require_sane_tables(inner, where, f"{key}[{number}]" if isinstance(inner, Mapping) else key, depth + 1)
     elif isinstance(content, int) and abs(content) > _MOST_WHOLE:
         raise SpecError(f"{where(key)}: {shown(key)}: must be a smaller number; this is {format_number(content)}", key)
 
@@ -212,7 +212,7 @@ def _flatten(tables: Mapping[str, Any], where: Where) -> dict[str, _Given]:
             key = f"{table}.{field}"
             if field not in KEYS[table]:
                 raise SpecError(f"{where(key)}: {shown(key)}: {explain_unknown_key(table, field)}")
-            require_sane_integers(value, where, key)
+            require_sane_tables(value, where, key)
             if isinstance(value, int) and not isinstance(value, bool):
                 value = value if field in WHOLE_FIELDS else float(value)
             # The sum makes -0.0 a plain zero, so that equal inputs give equal files.
