@@ -12,10 +12,11 @@ Gear(teeth=30, normal_module=2.0, face_width=20.0)
 >>> round(pair.transverse_contact_ratio, 3)
 1.605
 
-What is done with a pair under a load: `gearcad.assess.assess(pair, Load(torque=60))` checks it, `gearcad.compare.compare` tells
-its mesh stiffness by every method, `gearcad.simulate.simulate` its dynamics, `gearcad.modify.propose` its tip relief, and
-`gearcad.rating.rate(pair, material, load)` rates it. Each takes, beside the pair and the load, `material`, `mounting` and the
-options of the tables of a spec by their names. `gearcad.solids` makes solids and files.
+What is done with a pair under a load is a job: `gearcad.jobs.check.assess(pair, Load(torque=60))` checks it,
+`gearcad.jobs.stiffness.compare` tells its mesh stiffness by every method, `gearcad.jobs.dynamics.simulate` its dynamics,
+`gearcad.jobs.modify.propose` its tip relief, and `gearcad.rating.rate(pair, material, load)` rates it. Each takes, beside the
+pair and the load, `material`, `mounting` and the options of the tables of a spec by their names. `gearcad.solids` makes solids
+and files.
 """
 
 from __future__ import annotations
@@ -76,7 +77,7 @@ if not TYPE_CHECKING:
         __name__,
         __all__,
         ("errors", "geometry", "load", "material", "mounting"),
-        ("assess", "check", "compare", "dynamics", "modify", "rating", "simulate", "solids", "spec", "stiffness"),
+        ("batch", "check", "contact", "designs", "dynamics", "jobs", "rating", "solids", "stiffness"),
     )
 
 

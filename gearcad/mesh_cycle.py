@@ -9,13 +9,13 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearcad.arrays import Floats
 from gearcad.errors import SolverError, require_whole
 
 __all__ = ["METHOD_NAMES", "FourierSeries", "MeshCycle"]
 
-Floats = NDArray[np.float64]
 
 METHOD_NAMES = (
     "potential-energy",

@@ -11,8 +11,8 @@ from typing import Any
 
 from gearcad.batch.results import FILES
 from gearcad.batch.row import Record, Status
+from gearcad.designs.table import Row
 from gearcad.errors import OutputError, format_number
-from gearcad.spec.table import Row
 
 __all__ = ["Journal"]
 

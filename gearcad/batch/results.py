@@ -15,9 +15,9 @@ from typing import Any, Protocol
 
 from gearcad.batch.row import Record
 from gearcad.columns import column_symbol
+from gearcad.designs.cells import guarded_text
+from gearcad.designs.table import Row
 from gearcad.output import staged_files
-from gearcad.spec.cells import guarded_text
-from gearcad.spec.table import Row
 from gearcad.symbols import Symbol
 
 __all__ = ["FILES", "Decimal", "Results", "write_results"]

@@ -17,9 +17,9 @@ from typing import Any, NamedTuple
 
 from gearcad.batch.manifest import Manifest, Part, inputs_hash, publish, read_manifest
 from gearcad.batch.steps import Step, Wanted, make_parts, part_of
+from gearcad.designs.table import Row
 from gearcad.errors import GearcadError, OutputError, SpecError
 from gearcad.output import UNWRITABLE, unwritable
-from gearcad.spec.table import Row
 
 __all__ = ["Record", "Status", "Task", "check_rows", "make_row"]
 

@@ -18,9 +18,9 @@ from gearcad.batch.results import FILES, Decimal, write_results
 from gearcad.batch.row import Record, Status, Task, check_rows, make_row
 from gearcad.batch.steps import Wanted
 from gearcad.batch.worker import WorkerLostError
+from gearcad.designs.table import Row, Table, open_table
 from gearcad.errors import OutputError, SpecError, require_number
 from gearcad.output import UNWRITABLE, unwritable
-from gearcad.spec.table import Row, Table, open_table
 
 __all__ = ["Progress", "Summary", "run_table"]
 

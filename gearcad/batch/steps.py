@@ -8,12 +8,12 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from gearcad.assess import assess
-from gearcad.build import DEFAULT_FORMATS, Format, build
 from gearcad.check.document import check_document
+from gearcad.designs import Design
 from gearcad.errors import ParameterError, require_number
+from gearcad.jobs.build import DEFAULT_FORMATS, Format, build
+from gearcad.jobs.check import assess
 from gearcad.output import json_text
-from gearcad.spec import Design
 
 __all__ = ["DATA", "Step", "Wanted", "make_parts"]
 

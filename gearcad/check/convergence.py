@@ -8,8 +8,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from gearcad.check.summary import figures
-from gearcad.fea.cycle import Cycle
-from gearcad.ltca.solid_cycle import SolidCycle
+from gearcad.contact.plane.cycle import Cycle
+from gearcad.contact.solid.cycle import SolidCycle
 
 __all__ = [
     "FACTORS",

@@ -8,10 +8,10 @@ from typing import Any
 
 from gearcad.check.document_solid import load_distribution, over_face, solid_mesh
 from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
-from gearcad.fea.cycle import PairContact
-from gearcad.fea.extremes import Extreme
-from gearcad.fea.flank import FlankCompliance
-from gearcad.ltca.solid_contact import SolidContact
+from gearcad.contact.plane.cycle import PairContact
+from gearcad.contact.plane.flank import FlankCompliance
+from gearcad.contact.shared.extremes import Extreme
+from gearcad.contact.solid.contact import SolidContact
 from gearcad.meshing.quality import mesh_quality
 
 __all__ = ["check_document"]

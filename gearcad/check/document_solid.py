@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from gearcad.ltca.flank import SolidCompliance
-from gearcad.ltca.solid_contact import SolidContact
-from gearcad.ltca.solid_cycle import SolidCycle
+from gearcad.contact.solid.contact import SolidContact
+from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.contact.solid.flank import SolidCompliance
 
 __all__ = ["load_distribution", "over_face", "solid_mesh"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from gearcad.check.convergence import FEW_POSITIONS, SOLID_FACTORS
 from gearcad.check.options import Model
 from gearcad.check.result import Task
-from gearcad.ltca.cost import POSITION_SECONDS
-from gearcad.ltca.solid_pair import SolidSizes, expected_bodies, loaded_left
+from gearcad.contact.solid.cost import POSITION_SECONDS
+from gearcad.contact.solid.pair import SolidSizes, expected_bodies, loaded_left
 from gearcad.progress import Expected
 
 __all__ = ["BODIES", "COARSER", "CYCLE", "FINER", "RATING", "SWEEP", "expected_solid", "sizes_of", "solid_steps"]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from gearcad.fea.cycle import Cycle, Position
-from gearcad.fea.extremes import Extreme, Quantity
-from gearcad.ltca.solid_cycle import SolidCycle, SolidPosition
+from gearcad.contact.plane.cycle import Cycle, Position
+from gearcad.contact.shared.extremes import Extreme, Quantity
+from gearcad.contact.solid.cycle import SolidCycle, SolidPosition
 
 __all__ = ["PLANE", "PRESSURE", "ROOTS", "SOLID", "STRESSES", "Extremes", "found"]
 

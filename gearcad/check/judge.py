@@ -11,7 +11,7 @@ from gearcad.check.extremes import PRESSURE, ROOTS
 from gearcad.check.result import Task
 from gearcad.check.rim import bending_limits, bending_notes, rim_gates
 from gearcad.check.summary import PlaneSummary, Summary
-from gearcad.fea.cycle import Cycle, PairContact
+from gearcad.contact.plane.cycle import Cycle, PairContact
 
 __all__ = ["REACTION", "compare_plane", "farness", "material_limits", "mesh_errors", "sampling", "standards"]
 

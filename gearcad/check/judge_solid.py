@@ -12,8 +12,8 @@ from gearcad.check.judge import REACTION, farness, material_limits, mesh_errors,
 from gearcad.check.result import Task
 from gearcad.check.rim import bending_limits, rim_gates
 from gearcad.check.solid_summary import SolidSummary
-from gearcad.geometry.contact import contact_line_lengths
-from gearcad.ltca.solid_cycle import SolidCycle
+from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.geometry.path import contact_line_lengths
 
 __all__ = ["compare_solid"]
 

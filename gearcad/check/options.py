@@ -5,6 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+from gearcad.contact.plane.elasticity import Plane
+from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.plane.support import STEEL, Hold
+from gearcad.contact.shared.chain import Cuts
 from gearcad.errors import (
     GeometryError,
     ParameterError,
@@ -14,10 +18,6 @@ from gearcad.errors import (
     require_one_of,
     require_whole,
 )
-from gearcad.fea.chain import Cuts
-from gearcad.fea.elasticity import Plane
-from gearcad.fea.flexible_pair import BodyModel
-from gearcad.fea.support import STEEL, Hold
 from gearcad.geometry import GearPair
 from gearcad.ranges import BAND, LENGTH, MODULUS, TORQUE
 from gearcad.reprs import concise

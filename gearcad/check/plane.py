@@ -13,10 +13,10 @@ from gearcad.check.rim import rim_warnings
 from gearcad.check.summary import summarise
 from gearcad.check.sweep import sweep_point
 from gearcad.check.warnings import corner_warnings, general_warnings
-from gearcad.fea.cycle import Cycle, run_cycle, single_stiffness
-from gearcad.fea.elasticity import PlaneElasticity
-from gearcad.fea.flexible_pair import FlexiblePair, flexible_pair
-from gearcad.fea.plane_limits import plane_pressure, thin_faces
+from gearcad.contact.plane.cycle import Cycle, run_cycle, single_stiffness
+from gearcad.contact.plane.elasticity import PlaneElasticity
+from gearcad.contact.plane.limits import plane_pressure, thin_faces
+from gearcad.contact.plane.pair import FlexiblePair, flexible_pair
 from gearcad.meshing import MeshSizes
 from gearcad.progress import Agenda
 

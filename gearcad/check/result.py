@@ -11,11 +11,11 @@ from gearcad.check.convergence import Convergence
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.solid_summary import SolidSummary
 from gearcad.check.summary import OfGears, PlaneSummary, Summary, by_name
-from gearcad.fea.cycle import Cycle
-from gearcad.fea.flexible_pair import BodyModel
+from gearcad.contact.plane.cycle import Cycle
+from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.ltca.solid_cycle import SolidCycle
 from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.rating import Rating, RatingOptions, rate

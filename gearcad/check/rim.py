@@ -8,8 +8,8 @@ from typing import NamedTuple
 from gearcad.check.comparison import Comparison, Subject, at_most
 from gearcad.check.result import Task
 from gearcad.check.summary import Summary
+from gearcad.contact.plane.support import LEAST_RIM, Hold, Support, rim_ratio
 from gearcad.errors import format_number
-from gearcad.fea.support import LEAST_RIM, Hold, Support, rim_ratio
 from gearcad.geometry import Gear
 
 __all__ = ["bending_limits", "bending_notes", "rim_gates", "rim_warnings"]

@@ -15,8 +15,8 @@ from gearcad.check.rim import rim_warnings
 from gearcad.check.solid_summary import SolidSummary, summarise_solid
 from gearcad.check.sweep import sweep_point
 from gearcad.check.warnings import corner_warnings, general_warnings
-from gearcad.ltca.solid_cycle import SolidCycle, run_solid_cycle, solid_single_stiffness
-from gearcad.ltca.solid_pair import SolidPair, loaded_left, solid_pair
+from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle, solid_single_stiffness
+from gearcad.contact.solid.pair import SolidPair, loaded_left, solid_pair
 from gearcad.progress import Agenda, Share
 
 __all__ = ["check_solid"]

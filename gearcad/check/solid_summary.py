@@ -7,16 +7,15 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
 from gearcad.check.summary import OfGears, Summary, common_summary
-from gearcad.ltca.solid_contact import INTERIOR, SolidContact
-from gearcad.ltca.solid_cycle import SolidCycle, SolidPosition, solid_pitch_point_contact
+from gearcad.contact.solid.contact import INTERIOR, SolidContact
+from gearcad.contact.solid.cycle import SolidCycle, SolidPosition, solid_pitch_point_contact
 from gearcad.rating import LineContact
 
 __all__ = ["MiddleContact", "SolidSummary", "WorstPlace", "middle_contacts", "summarise_solid", "worst_place"]
 
-Floats = NDArray[np.float64]
 
 _HARMONICS = 5
 

@@ -10,10 +10,10 @@ from typing import Any, Generic, NamedTuple, TypeVar
 import numpy as np
 
 from gearcad.check.extremes import Extremes, found
-from gearcad.fea.cycle import INTERIOR, Cycle, PairContact, Position, pitch_point_contact
-from gearcad.fea.stress_field import contact_frame, tooth_field
-from gearcad.fea.subsurface import greatest_von_mises
-from gearcad.ltca.solid_cycle import SolidCycle
+from gearcad.contact.plane.cycle import INTERIOR, Cycle, PairContact, Position, pitch_point_contact
+from gearcad.contact.plane.field import contact_frame, tooth_field
+from gearcad.contact.plane.subsurface import greatest_von_mises
+from gearcad.contact.solid.cycle import SolidCycle
 
 __all__ = ["Figures", "OfGears", "PlaneSummary", "Summary", "by_name", "common_summary", "figures", "summarise"]
 

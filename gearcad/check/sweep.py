@@ -6,8 +6,8 @@ import numpy as np
 
 from gearcad.check.result import SweepPoint
 from gearcad.check.summary import OfGears, figures
-from gearcad.fea.cycle import Cycle
-from gearcad.ltca.solid_cycle import SolidCycle
+from gearcad.contact.plane.cycle import Cycle
+from gearcad.contact.solid.cycle import SolidCycle
 
 __all__ = ["sweep_point"]
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from gearcad.check.result import Task
 from gearcad.check.summary import Summary
-from gearcad.fea.cycle import Cycle
-from gearcad.ltca.solid_cycle import SolidCycle
+from gearcad.contact.plane.cycle import Cycle
+from gearcad.contact.solid.cycle import SolidCycle
 
 __all__ = ["corner_warnings", "general_warnings"]
 

@@ -33,12 +33,12 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
     Writes check.json and report.html, and for solid bodies the stresses in the loaded teeth (stress_*.vtu). Exit status 1 if a
     gate is not passed or cannot be evaluated; [check] in SPEC sets model, body, torques and bands.
     """
-    from gearcad.assess import assess, expected_assessment
     from gearcad.check.document import check_document
     from gearcad.check.options import CheckOptions
+    from gearcad.designs import read_spec
+    from gearcad.jobs.check import assess, expected_assessment
     from gearcad.output import json_text, staged_files
     from gearcad.report import write_report
-    from gearcad.spec import read_spec
 
     design = read_spec(spec)
     if model is not None:
@@ -67,7 +67,7 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
 def _write_fields(result: CheckResult, folder: Path) -> None:
     """Stresses of the most stressed tooth of each gear, where the bodies are solid."""
     from gearcad.check.result import SolidCheck
-    from gearcad.ltca.solid_field import shown_stress, worst_field, write_vtu
+    from gearcad.contact.solid.field import shown_stress, worst_field, write_vtu
 
     if isinstance(result, SolidCheck):
         for gear, name in enumerate(_FIELDS):

@@ -12,7 +12,7 @@ from gearcad.cli.group import debug_option, parse_choices, require_new_file, spe
 from gearcad.cli.progress import file_progress
 
 if TYPE_CHECKING:
-    from gearcad.spec.design import Design
+    from gearcad.designs.design import Design
 
 __all__ = ["build", "data", "new"]
 
@@ -27,7 +27,7 @@ def new(kind: str | None, output: str | None, force: bool) -> None:
 
     KIND is the name of a starter or its beginning; without it the starters are listed.
     """
-    from gearcad.spec.starters import starter_text, starters
+    from gearcad.designs.starters import starter_text, starters
 
     if kind is None:
         click.echo("".join(f"{name:<14}{what}\n" for name, what in starters().items()), nl=False)
@@ -57,8 +57,8 @@ def _write_new(path: Path, text: str, force: bool) -> None:
 @debug_option
 def data(spec: Path, as_json: bool) -> None:
     """Show the geometry of SPEC: every derived quantity, and warnings."""
+    from gearcad.designs import read_spec
     from gearcad.output import json_text
-    from gearcad.spec import read_spec
 
     design = read_spec(spec)
     if as_json:
@@ -66,7 +66,7 @@ def data(spec: Path, as_json: bool) -> None:
         return
     from rich.console import Console
 
-    from gearcad.datasheet import print_datasheet
+    from gearcad.cli.datasheet import print_datasheet
 
     print_datasheet(design, Console(highlight=False))
 
@@ -100,10 +100,10 @@ def build(
     3mf   facets, for printing     glb       facets, for viewers
     dxf   exact section, for cutting         csv  points of flank and fillet
     """
-    from gearcad.build import Format
-    from gearcad.build import build as build_files
+    from gearcad.designs import read_spec
+    from gearcad.jobs.build import Format
+    from gearcad.jobs.build import build as build_files
     from gearcad.output import json_text
-    from gearcad.spec import read_spec
 
     wanted = parse_choices("format", formats, Format)
     design = read_spec(spec)

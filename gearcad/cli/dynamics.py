@@ -11,11 +11,11 @@ from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.progress import job_progress
 
 if TYPE_CHECKING:
-    from gearcad.dynamics.kv import KvChart
-    from gearcad.dynamics.modes import NaturalModes
     from gearcad.dynamics.pair_study import ContactStudy
+    from gearcad.dynamics.response.kv import KvChart
     from gearcad.dynamics.study import TrainStudy
-    from gearcad.simulate import Study
+    from gearcad.dynamics.trains.modes import NaturalModes
+    from gearcad.jobs.dynamics import Study
 
 __all__ = ["dynamics"]
 
@@ -38,11 +38,11 @@ def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> Non
     """
     import numpy as np
 
+    from gearcad.designs import read_spec
+    from gearcad.designs.trains import holds_train, read_train
+    from gearcad.jobs.dynamics import dynamics_document, simulate
     from gearcad.output import json_text, staged_files
     from gearcad.report import write_dynamics_report
-    from gearcad.simulate import dynamics_document, simulate
-    from gearcad.spec import read_spec
-    from gearcad.spec.trains import holds_train, read_train
 
     design = read_train(spec) if holds_train(spec) else read_spec(spec)
     with job_progress(shown=not quiet) as progress:

@@ -12,7 +12,7 @@ from gearcad.cli.group import debug_option, require_new_file, spec_argument
 from gearcad.cli.progress import job_progress
 
 if TYPE_CHECKING:
-    from gearcad.modify import Proposal
+    from gearcad.jobs.modify import Proposal
 
 __all__ = ["modify"]
 
@@ -44,12 +44,12 @@ def modify(
     modification gets there, 5 % more than without. Against a misalignment of [mounting] the pinion's helix angle is modified
     too.
     """
+    from gearcad.designs import read_spec
+    from gearcad.designs.edit import edit_spec
     from gearcad.errors import as_choice
     from gearcad.geometry import ReliefShape
-    from gearcad.modify import propose
+    from gearcad.jobs.modify import propose
     from gearcad.output import json_text, staged_files
-    from gearcad.spec import read_spec
-    from gearcad.spec.edit import edit_spec
 
     wanted = None if shape is None else as_choice("shape", shape, ReliefShape)
     design = read_spec(spec)

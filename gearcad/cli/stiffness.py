@@ -53,11 +53,11 @@ def stiffness(
     Writes stiffness.json, stiffness.csv (the curves) and stiffness.html. Bodies are held where [check] in SPEC says, or in
     their bores. A method that cannot treat the pair is left out, with its reason.
     """
-    from gearcad.compare import compare, curves_csv, expected_comparison, stiffness_document
+    from gearcad.designs import read_spec
     from gearcad.errors import ParameterError, require_whole
+    from gearcad.jobs.stiffness import compare, curves_csv, expected_comparison, stiffness_document
     from gearcad.output import json_text, staged_files
     from gearcad.report import write_stiffness_report
-    from gearcad.spec import read_spec
     from gearcad.stiffness import METHODS
 
     for name in methods:

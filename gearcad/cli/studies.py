@@ -11,7 +11,7 @@ from gearcad.cli.group import debug_option, require_new_file, spec_argument
 from gearcad.errors import ParameterError, as_choice
 
 if TYPE_CHECKING:
-    from gearcad.study import Sample
+    from gearcad.batch.study import Sample
 
 __all__ = ["plot", "study"]
 
@@ -48,7 +48,7 @@ def study(
     With --sample the rows are drawn instead, and a range has no count:
     --vary pinion.profile_shift=-0.2:0.6 --sample lhs --n 200
     """
-    from gearcad.study import plan_study, write_study
+    from gearcad.batch.study import plan_study, write_study
 
     planned = plan_study(spec, variations, _sample(sample, rows, seed))
     path = output if output is not None else Path(f"{planned.name}-study.csv")
@@ -62,7 +62,7 @@ def study(
 
 def _sample(method: str | None, rows: int | None, seed: int | None) -> Sample | None:
     """What --sample, --n and --seed say together."""
-    from gearcad.study import Method, Sample
+    from gearcad.batch.study import Method, Sample
 
     if method is None:
         for option, value in (("n", rows), ("seed", seed)):
@@ -79,7 +79,7 @@ def _sample(method: str | None, rows: int | None, seed: int | None) -> Sample | 
 
 def _echo_prospects(path: Path, rows: int) -> None:
     """Say how many rows make no gear, if they are few enough to try, and how to go on."""
-    from gearcad.study import check_table
+    from gearcad.batch.study import check_table
 
     faulty, first = check_table(path) if rows <= MOST_CHECKED else (0, "")
     if faulty:
@@ -109,8 +109,8 @@ def plot(results: Path, x: str, y: str, colour: str | None, contour: str | None,
     KEY is the heading of a column, such as pinion.profile_shift; its beginning may be left out where no other column ends
     alike, such as transverse_contact_ratio.
     """
-    from gearcad.plot_data import read_points
     from gearcad.plots import plot_contours, plot_scatter, require_picture, save_plot
+    from gearcad.plots.table_data import read_points
 
     if output is not None:
         require_picture(output)

@@ -64,7 +64,7 @@ def batch(
     missing or changed. `gearcad new pairs` writes a commented table to begin with.
     """
     from gearcad.batch import Decimal, Step, Wanted, run_table
-    from gearcad.build import Format
+    from gearcad.jobs.build import Format
 
     wanted = Wanted(
         steps=parse_choices("do", steps, Step),

@@ -7,7 +7,7 @@ if TYPE_CHECKING:
     from gearcad.dynamics.options import DynamicsOptions
     from gearcad.dynamics.pair_study import ContactStudy, PairStudy
     from gearcad.dynamics.study import ModalStudy, TrainStudy, study_modes, study_train
-    from gearcad.dynamics.train import Inertia, Mesh, Shaft, StiffnessWave, Train, TrainModel
+    from gearcad.dynamics.trains.train import Inertia, Mesh, Shaft, StiffnessWave, Train, TrainModel
 else:
     from gearcad.lazy import lazily
 
@@ -28,4 +28,4 @@ __all__ = [
 ]
 
 if not TYPE_CHECKING:
-    __getattr__ = lazily(__name__, __all__, ("options", "train", "study", "pair_study"))
+    __getattr__ = lazily(__name__, __all__, ("options", "trains.train", "study", "pair_study"))

@@ -8,17 +8,17 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gearcad.dynamics.campbell import CampbellStudy, campbell
-from gearcad.dynamics.contact_model import ContactModel
-from gearcad.dynamics.driving import pair_errors, pair_excitation, pair_train
-from gearcad.dynamics.lines import system
+from gearcad.arrays import Floats
+from gearcad.dynamics.excitation.driving import pair_errors, pair_excitation, pair_train
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.pair_history import TimeHistory, time_history
-from gearcad.dynamics.six_dof import PairOnBearings
 from gearcad.dynamics.study import TrainStudy, study_train
-from gearcad.dynamics.train import Train
+from gearcad.dynamics.tooth_springs.campbell import CampbellStudy, campbell
+from gearcad.dynamics.tooth_springs.contact_model import ContactModel
+from gearcad.dynamics.tooth_springs.pair_history import TimeHistory, time_history
+from gearcad.dynamics.trains.lines import system
+from gearcad.dynamics.trains.six_dof import PairOnBearings
+from gearcad.dynamics.trains.train import Train
 from gearcad.errors import InputError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
@@ -29,7 +29,6 @@ from gearcad.rating.options import RatingOptions
 
 __all__ = ["ContactStudy", "PairStudy", "study_contact", "study_pair"]
 
-Floats = NDArray[np.float64]
 
 _HIGHEST = 2.2
 """Spectra go up to so many times the highest tooth frequency, or natural frequency."""

@@ -8,25 +8,25 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from gearcad.dynamics.driving import train_excitation
-from gearcad.dynamics.excitation import Excitation
-from gearcad.dynamics.kv import KvChart
-from gearcad.dynamics.lines import system
-from gearcad.dynamics.modes import NaturalModes, natural_modes
+from gearcad.arrays import Floats
+from gearcad.dynamics.excitation.driving import train_excitation
+from gearcad.dynamics.excitation.excitation import Excitation
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.response import PeriodicResponse
-from gearcad.dynamics.speed_chart import OverSpeed, over_speed
-from gearcad.dynamics.system import System
-from gearcad.dynamics.train import Train, TrainModel
+from gearcad.dynamics.response.kv import KvChart
+from gearcad.dynamics.response.response import PeriodicResponse
+from gearcad.dynamics.response.speed_chart import OverSpeed, over_speed
+from gearcad.dynamics.trains.lines import system
+from gearcad.dynamics.trains.modes import NaturalModes, natural_modes
+from gearcad.dynamics.trains.system import System
+from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.errors import GeometryError
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 
 __all__ = ["Course", "ModalStudy", "TrainStudy", "study_modes", "study_train"]
 
-Floats = NDArray[np.float64]
 
 _BEYOND = 1.5
 """How far beyond the last resonance a chart goes on."""

@@ -1,12 +1,12 @@
 """Exact geometry of cylindrical gears: numpy, and scipy inside functions. Lengths in mm, angles in degrees."""
 
 from gearcad.geometry.body import Body, HubSide
-from gearcad.geometry.contact import ContactLineLengths, PathOfContact, contact_line_length
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.inspection import chordal_thickness, over_balls, over_pins, span_contact_diameter, span_measurement
 from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.geometry.modification import FlankForm, FlankModification, ReliefShape
 from gearcad.geometry.pair import CommonWidth, GearPair
+from gearcad.geometry.path import ContactLineLengths, PathOfContact, contact_line_length
 from gearcad.geometry.pose import MeshPose, mesh_pose
 from gearcad.geometry.profile import ToothProfile
 from gearcad.geometry.rack import ISO53_A, ISO53_B, ISO53_C, ISO53_D, NAMED_RACKS, BasicRack

@@ -13,13 +13,13 @@ from enum import Enum
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearcad.arrays import Floats
 from gearcad.geometry.trochoid import ToolTip
 
 __all__ = ["Chamfer", "Curve", "CurveKind", "Fillet", "Involute", "Land", "parameters_within"]
 
-Floats = NDArray[np.float64]
 
 AIM = 0.98
 """Share of the chord error that the local rule aims at: where the bend changes along a chord it is off by up to 1 %."""

@@ -13,8 +13,9 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearcad.arrays import Floats
 from gearcad.errors import GeometryError, as_choice, plain_numbers, require_number
 from gearcad.geometry.limits import at_most
 from gearcad.reprs import concise
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
 
 __all__ = ["FlankForm", "FlankModification", "ReliefShape", "check_flanks"]
 
-Floats = NDArray[np.float64]
 
 _RELIEFS = ("tip_relief", "root_relief", "end_relief")
 

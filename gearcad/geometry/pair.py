@@ -8,13 +8,13 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from gearcad.errors import GeometryError, ParameterError, format_number, plain_numbers, require_name, require_number
-from gearcad.geometry import contact
-from gearcad.geometry.contact import ContactLineLengths, PathOfContact
+from gearcad.geometry import path
 from gearcad.geometry.derived import Derived
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.interference import fillet_cut
 from gearcad.geometry.involute import involute
 from gearcad.geometry.limits import at_least, at_most
+from gearcad.geometry.path import ContactLineLengths, PathOfContact
 from gearcad.geometry.picture import pair_html
 from gearcad.geometry.shift import least_profile_shift_sum, profile_shift_sum, zero_backlash_centre_distance
 from gearcad.ranges import OFFSET
@@ -87,7 +87,7 @@ class GearPair:
 
     def _check_reach(self) -> None:
         """Some path of contact must be left between the tip form circles."""
-        farthest = contact.farthest_centre_distance(self.pinion, self.wheel)
+        farthest = path.farthest_centre_distance(self.pinion, self.wheel)
         if self.centre_distance >= farthest:
             permitted = f"must be below {at_most(farthest)} mm, where the tips reach each other's flanks"
             raise GeometryError("centre_distance", self.centre_distance, permitted, "mm")
@@ -242,7 +242,7 @@ class GearPair:
     @cached_property
     def path_of_contact(self) -> PathOfContact:
         """A, B, C, D, E on the line of action between the tip (form) circles, as distances from T1 (mm)."""
-        return contact.path_of_contact(self)
+        return path.path_of_contact(self)
 
     @property
     def transverse_contact_ratio(self) -> float:
@@ -253,7 +253,7 @@ class GearPair:
     @property
     def usable_contact_ratio(self) -> float:
         """epsilon_alpha also limited by the root form circles; 0 where nothing is left."""
-        first, last = contact.usable_path(self)
+        first, last = path.usable_path(self)
         return max(last - first, 0.0) / self.pinion.transverse_base_pitch
 
     @property
@@ -270,12 +270,12 @@ class GearPair:
     @property
     def active_root_diameters(self) -> tuple[float, float]:
         """Start-of-active-profile diameters d_Nf that the mate's tip form circle reaches (mm)."""
-        return contact.active_root_diameters(self)
+        return path.active_root_diameters(self)
 
     @cached_property
     def contact_line_lengths(self) -> ContactLineLengths:
         """Least, mean and greatest total length of the lines of contact over the cycle (mm)."""
-        return contact.contact_line_lengths(self)
+        return path.contact_line_lengths(self)
 
     @cached_property
     def warnings(self) -> tuple[str, ...]:

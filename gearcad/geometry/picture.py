@@ -8,9 +8,9 @@ from html import escape
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearcad import symbols
+from gearcad.arrays import Floats
 from gearcad.geometry.pose import MeshPose, mesh_pose
 
 if TYPE_CHECKING:
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
 __all__ = ["gear_html", "pair_html"]
 
-Floats = NDArray[np.float64]
 
 _PIXELS = 240
 """Of the longer side."""

@@ -8,8 +8,9 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearcad.arrays import Floats
 from gearcad.errors import GeometryError, ParameterError, require_number
 from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Fillet, Involute, Land, parameters_within
 from gearcad.geometry.involute import inverse_involute, involute
@@ -18,7 +19,6 @@ from gearcad.geometry.trochoid import ToolTip
 
 __all__ = ["ToothProfile"]
 
-Floats = NDArray[np.float64]
 
 LEAST_LAND = 4e-6
 """Arcs shorter than this (mm) are left out: they are below the tolerance of a solid (and of any machine)."""

@@ -7,16 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats, Wholes
 from gearcad.errors import ParameterError
 from gearcad.meshing.outline import Side
 from gearcad.meshing.sector import SectorMesh
 
 __all__ = ["MESH_SUFFIXES", "BodyMesh", "ring_mesh", "sector_mesh", "write_mesh"]
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 MESH_SUFFIXES = (".vtu", ".inp", ".msh")
 
@@ -35,8 +33,8 @@ class BodyMesh:
     """
 
     points: Floats
-    triangles: Indices
-    sets: Mapping[str, Indices]
+    triangles: Wholes
+    sets: Mapping[str, Wholes]
 
 
 def sector_mesh(sector: SectorMesh) -> BodyMesh:

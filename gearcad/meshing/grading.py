@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from gearcad.arrays import Floats
 
 __all__ = ["Grading", "graded"]
 
-Floats = NDArray[np.float64]
 
 _FINE = 513
 """Points at which a line is sampled to measure and to grade it."""

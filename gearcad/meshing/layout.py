@@ -18,8 +18,8 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind, Land
@@ -28,7 +28,6 @@ from gearcad.meshing.outline import EdgeLength, MeshSizes, Side, edge_lengths
 
 __all__ = ["Counts", "Layout", "Piece", "cartesian", "choose_counts", "polar", "quadrangles", "shares"]
 
-Floats = NDArray[np.float64]
 
 _WEIGHT_OF_ALL = 30.0
 """How much more the number of all quadrangles matters than that on one side, squares of logarithms compared."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass, fields, replace
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
 from gearcad.errors import require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
@@ -17,7 +17,6 @@ from gearcad.meshing.grading import graded
 
 __all__ = ["OTHER_SIDE", "EdgeLength", "MeshSizes", "Side", "Stretch", "edge_lengths", "sector_outline"]
 
-Floats = NDArray[np.float64]
 
 EdgeLength = Callable[[Floats, float], Floats]
 """Wanted edge lengths (mm) at distances (mm) from the root side of a curve, of a given length in all."""

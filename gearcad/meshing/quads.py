@@ -8,8 +8,8 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats, Wholes
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
 from gearcad.meshing.layout import Layout, Piece, cartesian, polar, shares
@@ -19,8 +19,6 @@ from gearcad.meshing.transfinite import transfinite
 
 __all__ = ["QuadMesh", "mesh_quads"]
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 _FLIPPED = np.array([-1.0, 1.0])
 """Turns angles over and leaves radii as they are."""
@@ -36,16 +34,16 @@ class QuadMesh:
 
     points: Floats
     vertices: int
-    quads: Indices
-    sides: Mapping[Side, Indices]
+    quads: Wholes
+    sides: Mapping[Side, Wholes]
 
     @property
-    def ahead(self) -> Indices:
+    def ahead(self) -> Wholes:
         """Nodes of the cut at plus half a pitch, from the root inwards."""
         return self.sides[Side.AHEAD]
 
     @property
-    def behind(self) -> Indices:
+    def behind(self) -> Wholes:
         """Nodes of the cut at minus half a pitch, from the root inwards: the k-th meets the k-th of `ahead`."""
         return self.sides[Side.BEHIND][::-1]
 
@@ -112,7 +110,7 @@ class _Blocks:
         return self.layout.across_line(self.layout.across.ends(self.layout.counts.across))
 
     @cached_property
-    def numbers(self) -> tuple[Indices, Indices]:
+    def numbers(self) -> tuple[Wholes, Wholes]:
         """Numbers of the vertices of body and tooth, each vertex once."""
         counts = self.layout.counts
         rows, columns, _ = self.body.shape
@@ -127,13 +125,13 @@ class _Blocks:
         return cartesian(places)
 
     @property
-    def quads(self) -> Indices:
+    def quads(self) -> Wholes:
         """Vertices (m, 4) of all quadrangles, counter-clockwise."""
         grids = ([grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]] for grid in self.numbers)
         return np.concatenate([np.stack([part.ravel() for part in grid], -1) for grid in grids])
 
     @cached_property
-    def sides(self) -> list[tuple[Side, Indices, Floats]]:
+    def sides(self) -> list[tuple[Side, Wholes, Floats]]:
         """The outline in order: vertices (n + 1,), and the ends and middles (2 n + 1, 2) of their edges (mm)."""
         body, tooth = self.numbers
         outer = self.layout.counts.outer
@@ -187,7 +185,7 @@ def _quadratic(blocks: _Blocks) -> QuadMesh:
     edges, which = np.unique(np.sort(pairs, axis=1), axis=0, return_inverse=True)
     middles = points[edges].mean(axis=1)
     keys = edges[:, 0] * len(points) + edges[:, 1]
-    sides: dict[Side, Indices] = {}
+    sides: dict[Side, Wholes] = {}
     for side, chain, exact in blocks.sides:
         low, high = np.minimum(chain[1:], chain[:-1]), np.maximum(chain[1:], chain[:-1])
         between = np.searchsorted(keys, low * len(points) + high)

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
+
 __all__ = ["LEAST_SCALED_JACOBIAN", "MeshQuality", "mesh_quality", "scaled_jacobians"]
 
-Floats = NDArray[np.float64]
 
 _CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
 

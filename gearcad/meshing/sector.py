@@ -6,16 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats, Wholes
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
 from gearcad.meshing.outline import MeshSizes, Side, Stretch, sector_outline
 
 __all__ = ["MeshSizes", "SectorMesh", "fill_polygon", "mesh_sector"]
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 _DIGITS = 9
 """Decimals of the extent of a polygon that gmsh is told: far below any edge, far above the last bits."""
@@ -33,16 +31,16 @@ class SectorMesh:
     """
 
     points: Floats
-    triangles: Indices
-    sides: Mapping[Side, Indices]
+    triangles: Wholes
+    sides: Mapping[Side, Wholes]
 
     @property
-    def ahead(self) -> Indices:
+    def ahead(self) -> Wholes:
         """Nodes of the cut at plus half a pitch, from the root inwards."""
         return self.sides[Side.AHEAD]
 
     @property
-    def behind(self) -> Indices:
+    def behind(self) -> Wholes:
         """Nodes of the cut at minus half a pitch, from the root inwards: the k-th meets the k-th of `ahead`."""
         return self.sides[Side.BEHIND][::-1]
 
@@ -55,7 +53,7 @@ def mesh_sector(gear: Gear, inner_radius: float, sizes: MeshSizes | None = None)
     return _quadratic(points, triangles, outline)
 
 
-def fill_polygon(outline: Floats) -> tuple[Floats, Indices]:
+def fill_polygon(outline: Floats) -> tuple[Floats, Wholes]:
     """Points and triangles (m, 3) that fill a polygon without adding to its corners, which come first.
 
     Raises SolverError if gmsh fails.
@@ -97,7 +95,7 @@ def fill_polygon(outline: Floats) -> tuple[Floats, Indices]:
     return points, place[found].reshape(-1, 3)
 
 
-def _quadratic(points: Floats, triangles: Indices, outline: list[Stretch]) -> SectorMesh:
+def _quadratic(points: Floats, triangles: Wholes, outline: list[Stretch]) -> SectorMesh:
     """Add mid-side nodes: on the exact curve along the outline, half-way elsewhere."""
     x, y = (points[triangles][:, :, axis] for axis in (0, 1))
     area = (x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (x[:, 2] - x[:, 0]) * (y[:, 1] - y[:, 0])
@@ -106,7 +104,7 @@ def _quadratic(points: Floats, triangles: Indices, outline: list[Stretch]) -> Se
     edges, which = np.unique(pairs, axis=0, return_inverse=True)
     middles = points[edges].mean(axis=1)
     number = {(int(a), int(b)): index for index, (a, b) in enumerate(edges)}
-    sides: dict[Side, Indices] = {}
+    sides: dict[Side, Wholes] = {}
     count, start = sum(len(stretch.mids) for stretch in outline), 0
     for stretch in outline:
         ends = (start + np.arange(len(stretch.ends))) % count

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats, Wholes
 from gearcad.meshing.outline import Side
 from gearcad.meshing.sector import SectorMesh
 
 __all__ = ["with_shaft"]
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 _HOLLOW = 0.03
 """Inner over outer diameter of what stands for a solid shaft: a wedge cannot end in a point."""
@@ -50,14 +48,14 @@ def _radii(outer: float, inner: float, angle: float) -> Floats:
     return np.interp(np.arange(2 * len(ends) - 1) / 2, np.arange(len(ends)), ends)
 
 
-def _triangles(numbers: Indices) -> Indices:
+def _triangles(numbers: Wholes) -> Wholes:
     """Two quadratic triangles in every cell of a grid of nodes, whose rows go inwards and whose columns go clockwise."""
 
-    def at(row: int, column: int) -> Indices:
+    def at(row: int, column: int) -> Wholes:
         rows, columns = numbers.shape
         return numbers[row : row + rows - 2 : 2, column : column + columns - 2 : 2].ravel()
 
     upper = (at(0, 0), at(2, 0), at(2, 2), at(1, 0), at(2, 1), at(1, 1))
     lower = (at(0, 0), at(2, 2), at(0, 2), at(1, 1), at(1, 2), at(0, 1))
-    triangles: Indices = np.r_[np.stack(upper, -1), np.stack(lower, -1)]
+    triangles: Wholes = np.r_[np.stack(upper, -1), np.stack(lower, -1)]
     return triangles

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from gearcad.arrays import Floats
 
 __all__ = ["transfinite"]
-
-Floats = NDArray[np.float64]
 
 
 def transfinite(lower: Floats, upper: Floats, left: Floats, right: Floats) -> Floats:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearcad.check.result import CheckResult, PlaneCheck
 from gearcad.geometry import GearPair
@@ -14,7 +13,7 @@ from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, l
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from gearcad.fea.cycle import PairContact
+    from gearcad.contact.plane.cycle import PairContact
 
 __all__ = [
     "PATH",
@@ -26,7 +25,6 @@ __all__ = [
     "plot_transmission_error",
 ]
 
-Floats = NDArray[np.float64]
 
 PATH = "place on the line of action, from T$_1$, in mm"
 _ROLL = "roll angle of the pinion in °, 0 at the pitch point"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Bools, Floats
 from gearcad.check.result import SolidCheck
 from gearcad.check.solid_summary import middle_contacts
 from gearcad.plots.check import PATH, mark_path
@@ -27,8 +27,6 @@ __all__ = [
     "plot_root_along_face",
 ]
 
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
 
 _COLOUR_MAP = "viridis"
 

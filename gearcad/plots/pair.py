@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
 from gearcad.geometry import Gear, GearPair, mesh_pose
 from gearcad.plots.paper import DARK, GEARS, MARKED, new_figure
 
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
 __all__ = ["pair_inches", "plot_pair"]
 
-Floats = NDArray[np.float64]
 
 _CHORD = 2e-3
 """Error of the outlines, in normal modules: nobody sees it."""

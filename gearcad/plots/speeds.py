@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.dynamics.kv import KvChart
+from gearcad.arrays import Floats
+from gearcad.dynamics.response.kv import KvChart
 from gearcad.dynamics.study import TrainStudy
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.plots.labels import plain
@@ -28,7 +29,6 @@ __all__ = [
     "shafts_with_reference",
 ]
 
-Floats = NDArray[np.float64]
 
 _SPEED = "speed of the pinion in rpm"
 

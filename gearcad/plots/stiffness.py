@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.plots.check import mark_path
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, new_figure, prepared
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 __all__ = ["divided", "parts_inches", "plot_load_dependence", "plot_parts", "plot_parts_of_all", "plot_stiffness"]
 
-Floats = NDArray[np.float64]
 
 _PLACE = "place $s_1$ of the middle pair on the line of action, from T$_1$, in mm"
 _ROLL = "roll angle of the pinion in °, 0 at C"

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
 from gearcad.check.result import PlaneCheck
-from gearcad.fea.cycle import root_loads
-from gearcad.fea.elasticity import Plane
-from gearcad.fea.stress_field import ToothField, contact_frame, tooth_field
-from gearcad.fea.subsurface import strip_stresses
+from gearcad.contact.plane.cycle import root_loads
+from gearcad.contact.plane.elasticity import Plane
+from gearcad.contact.plane.field import ToothField, contact_frame, tooth_field
+from gearcad.contact.plane.subsurface import strip_stresses
 from gearcad.meshing.outline import Side
 from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, new_figure, prepared
 from gearcad.rating import LineContact, Stresses
@@ -19,7 +19,7 @@ from gearcad.rating import LineContact, Stresses
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from gearcad.fea.cycle import PairContact, Position
+    from gearcad.contact.plane.cycle import PairContact, Position
 
 __all__ = [
     "depth_stresses",
@@ -33,7 +33,6 @@ __all__ = [
     "worst_fields",
 ]
 
-Floats = NDArray[np.float64]
 _Place = tuple[float, float]
 
 _COLOUR_MAP = "viridis"

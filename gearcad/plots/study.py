@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 from gearcad.errors import ParameterError, format_number
 from gearcad.output import staged_files
-from gearcad.plot_data import Column, Points
 from gearcad.plots.labels import axis_label, plain, wrapped
+from gearcad.plots.table_data import Column, Points
 
 if TYPE_CHECKING:
     import numpy as np

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats, Wholes
 from gearcad.check.result import SolidCheck
-from gearcad.ltca.solid_field import shown_stress, worst_field
+from gearcad.contact.solid.field import shown_stress, worst_field
 from gearcad.plots.paper import new_figure
 
 if TYPE_CHECKING:
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 __all__ = ["COLOUR_MAP", "PITCH", "YAW", "ToothSurface", "plot_tooth", "tooth_surface", "viewed"]
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 COLOUR_MAP = "viridis"
 
@@ -44,7 +42,7 @@ class ToothSurface:
     """
 
     points: Floats
-    triangles: Indices
+    triangles: Wholes
     von_mises: Floats
     most: float
 

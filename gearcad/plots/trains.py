@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gearcad.dynamics.modes import NaturalModes
-from gearcad.dynamics.train import GROUND, Shaft, Train
+from gearcad.arrays import Floats
+from gearcad.dynamics.trains.modes import NaturalModes
+from gearcad.dynamics.trains.train import GROUND, Shaft, Train
 from gearcad.plots.labels import plain
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, SERIES, new_figure, prepared, short
 
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 __all__ = ["MOST_SHAPES", "energies_inches", "plot_energies", "plot_shapes", "shapes_inches"]
 
-Floats = NDArray[np.float64]
 
 MOST_SHAPES = 12
 """Modes that are drawn, the lowest."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
 from gearcad.check.result import CheckResult
 from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, legend_above, prepared, short
 
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
 __all__ = ["plot_convergence", "plot_sweep_pressure", "plot_sweep_stiffness"]
 
-Floats = NDArray[np.float64]
 
 _TORQUE = "torque on the pinion in N·m"
 _MARKERS = ("o", "s", "^")

@@ -11,8 +11,9 @@ from enum import Enum
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearcad.arrays import Floats
 from gearcad.errors import ParameterError, plain_numbers, require_number, require_whole
 from gearcad.geometry import GearPair
 from gearcad.load import Load
@@ -24,7 +25,6 @@ from gearcad.rating.running_in import RunningIn, running_in_alpha, running_in_re
 
 __all__ = ["DynamicFactor", "RunningFactors", "SpeedRange", "reduced_mass", "resonance_speed", "running_factors"]
 
-Floats = NDArray[np.float64]
 
 _MAIN_END, _SUPERCRITICAL = 1.15, 1.5
 """Resonance ratios at which the main resonance range ends, and the supercritical one begins."""

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearcad.arrays import Floats
 from gearcad.errors import plain_numbers, require_number
 
 __all__ = ["LineContact", "Peak", "Stresses", "reduced_modulus", "reduced_radius"]
 
-Floats = NDArray[np.float64]
 
 _GOLDEN = (math.sqrt(5) - 1) / 2
 

@@ -7,14 +7,14 @@ from enum import Enum
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearcad.arrays import Floats
 from gearcad.errors import require_number
 from gearcad.material import MaterialGroup
 
 __all__ = ["RunningIn", "running_in_alpha", "running_in_beta", "running_in_relief"]
 
-Floats = NDArray[np.float64]
 
 _SLOW, _FAST = 5.0, 10.0
 """Circumferential speeds (m/s) up to which nothing, and beyond which most, is held back by speed."""

@@ -1,8 +1,8 @@
 """The reports of a check, of a comparison of stiffness and of dynamics: HTML files that need nothing else."""
 
-from gearcad.report.dynamics import dynamics_html, write_dynamics_report
-from gearcad.report.stiffness import stiffness_html, write_stiffness_report
-from gearcad.report.write import report_html, write_report
+from gearcad.report.check.report import report_html, write_report
+from gearcad.report.dynamics.report import dynamics_html, write_dynamics_report
+from gearcad.report.stiffness.report import stiffness_html, write_stiffness_report
 
 __all__ = [
     "dynamics_html",

@@ -8,8 +8,9 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import Polynomial
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearcad.arrays import Floats
 from gearcad.geometry.curves import Curve, CurveKind, Involute, Land
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.modification import FlankForm
@@ -17,7 +18,6 @@ from gearcad.geometry.profile import LEAST_LAND
 
 __all__ = ["FlankCurve", "TurnedCurve", "flank_curves", "middle_section"]
 
-Floats = NDArray[np.float64]
 
 _HEIGHTS = 65
 """Places over the face width at which the width of the root land is looked at."""

@@ -15,8 +15,8 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.load import Load
 from gearcad.rating.iso6336_3 import RIM_LIMIT
@@ -27,7 +27,6 @@ from gearcad.stiffness.slices import SinglePair
 
 __all__ = ["BeamMethod", "PotentialEnergy", "WeberBanaschek"]
 
-Floats = NDArray[np.float64]
 
 _OWNERS = ("pinion", "wheel")
 

@@ -7,10 +7,10 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
+from gearcad.contact.plane.pair import BodyModel
 from gearcad.errors import GearcadError, ParameterError
-from gearcad.fea.flexible_pair import BodyModel
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
@@ -22,7 +22,6 @@ from gearcad.stiffness.methods import METHODS
 
 __all__ = ["LoadPoint", "StiffnessComparison", "compare_methods", "expected_methods"]
 
-Floats = NDArray[np.float64]
 
 _PROGRAM = 0.4e9
 """Bytes of Python, its libraries, and plane bodies."""

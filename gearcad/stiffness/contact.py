@@ -10,24 +10,23 @@ from functools import cached_property
 from typing import ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
+from gearcad.contact.plane.cycle import single_stiffness
+from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
+from gearcad.contact.plane.limits import thin_faces
+from gearcad.contact.plane.pair import FlexiblePair, PairInMesh, flexible_pair
+from gearcad.contact.solid.cost import POSITION_SECONDS
+from gearcad.contact.solid.cycle import solid_single_stiffness
+from gearcad.contact.solid.pair import SolidPair, SolidSizes, expected_bodies, loaded_left, solid_pair
 from gearcad.errors import GeometryError
-from gearcad.fea.cycle import single_stiffness
-from gearcad.fea.elasticity import Plane, PlaneElasticity
-from gearcad.fea.flexible_pair import FlexiblePair, PairInMesh, flexible_pair
-from gearcad.fea.plane_limits import thin_faces
 from gearcad.load import Load
-from gearcad.ltca.cost import POSITION_SECONDS
-from gearcad.ltca.solid_cycle import solid_single_stiffness
-from gearcad.ltca.solid_pair import SolidPair, SolidSizes, expected_bodies, loaded_left, solid_pair
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.progress import Expected
 from gearcad.stiffness.method import StiffnessMethod
 
 __all__ = ["ContactMethod", "PlaneStrainContact", "PlaneStressContact", "SolidContact"]
 
-Floats = NDArray[np.float64]
 
 _STEP = 0.02
 """Relative change of the torque on both sides of the load between which the tangent stiffness is taken."""

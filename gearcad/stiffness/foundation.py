@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
 from gearcad.material import Material
 from gearcad.stiffness.section import BeamLoad, BeamTooth
 
 __all__ = ["sainsot_foundation", "sainsot_range", "weber_foundation"]
 
-Floats = NDArray[np.float64]
 
 _SAINSOT = np.array(
     [

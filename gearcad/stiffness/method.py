@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar
 
+from gearcad.contact.plane.pair import BodyModel
 from gearcad.errors import GeometryError, ParameterError, require_whole
-from gearcad.fea.flexible_pair import BodyModel
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material

@@ -14,8 +14,8 @@ from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import Chebyshev
-from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
 from gearcad.geometry import Gear, ToothProfile
 from gearcad.geometry.curves import Curve, Fillet, Involute
 from gearcad.geometry.profile import base_half_angle
@@ -23,7 +23,6 @@ from gearcad.geometry.trochoid import ToolTip
 
 __all__ = ["BeamLoad", "BeamTooth"]
 
-Floats = NDArray[np.float64]
 
 _GAUSS = np.polynomial.legendre.leggauss(24)
 _DEGREE = 48

@@ -7,17 +7,13 @@ from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-from numpy.typing import NDArray
-
+from gearcad.arrays import Floats
 from gearcad.load import Load
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.stiffness.method import StiffnessMethod
 from gearcad.stiffness.slices import SinglePair, Slices
 
 __all__ = ["SliceMethod"]
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)

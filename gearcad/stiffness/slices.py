@@ -16,12 +16,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gearcad.arrays import Floats
 from gearcad.geometry import GearPair
-from gearcad.geometry.contact import usable_path
+from gearcad.geometry.path import usable_path
 
 __all__ = ["MeshCurves", "SinglePair", "Slices"]
 
-Floats = NDArray[np.float64]
 
 _NODES = 129
 """Places on the path of contact between which the single pair's compliances are cubic splines: right to 1e-8."""

@@ -12,12 +12,12 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gearcad.fea.elasticity import Plane, PlaneElasticity
-from gearcad.fea.flank import FlankCompliance
-from gearcad.fea.flexible_pair import flank_body
-from gearcad.fea.plane_limits import thin_faces
+from gearcad.arrays import Floats
+from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
+from gearcad.contact.plane.flank import FlankCompliance
+from gearcad.contact.plane.limits import thin_faces
+from gearcad.contact.plane.pair import flank_body
 from gearcad.geometry import Gear
 from gearcad.load import Load
 from gearcad.stiffness.slice_method import SliceMethod
@@ -25,7 +25,6 @@ from gearcad.stiffness.slices import SinglePair
 
 __all__ = ["StrainEnergy", "weighted_displacement"]
 
-Floats = NDArray[np.float64]
 
 _POINTS = 7
 """Of Gauss's rule for an ellipse, across the width of contact."""

@@ -14,10 +14,10 @@ from support.batches import GEARS, MIXED, PAIRS, read_results, rows_of, write_ta
 from gearcad.batch import Decimal, Step, Summary, Wanted, run_table
 from gearcad.batch import run as run_module
 from gearcad.batch.results import _text
-from gearcad.build import Format
+from gearcad.designs import read_spec
+from gearcad.designs.table import open_table
 from gearcad.errors import OutputError, ParameterError
-from gearcad.spec import read_spec
-from gearcad.spec.table import open_table
+from gearcad.jobs.build import Format
 
 DATA = Wanted(steps=(Step.DATA,))
 POINTS = Wanted(formats=(Format.CSV,))

@@ -25,9 +25,9 @@ from gearcad.batch import Step, Summary, Wanted, run_table
 from gearcad.batch import pool as pool_module
 from gearcad.batch import run as run_module
 from gearcad.batch.row import Status, Task, make_row
-from gearcad.build import Format
+from gearcad.designs.table import open_table
 from gearcad.errors import ParameterError
-from gearcad.spec.table import open_table
+from gearcad.jobs.build import Format
 
 distributed = pytest.importorskip("distributed")
 

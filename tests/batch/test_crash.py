@@ -20,8 +20,8 @@ from support.processes import PATIENCE, below, run_batch, send_to_all, start_bat
 from gearcad.batch import Step, Wanted, run_table
 from gearcad.batch.row import Status, Task, make_row
 from gearcad.batch.worker import close_workers, isolated
-from gearcad.build import Format
-from gearcad.spec.table import open_table
+from gearcad.designs.table import open_table
+from gearcad.jobs.build import Format
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 

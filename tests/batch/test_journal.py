@@ -10,7 +10,7 @@ import psutil
 
 from gearcad.batch.journal import Journal
 from gearcad.batch.row import Record, Status
-from gearcad.spec.table import Row
+from gearcad.designs.table import Row
 
 ROW = Row(2, "a", {"gear.teeth": 20}, (), (), "table.csv", ("name", "gear.teeth"))
 LARGE = {"gear.rack": "x" * 100_000}
@@ -61,7 +61,7 @@ FILL = """
 from dataclasses import replace
 from gearcad.batch.journal import Journal
 from gearcad.errors import OutputError
-from gearcad.spec.table import Row
+from gearcad.designs.table import Row
 journal = Journal()
 row = Row(2, "a", {"gear.rack": "x" * 100_000}, (), (), "table.csv", ("name", "gear.rack"))
 try:

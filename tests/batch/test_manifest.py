@@ -15,7 +15,7 @@ from support.batches import GEARS, made_now, snapshot, write_table
 import gearcad
 from gearcad.batch import Wanted, run_table
 from gearcad.batch.manifest import inputs_hash
-from gearcad.build import Format
+from gearcad.jobs.build import Format
 
 POINTS = Wanted(formats=(Format.CSV,))
 
@@ -40,7 +40,7 @@ def test_hash_is_of_the_inputs_whatever_their_order() -> None:
     assert len({inputs_hash(inputs) for inputs in others} | {inputs_hash({"name": "a", "gear.teeth": 20})}) == 5
 
 
-@pytest.mark.parametrize("change", ["__init__.py", "spec/keys.py", "solids/new.py"])
+@pytest.mark.parametrize("change", ["__init__.py", "designs/keys.py", "solids/new.py"])
 def test_hash_is_of_the_source_too(change: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A checkout changes under one version."""
     monkeypatch.chdir(tmp_path)  # Python looks for packages here first

@@ -12,7 +12,7 @@ from support.batches import GEARS, PAIRS, lies, made_now, read_results, snapshot
 
 from gearcad.batch import Step, Summary, Wanted, run_table
 from gearcad.batch import run as run_module
-from gearcad.build import Format
+from gearcad.jobs.build import Format
 
 POINTS = Wanted(formats=(Format.CSV,))
 DATA = Wanted(steps=(Step.DATA,))

@@ -14,8 +14,8 @@ from support.batches import GEARS, lies, read_results, snapshot, write_table
 from support.processes import PATIENCE, run_batch, start_batch, wait_until
 
 from gearcad.batch import Step, Wanted, run_table
-from gearcad.build import Format
 from gearcad.errors import OutputError
+from gearcad.jobs.build import Format
 
 DATA = Wanted(steps=(Step.DATA,))
 POINTS = Wanted(formats=(Format.CSV,))

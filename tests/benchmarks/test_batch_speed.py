@@ -23,7 +23,7 @@ from support.variants import variants
 
 from gearcad.batch import Step, Wanted
 from gearcad.batch.row import Task, make_row
-from gearcad.spec.table import open_table
+from gearcad.designs.table import open_table
 
 pytestmark = pytest.mark.benchmark_suite
 

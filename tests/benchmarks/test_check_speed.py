@@ -20,9 +20,9 @@ import gmsh, skfem, scipy.interpolate, scipy.sparse.linalg
 from dataclasses import replace
 from gearcad import Gear, GearPair, Load, Material
 from gearcad.check.run import check_pair
-from gearcad.fea.brute import nodal_compliance
-from gearcad.fea.cycle import run_cycle
-from gearcad.fea.flexible_pair import BodyModel, flexible_pair
+from gearcad.contact.plane.brute import nodal_compliance
+from gearcad.contact.plane.cycle import run_cycle
+from gearcad.contact.plane.pair import BodyModel, flexible_pair
 from gearcad.meshing import MeshSizes
 pair = GearPair(
     pinion=Gear(teeth=18, normal_module=1.5, face_width=10, profile_shift=0.3422, tip_alteration=-0.0104),

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
+from gearcad.contact.optimum.search import start_search
 from gearcad.geometry import ReliefShape
-from gearcad.ltca.search import start_search
 from tests.support.coarse import PAIRS, TORQUES, coarse_model
 
 pytestmark = pytest.mark.benchmark_suite

@@ -20,12 +20,12 @@ import gmsh, skfem, scipy.interpolate, scipy.linalg, scipy.sparse
 from dataclasses import replace
 from threadpoolctl import threadpool_limits
 from gearcad import FlankModification, Material, Mounting
-from gearcad.fea.chain import Cuts
-from gearcad.fea.flexible_pair import BodyModel
-from gearcad.ltca.solid_cycle import run_solid_cycle
-from gearcad.ltca.solid_pair import solid_pair
-from gearcad.spec import read_spec
-from gearcad.spec.starters import starter_text
+from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.solid.cycle import run_solid_cycle
+from gearcad.contact.solid.pair import solid_pair
+from gearcad.designs import read_spec
+from gearcad.designs.starters import starter_text
 import tempfile, pathlib
 with tempfile.TemporaryDirectory() as folder:
     spec = pathlib.Path(folder) / "volvo-13-44.toml"

@@ -18,7 +18,7 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
-from gearcad.fea.flexible_pair import BodyModel
+from gearcad.contact.plane.pair import BodyModel
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.stiffness import CLOSED_FORMS, METHODS, PotentialEnergy, StiffnessMethod
 

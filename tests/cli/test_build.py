@@ -10,10 +10,10 @@ import pytest
 from click.testing import CliRunner
 
 from gearcad import GeometryError, SolverError, solids
-from gearcad.build import Format, build
 from gearcad.cli import main
-from gearcad.spec import read_spec
-from gearcad.spec.design import Design
+from gearcad.designs import read_spec
+from gearcad.designs.design import Design
+from gearcad.jobs.build import Format, build
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 PAIR = ["pinion", "wheel"]

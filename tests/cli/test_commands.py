@@ -11,8 +11,8 @@ from click.testing import CliRunner, Result
 
 import gearcad
 from gearcad.cli import main
-from gearcad.spec import read_spec
-from gearcad.spec.starters import starters
+from gearcad.designs import read_spec
+from gearcad.designs.starters import starters
 
 VOLVO = "volvo-13-44"
 STARTERS = ["alm-18-161", "fzg-c", "reducer-21-43", "spur", "uhlir-19-23", VOLVO]
@@ -94,12 +94,12 @@ def test_new_to_an_impossible_place_is_one_line(output: str) -> None:
 
 
 def test_starters_are_found_in_an_installed_package_too(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    import gearcad.spec.starters
+    import gearcad.designs.starters
 
     package = tmp_path / "site" / "gearcad"
     (package / "templates").mkdir(parents=True)
     (package / "templates" / "only.toml").write_text("# The only one.\n")
-    monkeypatch.setattr(gearcad.spec.starters, "__file__", str(package / "spec" / "starters.py"))
+    monkeypatch.setattr(gearcad.designs.starters, "__file__", str(package / "designs" / "starters.py"))
     assert starters() == {"only": "The only one"}
 
 
@@ -214,12 +214,12 @@ def test_build_refuses_options_that_do_not_fit(kind: str, options: list[str], me
 
 def test_build_finds_an_unwritable_output_before_any_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A folder below a regular file: that fails for root as well."""
-    import gearcad.spec.design
+    import gearcad.designs.design
 
     def work(self: object) -> None:
         raise AssertionError("worked before it looked")
 
-    monkeypatch.setattr(gearcad.spec.design.Design, "to_dict", work)
+    monkeypatch.setattr(gearcad.designs.design.Design, "to_dict", work)
     spec = starter(tmp_path)
     Path("blocked").write_text("a file")
     for output in ("blocked", "blocked/deep/er"):
@@ -304,12 +304,12 @@ def test_missing_file_is_one_line(command: str) -> None:
 def test_fault_of_ours_is_one_line_with_status_1_and_a_traceback_only_on_demand(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import gearcad.spec
+    import gearcad.designs
 
     def fail(path: Path) -> None:
         raise ZeroDivisionError("two\nlines")
 
-    monkeypatch.setattr(gearcad.spec, "read_spec", fail)
+    monkeypatch.setattr(gearcad.designs, "read_spec", fail)
     result = run("data", "x.toml", status=1)
     assert result.stderr.startswith("Error: unexpected ZeroDivisionError: two lines (")
     assert "--debug" in result.stderr and result.stderr.count("\n") == 1

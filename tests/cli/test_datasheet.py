@@ -7,9 +7,9 @@ import pytest
 from rich.console import Console
 
 from gearcad import Body, Gear, datasheet, symbols
-from gearcad.datasheet import print_datasheet
-from gearcad.spec import read_spec
-from gearcad.spec.design import Design, DesignKind
+from gearcad.cli.datasheet import print_datasheet
+from gearcad.designs import read_spec
+from gearcad.designs.design import Design, DesignKind
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

@@ -13,10 +13,10 @@ from threadpoolctl import threadpool_limits
 
 from gearcad import Material
 from gearcad.cli import main
-from gearcad.fea.flexible_pair import BodyModel
-from gearcad.ltca.solid_cycle import SolidCycle, run_solid_cycle
-from gearcad.ltca.solid_pair import SolidSizes, solid_pair
-from gearcad.spec import read_spec
+from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle
+from gearcad.contact.solid.pair import SolidSizes, solid_pair
+from gearcad.designs import read_spec
 
 SPEC = """\
 # Coarse bodies, quickly solved.
@@ -52,8 +52,8 @@ def run(*arguments: str) -> Result:
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("gearcad.ltca.search._GENERATIONS", 4)
-    monkeypatch.setattr("gearcad.ltca.search._STARTS", 2)
+    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 4)
+    monkeypatch.setattr("gearcad.contact.optimum.search._STARTS", 2)
     return tmp_path
 
 
@@ -107,7 +107,7 @@ def told(figures: dict[str, Any], cycle: SolidCycle) -> None:
 
 
 def test_it_prints_before_and_after_and_warns(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.ltca.search._GENERATIONS", 1)
+    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 1)
     result = run("modify", spec(SPEC), "-o", "other.toml", "--torque", "-30", "--pressure", "150", "--shape", "linear")
     assert result.exit_code == 0, result.output
     lines = result.stdout.splitlines()

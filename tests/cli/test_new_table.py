@@ -6,8 +6,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad.cli import main
-from gearcad.spec import open_table
-from gearcad.spec.starters import starters
+from gearcad.designs import open_table
+from gearcad.designs.starters import starters
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

@@ -12,8 +12,8 @@ import pytest
 from support.processes import hear_interrupts, wait_until
 
 from gearcad import ParameterError
+from gearcad.designs.starters import starter_text
 from gearcad.output import json_text, staged_files
-from gearcad.spec.starters import starter_text
 
 
 def everything(folder: Path) -> list[str]:

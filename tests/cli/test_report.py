@@ -15,8 +15,9 @@ from support.checks import NASTY_NAME, small_check
 from gearcad import __version__
 from gearcad.check.comparison import Role
 from gearcad.plots.paper import short
-from gearcad.report import report_html, write, write_report
-from gearcad.report.reasons_plane import root_at_single_contact
+from gearcad.report import report_html, write_report
+from gearcad.report.check import report as write
+from gearcad.report.check.reasons_plane import root_at_single_contact
 
 _PICTURES = 14
 

@@ -16,7 +16,8 @@ from gearcad.check.result import CheckResult
 from gearcad.errors import GeometryError
 from gearcad.plots.paper import short
 from gearcad.plots.stiffness import divided, plot_load_dependence, plot_parts, plot_parts_of_all, plot_stiffness
-from gearcad.report import stiffness, stiffness_html, write_stiffness_report
+from gearcad.report import stiffness_html, write_stiffness_report
+from gearcad.report.stiffness import report as stiffness
 from gearcad.stiffness import CLOSED_FORMS, METHODS, StiffnessComparison, compare_methods
 
 _SOFTER = 0.8

@@ -85,12 +85,12 @@ def test_study_says_if_no_row_makes_a_gear() -> None:
 
 
 def test_study_does_not_try_the_rows_of_a_large_table(monkeypatch: pytest.MonkeyPatch) -> None:
-    import gearcad.study
+    import gearcad.batch.study
 
     def work(path: Path) -> None:
         raise AssertionError("tried them")
 
-    monkeypatch.setattr(gearcad.study, "check_table", work)
+    monkeypatch.setattr(gearcad.batch.study, "check_table", work)
     result = run("study", SPEC, "--vary", "centre_distance=70:71:2001", "-o", "large.csv")
     assert result.stderr == "Next: gearcad batch large.csv\n"
     with pytest.raises(AssertionError, match="tried them"):

@@ -15,9 +15,9 @@ import gearcad.check.convergence as convergence
 from gearcad import Material
 from gearcad.check.convergence import FEW_POSITIONS, SOLID_FACTORS, Convergence, three_solid_meshes
 from gearcad.check.summary import figures
-from gearcad.fea.flexible_pair import BodyModel
-from gearcad.ltca.solid_cycle import SolidCycle, run_solid_cycle
-from gearcad.ltca.solid_pair import SolidSizes, solid_pair
+from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle
+from gearcad.contact.solid.pair import SolidSizes, solid_pair
 
 Floats = NDArray[np.float64]
 

@@ -13,14 +13,14 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-import gearcad.fea.flexible_pair as flexible_pairs
+import gearcad.contact.plane.pair as flexible_pairs
 from gearcad import Gear, GearPair, Material
-from gearcad.fea.brute import nodal_compliance
-from gearcad.fea.cycle import Cycle, run_cycle
-from gearcad.fea.elasticity import PlaneElasticity
-from gearcad.fea.flank import flank_compliance
-from gearcad.fea.flexible_pair import BodyModel, flexible_pair
-from gearcad.fea.ring import Cuts, assemble
+from gearcad.contact.plane.brute import nodal_compliance
+from gearcad.contact.plane.cycle import Cycle, run_cycle
+from gearcad.contact.plane.elasticity import PlaneElasticity
+from gearcad.contact.plane.flank import flank_compliance
+from gearcad.contact.plane.pair import BodyModel, flexible_pair
+from gearcad.contact.plane.ring import Cuts, assemble
 from gearcad.meshing import MeshSizes, mesh_sector
 
 TORQUE = 12.7

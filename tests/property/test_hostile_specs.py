@@ -13,11 +13,11 @@ import pytest
 from hypothesis import given, settings
 from support.hostile import CHEAP, hostile_rows, hostile_specs, physical_specs, put, run_politely, toml_text
 
+from gearcad.designs.starters import starter_text
+from gearcad.designs.table import open_table
+from gearcad.designs.trains import read_train
 from gearcad.errors import SpecError
 from gearcad.ranges import TORQUE
-from gearcad.spec.starters import starter_text
-from gearcad.spec.table import open_table
-from gearcad.spec.trains import read_train
 
 FZG = tomllib.loads(starter_text("fzg-c")[1]) | {"check": CHEAP}
 TRAIN = tomllib.loads(starter_text("train-1-stage")[1])

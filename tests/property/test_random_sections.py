@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from support.strategies import build_gear, gear_inputs
 
 from gearcad import Gear
+from gearcad.contact.solid.pair import SolidSizes
 from gearcad.errors import GeometryError, InputError
-from gearcad.ltca.solid_pair import SolidSizes
 from gearcad.meshing.layout import Layout
 from gearcad.meshing.outline import Side
 from gearcad.meshing.quads import QuadMesh, mesh_quads

@@ -12,9 +12,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
+from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.shared.chain import Cuts
 from gearcad.errors import GearcadError
-from gearcad.fea.chain import Cuts
-from gearcad.fea.flexible_pair import BodyModel
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.stiffness import CLOSED_FORMS, METHODS, PlaneStrainContact, PotentialEnergy, StrainEnergy, WeberBanaschek
 from tests.support.stiffness import THESIS_LOAD, thesis_pair

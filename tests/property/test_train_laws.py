@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 
-from gearcad.dynamics.lines import system
-from gearcad.dynamics.modes import count_below, natural_modes
-from gearcad.dynamics.parts import static_forces
-from gearcad.dynamics.shafts import dynamic_inertia, dynamic_stiffness, element_matrices
-from gearcad.dynamics.train import GROUND, Inertia, Mesh, Shaft, Train
+from gearcad.dynamics.trains.lines import system
+from gearcad.dynamics.trains.modes import count_below, natural_modes
+from gearcad.dynamics.trains.parts import static_forces
+from gearcad.dynamics.trains.shafts import dynamic_inertia, dynamic_stiffness, element_matrices
+from gearcad.dynamics.trains.train import GROUND, Inertia, Mesh, Shaft, Train
 from gearcad.errors import InputError
 from tests.support.trains import one_stage, random_trains, two_stages
 

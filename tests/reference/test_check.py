@@ -14,10 +14,10 @@ import pytest
 
 from gearcad import BasicRack, Body, Gear, GearPair, Material
 from gearcad.check.summary import PlaneSummary, summarise
-from gearcad.fea.chain import Cuts
-from gearcad.fea.cycle import Cycle, run_cycle
-from gearcad.fea.elasticity import Plane
-from gearcad.fea.flexible_pair import BodyModel, flexible_pair
+from gearcad.contact.plane.cycle import Cycle, run_cycle
+from gearcad.contact.plane.elasticity import Plane
+from gearcad.contact.plane.pair import BodyModel, flexible_pair
+from gearcad.contact.shared.chain import Cuts
 
 TORQUE = 12.7
 TRIAL = 0.015

@@ -14,13 +14,13 @@ from scipy.optimize import brentq
 from scipy.special import mathieu_a, mathieu_b
 from support.responses import STIFFNESS, VARIATION, cosine, isolated, oscillator, preloaded, two_stages
 
-from gearcad.dynamics.backlash import Direction, trace
-from gearcad.dynamics.excitation import Excitation, MeshExcitation
-from gearcad.dynamics.floquet import floquet_multipliers, monodromy
-from gearcad.dynamics.kv import kv_chart
-from gearcad.dynamics.mesh_curves import CosineStiffness, CurveStiffness
-from gearcad.dynamics.periodic import periodic_response
-from gearcad.dynamics.system import System
+from gearcad.dynamics.excitation.excitation import Excitation, MeshExcitation
+from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffness
+from gearcad.dynamics.response.backlash import Direction, trace
+from gearcad.dynamics.response.floquet import floquet_multipliers, monodromy
+from gearcad.dynamics.response.kv import kv_chart
+from gearcad.dynamics.response.periodic import periodic_response
+from gearcad.dynamics.trains.system import System
 
 COMPONENT_MODES = [3719.28572070, 14682.88891153, 64.56267647]
 """Of the two shafts, clamped at the far end with their gear at the other: two of the first, one of the second (1/s)."""

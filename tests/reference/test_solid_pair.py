@@ -10,12 +10,12 @@ import pytest
 from support.hertz import hertz_ellipse
 
 from gearcad import FlankModification, Gear, GearPair, Material, Mounting
-from gearcad.fea.chain import Cuts
-from gearcad.fea.cycle import run_cycle
-from gearcad.fea.elasticity import Plane
-from gearcad.fea.flexible_pair import BodyModel, flexible_pair
-from gearcad.ltca.solid_cycle import run_solid_cycle
-from gearcad.ltca.solid_pair import SolidPair, SolidSizes, solid_pair
+from gearcad.contact.plane.cycle import run_cycle
+from gearcad.contact.plane.elasticity import Plane
+from gearcad.contact.plane.pair import BodyModel, flexible_pair
+from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.solid.cycle import run_solid_cycle
+from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.meshing import MeshSizes
 
 STEEL = Material()

@@ -12,13 +12,13 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from gearcad import Material
-from gearcad.fea.chain import Cuts
-from gearcad.fea.flexible_pair import BodyModel
-from gearcad.ltca.solid_cycle import SolidCycle, run_solid_cycle, solid_single_stiffness
-from gearcad.ltca.solid_pair import SolidSizes, solid_pair
+from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle, solid_single_stiffness
+from gearcad.contact.solid.pair import SolidSizes, solid_pair
+from gearcad.designs import read_spec
+from gearcad.designs.starters import starter_text
 from gearcad.rating import rate
-from gearcad.spec import read_spec
-from gearcad.spec.starters import starter_text
 
 pytestmark = pytest.mark.long
 

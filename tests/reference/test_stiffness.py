@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
-from gearcad.fea.flexible_pair import BodyModel
+from gearcad.contact.plane.pair import BodyModel
 from gearcad.rating.iso6336_1 import mesh_stiffness_alpha, mesh_stiffness_beta
 from gearcad.stiffness import MethodB, PotentialEnergy, WeberBanaschek
 from tests.support.stiffness import THESIS_LOAD, stiffness_case, thesis_pair

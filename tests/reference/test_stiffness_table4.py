@@ -31,11 +31,11 @@ import numpy as np
 import pytest
 
 from gearcad import Load, Material
-from gearcad.fea.elasticity import Plane, PlaneElasticity
-from gearcad.fea.flank import FlankCompliance
-from gearcad.fea.flexible_pair import BodyModel, FlexiblePair, flank_body
-from gearcad.fea.mesh_positions import mesh_line
-from gearcad.fea.ring import Cuts
+from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
+from gearcad.contact.plane.flank import FlankCompliance
+from gearcad.contact.plane.mesh_positions import mesh_line
+from gearcad.contact.plane.pair import BodyModel, FlexiblePair, flank_body
+from gearcad.contact.plane.ring import Cuts
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.stiffness import METHODS, PlaneStrainContact, PlaneStressContact, SolidContact, StrainEnergy
 from gearcad.stiffness.contact import PlaneContact

@@ -11,7 +11,7 @@ import pytest
 
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError
 from gearcad.solids import pair_assembly, write_step
-from gearcad.solids.assembly import part_names
+from gearcad.solids.exact.assembly import part_names
 
 TIP_ALTERATION = -0.007246444637613869  # (80 - a_d)/2.5 - (0.107 - 0.378)
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gearcad import Body, Gear
-from gearcad.solids.inertia import mass_properties
+from gearcad.solids.exact.inertia import mass_properties
 
 
 def _of_outline(gear: Gear, density: float) -> tuple[float, float]:

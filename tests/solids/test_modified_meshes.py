@@ -17,9 +17,9 @@ from support.modifying import AMOUNTS, GEARS, crossed, modified, random_gear
 from gearcad import BasicRack, Gear
 from gearcad.geometry.modification import FlankModification
 from gearcad.solids import tessellate, write_stl
-from gearcad.solids.contour import gear_contour
-from gearcad.solids.points import gear_points
-from gearcad.solids.tessellation import Facets
+from gearcad.solids.facets.tessellation import Facets
+from gearcad.solids.files.contour import gear_contour
+from gearcad.solids.files.points import gear_points
 
 CHORD_ERROR = 0.001  # mm
 ON_SURFACE = 1e-9  # mm: corners of the triangles lie on the surface but for rounding

@@ -13,7 +13,7 @@ from support.exact import distance_to_section
 from support.samples import SAMPLES
 
 from gearcad import Gear, ParameterError
-from gearcad.solids.points import gear_points, write_points
+from gearcad.solids.files.points import gear_points, write_points
 
 CHORD_ERROR = 0.0005  # mm, the default
 PRINTED = 2e-9  # mm: half a step of the twelfth digit of the largest number here, with some room

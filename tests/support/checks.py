@@ -14,10 +14,10 @@ from gearcad.check.options import CheckOptions
 from gearcad.check.result import PlaneCheck, SolidCheck, SweepPoint, Task
 from gearcad.check.solid_summary import summarise_solid
 from gearcad.check.summary import OfGears, summarise
-from gearcad.fea.cycle import run_cycle, single_stiffness
-from gearcad.fea.flexible_pair import flexible_pair
+from gearcad.contact.plane.cycle import run_cycle, single_stiffness
+from gearcad.contact.plane.pair import flexible_pair
+from gearcad.contact.solid.cycle import run_solid_cycle, solid_single_stiffness
 from gearcad.geometry import FlankModification
-from gearcad.ltca.solid_cycle import run_solid_cycle, solid_single_stiffness
 from support.coarse import coarse_model
 
 __all__ = ["NASTY_NAME", "small_check", "small_solid_check"]

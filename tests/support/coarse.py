@@ -8,9 +8,9 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 
 from gearcad import Body, Gear, GearPair, Material
-from gearcad.fea.flexible_pair import BodyModel
-from gearcad.ltca.solid_pair import SolidPair, SolidSizes, solid_pair
-from gearcad.spec import read_spec
+from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
+from gearcad.designs import read_spec
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

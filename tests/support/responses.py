@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearcad.dynamics.excitation import Excitation, MeshExcitation
-from gearcad.dynamics.mesh_curves import CosineStiffness
-from gearcad.dynamics.system import System
+from gearcad.dynamics.excitation.excitation import Excitation, MeshExcitation
+from gearcad.dynamics.excitation.mesh_curves import CosineStiffness
+from gearcad.dynamics.trains.system import System
 
 MOMENT, RADIUS = 2256.0, 0.0507
 STATIC_FORCE = MOMENT / RADIUS

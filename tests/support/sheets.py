@@ -9,8 +9,8 @@ import openpyxl
 import pytest
 
 from gearcad import SpecError
-from gearcad.spec import open_table
-from gearcad.spec.table import Row
+from gearcad.designs import open_table
+from gearcad.designs.table import Row
 
 __all__ = ["ERROR", "GEARS", "GOOD", "TEMPLATES", "faults_of", "refusal_of", "rows_of", "values_of", "workbook"]
 

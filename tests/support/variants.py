@@ -6,7 +6,7 @@ import random
 from collections.abc import Iterator
 
 from gearcad import SpecError
-from gearcad.spec.reader import design_from_tables
+from gearcad.designs.reader import design_from_tables
 
 __all__ = ["variants"]
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.checks import small_check
 
-from gearcad.fea.stress_field import contact_frame, tooth_field
+from gearcad.contact.plane.field import contact_frame, tooth_field
 from gearcad.meshing.outline import Side
 from gearcad.plots.check import (
     plot_contact_pressure,

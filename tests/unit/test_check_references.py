@@ -15,7 +15,7 @@ from gearcad.check.judge_solid import compare_solid
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import Task
 from gearcad.check.solid_summary import summarise_solid
-from gearcad.ltca.solid_cycle import run_solid_cycle
+from gearcad.contact.solid.cycle import run_solid_cycle
 
 _UNEVEN = 0.05
 """How uneven exact flanks of aligned spur gears carry along the face, away from its ends; 46 % against the mean length."""

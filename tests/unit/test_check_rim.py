@@ -12,9 +12,9 @@ from gearcad.check.comparison import Subject
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult
 from gearcad.check.run import check_pair
+from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.plane.support import Hold
 from gearcad.errors import ParameterError
-from gearcad.fea.flexible_pair import BodyModel
-from gearcad.fea.support import Hold
 
 LIMIT = 300.0
 """MPa: above the greatest root tension of the thin rim at half the load, below its compression."""

@@ -13,13 +13,13 @@ import pytest
 from support.ratings import STEEL
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
+from gearcad.designs import read_spec
 from gearcad.errors import ParameterError
 from gearcad.geometry import FlankModification
 from gearcad.material import MaterialGroup
 from gearcad.rating import Accuracy, DynamicFactor, RatingOptions, RunningIn, running_in_alpha
 from gearcad.rating.dynamic_factor import SpeedRange, running_factors
 from gearcad.rating.iso1328 import flank_tolerances
-from gearcad.spec import read_spec
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

@@ -9,7 +9,17 @@ import pytest
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from gearcad.dynamics.event_exact import Motion, Outcome, Spring, Zone, accelerated, advanced, compiled, next_turn, run
+from gearcad.dynamics.tooth_springs.event_exact import (
+    Motion,
+    Outcome,
+    Spring,
+    Zone,
+    accelerated,
+    advanced,
+    compiled,
+    next_turn,
+    run,
+)
 
 Floats = NDArray[np.float64]
 

@@ -13,11 +13,11 @@ from support.coarse import coarse_model, coarse_pair
 
 from gearcad import FlankModification, Material, Mounting
 from gearcad.check.extremes import PLANE, SOLID, STRESSES
-from gearcad.fea.cycle import Cycle, run_cycle
-from gearcad.fea.extremes import Extreme, Quantity, Span, add_positions, extreme
-from gearcad.fea.flexible_pair import BodyModel, FlexiblePair, flexible_pair
+from gearcad.contact.plane.cycle import Cycle, run_cycle
+from gearcad.contact.plane.pair import BodyModel, FlexiblePair, flexible_pair
+from gearcad.contact.shared.extremes import Extreme, Quantity, Span, add_positions, extreme
+from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle
 from gearcad.geometry import ReliefShape
-from gearcad.ltca.solid_cycle import SolidCycle, run_solid_cycle
 
 _EXACT = 0.002
 """What the greatest over the mesh may be off, of itself (or of its swing)."""

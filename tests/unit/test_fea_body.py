@@ -10,8 +10,8 @@ import scipy.sparse
 import scipy.sparse.linalg
 
 from gearcad import Gear, Material
-from gearcad.fea.elasticity import Plane, PlaneElasticity, stiffness_matrix
-from gearcad.fea.ring import Chain, Cuts, assemble, chain_of, make_sector
+from gearcad.contact.plane.elasticity import Plane, PlaneElasticity, stiffness_matrix
+from gearcad.contact.plane.ring import Chain, Cuts, assemble, chain_of, make_sector
 from gearcad.meshing import MeshSizes, SectorMesh, mesh_sector
 from gearcad.meshing.outline import Side
 

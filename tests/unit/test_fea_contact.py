@@ -12,13 +12,13 @@ import pytest
 from scipy.optimize import nnls
 
 from gearcad import BasicRack, FlankModification, Gear, GearPair, Material, ReliefShape
+from gearcad.contact.plane.contact import Cells, ContactPair, complementary, compliance_matrix, solve_contact
+from gearcad.contact.plane.cycle import run_cycle, single_stiffness
+from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
+from gearcad.contact.plane.mesh_positions import MeshLine, contact_pairs, mesh_line, rigid_approach
+from gearcad.contact.plane.pair import BodyModel, FlexiblePair, flexible_pair
+from gearcad.contact.plane.subsurface import greatest_von_mises, strip_stresses
 from gearcad.errors import GeometryError, ParameterError
-from gearcad.fea.contact import Cells, ContactPair, complementary, compliance_matrix, solve_contact
-from gearcad.fea.cycle import run_cycle, single_stiffness
-from gearcad.fea.elasticity import Plane, PlaneElasticity
-from gearcad.fea.flexible_pair import BodyModel, FlexiblePair, flexible_pair
-from gearcad.fea.mesh_positions import MeshLine, contact_pairs, mesh_line, rigid_approach
-from gearcad.fea.subsurface import greatest_von_mises, strip_stresses
 from gearcad.rating import LineContact, reduced_modulus
 
 STEEL = Material()

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from gearcad import Gear, Material
-from gearcad.fea.brute import nodal_compliance
-from gearcad.fea.elasticity import Plane, PlaneElasticity
-from gearcad.fea.flamant import edge_displacement, flamant_displacement, flamant_traction
-from gearcad.fea.flank import FlankCompliance, flank_compliance, involute_point
-from gearcad.fea.ring import Cuts, assemble
-from gearcad.fea.root import Fillets
+from gearcad.contact.plane.brute import nodal_compliance
+from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
+from gearcad.contact.plane.flamant import edge_displacement, flamant_displacement, flamant_traction
+from gearcad.contact.plane.flank import FlankCompliance, flank_compliance, involute_point
+from gearcad.contact.plane.ring import Cuts, assemble
+from gearcad.contact.plane.root import Fillets
 from gearcad.meshing import MeshSizes, mesh_sector
 from gearcad.meshing.outline import Side
 

@@ -12,14 +12,14 @@ import scipy.sparse
 import scipy.sparse.linalg
 
 from gearcad import Body, Gear, GearPair, Material
+from gearcad.contact.plane.elasticity import PlaneElasticity, stiffness_matrix
+from gearcad.contact.plane.flank import FlankCompliance, flank_compliance
+from gearcad.contact.plane.pair import BodyModel, flank_body
+from gearcad.contact.plane.rim import far_responses
+from gearcad.contact.plane.ring import Cuts, Ring, assemble
+from gearcad.contact.plane.root import Fillets
+from gearcad.contact.plane.support import Hold, Support, rim_ratio, support_of
 from gearcad.errors import GeometryError, ParameterError
-from gearcad.fea.elasticity import PlaneElasticity, stiffness_matrix
-from gearcad.fea.flank import FlankCompliance, flank_compliance
-from gearcad.fea.flexible_pair import BodyModel, flank_body
-from gearcad.fea.rim import far_responses
-from gearcad.fea.ring import Cuts, Ring, assemble
-from gearcad.fea.root import Fillets
-from gearcad.fea.support import Hold, Support, rim_ratio, support_of
 from gearcad.meshing import MeshSizes, SectorMesh, mesh_sector
 from gearcad.meshing.outline import Side
 from gearcad.rating.editions import Edition

@@ -10,7 +10,7 @@ import pytest
 from support.gap import distance_in_space, gap_along_action, middle_height, pinion_points, taken_back, wheel_points
 
 from gearcad import FlankModification, Gear, GearPair, Mounting, ReliefShape
-from gearcad.fea.mesh_positions import contact_pairs, mesh_line
+from gearcad.contact.plane.mesh_positions import contact_pairs, mesh_line
 
 ALL = FlankModification(
     tip_relief=18.0,

@@ -13,15 +13,15 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from support.responses import MOMENT, VARIATION, cosine, isolated, oscillator, two_stages
 
-from gearcad.dynamics.backlash import Direction, sweep, trace
-from gearcad.dynamics.excitation import Excitation, MeshExcitation, cycle_excitation
-from gearcad.dynamics.floquet import floquet_multipliers, growth
-from gearcad.dynamics.kv import ForceDefinition, kv_chart
-from gearcad.dynamics.mesh_curves import CosineStiffness, CurveStiffness, cycle_stiffness, square_stiffness
-from gearcad.dynamics.periodic import harmonic_orders, periodic_response
-from gearcad.dynamics.system import System
-from gearcad.dynamics.tooth_errors import ToothDeviations, TransmissionError, random_deviations, tooth_errors
-from gearcad.dynamics.transient import integrate
+from gearcad.dynamics.excitation.excitation import Excitation, MeshExcitation, cycle_excitation
+from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffness, cycle_stiffness, square_stiffness
+from gearcad.dynamics.excitation.tooth_errors import ToothDeviations, TransmissionError, random_deviations, tooth_errors
+from gearcad.dynamics.response.backlash import Direction, sweep, trace
+from gearcad.dynamics.response.floquet import floquet_multipliers, growth
+from gearcad.dynamics.response.kv import ForceDefinition, kv_chart
+from gearcad.dynamics.response.periodic import harmonic_orders, periodic_response
+from gearcad.dynamics.response.transient import integrate
+from gearcad.dynamics.trains.system import System
 from gearcad.errors import GeometryError, ParameterError, SolverError
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.rating.dynamic_factor import DynamicFactor, reduced_mass

@@ -12,10 +12,10 @@ import scipy.sparse
 import scipy.sparse.linalg
 
 from gearcad import Gear, Material
-from gearcad.fea.chain import Cuts
-from gearcad.ltca.body import SolidBody, SolidSector, assemble_body
-from gearcad.ltca.hexahedra import lame
-from gearcad.ltca.swept import SweptMesh, sweep
+from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.solid.body import SolidBody, SolidSector, assemble_body
+from gearcad.contact.solid.hexahedra import lame
+from gearcad.contact.solid.swept import SweptMesh, sweep
 from gearcad.meshing import MeshSizes
 from gearcad.meshing.outline import Side
 from gearcad.meshing.quads import mesh_quads

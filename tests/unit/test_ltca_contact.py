@@ -12,12 +12,12 @@ from support.gap import gap_along_action, middle_height
 from support.hertz import hertz_ellipse
 
 from gearcad import FlankModification, Gear, GearPair, Material, Mounting, ReliefShape
-from gearcad.fea.mesh_positions import mesh_line
-from gearcad.ltca.boussinesq import half_space_displacement, half_space_traction, surface_displacement
-from gearcad.ltca.contact_lines import ContactLine, Gaps, contact_lines, gaps
-from gearcad.ltca.flank import SolidFlank
-from gearcad.ltca.hexahedra import lame
-from gearcad.ltca.line_contact import Responses, solve_lines
+from gearcad.contact.plane.mesh_positions import mesh_line
+from gearcad.contact.solid.boussinesq import half_space_displacement, half_space_traction, surface_displacement
+from gearcad.contact.solid.contact_lines import ContactLine, Gaps, contact_lines, gaps
+from gearcad.contact.solid.flank import SolidFlank
+from gearcad.contact.solid.hexahedra import lame
+from gearcad.contact.solid.line_contact import Responses, solve_lines
 
 Floats = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from gearcad import Gear, GearPair, Mounting, ParameterError
+from gearcad.contact.plane.mesh_positions import mesh_line
 from gearcad.errors import GeometryError
-from gearcad.fea.mesh_positions import mesh_line
 
 PAIR = GearPair(
     pinion=Gear(teeth=18, normal_module=1.5, face_width=10, tooth_thinning=0.05),

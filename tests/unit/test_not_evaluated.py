@@ -22,10 +22,11 @@ from gearcad.check.solid_summary import SolidSummary, summarise_solid
 from gearcad.check.summary import PlaneSummary, Summary, summarise
 from gearcad.check.sweep import sweep_point
 from gearcad.check.warnings import general_warnings
-from gearcad.fea.cycle import PairContact, run_cycle
-from gearcad.ltca.solid_cycle import run_solid_cycle
+from gearcad.contact.plane.cycle import PairContact, run_cycle
+from gearcad.contact.solid.cycle import run_solid_cycle
 from gearcad.output import json_text
-from gearcad.report import report_html, write
+from gearcad.report import report_html
+from gearcad.report.check import report as write
 
 LIMITS = Material(name="tin", contact_limit=1e6, root_limit=1e6, yield_strength=1e6)
 """Limits that no stress here exceeds: a figure that is not there is not below them."""

@@ -14,10 +14,10 @@ import pytest
 from support.pairs import thesis_model
 
 from gearcad import Gear, GearPair, GeometryError, ParameterError
-from gearcad.dynamics.campbell import CampbellStudy, campbell
-from gearcad.dynamics.contact_model import ContactZone, disc_inertia
-from gearcad.dynamics.pair_history import time_history
-from gearcad.dynamics.spectra import amplitude_spectrum
+from gearcad.dynamics.tooth_springs.campbell import CampbellStudy, campbell
+from gearcad.dynamics.tooth_springs.contact_model import ContactZone, disc_inertia
+from gearcad.dynamics.tooth_springs.pair_history import time_history
+from gearcad.dynamics.tooth_springs.spectra import amplitude_spectrum
 
 ROUNDING = 1e-13
 
@@ -92,7 +92,7 @@ def test_contact_ratio_below_one_warns_and_runs() -> None:
 
 def test_import_leaves_numba_alone() -> None:
     heavy = ("numba", "scipy", "matplotlib")
-    code = f"import sys, gearcad.dynamics.campbell; print([name for name in {heavy!r} if name in sys.modules])"
+    code = f"import sys, gearcad.dynamics.tooth_springs.campbell; print([name for name in {heavy!r} if name in sys.modules])"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip() == "[]"
 
 

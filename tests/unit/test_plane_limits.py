@@ -12,11 +12,11 @@ from gearcad.check.judge import standards
 from gearcad.check.plane import plane_warnings
 from gearcad.check.result import Task
 from gearcad.check.summary import Figures, figures
-from gearcad.fea.cycle import run_cycle
-from gearcad.fea.elasticity import Plane, PlaneElasticity
-from gearcad.fea.flexible_pair import flexible_pair
-from gearcad.ltca.solid_cycle import run_solid_cycle
-from gearcad.ltca.solid_pair import SolidSizes, solid_pair
+from gearcad.contact.plane.cycle import run_cycle
+from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
+from gearcad.contact.plane.pair import flexible_pair
+from gearcad.contact.solid.cycle import run_solid_cycle
+from gearcad.contact.solid.pair import SolidSizes, solid_pair
 from gearcad.rating import Edition, RatingOptions
 from gearcad.stiffness import PlaneStrainContact, PlaneStressContact, StrainEnergy
 

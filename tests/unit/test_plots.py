@@ -12,8 +12,8 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from gearcad import ParameterError, SpecError, symbols
-from gearcad.plot_data import Column, Points, read_points
 from gearcad.plots import axis_label, plot_contours, plot_scatter, save_plot
+from gearcad.plots.table_data import Column, Points, read_points
 
 HEADINGS = (
     "name,status,error,warnings,seconds,pair.helix_angle,pinion.profile_shift,wheel.profile_shift,"
@@ -436,7 +436,7 @@ def test_drawing_needs_neither_a_screen_nor_pyplot(tmp_path: Path) -> None:
     code = f"""
 import sys
 from pathlib import Path
-from gearcad.plot_data import Column, Points
+from gearcad.plots.table_data import Column, Points
 from gearcad.plots import plot_contours, save_plot
 assert "matplotlib" not in sys.modules
 columns = [Column("x", (0.0, 0.0, 1.0, 1.0)), Column("y", (0.0, 1.0, 0.0, 1.0)), Column("z", (0.0, 1.0, 2.0, 3.0))]

@@ -15,8 +15,8 @@ from threadpoolctl import threadpool_limits
 from gearcad import Load, Material
 from gearcad.cli import main
 from gearcad.cli import progress as shown
-from gearcad.fea.flexible_pair import BodyModel
-from gearcad.ltca.solid_pair import SolidPair, SolidSizes, expected_bodies, solid_pair
+from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.solid.pair import SolidPair, SolidSizes, expected_bodies, solid_pair
 from gearcad.progress import Agenda, Expected, Share
 from gearcad.stiffness import contact
 from gearcad.stiffness.comparison import compare_methods

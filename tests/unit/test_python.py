@@ -24,16 +24,16 @@ from gearcad import (
     ParameterError,
     ReliefShape,
     check,
+    designs,
     dynamics,
-    spec,
 )
 from gearcad.check import CheckOptions
-from gearcad.compare import compare
+from gearcad.designs import Design, as_design, read_spec
+from gearcad.designs.trains import read_train
 from gearcad.dynamics import DynamicsOptions
-from gearcad.modify import propose
-from gearcad.simulate import simulate
-from gearcad.spec import Design, as_design, read_spec
-from gearcad.spec.trains import read_train
+from gearcad.jobs.dynamics import simulate
+from gearcad.jobs.modify import propose
+from gearcad.jobs.stiffness import compare
 from tests.support.coarse import coarse_pair
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
@@ -42,7 +42,7 @@ FZG_C = coarse_pair("FZG C")
 
 VOLVO = read_spec(TEMPLATES / "volvo-13-44.toml")
 
-NAMES = {name: getattr(package, name) for package in (gearcad, check, dynamics, spec) for name in package.__all__}
+NAMES = {name: getattr(package, name) for package in (gearcad, check, designs, dynamics) for name in package.__all__}
 
 PIXEL = 1.5
 """Of the picture: outlines may touch, and polygons are 0.2 of one off."""
@@ -135,7 +135,7 @@ def test_a_job_without_a_load_or_on_something_else_is_one_line(job: object) -> N
         job(3)
 
 
-@pytest.mark.parametrize("room", ["check", "dynamics", "geometry", "meshing", "rating", "solids", "spec", "stiffness"])
+@pytest.mark.parametrize("room", ["check", "dynamics", "geometry", "meshing", "rating", "solids", "designs", "stiffness"])
 def test_every_package_says_what_it_has(room: str) -> None:
     package = import_module(f"gearcad.{room}")
     assert [name for name in package.__all__ if getattr(package, name, None) is None] == []

@@ -9,12 +9,12 @@ from typing import Any
 import pytest
 
 from gearcad import Body, Gear, GeometryError, ParameterError
+from gearcad.designs import open_table, read_spec
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.errors import SpecError
 from gearcad.material import Material, MaterialGroup
 from gearcad.output import json_text
 from gearcad.rating import Accuracy, Edition, RatingOptions
-from gearcad.spec import open_table, read_spec
 
 SPEC = """
 [pair]
@@ -105,10 +105,10 @@ def test_one_accuracy_grade() -> None:
 
 
 def test_check_goes_by_the_rating(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    import gearcad.assess
+    import gearcad.jobs.check
 
     seen: list[Any] = []
-    monkeypatch.setattr(gearcad.assess, "check_pair", lambda *arguments: seen.extend(arguments))
+    monkeypatch.setattr(gearcad.jobs.check, "check_pair", lambda *arguments: seen.extend(arguments))
     design = read_spec(spec(tmp_path))
-    gearcad.assess.assess(design)
+    gearcad.jobs.check.assess(design)
     assert seen[-1] is design.rating

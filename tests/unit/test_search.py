@@ -11,12 +11,12 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from gearcad import Mounting
+from gearcad.contact.optimum.search import Found, Search, start_search
+from gearcad.contact.optimum.variants import Condition, with_amounts
+from gearcad.contact.solid.cycle import run_solid_cycle
+from gearcad.contact.solid.pair import loaded_left
 from gearcad.geometry import ReliefShape
-from gearcad.ltca.search import Found, Search, start_search
-from gearcad.ltca.solid_cycle import run_solid_cycle
-from gearcad.ltca.solid_pair import loaded_left
-from gearcad.ltca.variants import Condition, with_amounts
-from gearcad.modify import _best, unmirrored
+from gearcad.jobs.modify import _best, unmirrored
 from tests.support.coarse import PAIRS, TORQUES, coarse_model, coarse_pair
 
 TORQUE = TORQUES["FZG C"]
@@ -37,8 +37,8 @@ BEST = 1.02
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.ltca.search._GENERATIONS", 6)
-    monkeypatch.setattr("gearcad.ltca.search._STARTS", 2)
+    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 6)
+    monkeypatch.setattr("gearcad.contact.optimum.search._STARTS", 2)
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +55,7 @@ def best(search: Search, share: float) -> Found:
 def test_tip_relief_halves_the_transmission_error_as_the_rules_of_the_field_say(
     search: Search, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gearcad.ltca.search._GENERATIONS", 15)
+    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 15)
     found = best(search, _GENEROUS)
     model = coarse_model("FZG C")
     proposed = model.remade(with_amounts(model.pair, found.amounts, ReliefShape.LINEAR), Mounting())
@@ -124,7 +124,7 @@ def test_no_variant_is_better_by_exhaustive_search(name: str, shape: ReliefShape
 
 
 def test_proposals_are_round_and_the_same_each_time(search: Search, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.ltca.search._GENERATIONS", 2)
+    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 2)
     first, second = (search.run(2000.0) for _ in range(2))
     np.testing.assert_array_equal(first.amounts, second.amounts)
     lengths = first.amounts[[1, 3]] / 0.05
@@ -144,7 +144,7 @@ def test_a_bound_of_the_pressure_is_kept_and_one_that_cannot_be_gives_way_to_the
 
 
 def test_the_helix_is_turned_after_a_misaligned_wheel(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.ltca.search._GENERATIONS", 5)
+    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 5)
     model = coarse_model("FZG C")
     mounting = Mounting(misalignment=30.0)
     with threadpool_limits(1):

@@ -18,8 +18,8 @@ from hypothesis import strategies as st
 from support.sheets import ERROR, GEARS, GOOD, refusal_of, rows_of, values_of, workbook
 
 from gearcad import SpecError
-from gearcad.spec import open_table
-from gearcad.spec.table import Row
+from gearcad.designs import open_table
+from gearcad.designs.table import Row
 
 FLAT = 50_000
 """Bytes by which the peak of memory may differ between a short table and a long one, whose rows would take 20 MB."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearcad.dynamics.six_dof import PairOnBearings
+from gearcad.dynamics.trains.six_dof import PairOnBearings
 
 PAIR = PairOnBearings(
     masses=(0.8, 3.1),

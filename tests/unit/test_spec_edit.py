@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from gearcad.designs import read_spec
+from gearcad.designs.edit import edit_spec
 from gearcad.errors import SpecError
-from gearcad.spec import read_spec
-from gearcad.spec.edit import edit_spec
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

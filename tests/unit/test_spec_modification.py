@@ -13,12 +13,12 @@ import pytest
 from rich.console import Console
 
 from gearcad import FlankModification, Mounting, ReliefShape, SpecError
-from gearcad.datasheet import print_datasheet
-from gearcad.spec import design_from_tables, open_table, read_spec
-from gearcad.spec.design import Design
-from gearcad.spec.reader import spec_values
-from gearcad.spec.starters import starter_text
-from gearcad.study import plan_study, write_study
+from gearcad.batch.study import plan_study, write_study
+from gearcad.cli.datasheet import print_datasheet
+from gearcad.designs import design_from_tables, open_table, read_spec
+from gearcad.designs.design import Design
+from gearcad.designs.reader import spec_values
+from gearcad.designs.starters import starter_text
 
 SPEC = """\
 [pair]

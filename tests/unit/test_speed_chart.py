@@ -11,23 +11,23 @@ import pytest
 from numpy.typing import NDArray
 from support.responses import cosine, isolated, oscillator, preloaded, two_stages
 
-from gearcad.dynamics.backlash import trace
-from gearcad.dynamics.excitation import Excitation, MeshExcitation
-from gearcad.dynamics.krylov import solve_all
-from gearcad.dynamics.kv import KvChart, kv_chart
-from gearcad.dynamics.mesh_curves import CurveStiffness, square_stiffness
+from gearcad.designs.trains import read_train
+from gearcad.dynamics.excitation.excitation import Excitation, MeshExcitation
+from gearcad.dynamics.excitation.mesh_curves import CurveStiffness, square_stiffness
+from gearcad.dynamics.excitation.polyline import Polyline
+from gearcad.dynamics.excitation.tooth_errors import TransmissionError
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.periodic import periodic_response
-from gearcad.dynamics.polyline import Polyline
-from gearcad.dynamics.speed_chart import OverSpeed, over_speed
-from gearcad.dynamics.speed_curves import LEFT_OUT, SpeedCurves
+from gearcad.dynamics.response.backlash import trace
+from gearcad.dynamics.response.krylov import solve_all
+from gearcad.dynamics.response.kv import KvChart, kv_chart
+from gearcad.dynamics.response.periodic import periodic_response
+from gearcad.dynamics.response.speed_chart import OverSpeed, over_speed
+from gearcad.dynamics.response.speed_curves import LEFT_OUT, SpeedCurves
+from gearcad.dynamics.response.transient import integrate
 from gearcad.dynamics.study import study_modes, study_train
-from gearcad.dynamics.system import System
-from gearcad.dynamics.tooth_errors import TransmissionError
-from gearcad.dynamics.train import Train
-from gearcad.dynamics.transient import integrate
+from gearcad.dynamics.trains.system import System
+from gearcad.dynamics.trains.train import Train
 from gearcad.errors import GeometryError
-from gearcad.spec.trains import read_train
 
 Floats = NDArray[np.float64]
 

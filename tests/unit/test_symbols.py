@@ -10,9 +10,9 @@ from gearcad.check.options import CheckOptions
 from gearcad.check.solid_summary import SolidSummary
 from gearcad.check.summary import PlaneSummary
 from gearcad.columns import column_symbol
+from gearcad.designs.keys import COLUMNS
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.rating import RatingOptions
-from gearcad.spec.keys import COLUMNS
 
 
 def _keys(document: dict[str, Any]) -> set[str]:

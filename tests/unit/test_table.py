@@ -8,10 +8,10 @@ import pytest
 from support.sheets import ERROR, GEARS, TEMPLATES, faults_of, refusal_of, rows_of, values_of
 
 from gearcad import SpecError
-from gearcad.spec import design_from_tables, open_table, read_spec
-from gearcad.spec.design import require_plain_name
-from gearcad.spec.headings import column_letter
-from gearcad.spec.keys import COLUMNS
+from gearcad.designs import design_from_tables, open_table, read_spec
+from gearcad.designs.design import require_plain_name
+from gearcad.designs.headings import column_letter
+from gearcad.designs.keys import COLUMNS
 
 
 @pytest.fixture(autouse=True)

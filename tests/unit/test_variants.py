@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from gearcad import FlankModification, Mounting
+from gearcad.contact.optimum.variants import Condition, Variants, with_amounts
+from gearcad.contact.solid.contact_lines import gaps
+from gearcad.contact.solid.line_contact import LineSolution, solve_lines
 from gearcad.geometry import ReliefShape
-from gearcad.ltca.contact_lines import gaps
-from gearcad.ltca.line_contact import LineSolution, solve_lines
-from gearcad.ltca.variants import Condition, Variants, with_amounts
 from tests.support.coarse import PAIRS, TORQUES, coarse_model
 
 HIGH = np.array([60.0, 6.0, 60.0, 6.0, 15.0, 12.0])

@@ -1,0 +1,158 @@
+"""The geometry data sheet on the screen: words, symbol, unit and value of everything a design derives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from gearcad import symbols
+from gearcad.designs.design import Design
+from gearcad.errors import format_number
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+__all__ = ["print_datasheet"]
+
+_GEAR_BLOCKS = {
+    "Teeth": "teeth normal_module helix_angle profile_shift tip_alteration tooth_thinning face_width virtual_teeth lead",
+    "Basic rack": "rack.pressure_angle rack.addendum rack.dedendum rack.root_radius",
+    "Transverse section": "transverse_module transverse_pressure_angle base_helix_angle transverse_pitch transverse_base_pitch",
+    "Diameters": "tip_diameter tip_form_diameter reference_diameter base_diameter form_diameter root_diameter undercut",
+    "Tooth thickness": "normal_tooth_thickness transverse_tooth_thickness tip_thickness",
+    "Inspection": "span_teeth span_measurement span_contact_diameter ball_diameter over_balls over_pins pin_axial_shift",
+    "Flank modifications": " ".join(key for key in symbols.GEAR if key.startswith("modification.")),
+    "Body": "body.bore body.keyway_width body.keyway_depth body.hub_diameter body.hub_length body.hub_side body.rim_diameter"
+    " body.end_chamfer body.end_chamfer_angle body.tip_chamfer body.web_thickness body.rim_thickness",
+}
+
+_BOTH = "working_pitch_diameters active_root_diameters tip_clearances"
+"""Fields of a pair that hold one value for the pinion and one for the wheel."""
+
+_PAIR_BLOCKS = {
+    "Mesh": "gear_ratio centre_distance reference_centre_distance axial_offset working_transverse_pressure_angle"
+    " profile_shift_sum zero_backlash_shift_sum tip_alteration circumferential_backlash normal_backlash",
+    "Contact": "transverse_contact_ratio usable_contact_ratio overlap_ratio total_contact_ratio common_width.width"
+    " common_width.offset contact_line_lengths.minimum contact_line_lengths.mean contact_line_lengths.maximum",
+    "Line of action, from T1": "path_of_contact.A path_of_contact.B path_of_contact.C path_of_contact.D path_of_contact.E",
+}
+
+_BELONGS_TO = {
+    "body.keyway_depth": "body.keyway_width",
+    "body.hub_length": "body.hub_diameter",
+    "body.hub_side": "body.hub_diameter",
+    "body.end_chamfer_angle": "body.end_chamfer",
+}
+"""Features of a body that mean nothing without another one."""
+
+_ABSENT = "-"
+
+_WIDE = 96
+"""Console width from which the column of sources fits."""
+
+
+class _Line(NamedTuple):
+    """One line of the sheet and its style on a terminal."""
+
+    text: str
+    style: str = ""
+
+
+def print_datasheet(design: Design, console: Console) -> None:
+    """Print the sheet: a column per gear, then the pair, material, load, mounting and rating, then the warnings."""
+    from rich.text import Text
+
+    for line in _lines(design, with_source=console.width >= _WIDE):
+        # Soft wrap: a narrow window may break a line, but never cut a number.
+        console.print(Text(line.text, style=line.style), soft_wrap=True)
+
+
+def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
+    document = design.to_dict()
+    gears = {name: _flat(document[name] | {"modification": gear.modification.in_use}) for name, gear in design.gears.items()}
+    pair = _flat(document.get("pair", {}))
+    yield _Line(f"{design.name}: {_title(design)}", "bold")
+    yield _Line("lengths in mm, angles in degrees" + (", clauses of ISO 21771:2007" if with_source else ""), "dim")
+    yield _Line("")
+    yield _Line(_columns(symbols.Symbol("", "", "", ""), gears, with_source=False), "bold")
+    for title, keys in _GEAR_BLOCKS.items():
+        rows = [(symbols.GEAR[key], [_shown(values, key) for values in gears.values()]) for key in keys.split()]
+        if title == "Diameters" and pair:
+            rows += [(symbols.PAIR[key], [_value(value) for value in pair[key]]) for key in _BOTH.split()]
+        yield from _block(title, [row for row in rows if set(row[1]) != {_ABSENT}], with_source)
+    for title, keys in _PAIR_BLOCKS.items() if pair else ():
+        yield from _block(title, [(symbols.PAIR[key], [_value(pair[key])]) for key in keys.split()], with_source)
+    tables = (
+        ("material", symbols.MATERIAL),
+        ("load", symbols.LOAD),
+        ("mounting", symbols.MOUNTING),
+        ("rating", symbols.RATING_OPTIONS),
+    )
+    for block, table in tables:
+        absent = (None, 0) if block == "mounting" else (None,)
+        given = {key: value for key, value in document.get(block, {}).items() if value not in absent}
+        yield from _block(block.capitalize(), [(table[key], [_given(value)]) for key, value in given.items()], with_source)
+    yield from _warnings(design)
+
+
+def _block(title: str, rows: list[tuple[symbols.Symbol, list[str]]], with_source: bool) -> Iterator[_Line]:
+    if rows:
+        yield _Line(title, "bold cyan")
+        for symbol, values in rows:
+            yield _Line(_columns(symbol, values, with_source=with_source))
+        yield _Line("")
+
+
+def _columns(symbol: symbols.Symbol, values: Iterable[str], *, with_source: bool) -> str:
+    """One line of 76 characters, or some more with the source behind."""
+    numbers = "".join(f"{value:>12}" for value in values)
+    line = f"  {symbol.words:<37}{symbol.symbol:<6} {symbol.unit:<6}{numbers}"
+    return f"{line:<80}{symbol.source}".rstrip() if with_source else line.rstrip()
+
+
+def _warnings(design: Design) -> Iterator[_Line]:
+    if not design.warnings:
+        yield _Line("No warnings.", "green")
+        return
+    yield _Line(f"Warnings ({len(design.warnings)})", "bold yellow")
+    for warning in design.warnings:
+        yield _Line(f"  {warning}", "yellow")
+
+
+def _title(design: Design) -> str:
+    teeth = " / ".join(str(gear.teeth) for gear in design.gears.values())
+    helical = any(gear.helix_angle for gear in design.gears.values())
+    return f"{'helical' if helical else 'spur'} {design.kind.value}, z = {teeth}"
+
+
+def _flat(document: Mapping[str, Any]) -> dict[str, Any]:
+    """Nested keys joined by a dot."""
+    flat: dict[str, Any] = {}
+    for key, value in document.items():
+        if isinstance(value, Mapping):
+            flat |= {f"{key}.{inner}": item for inner, item in value.items()}
+        else:
+            flat[key] = value
+    return flat
+
+
+def _shown(values: Mapping[str, Any], key: str) -> str:
+    """The value, or a dash for a feature of the body or a modification that is not there."""
+    owner = _BELONGS_TO.get(key, key)
+    return _ABSENT if owner.startswith("body.") and not values[owner] else _value(values.get(key))
+
+
+def _value(value: Any) -> str:
+    """Four digits after the point: 0.1 µm, and enough of a ratio or an angle."""
+    if value is None:
+        return _ABSENT
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    # Adding zero turns a rounded -0.0 into a plain one.
+    return f"{round(value, 4) + 0.0:.4f}" if isinstance(value, float) else str(value)
+
+
+def _given(value: Any) -> str:
+    if isinstance(value, tuple):
+        return " ... ".join(map(format_number, value))
+    return value if isinstance(value, str) else format_number(value)

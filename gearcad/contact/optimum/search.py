@@ -1,0 +1,302 @@
+"""The search for tip relief and crowning: least transmission error under one torque, pressure and tip edges kept in bounds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from gearcad.arrays import Floats, Wholes
+from gearcad.contact.optimum.lattice import Goal, Lattice, Remembered
+from gearcad.contact.optimum.variants import AMOUNTS, Condition, Outcomes, Variants, with_amounts
+from gearcad.contact.solid.contact_lines import gaps
+from gearcad.contact.solid.line_contact import solve_lines
+from gearcad.contact.solid.pair import SolidPair
+from gearcad.errors import GeometryError
+from gearcad.geometry import GearPair, ReliefShape
+
+__all__ = ["Found", "Search", "conditions", "start_search"]
+
+
+class _Sampling(NamedTuple):
+    """Cells of a line of contact, positions over a base pitch, and as many more at either end of the path of contact."""
+
+    cells: int
+    positions: int
+    at_ends: int
+
+
+_HELICAL = _Sampling(16, 24, 0)
+_SPUR = _Sampling(8, 32, 8)
+"""By which a variant is judged: where a line runs across the flank its cells are at many places of it at once, where it does
+not positions must be.
+"""
+
+_ROUGH = 2
+"""Of that many positions a survey takes one."""
+
+_STEPS = np.array([1.0, 0.05, 1.0, 0.05, 1.0, 1.0])
+_DECIMALS = 2
+"""To what amounts (µm) and lengths (mm) are rounded, and to how many decimals that is."""
+
+_MOST_RELIEF = 1.5
+_MOST_CROWNING = 0.5
+"""Largest tip relief of a gear and largest crowning, as shares of the greatest deflection of the teeth."""
+
+_MOST_HELIX = 1.5
+"""Largest change of the pinion's helix, as a share of the one that makes up for the misalignment."""
+
+_SHORTEST = 0.1
+_LONGEST = 0.5
+"""Shortest and longest tip relief, as shares of the path of contact: in its middle flanks stay exact."""
+
+_OVER_PRESSURE = 10.0
+_ON_EDGE = (0.1, 10.0)
+"""What it costs, in deflections of the teeth, to be above the bound by all of it, and to carry all load on the edge of a tip:
+where that is only unwelcome, and where it is not permitted."""
+
+_FREE = 2e-3
+"""Share of the load up to which the edges of tips count as free."""
+
+_WITHIN = 1e-3
+"""Share by which a bound may be passed over: less than the pressures are exact."""
+
+_OUT_OF_REACH = 1.1
+"""Share of a bound above which the pressures of all a survey saw leave no hope: it goes where they are low."""
+
+_NEAR = 0.01
+_NEAR_MOST = 48
+"""Variants count as near the best up to this share above it; at most so many of them."""
+
+_NEVER = 1e9
+"""Score of a variant whose contact does not settle."""
+
+_GENERATIONS = 15
+_STARTS = 8
+"""Generations of a survey, and from how many of its best places the search goes on."""
+
+_MISALIGNMENT = 10.0
+_PITCH_ERROR = 10.0
+"""Misalignment (µm) over the common face width and pitch error (µm) of a tooth that a proposal should bear, on top of those of
+the mounting.
+"""
+
+
+def conditions(torque: float) -> tuple[Condition, ...]:
+    """What a proposal should bear: parts of the torque, the wheel's axis turned either way, and a pitch error."""
+    parts = [Condition(part * torque) for part in (0.25, 0.5, 0.75, 1.0)]
+    turned = [Condition(torque, misalignment=sign * _MISALIGNMENT) for sign in (1, -1)]
+    return (*parts, *turned, Condition(torque, pitch_error=_PITCH_ERROR))
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a search came to: the amounts (6,), the bound (MPa), and what becomes of the flanks."""
+
+    amounts: Floats
+    bound: float
+    outcome: Outcomes
+
+    @property
+    def bounded(self) -> bool:
+        """Whether the pressure keeps to the bound."""
+        return bool(self.outcome.pressures[0] <= self.bound * (1 + _WITHIN))
+
+    @property
+    def edges_free(self) -> bool:
+        """Whether the edges of the tips are out of contact."""
+        return bool(self.outcome.edge_shares[0] <= _FREE)
+
+    @property
+    def peak_to_peak(self) -> float:
+        """Of the transmission error (µm)."""
+        return float(self.outcome.peak_to_peak[0])
+
+    @property
+    def named(self) -> dict[str, float]:
+        """The amounts under the keys of a spec, without `modification.`."""
+        return dict(zip(AMOUNTS, self.amounts.tolist(), strict=True))
+
+
+@dataclass(frozen=True)
+class Search:
+    """Variants between `low` and `high` (6,) under a torque (N m).
+
+    `plain` is what becomes of the flanks without reliefs and crowning, their helix angle made up for a misalignment.
+    """
+
+    variants: Variants
+    torque: float
+    low: Floats
+    high: Floats
+    start: Floats
+    plain: Outcomes
+
+    @property
+    def deflection(self) -> float:
+        """The greatest transmission error (µm) of plain flanks."""
+        return float(self.plain.transmission_errors.max())
+
+    @property
+    def tried(self) -> int:
+        """How many variants were solved under the torque, roughly or in full."""
+        return len(self._rough.known) + len(self._full.known)
+
+    def outcomes(self, amounts: Floats, condition: Condition | None = None) -> Outcomes:
+        """What becomes of variants (v, 6)."""
+        return self.variants.outcomes(amounts, condition or Condition(self.torque))
+
+    def best(self, bounds: Sequence[float]) -> Found:
+        """The proposal for the first of the bounds (MPa) that can be kept, else for the last.
+
+        Without contact on the edges of the tips, unless that costs more than half of what is gained.
+        """
+        for bound in bounds:
+            places = self._survey(bound)
+            if bound != bounds[-1] and Outcomes.of(self._rough(places)).pressures.min() > _OUT_OF_REACH * bound:
+                continue
+            found = self._settled(bound, places)
+            if found.bounded:
+                break
+        if found.edges_free or not found.bounded:
+            return found
+        strict = self._settled(bound, places, edges=False)
+        worth = strict.peak_to_peak <= self.dearest(found.peak_to_peak)
+        return strict if strict.bounded and strict.edges_free and worth else found
+
+    def dearest(self, peak_to_peak: float) -> float:
+        """What (µm) edges of tips out of contact may cost against a peak to peak: half of what that gains on plain flanks."""
+        return (peak_to_peak + float(self.plain.peak_to_peak[0])) / 2
+
+    def scores(self, found: Outcomes, bound: float, *, edges: bool) -> Floats:
+        """What is to be least (v,): peak to peak of the transmission error in µm, and what broken bounds cost."""
+        over = np.maximum(found.pressures / bound - 1, 0.0)
+        cost = _OVER_PRESSURE * over + _ON_EDGE[0 if edges else 1] * found.edge_shares
+        return np.nan_to_num(found.peak_to_peak + self.deflection * cost, nan=_NEVER, posinf=_NEVER)
+
+    def run(self, bound: float, *, edges: bool = True) -> Found:
+        """Search with a bound (MPa) of the interior pressure; the same input gives the same result.
+
+        `edges` tells whether those of the tips may carry load.
+        """
+        return self._settled(bound, self._survey(bound), edges=edges)
+
+    def _survey(self, bound: float) -> Wholes:
+        """Places (v, 6) all over, the most of them where variants are good."""
+        return self._lattice.survey(self._goal(self._rough, bound, edges=True), _GENERATIONS, _nearest(self.start))
+
+    def _settled(self, bound: float, places: Wholes, *, edges: bool = True) -> Found:
+        """The proposal to which the best of the places lead."""
+        lattice, goal = self._lattice, self._goal(self._full, bound, edges=edges)
+        rough = self._goal(self._rough, bound, edges=edges)
+        ends = lattice.descend(goal, lattice.best_apart(places, rough.at(places), _STARTS))
+        values = goal.at(ends)
+        while True:
+            best = ends[values.argmin()]
+            ends = np.unique(np.concatenate([ends, lattice.around(best)]), axis=0)
+            values = goal.at(ends)
+            if values.min() >= goal.at(best[None])[0]:
+                break
+        amounts = self._robust(ends, values, bound)
+        return Found(amounts, bound, self.outcomes(amounts[None]))
+
+    def _robust(self, places: Wholes, scores: Floats, bound: float) -> Floats:
+        """Of the variants near the best: the one that bears parts of the torque and misalignment best.
+
+        Pressure counts along, else the free play would go into crowning that nothing asks for.
+        """
+        pressures = Outcomes.of(self._full(places)).pressures
+        within = pressures <= bound * (1 + _WITHIN)
+        permitted = within if within.any() else np.ones_like(within)
+        near = np.flatnonzero(permitted & (scores <= (1 + _NEAR) * scores[permitted].min()))
+        near = near[np.argsort(scores[near], kind="stable")][:_NEAR_MOST]
+        amounts = _amounts(places[near])
+        others = [each for each in conditions(self.torque) if abs(each.torque) >= abs(self.torque) / 2]
+        burden = np.sum([self.outcomes(amounts, each).peak_to_peak for each in others], axis=0)
+        best: Floats = amounts[np.argmin(burden * pressures[near])]
+        return best
+
+    def _goal(self, figures: Remembered, bound: float, *, edges: bool) -> Goal:
+        return Goal(figures, lambda rows: self.scores(Outcomes.of(rows), bound, edges=edges))
+
+    @cached_property
+    def _lattice(self) -> Lattice:
+        low, high = np.ceil(self.low / _STEPS - 1e-9), np.floor(self.high / _STEPS + 1e-9)
+        return Lattice(low.astype(np.int64), np.maximum(low, high).astype(np.int64))
+
+    @cached_property
+    def _full(self) -> Remembered:
+        return Remembered(lambda places: self.outcomes(_amounts(places)).figures)
+
+    @cached_property
+    def _rough(self) -> Remembered:
+        of, condition = self.variants, Condition(self.torque)
+        variants = replace(of, count=of.count // _ROUGH, at_ends=of.at_ends // _ROUGH)
+        return Remembered(lambda places: variants.outcomes(_amounts(places), condition).figures)
+
+    def peak_to_peak(self, pair: GearPair, condition: Condition) -> float:
+        """Of the transmission error (µm) of a pair with any modifications, the contact solved in full. Raises SolverError."""
+        of, mounting = self.variants, condition.mounted(self.variants.roomy.mounting)
+        force, helix = of.force(condition.torque), of.roomy.helix
+        solved = [solve_lines(given, gaps(given.lines, pair, mounting, helix), force).approach for given in of.positions]
+        return float(np.ptp(solved)) / math.cos(helix) * 1000
+
+
+def _nearest(amounts: Floats) -> Wholes:
+    """The place (6,) nearest to amounts (6,)."""
+    result: Wholes = np.rint(amounts / _STEPS).astype(np.int64)
+    return result
+
+
+def _amounts(places: Wholes) -> Floats:
+    """Amounts (v, 6) of places."""
+    result: Floats = np.round(places * _STEPS, _DECIMALS)
+    return result
+
+
+def start_search(model: SolidPair, torque: float, shape: ReliefShape) -> Search:
+    """Prepare a search at a torque (N m) for a model whatever its own tip relief and crowning; the helix angle is modified
+    only against a misalignment of its mounting.
+    """
+    nothing = np.zeros(len(AMOUNTS))
+    sampling = _HELICAL if model.helix else _SPUR
+    bare = replace(model.remade(with_amounts(model.pair, nothing, shape), model.mounting), cells=sampling.cells, known={})
+    start = np.array([0.0, 0.0, 0.0, 0.0, 0.0, _aligning(bare)])
+    plain = Variants(bare, shape, sampling.positions, torque, sampling.at_ends).outcomes(start[None], Condition(torque))
+    low, high = _bounds(bare, shape, float(plain.transmission_errors.max()))
+    roomy = bare.remade(with_amounts(bare.pair, high, shape), bare.mounting)
+    variants = Variants(roomy, shape, sampling.positions, torque, sampling.at_ends)
+    return Search(variants, torque, low, high, start, variants.outcomes(start[None], Condition(torque)))
+
+
+def _aligning(model: SolidPair) -> float:
+    """Helix angle modification (µm) of the pinion that turns its loaded, left flanks as far as the wheel is misaligned."""
+    form = model.pair.pinion.flank_form
+    return form.hand * model.mounting.misalignment * form.width / model.width
+
+
+def _bounds(model: SolidPair, shape: ReliefShape, deflection: float) -> tuple[Floats, Floats]:
+    """The least and the greatest amounts (6,)."""
+    path, pair = model.pair.path_of_contact, model.pair
+    reach = path.E - path.A
+    longest = [min(_LONGEST * reach, gear.flank_form.last - gear.flank_form.first) for gear in (pair.pinion, pair.wheel)]
+    helix = _MOST_HELIX * abs(_aligning(model))
+    low = np.array([0.0, _SHORTEST * reach, 0.0, _SHORTEST * reach, 0.0, -helix])
+    relief, crowning = np.ceil(_MOST_RELIEF * deflection), np.ceil(_MOST_CROWNING * deflection)
+    high = np.array([relief, longest[0], relief, longest[1], crowning, helix])
+    while not _fits(pair, high, shape):
+        high[[0, 2, 4]] = np.floor(0.9 * high[[0, 2, 4]])
+    return low, high
+
+
+def _fits(pair: GearPair, amounts: Floats, shape: ReliefShape) -> bool:
+    """Whether flanks can be taken back that far; nothing at all always fits."""
+    try:
+        with_amounts(pair, amounts, shape)
+    except GeometryError:
+        return not amounts[[0, 2, 4]].any()
+    return True

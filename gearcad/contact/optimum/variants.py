@@ -1,0 +1,254 @@
+"""Many modifications of the same flanks at once: transmission error and pressure of each, on bodies already solved.
+
+The bodies answer as in `line_contact`; only gaps differ between variants, and contacts are solved by `side_by_side`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from gearcad.arrays import Floats
+from gearcad.contact.optimum.side_by_side import press
+from gearcad.contact.solid.contact import INTERIOR
+from gearcad.contact.solid.contact_lines import BEND, line_gap, places_beside
+from gearcad.contact.solid.line_contact import Responses, half_widths
+from gearcad.contact.solid.pair import SolidPair
+from gearcad.geometry import FlankForm, GearPair, ReliefShape
+from gearcad.mounting import Mounting
+
+__all__ = ["AMOUNTS", "Condition", "Outcomes", "Variants", "with_amounts"]
+
+
+AMOUNTS = (
+    "pinion.tip_relief",
+    "pinion.tip_relief_length",
+    "wheel.tip_relief",
+    "wheel.tip_relief_length",
+    "pinion.lead_crowning",
+    "pinion.helix_angle_modification",
+)
+"""What varies, in the order of the columns of a table of variants; amounts in µm, lengths in mm."""
+
+_ENDS = (-0.02, 0.06)
+"""Where, from the ends of the path of contact outwards and as shares of the base pitch, edges of tips carry loads that rise and
+fall within a hundredth of it."""
+
+_SHORT = 1e-6
+"""Length (mm) of a relief that is not there."""
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What a variant is loaded with: torque (N m on the pinion), and deviations (µm) added to those of the mounting."""
+
+    torque: float
+    misalignment: float = 0.0
+    pitch_error: float = 0.0
+
+    def mounted(self, mounting: Mounting) -> Mounting:
+        """The mounting with the deviations on top of its own."""
+        if not self.misalignment and not self.pitch_error:
+            return mounting
+        return replace(
+            mounting,
+            misalignment=mounting.misalignment + self.misalignment,
+            pinion_pitch_error=mounting.pinion_pitch_error + self.pitch_error,
+        )
+
+
+@dataclass(frozen=True)
+class Outcomes:
+    """What became of each variant, at each position (v, positions): transmission errors in µm, the greatest interior pressures
+    in MPa, and the shares of the load that the edges of tips carry.
+    """
+
+    transmission_errors: Floats
+    position_pressures: Floats
+    position_edge_shares: Floats
+
+    @classmethod
+    def of(cls, figures: Floats) -> Outcomes:
+        """Those of `figures`."""
+        return cls(*np.split(figures, 3, axis=-1))
+
+    @property
+    def figures(self) -> Floats:
+        """All of them side by side (v, 3 positions)."""
+        return np.concatenate([self.transmission_errors, self.position_pressures, self.position_edge_shares], axis=-1)
+
+    @property
+    def peak_to_peak(self) -> Floats:
+        """Of the transmission error (v,) in µm."""
+        result: Floats = np.ptp(self.transmission_errors, axis=-1)
+        return result
+
+    @property
+    def pressures(self) -> Floats:
+        """The greatest interior pressure of all positions (v,) in MPa."""
+        result: Floats = self.position_pressures.max(axis=-1)
+        return result
+
+    @property
+    def edge_shares(self) -> Floats:
+        """The greatest share of the load that the edges of tips carry at any position (v,)."""
+        result: Floats = self.position_edge_shares.max(axis=-1)
+        return result
+
+
+def with_amounts(pair: GearPair, amounts: Floats, shape: ReliefShape) -> GearPair:
+    """The pair with the amounts (6,) of a variant. Raises GeometryError where they do not fit the gears."""
+    changed = {}
+    for owner in ("pinion", "wheel"):
+        gear = getattr(pair, owner)
+        given = {
+            name.partition(".")[2]: float(value)
+            for name, value in zip(AMOUNTS, amounts, strict=True)
+            if name.startswith(owner) and not (name.endswith("_length") and value == 0)
+        }
+        changed[owner] = replace(gear, modification=replace(gear.modification, **given, tip_relief_shape=shape))
+    return replace(pair, **changed)
+
+
+@dataclass(frozen=True)
+class _Flanks:
+    """The flanks of one gear in all variants: `form` without what varies, and columns (v, 1) of that in µm and mm."""
+
+    form: FlankForm
+    shape: ReliefShape
+    relief: Floats
+    length: Floats
+    crowning: Floats
+    helix: Floats
+
+    def depth(self, lengths: Floats, heights: Floats) -> Floats:
+        """How far (v, n) the loaded, left flank is taken back (mm), as `FlankForm.depth`."""
+        form = self.form
+        along = np.clip(heights, 0.0, form.width) / form.width
+        left = form.last - np.clip(lengths, form.first, form.last)
+        amount = self.relief * self.shape.grown(1 - left / self.length)
+        amount = amount + (self.crowning * (2 * along - 1) ** 2 - self.helix * (along - 0.5) * form.hand)
+        result: Floats = amount / 1000
+        return result + form.depth(lengths, heights) if form.modification.present else result
+
+    def taken_back(self, lengths: Floats, heights: Floats) -> Floats:
+        """How far (v, n) the flank lies behind these places (mm): what stands there comes from further down."""
+        return self.depth(lengths - self.depth(lengths, heights), heights)
+
+
+@dataclass(frozen=True)
+class Variants:
+    """Variants of the flanks of a solid pair, at `count` positions over a base pitch, and as many as `at_ends` more where a tip
+    comes into contact, and where one leaves it; what varies replaces the pair's own.
+
+    `roomy` is a model of the same bodies with modifications as large as any variant's, so that its cells suffice for all.
+    """
+
+    roomy: SolidPair
+    shape: ReliefShape
+    count: int
+    torque: float
+    at_ends: int = 0
+
+    @cached_property
+    def plain(self) -> GearPair:
+        """The pair without what varies."""
+        return with_amounts(self.roomy.pair, np.zeros(len(AMOUNTS)), self.shape)
+
+    @cached_property
+    def positions(self) -> tuple[Responses, ...]:
+        """The responses of both bodies at each position."""
+        force = self.roomy.force(self.torque)
+        return tuple(self.roomy.responses(angle, force) for angle in self._roll_angles.tolist())
+
+    @cached_property
+    def _roll_angles(self) -> Floats:
+        """Of the positions (deg)."""
+        pair, pitch = self.roomy.pair, self.roomy.line.pitch
+        outside = np.linspace(*_ENDS, self.at_ends) * pitch
+        ends = np.concatenate([pair.path_of_contact.A - outside, pair.path_of_contact.E + outside])
+        along = (ends - pair.path_of_contact.C + pitch / 2) % pitch - pitch / 2
+        return np.sort(np.concatenate([self.roomy.roll_angles(self.count), np.degrees(along / self.roomy.base_radius)]))
+
+    @cached_property
+    def _halfway(self) -> Floats:
+        """How far it is (mm of roll), on the longer side, to the middle between a position and the next one."""
+        lengths, pitch = np.radians(self._roll_angles) * self.roomy.base_radius, self.roomy.line.pitch
+        apart = np.diff(lengths, append=lengths[0] + pitch)
+        result: Floats = np.maximum(apart, np.roll(apart, 1)) / 2
+        return result
+
+    @cached_property
+    def _matrices(self) -> tuple[Floats, ...]:
+        """Compliances (n, n) in mm/N of each position but for what a cell's own ellipse adds to the diagonal."""
+        force, found = self.force(self.torque), []
+        for given in self.positions:
+            even = force * given.lengths / given.lengths.sum()
+            radii = np.concatenate([1 / line.curvature for line in given.lines]) / math.cos(self.roomy.helix)
+            kernel = given.half_space(half_widths(given, radii, even))
+            found.append(given.smooth.sum(axis=0) + kernel - np.diag(np.diag(kernel)))
+        return tuple(found)
+
+    def force(self, torque: float) -> float:
+        """Normal force (N) at a torque (N m)."""
+        return self.roomy.force(torque) * self.roomy.width / math.cos(self.roomy.helix)
+
+    def outcomes(self, amounts: Floats, condition: Condition) -> Outcomes:
+        """What becomes of variants (v, 6) under a condition; all infinite for one whose contact does not settle."""
+        force, errors, pressures, edges = self.force(condition.torque), [], [], []
+        for given, matrix, halfway in zip(self.positions, self._matrices, self._halfway, strict=True):
+            gap, radii = self.gaps(given, amounts, condition)
+            forces, approach = press(given, matrix, gap, radii, force)
+            errors.append(approach / math.cos(self.roomy.helix) * 1000)
+            pressure, edge = self._judged(given, forces, self._sharpest(given, amounts, radii, halfway), force)
+            pressures.append(pressure)
+            edges.append(edge)
+        return Outcomes(np.stack(errors, -1), np.stack(pressures, -1), np.stack(edges, -1))
+
+    def gaps(self, given: Responses, amounts: Floats, condition: Condition) -> tuple[Floats, Floats]:
+        """Gaps along the normal and reduced radii (v, n) in mm of all cells of a position."""
+        columns = amounts.T[..., None]
+        length = np.maximum(columns[[1, 3]], _SHORT)
+        nothing = np.zeros_like(columns[0])
+        pinion = _Flanks(self.plain.pinion.flank_form, self.shape, columns[0], length[0], columns[4], columns[5])
+        wheel = _Flanks(self.plain.wheel.flank_form, self.shape, columns[2], length[1], nothing, nothing)
+        mounting = condition.mounted(self.roomy.mounting)
+        # All lines, and all places beside them, at once: what costs is how often numpy is called.
+        places = np.concatenate([np.array(places_beside(line, self.plain, mounting)) for line in given.lines], axis=-1)
+        one, other = (places[:, gear].swapaxes(0, 1).reshape(2, -1) for gear in (0, 1))
+        depths = (pinion.taken_back(*one) + wheel.taken_back(*other)).reshape(len(amounts), len(places), -1)
+        found = [
+            line_gap(line, self.plain, mounting, self.roomy.helix, each.swapaxes(0, 1))
+            for line, each in zip(given.lines, given.split(depths), strict=True)
+        ]
+        normal, radii = zip(*found, strict=True)
+        return np.concatenate(normal, axis=1), np.concatenate(radii, axis=1)
+
+    def _sharpest(self, given: Responses, amounts: Floats, radii: Floats, near: float) -> Floats:
+        """Least radii (v, n) in mm that cells see as `near` (mm of roll): where a linear relief starts, flanks have a bend."""
+        if self.shape is not ReliefShape.LINEAR:
+            return radii
+        columns = amounts.T[..., None]
+        bend = np.zeros_like(radii)
+        for gear, form in enumerate((self.plain.pinion.flank_form, self.plain.wheel.flank_form)):
+            lengths = np.concatenate([(each.pinion, each.wheel)[gear][0] for each in given.lines])
+            relief, length = columns[2 * gear], np.maximum(columns[2 * gear + 1], _SHORT)
+            inside = np.abs(form.last - length - lengths) < near
+            bend = np.maximum(bend, np.where(inside, relief / 1000 / length * form.base_radius / lengths, 0.0))
+        exact = np.concatenate([each.curvature for each in given.lines])
+        sharp = exact + bend / (BEND * self.plain.pinion.normal_module)
+        return np.minimum(radii, 1 / (sharp * math.cos(self.roomy.helix)))
+
+    def _judged(self, given: Responses, forces: Floats, radii: Floats, force: float) -> tuple[Floats, Floats]:
+        """The greatest interior pressure (v,) in MPa of a position, and the share (v,) of the load on the edges of tips."""
+        widths = half_widths(given, radii, forces)
+        pressures = np.sqrt(forces / given.lengths * given.modulus / (math.pi * radii))
+        to_edge, across, on_edge = (
+            np.concatenate(parts)
+            for parts in zip(*((line.edge_distance, line.across, line.on_edge) for line in given.lines), strict=True)
+        )
+        inside = np.minimum(to_edge, self.roomy.width / 2 - np.abs(across)) > INTERIOR * widths
+        return np.where(inside, pressures, 0.0).max(axis=1), np.where(on_edge, forces, 0.0).sum(axis=1) / force

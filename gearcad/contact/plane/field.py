@@ -1,0 +1,201 @@
+"""Stresses anywhere in the teeth at one position of the mesh: elements for the body, strips of pressure for the contact.
+
+What the elements carry is smooth: it is averaged at the nodes and interpolated. What the pressures do is added point by point
+in closed form, as if the flank were its tangent plane. So the zone of contact, smaller than an element, is resolved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.arrays import Floats, Wholes
+from gearcad.contact.plane.cycle import Cycle, PairContact, Position
+from gearcad.contact.plane.elasticity import Plane
+from gearcad.contact.plane.flank import FlankCompliance, involute_point, near_elements
+from gearcad.contact.plane.subsurface import strip_stresses
+from gearcad.meshing.outline import Side
+
+__all__ = ["ToothField", "contact_frame", "tooth_field"]
+
+
+_CORNERS = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
+"""The nodes of a triangle in its own coordinates."""
+
+_INSIDE = (Side.AHEAD, Side.INNER, Side.BEHIND)
+"""Sides of a sector that are no profile."""
+
+_COARSE, _FINE = 2, 16
+"""Parts of an element's edge between points of the field, away from the contact and near it."""
+
+_NEAR = 5.0
+"""Half widths around a contact within which it is near."""
+
+
+@dataclass(frozen=True)
+class ToothField:
+    """Von Mises stress (MPa) at `points` (n, 2) in mm of one tooth and its share of the body; `triangles` (m, 3) join them.
+
+    `outline` (k, 2) is the profile from one root to the other. The pinion's axis is the origin, the wheel's lies on +x; the
+    teeth stand as before they bend.
+    """
+
+    points: Floats
+    triangles: Wholes
+    von_mises: Floats
+    outline: Floats
+
+
+def contact_frame(cycle: Cycle, contact: PairContact) -> tuple[Floats, Floats]:
+    """Centre of a contact (mm) in the frame of the field; directions to the pinion's tip and into the wheel, as columns."""
+    model = cycle.model
+    angle = np.radians(model.pair.working_transverse_pressure_angle)
+    beside, along = np.array([np.cos(angle), -np.sin(angle)]), np.array([np.sin(angle), np.cos(angle)])
+    cells = contact.pair.cells
+    place = float((cells.place * contact.pressures).sum() / contact.pressures.sum())
+    centre: Floats = (model.base_radius + place) * beside + contact.pair.pinion * along
+    return centre, np.stack([beside, along], -1)
+
+
+def tooth_field(cycle: Cycle, position: Position, gear: int, tooth: int) -> ToothField:
+    """The field in a tooth of the pinion (0) or wheel (1), counted like the pairs of teeth in contact.
+
+    Loads on teeth further away than the model's neighbours are left out.
+    """
+    body = (cycle.model.pinion, cycle.model.wheel)[gear]
+    mesh = body.ring.sector.mesh
+    own = next((contact for contact in position.contacts if contact.pair.tooth == tooth), None)
+    smooth = _smooth_stresses(body, position, gear, tooth, own)
+    finely = np.zeros(len(mesh.triangles), bool) if own is None else _near_contact(body, own, gear)
+    points, stresses, triangles, count = [], [], [], 0
+    for elements, parts in ((mesh.triangles[~finely], _COARSE), (mesh.triangles[finely], _FINE)):
+        local, split = _lattice(parts)
+        shape = _shape(local)
+        points.append(np.einsum("qa,eac->eqc", shape, mesh.points[elements]).reshape(-1, 2))
+        stresses.append(np.einsum("qa,eas->eqs", shape, smooth[elements]).reshape(-1, 3))
+        triangles.append((count + len(local) * np.arange(len(elements))[:, None, None] + split).reshape(-1, 3))
+        count += len(points[-1])
+    where, stress = np.concatenate(points), np.concatenate(stresses)
+    if own is not None:
+        stress = stress + _strips(body, own, gear, where)
+    turn, axis = _pose(cycle, position, gear, tooth)
+    profile = np.concatenate([nodes for side, nodes in mesh.sides.items() if side not in _INSIDE])
+    outline = mesh.points[profile] @ turn.T + axis
+    return ToothField(where @ turn.T + axis, np.concatenate(triangles), _von_mises(stress, body), outline)
+
+
+def _pose(cycle: Cycle, position: Position, gear: int, tooth: int) -> tuple[Floats, Floats]:
+    """Turn (2, 2) and axis (2,) of a tooth: its flank touches on the line of action, where its normal lies along that line."""
+    model = cycle.model
+    flank = (model.pinion, model.wheel)[gear].flank
+    from_pinion = model.roll_length(position.roll_angle) + tooth * model.line.pitch
+    length = (from_pinion, model.line.whole - from_pinion)[gear]
+    heading = np.radians(flank.gear.profile.base_half_angle) - length / flank.base_radius
+    angle = np.pi * gear - np.radians(model.pair.working_transverse_pressure_angle) - heading
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    return turn, np.array([model.pair.centre_distance * gear, 0.0])
+
+
+def _smooth_stresses(body: FlankCompliance, position: Position, gear: int, tooth: int, own: PairContact | None) -> Floats:
+    """Stresses (n, 3) - xx, yy, xy - at the nodes of a tooth in its frame, less those of the strips."""
+    mesh, sense = body.ring.sector.mesh, (1, -1)[gear]
+    smooth, singular = np.zeros((2, 2 * len(mesh.points)))
+    for contact in position.contacts:
+        apart = sense * (tooth - contact.pair.tooth)
+        if abs(apart) <= body.neighbours:
+            smooth += _at_length(body, body.displacements[body.neighbours + apart], contact.centre(gear)) * contact.force
+        if apart == 0:
+            singular += _at_length(body, body.singular, contact.centre(gear)) * contact.force
+    near = np.zeros(len(mesh.triangles), bool)
+    near[near_elements(body.flank.gear, mesh)] = True
+    stress = np.empty((len(mesh.triangles), 6, 3))
+    stress[near] = _element_stresses(body, mesh.triangles[near], smooth)
+    # Beyond, Flamant's field was not taken off: there the strips are, so that both can be averaged where they meet.
+    stress[~near] = _element_stresses(body, mesh.triangles[~near], smooth + singular)
+    if own is not None:
+        stress[~near] -= _strips(body, own, gear, mesh.points)[mesh.triangles[~near]]
+    total, times = np.zeros((len(mesh.points), 3)), np.zeros(len(mesh.points))
+    np.add.at(total, mesh.triangles, stress)
+    np.add.at(times, mesh.triangles, 1.0)
+    result: Floats = total / times[:, None]
+    return result
+
+
+def _at_length(body: FlankCompliance, columns: Floats, length: float) -> Floats:
+    """Responses to the unit loads, interpolated to a roll length (mm), no nearer to the tip corner than the last of them."""
+    from scipy.interpolate import CubicSpline
+
+    found: Floats = CubicSpline(body.loads, columns, axis=1)(np.clip(length, body.loads[0], body.loads[-1]))
+    return found
+
+
+def _element_stresses(body: FlankCompliance, triangles: Wholes, moved: Floats) -> Floats:
+    """Stresses (m, 6, 3) at the nodes of the elements by displacements of all nodes."""
+    corners = body.ring.sector.mesh.points[triangles]
+    slopes = _slopes(_CORNERS)
+    jacobian = np.einsum("qad,eac->eqdc", slopes, corners)
+    gradient = np.linalg.solve(jacobian, np.einsum("qad,eac->eqdc", slopes, moved.reshape(-1, 2)[triangles]))
+    lame, shear = body.elasticity.lame
+    spread = lame * (gradient[..., 0, 0] + gradient[..., 1, 1])
+    across, up = (spread + 2 * shear * gradient[..., axis, axis] for axis in (0, 1))
+    return np.stack([across, up, shear * (gradient[..., 0, 1] + gradient[..., 1, 0])], -1)
+
+
+def _strips(body: FlankCompliance, contact: PairContact, gear: int, points: Floats) -> Floats:
+    """Stresses (..., 3) - xx, yy, xy - at points of the tooth's frame (mm) by the pressures of its contact."""
+    cells = contact.pair.cells
+    touch = (contact.pair.pinion, contact.pair.wheel)[gear]
+    inward = body.flank.inward(np.array(touch))
+    up = np.array([-inward[1], inward[0]])  # along the flank, towards the tip
+    away = points - involute_point(body.flank.gear, touch)
+    places = (1, -1)[gear] * cells.place
+    across, down, shear = strip_stresses(away @ up, away @ inward, places, cells.width, contact.pressures)
+    frame = np.stack([up, inward], -1)
+    local = np.stack([np.stack([across, shear], -1), np.stack([shear, down], -1)], -1)
+    turned = frame @ local @ frame.T
+    return np.stack([turned[..., 0, 0], turned[..., 1, 1], turned[..., 0, 1]], -1)
+
+
+def _von_mises(stress: Floats, body: FlankCompliance) -> Floats:
+    x, y, shear = np.moveaxis(stress, -1, 0)
+    along = body.elasticity.material.poisson_ratio * (x + y) if body.elasticity.plane is Plane.STRAIN else np.zeros_like(x)
+    result: Floats = np.sqrt(((x - y) ** 2 + (y - along) ** 2 + (along - x) ** 2) / 2 + 3 * shear**2)
+    return result
+
+
+def _near_contact(body: FlankCompliance, contact: PairContact, gear: int) -> NDArray[np.bool_]:
+    """Elements that a circle around the contact reaches: their own circles meet it."""
+    mesh = body.ring.sector.mesh
+    corners = mesh.points[mesh.triangles[:, :3]]
+    middle = corners.mean(axis=1)
+    size = np.hypot(*np.moveaxis(corners - middle[:, None], -1, 0)).max(axis=1)
+    centre = involute_point(body.flank.gear, contact.centre(gear))
+    near: NDArray[np.bool_] = np.hypot(*(middle - centre).T) < size + _NEAR * contact.hertz_half_width
+    return near
+
+
+def _lattice(parts: int) -> tuple[Floats, Wholes]:
+    """Points (n, 2) that divide the edges of a triangle into parts, and the small triangles (parts^2, 3) between them."""
+    number = {(i, j): 0 for j in range(parts + 1) for i in range(parts + 1 - j)}
+    number = {place: index for index, place in enumerate(number)}
+    upright = [(number[i, j], number[i + 1, j], number[i, j + 1]) for i, j in number if i + j < parts]
+    inverted = [(number[i + 1, j], number[i + 1, j + 1], number[i, j + 1]) for i, j in number if i + j < parts - 1]
+    return np.array(list(number)) / parts, np.array(upright + inverted)
+
+
+def _shape(local: Floats) -> Floats:
+    """Quadratic shape functions (n, 6) at points of a triangle's own coordinates."""
+    s, t = local.T
+    r = 1 - s - t
+    return np.stack([r * (2 * r - 1), s * (2 * s - 1), t * (2 * t - 1), 4 * r * s, 4 * s * t, 4 * t * r], -1)
+
+
+def _slopes(local: Floats) -> Floats:
+    """Their derivatives (n, 6, 2)."""
+    s, t = local.T
+    r, zero = 1 - s - t, np.zeros_like(s)
+    by_s = np.stack([1 - 4 * r, 4 * s - 1, zero, 4 * (r - s), 4 * t, -4 * t], -1)
+    by_t = np.stack([1 - 4 * r, zero, 4 * t - 1, -4 * s, 4 * s, 4 * (r - t)], -1)
+    return np.stack([by_s, by_t], -1)

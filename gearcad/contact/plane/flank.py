@@ -1,0 +1,248 @@
+"""How a gear gives way under a load anywhere on its flank: finite elements for the body, Flamant for the contact.
+
+A point load on the flank is taken off the finite element solution inside the loaded tooth, where Flamant's field is known
+exactly, so the elements carry only the smooth rest (singularity subtraction).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+
+from gearcad.arrays import Floats, Wholes
+from gearcad.contact.plane.elasticity import PlaneElasticity, stiffness_matrix
+from gearcad.contact.plane.flamant import edge_displacement, flamant_displacement, flamant_traction
+from gearcad.contact.plane.ring import Ring
+from gearcad.geometry import Gear
+from gearcad.meshing import SectorMesh
+from gearcad.meshing.outline import Side
+
+__all__ = ["FlankCompliance", "flank_compliance"]
+
+
+_GAUSS = 8
+"""Points on each edge for the tractions of Flamant's field."""
+
+Compliance = Callable[[Floats, Floats], Floats]
+"""Normal displacements (n, m) in mm at roll lengths (n,) by 1 N per mm of width at roll lengths (m,)."""
+
+
+@dataclass(frozen=True)
+class Flank:
+    """The loaded flank of tooth 0: nodes from root to tip, their roll lengths (mm from the base tangent point)."""
+
+    gear: Gear
+    nodes: Wholes
+    lengths: Floats
+
+    @property
+    def base_radius(self) -> float:
+        """r_b (mm)."""
+        return self.gear.base_diameter / 2
+
+    def arc(self, lengths: Floats) -> Floats:
+        """Arc length along the involute from the base circle (mm): rho^2/(2 r_b)."""
+        return lengths**2 / (2 * self.base_radius)
+
+    def inward(self, lengths: Floats) -> Floats:
+        """Unit normals (..., 2) into the tooth."""
+        heading = np.radians(self.gear.profile.base_half_angle) - np.asarray(lengths) / self.base_radius
+        return np.stack([np.sin(heading), -np.cos(heading)], -1)
+
+
+def flank_of(gear: Gear, mesh: SectorMesh) -> Flank:
+    """The loaded flank of a sector mesh."""
+    nodes = mesh.sides[Side.LEFT_FLANK][::-1]
+    radius = np.hypot(*mesh.points[nodes].T)
+    base = gear.base_diameter / 2
+    return Flank(gear, nodes, np.sqrt(np.maximum((radius - base) * (radius + base), 0)))
+
+
+@dataclass(frozen=True)
+class FlankCompliance:
+    """Responses of a body to unit normal loads at `loads` (roll lengths, mm), one column each.
+
+    `displacements` (sectors, 2 n, m) in mm in each sector's frame, without the part of tooth 0 that is Flamant's:
+    there they are the smooth rest, and `singular` (2 n, m) holds what was taken off. `torques` (m,) act on the hub;
+    `hub_forces` (3, m) are the dofs of a hub that follows the bore.
+    """
+
+    flank: Flank
+    ring: Ring
+    elasticity: PlaneElasticity
+    loads: Floats
+    displacements: Floats
+    singular: Floats
+    torques: Floats
+    hub_forces: Floats | None
+
+    edge_taken_off: ClassVar[bool] = True
+    """Whether `response` lacks the straight edge's part, which the contact then adds in closed form."""
+
+    @property
+    def resolution(self) -> float:
+        """Least width of a cell of contact that the response can tell from its neighbour (mm)."""
+        return 0.0
+
+    @property
+    def neighbours(self) -> int:
+        """Teeth in full on each side of the loaded one."""
+        return len(self.displacements) // 2
+
+    def _regular(self) -> Floats:
+        """R(x, y): normal displacement of tooth 0 at x by a load at y, less that of a straight edge at that arc distance."""
+        flank = self.flank
+        smooth = self._normal(0)
+        points = self.ring.sector.mesh.points[flank.nodes]
+        inward = flank.inward(flank.lengths)
+        for column, load in enumerate(self.loads):
+            at = involute_point(flank.gear, load)
+            distance = np.abs(flank.arc(flank.lengths) - flank.arc(load))
+            apart = distance > 1e-9
+            singular = (flamant_displacement(points, at, flank.inward(load), self.elasticity) * inward).sum(-1)
+            edge = edge_displacement(np.where(apart, distance, 1.0), self.elasticity)
+            smooth[:, column] += np.where(apart, singular - edge, 0.0)
+        return smooth
+
+    @property
+    def hub_radius(self) -> float:
+        """Where the body is held (mm)."""
+        mesh = self.ring.sector.mesh
+        return float(np.hypot(*mesh.points[mesh.sides[Side.INNER][0]]))
+
+    def hub_torque(self, length: float) -> float:
+        """Torque on the hub (N mm per mm of width) by a load of 1 N per mm at a roll length (mm)."""
+        return -float(np.interp(length, self.loads, self.torques))
+
+    def response(self, tooth: int) -> Compliance:
+        """Normal displacement of a flank by a load on tooth 0: the regular part of tooth 0, all of it of another tooth.
+
+        Teeth are counted counter-clockwise.
+        """
+        if tooth not in self._responses:
+            moved = self._regular() if tooth == 0 else self._normal(tooth)
+            self._responses[tooth] = self._interpolated(moved)
+        return self._responses[tooth]
+
+    @cached_property
+    def _responses(self) -> dict[int, Compliance]:
+        return {}
+
+    def _normal(self, tooth: int) -> Floats:
+        nodes, inward = self.flank.nodes, self.flank.inward(self.flank.lengths)
+        moved = self.displacements[self.neighbours + tooth]
+        result: Floats = moved[2 * nodes] * inward[:, :1] + moved[2 * nodes + 1] * inward[:, 1:]
+        return result
+
+    @property
+    def _corner(self) -> float:
+        """Length of the last edge before the tip corner (mm of arc): the scale below which nothing is resolved."""
+        arc = self.flank.arc(self.flank.lengths)
+        return float(arc[-1] - arc[-3])
+
+    def _interpolated(self, values: Floats) -> Compliance:
+        """Bicubic spline in -ln(arc distance to the tip + the last edge): near the corner the field varies like that."""
+        from scipy.interpolate import RectBivariateSpline
+
+        flank, corner = self.flank, self._corner
+        end = float(flank.arc(flank.lengths[-1]))
+        last = np.sqrt(2 * flank.base_radius * (end - corner / 2))
+
+        def spread(lengths: Floats) -> Floats:
+            return -np.log(np.maximum(end - flank.arc(np.minimum(lengths, last)), 0) + corner)
+
+        rows = flank.lengths <= last
+        spline = RectBivariateSpline(spread(flank.lengths[rows]), spread(self.loads), values[rows])
+
+        def compliance(x: Floats, y: Floats) -> Floats:
+            # The spline wants rising arguments; along the wheel's flank they fall.
+            rows, columns = slice(None, None, _sense(x)), slice(None, None, _sense(y))
+            values: Floats = spline(spread(x[rows]), spread(y[columns]))[rows, columns]
+            return values
+
+        return compliance
+
+
+def _sense(values: Floats) -> int:
+    return -1 if values[0] > values[-1] else 1
+
+
+def involute_point(gear: Gear, length: float) -> Floats:
+    """Point (2,) of the left flank of tooth 0 at a roll length (mm)."""
+    base = gear.base_diameter / 2
+    roll = length / base
+    angle = np.radians(gear.profile.base_half_angle) - (roll - np.arctan(roll))
+    point: Floats = np.hypot(base, length) * np.array([np.cos(angle), np.sin(angle)])
+    return point
+
+
+def flank_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> FlankCompliance:
+    """Solve the body for unit loads at about 24 places of the flank, graded towards the tip."""
+    mesh = ring.sector.mesh
+    flank = flank_of(gear, mesh)
+    loads = _load_places(flank)
+    near = near_elements(gear, mesh)
+    nodes = np.unique(mesh.triangles[near])
+    singular = np.zeros((2 * len(mesh.points), len(loads)))
+    forces = np.zeros_like(singular)
+    edges = _boundary_edges(mesh.triangles[near])
+    for column, load in enumerate(loads):
+        at, inward = involute_point(gear, load), flank.inward(load)
+        moved = flamant_displacement(mesh.points[nodes], at, inward, elasticity)
+        singular[2 * nodes, column], singular[2 * nodes + 1, column] = moved.T
+        forces[:, column] = -_traction_forces(mesh, edges, at, inward)
+    forces += stiffness_matrix(mesh, elasticity, near) @ singular
+    displacements, torques = ring.solve(forces)
+    displacements[len(displacements) // 2] -= singular
+    hub_forces = ring.hub_forces(forces) if ring.support.floats else None
+    return FlankCompliance(flank, ring, elasticity, loads, displacements, singular, torques, hub_forces)
+
+
+def _load_places(flank: Flank) -> Floats:
+    """Roll lengths of vertices of the flank: 3 % of its length apart, closer by and by towards the tip corner.
+
+    An undercut flank ends in a corner at the root as well, where no load can be taken off as one on a straight edge.
+    """
+    arc = flank.arc(flank.lengths[::2])
+    to_tip = arc[-1] - arc
+    first, last = int(flank.gear.undercut), len(arc) - 2
+    chosen = [last]
+    for place in range(last - 1, first - 1, -1):
+        before = to_tip[chosen[-1]]
+        if place == first or to_tip[place] - before >= min(0.15 * before, 0.03 * to_tip[0]):
+            chosen.append(place)
+    places: Floats = flank.lengths[::2][chosen[::-1]]
+    return places
+
+
+def near_elements(gear: Gear, mesh: SectorMesh) -> Wholes:
+    """Elements of the tooth and a module of the body below it: where Flamant's field is taken off."""
+    centre = mesh.points[mesh.triangles[:, :3]].mean(axis=1)
+    return np.flatnonzero(np.hypot(*centre.T) > gear.root_diameter / 2 - gear.normal_module)
+
+
+def _boundary_edges(triangles: Wholes) -> Wholes:
+    """Edges (n, 3) - end, end, middle - that belong to one of the triangles only, counter-clockwise."""
+    edges = triangles[:, [[0, 1, 3], [1, 2, 4], [2, 0, 5]]].reshape(-1, 3)
+    _, index, times = np.unique(edges[:, 2], return_index=True, return_counts=True)
+    once: Wholes = edges[index[times == 1]]
+    return once
+
+
+def _traction_forces(mesh: SectorMesh, edges: Wholes, load_at: Floats, inward: Floats) -> Floats:
+    """Nodal forces (2 n,) of the tractions of Flamant's field on the edges."""
+    s, weight = np.polynomial.legendre.leggauss(_GAUSS)
+    shape = np.array([s * (s - 1) / 2, s * (s + 1) / 2, 1 - s * s])
+    slope = np.array([s - 0.5, s + 0.5, -2 * s])
+    points = np.einsum("aq,eac->eqc", shape, mesh.points[edges])
+    along = np.einsum("aq,eac->eqc", slope, mesh.points[edges])
+    normals = np.stack([along[..., 1], -along[..., 0]], -1)  # outward, times the length per unit of s
+    traction = flamant_traction(points, normals, load_at, inward)
+    nodal = np.einsum("aq,q,eqc->eac", shape, weight, traction)
+    forces = np.zeros((len(mesh.points), 2))
+    np.add.at(forces, edges, nodal)
+    return forces.ravel()

@@ -1,0 +1,54 @@
+"""Responses all round a rim that bends: of teeth too far from the load to stand in full, from the cuts between them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from gearcad.arrays import Floats
+from gearcad.contact.plane.ring import Ring, factorise
+
+__all__ = ["far_responses"]
+
+
+def far_responses(ring: Ring, rows: Any, displacements: Floats, forces: Floats) -> list[Floats]:
+    """What `rows` (scipy sparse, (n, 2 nodes)) tell of the displacements of every tooth that does not stand in full.
+
+    `displacements` (sectors, 2 nodes, m) are those of the teeth that do, `forces` (3, m) the hub's. Each tooth has (n, m),
+    counter-clockwise from the last of those in full.
+    """
+    sector, chain = ring.sector, ring.chain
+    if chain is None:
+        return []
+    across = _from_cuts(ring, rows)
+    count, teeth = len(displacements), ring.support.teeth
+    beyond = [chain]  # so many sectors in a row
+    for _ in range(teeth - count - 1):
+        beyond.append(chain.followed_by(beyond[-1]))
+    n = chain.cut
+    near, end = (sector.cut_turn.T @ displacements[-1])[sector.ahead], (sector.cut_turn.T @ displacements[0])[sector.behind]
+    found = []
+    for tooth in range(count // 2 + 1, teeth - count // 2):
+        left = teeth - count // 2 - 1 - tooth
+        hub, after = ring.support.seen_by(tooth) @ forces, end
+        if left:
+            onward = beyond[left - 1].matrix
+            known = chain.matrix[n : 2 * n] @ np.r_[near, 0 * near, hub]
+            known += onward[:n] @ np.r_[0 * near, end, ring.support.seen_by(tooth + 1) @ forces]
+            after = -np.linalg.solve(chain.matrix[n : 2 * n, n : 2 * n] + onward[:n, :n], known)
+        found.append(across @ np.r_[near, after, hub])
+        near = after
+    return found
+
+
+def _from_cuts(ring: Ring, rows: Any) -> Floats:
+    """What `rows` tell, (n, cuts and hub), of a sector in full by the displacements of its cuts and the forces of its hub."""
+    sector = ring.sector
+    cuts = np.r_[sector.behind, sector.ahead]
+    inside = np.setdiff1d(np.arange(sector.dofs), cuts)
+    polar = (rows @ sector.cut_turn).tocsc()
+    given = np.c_[sector.matrix[inside][:, cuts].toarray(), sector.hub[inside]]
+    moved = factorise(sector.matrix[inside][:, inside]).solve(given)
+    result: Floats = np.c_[polar[:, cuts].toarray(), np.zeros((rows.shape[0], sector.hub.shape[1]))] - polar[:, inside] @ moved
+    return result

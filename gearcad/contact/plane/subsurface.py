@@ -1,0 +1,37 @@
+"""Stress below a loaded flank: a half-plane under strips of constant pressure (Johnson, Contact Mechanics, 2.5)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gearcad.arrays import Floats
+from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
+
+__all__ = ["greatest_von_mises", "strip_stresses"]
+
+
+def strip_stresses(x: Floats, depth: Floats, places: Floats, width: float, pressures: Floats) -> tuple[Floats, Floats, Floats]:
+    """sigma_x, sigma_z and tau_xz (MPa) at points (x, depth) below strips of `width` (mm) centred on `places`."""
+    right, left = x[..., None] - places + width / 2, x[..., None] - places - width / 2
+    first, second = np.arctan2(depth[..., None], right), np.arctan2(depth[..., None], left)
+    spread, sines = 2 * (second - first), np.sin(2 * second) - np.sin(2 * first)
+    scale = pressures / (2 * np.pi)
+    across = -(scale * (spread + sines)).sum(-1)
+    down = -(scale * (spread - sines)).sum(-1)
+    shear = (scale * (np.cos(2 * second) - np.cos(2 * first))).sum(-1)
+    return across, down, shear
+
+
+def greatest_von_mises(
+    places: Floats, width: float, pressures: Floats, half_width: float, elasticity: PlaneElasticity
+) -> tuple[float, float]:
+    """Greatest von Mises stress (MPa) below a contact, and its depth (mm)."""
+    middle = float((places * pressures).sum() / pressures.sum())
+    x, depth = np.meshgrid(
+        middle + half_width * np.linspace(-1.2, 1.2, 49), half_width * np.linspace(0.05, 2.0, 79), indexing="ij"
+    )
+    across, down, shear = strip_stresses(x, depth, places, width, pressures)
+    along = elasticity.material.poisson_ratio * (across + down) if elasticity.plane is Plane.STRAIN else np.zeros_like(across)
+    mises = np.sqrt(((across - down) ** 2 + (down - along) ** 2 + (along - across) ** 2) / 2 + 3 * shear**2)
+    at = np.unravel_index(np.argmax(mises), mises.shape)
+    return float(mises[at]), float(depth[at])

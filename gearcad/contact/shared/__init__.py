@@ -1,0 +1,1 @@
+"""What contact in the plane and of solid bodies have in common."""

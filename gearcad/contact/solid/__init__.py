@@ -1,0 +1,1 @@
+"""Gears as solid bodies, in contact along lines that run across their flanks."""

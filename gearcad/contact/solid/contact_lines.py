@@ -1,0 +1,225 @@
+"""The lines along which flanks can touch at a position of the mesh, cell by cell, and the gap there.
+
+In the plane of action a line of contact is straight and lies at the base helix angle. Where it leaves the flanks, the tip
+edge of one gear faces the other's flank instead.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from gearcad.arrays import Bools, Floats
+from gearcad.contact.plane.mesh_positions import MeshLine
+from gearcad.contact.solid.flank import Places, SolidFlank
+from gearcad.geometry import Gear, GearPair
+from gearcad.mounting import Mounting
+
+__all__ = ["ContactLine", "Gaps", "contact_lines", "gaps", "line_gap", "places_beside"]
+
+
+_LEAST_LENGTH = 0.01
+"""Least roll length (mm per mm of normal module) at which a flank still has a curvature to speak of."""
+
+BEND = 0.05
+"""Distance (mm per mm of normal module) over which slope and curvature of a modification are taken."""
+
+_LEAST_BEND = 0.05
+"""Share of the exact flanks' curvature that a hollow modification leaves at the least."""
+
+
+@dataclass(frozen=True)
+class ContactLine:
+    """One pair of flanks: tooth `tooth` of the pinion (0 is the middle one), cell by cell along the face width.
+
+    `across` (n,) in mm from the middle of the common face width, `nominal` (n,) where the line of contact crosses the line
+    of action (mm from T1), `pinion` and `wheel` places on both flanks, `lengths` (n,) of the cells in mm, `aside` (n,) in mm
+    how far beside the line of action the flanks are nearest (0 on the line of contact, else an edge touches), `gap` (n,) the
+    transverse gap of the exact involutes in mm, `points` (n, 3) on the pinion's flank.
+    """
+
+    tooth: int
+    across: Floats
+    nominal: Floats
+    pinion: Places
+    wheel: Places
+    lengths: Floats
+    aside: Floats
+    gap: Floats
+    points: Floats
+    edge_distance: Floats
+
+    @property
+    def on_edge(self) -> Bools:
+        """Whether the edge of a tip touches instead of the flank."""
+        result: Bools = self.aside != 0
+        return result
+
+    @property
+    def curvature(self) -> Floats:
+        """Curvature (n,) of the gap between the exact flanks in the transverse section (1/mm)."""
+        return 1 / self.pinion[0] + 1 / self.wheel[0]
+
+
+def contact_lines(
+    pair: GearPair, line: MeshLine, flank: SolidFlank, pinion_length: float, cells: int, farthest_gap: float
+) -> tuple[ContactLine, ...]:
+    """The lines when the middle pair of teeth touches at `pinion_length` (mm from T1) in the middle of the common face width.
+
+    Cells count where the exact flanks are nearer than `farthest_gap` (mm).
+    """
+    common, width = pair.common_width, pair.common_width.width
+    edges = np.linspace(-width / 2, width / 2, cells + 1)
+    slope = math.tan(flank.helix)
+    reach = math.ceil((line.pinion.last + line.wheel.last + width * abs(slope)) / line.pitch)
+    pinion_start = pair.pinion.face_width / 2 + common.offset
+    wheel_start = pair.wheel.face_width / 2 + common.offset - pair.axial_offset
+    found = []
+    for tooth in range(-reach, reach + 1):
+        nominal = pinion_length + tooth * line.pitch + edges * slope
+        usable, places = _facing(line, nominal)
+        ends = flank.points((places[0], edges + pinion_start))
+        middle = (edges[1:] + edges[:-1]) / 2
+        nominal = pinion_length + tooth * line.pitch + middle * slope
+        usable, (one, other, aside, gap, distance) = _facing(line, nominal)
+        here = usable & (gap < farthest_gap)
+        if not here.any():
+            continue
+        pinion, wheel = (one[here], middle[here] + pinion_start), (other[here], middle[here] + wheel_start)
+        lengths = np.linalg.norm(np.diff(ends, axis=0), axis=1)[here]
+        found.append(
+            ContactLine(
+                tooth,
+                middle[here],
+                nominal[here],
+                pinion,
+                wheel,
+                lengths,
+                aside[here],
+                gap[here],
+                flank.points(pinion),
+                distance[here],
+            )
+        )
+    return tuple(found)
+
+
+def _facing(line: MeshLine, nominal: Floats) -> tuple[Bools, tuple[Floats, Floats, Floats, Floats, Floats]]:
+    """Where flanks are usable, and their roll lengths where they are nearest, how far aside that is, and the gap (mm).
+
+    Last, how far inside the ends of both flanks that is.
+    """
+    one, other = line.pinion, line.wheel
+    least = _LEAST_LENGTH * line.module
+    usable = (nominal > least) & (line.whole - nominal > least)
+    first, second = np.clip(nominal, least, line.whole - least), np.clip(line.whole - nominal, least, line.whole - least)
+    high = np.minimum(one.along_tangent(first, one.last), -other.along_tangent(second, other.first))
+    low = np.maximum(one.along_tangent(first, one.first), -other.along_tangent(second, other.last))
+    aside = np.clip(0.0, low, high)
+    lengths, behind = one.facing(first, aside)
+    wheel_lengths, wheel_behind = other.facing(second, -aside)
+    return usable & (low < high), (lengths, wheel_lengths, aside, behind + wheel_behind, np.minimum(high, -low))
+
+
+class Gaps(NamedTuple):
+    """Of all cells: the gap (n,) along the normal in mm, and the reduced radius (n,) in the normal section in mm."""
+
+    normal: Floats
+    radii: Floats
+
+
+def gaps(lines: tuple[ContactLine, ...], pair: GearPair, mounting: Mounting, helix: float) -> Gaps:
+    """Gaps and curvatures of all cells: of the exact flanks, their modifications, and the mounting.
+
+    A misaligned axis of the wheel is turned, as a rigid body, about its middle in the common face width. Turned in the plane
+    of action it recedes along the line of action and moves along the axis; turned across it, flanks face each other nearer to
+    tip or root, which only modified flanks feel. A pitch error belongs to the tooth in the middle.
+    """
+    found = [
+        line_gap(line, pair, mounting, helix, [_taken_back(pair, places) for places in places_beside(line, pair, mounting)])
+        for line in lines
+    ]
+    return Gaps(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
+
+
+def line_gap(
+    line: ContactLine, pair: GearPair, mounting: Mounting, helix: float, depths: Sequence[Floats] | Floats
+) -> tuple[Floats, Floats]:
+    """Gaps along the normal and reduced radii (..., n) in mm of a line, flanks taken back by `depths` (..., n) in mm
+    at the `places_beside` it.
+    """
+    here, before, middle, after = depths
+    step = BEND * pair.pinion.normal_module
+    bend = (after - 2 * middle + before) / step**2
+    curvature = np.maximum(line.curvature + bend, _LEAST_BEND * line.curvature)
+    # Where the depth slopes, the flanks are nearest a little aside: the gap is a parabola there.
+    slope = np.where(line.on_edge, 0.0, (after - before) / (2 * step) - bend * _aside(line, pair, mounting))
+    transverse = line.gap + here - slope**2 / (2 * curvature)
+    if line.tooth == 0:
+        transverse = transverse - mounting.pitch_error / 1000
+    turn = mounting.misalignment / 1000 / pair.common_width.width
+    turned = turn * (line.across * math.cos(helix) - line.wheel[0] * math.sin(helix))
+    return transverse * math.cos(helix) + turned, 1 / (curvature * math.cos(helix))
+
+
+def places_beside(line: ContactLine, pair: GearPair, mounting: Mounting) -> list[tuple[Places, Places]]:
+    """Places on the pinion's and the wheel's flank on the line, and three along the tangent, towards the pinion's tip, which
+    are what it takes to tell slope and curvature: a little before the line, on it and after it, or at the ends of the flanks
+    as near to it as they all lie on them.
+
+    The wheel has slid along the tangent where its axis is turned across, so that the pinion meets it nearer to its tip.
+    """
+    step, aside = BEND * pair.pinion.normal_module, _aside(line, pair, mounting)
+    found = []
+    for place in (np.zeros_like(aside), aside - step, aside, aside + step):
+        pinion, wheel = (
+            (np.sqrt(np.maximum(lengths**2 + gear.base_diameter * (sense * place + moved), 0.0)), heights)
+            for gear, (lengths, heights), sense, moved in _sides(line, pair, mounting)
+        )
+        found.append((pinion, wheel))
+    return found
+
+
+def _sides(line: ContactLine, pair: GearPair, mounting: Mounting) -> tuple[tuple[Gear, Places, int, Floats], ...]:
+    """Both gears with their places, the sense of the tangent towards their tips, and how far (n,) in mm they slid along it."""
+    slid = mounting.misalignment_across / 1000 / pair.common_width.width * line.across
+    return (pair.pinion, line.pinion, 1, np.zeros_like(slid)), (pair.wheel, line.wheel, -1, slid)
+
+
+def _aside(line: ContactLine, pair: GearPair, mounting: Mounting) -> Floats:
+    """How far (n,) in mm along the tangent slope and curvature are taken from the line, so that no end of a flank is passed:
+    beyond it a modification goes on no more.
+    """
+    step, low, high = (
+        BEND * pair.pinion.normal_module,
+        np.full_like(line.across, -math.inf),
+        np.full_like(line.across, math.inf),
+    )
+    for gear, (lengths, _), sense, moved in _sides(line, pair, mounting):
+        form = gear.flank_form
+        first, last = ((end**2 - lengths**2) / gear.base_diameter - moved for end in (form.first, form.last))
+        low, high = (
+            (np.maximum(low, first), np.minimum(high, last))
+            if sense > 0
+            else (
+                np.maximum(low, -last),
+                np.minimum(high, -first),
+            )
+        )
+    result: Floats = np.clip(0.0, low + step, high - step)
+    return result
+
+
+def _taken_back(pair: GearPair, places: tuple[Places, Places]) -> Floats:
+    """How far (n,) both flanks are taken back (mm) at places on them."""
+    depths = []
+    for gear, (lengths, heights) in zip((pair.pinion, pair.wheel), places, strict=True):
+        form = gear.flank_form
+        # The point that stands there now comes from further down the flank, by what it was taken back.
+        depths.append(form.depth(lengths - form.depth(lengths, heights), heights))
+    result: Floats = depths[0] + depths[1]
+    return result

@@ -1,0 +1,103 @@
+"""The faces around some of the hexahedra of a swept mesh, and nodal forces of tractions on them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache, cached_property
+
+import numpy as np
+
+from gearcad.arrays import Floats, Wholes
+from gearcad.contact.solid.swept import SweptMesh
+
+__all__ = ["Faces", "boundary_faces"]
+
+
+_FAR, _NEAR = 3, 12
+"""Gauss points each way on a face, far from a singular point and near it."""
+
+_CLOSE = 1.5
+"""A face is near if it is within so many of its own sizes."""
+
+
+@cache
+def _rule(count: int) -> tuple[Floats, Floats, Floats]:
+    """Shape functions (points, 8), their slopes (2, points, 8), and weights of `count` x `count` Gauss points."""
+    from skfem import ElementQuadS2
+
+    element = ElementQuadS2()
+    place, weight = np.polynomial.legendre.leggauss(count)
+    x, y = (np.ravel(each) for each in np.meshgrid((place + 1) / 2, (place + 1) / 2, indexing="ij"))
+    found = [element.lbasis(np.stack([x, y]), k) for k in range(8)]
+    values, slopes = np.stack([each[0] for each in found], -1), np.stack([each[1] for each in found], -1)
+    return values, slopes, np.outer(weight, weight).ravel() / 4
+
+
+@dataclass(frozen=True)
+class Faces:
+    """Quadratic faces (m, 8), four vertices and the nodes between, counter-clockwise seen from outside."""
+
+    nodes: Wholes
+    points: Floats
+
+    @cached_property
+    def _centres(self) -> Floats:
+        result: Floats = self.points[:, :4].mean(axis=1)
+        return result
+
+    @cached_property
+    def _sizes(self) -> Floats:
+        result: Floats = np.linalg.norm(self.points[:, :4] - self._centres[:, None], axis=-1).max(axis=1)
+        return result
+
+    @cached_property
+    def _far(self) -> tuple[Floats, Floats]:
+        return self._gauss(np.arange(len(self.nodes)), _FAR)
+
+    def _gauss(self, faces: Wholes, count: int) -> tuple[Floats, Floats]:
+        """Gauss points and normals, times the area, of some faces: (m, points, 3) each."""
+        values, slopes, weights = _rule(count)
+        points = values @ self.points[faces]
+        first, second = (slope @ self.points[faces] for slope in slopes)
+        return points, np.cross(first, second) * weights[:, None]
+
+    def forces(self, mesh: SweptMesh, traction: Callable[[Floats, Floats], Floats], singular_at: Floats) -> Floats:
+        """Nodal forces (n, 3) of a traction field that is singular at one point."""
+        distance = np.linalg.norm(self._centres - singular_at, axis=-1)
+        close = np.flatnonzero(distance < (1 + _CLOSE) * self._sizes)
+        nodal = np.einsum("qa,mqc->mac", _rule(_FAR)[0], traction(*self._far))
+        nodal[close] = np.einsum("qa,mqc->mac", _rule(_NEAR)[0], traction(*self._gauss(close, _NEAR)))
+        result = np.zeros((mesh.nodes, 3))
+        np.add.at(result, self.nodes, nodal)
+        return result
+
+    def among(self, nodes: Wholes) -> Faces:
+        """The faces all of whose nodes are among some."""
+        chosen = np.isin(self.nodes, nodes).all(axis=1)
+        return Faces(self.nodes[chosen], self.points[chosen])
+
+    def smooth_forces(self, mesh: SweptMesh, traction: Callable[[Floats, Floats], Floats]) -> Floats:
+        """Nodal forces (n, 3, ...) of a smooth traction field."""
+        nodal = np.einsum("qa,mqc...->mac...", _rule(_FAR)[0], traction(*self._far))
+        result = np.zeros((mesh.nodes, *nodal.shape[2:]))
+        np.add.at(result, self.nodes, nodal)
+        return result
+
+
+def boundary_faces(mesh: SweptMesh, quads: Wholes) -> Faces:
+    """The faces around the hexahedra over some section quadrangles: sides of all layers, and both ends."""
+    section = mesh.section.quads[quads]
+    edges = section[:, [[0, 1, 4], [1, 2, 5], [2, 3, 6], [3, 0, 7]]].reshape(-1, 3)
+    _, index, times = np.unique(edges[:, 2], return_index=True, return_counts=True)
+    first, second, middle = edges[index[times == 1]].T
+    found = []
+    for layer in range(mesh.layers):
+        low, high = mesh.plane(layer), mesh.plane(layer + 1)
+        half = mesh.elements(section[:1], layer)[0, 16] - section[0, 0]
+        corners = [first + low, second + low, second + high, first + high]
+        found.append(np.stack([*corners, middle + low, second + half, middle + high, first + half], -1))
+    top = section + mesh.plane(mesh.layers)
+    bottom = (section + mesh.plane(0))[:, [0, 3, 2, 1, 7, 6, 5, 4]]
+    nodes = np.concatenate([*found, top, bottom])
+    return Faces(nodes, mesh.points[nodes])

@@ -1,0 +1,183 @@
+"""One tooth of a solid body and its share of the rest: its stiffness, and the same condensed to its cuts and its hub."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from gearcad.arrays import Floats, Wholes
+from gearcad.contact.shared.chain import Chain
+from gearcad.contact.solid.condensation import Condensed, condense, parts_of
+from gearcad.contact.solid.hexahedra import layer_matrices
+from gearcad.contact.solid.hub import bore_forces, seen_at
+from gearcad.contact.solid.swept import SweptMesh
+from gearcad.material import Material
+from gearcad.meshing.outline import Side
+from gearcad.progress import Share, unheard
+
+__all__ = ["SolidSector"]
+
+
+@dataclass(frozen=True)
+class SolidSector:
+    """One tooth and its share of the body, its vectors in the turning axes, at the cuts radial and tangential.
+
+    Its bore is held by the hub, or `free`. `tell` hears how much of its condensation is done.
+    """
+
+    mesh: SweptMesh
+    material: Material
+    free: bool = False
+    tell: Share = field(default=unheard, compare=False, repr=False)
+
+    @property
+    def dofs(self) -> int:
+        """Dofs of the sector, hub and cuts included."""
+        return 3 * self.mesh.nodes
+
+    @cached_property
+    def behind(self) -> Wholes:
+        """Dofs of the cut behind, but for those on the hub."""
+        return _dofs(self.mesh.over(self._off_hub(self.mesh.section.behind)))
+
+    @cached_property
+    def ahead(self) -> Wholes:
+        """Dofs of the cut ahead, but for those on the hub: the k-th meets the k-th of `behind`."""
+        return _dofs(self.mesh.over(self._off_hub(self.mesh.section.ahead)))
+
+    def _off_hub(self, cut: Wholes) -> Wholes:
+        """The nodes of a cut of the section that are not on the hub: all but the last, which lies on the bore, if that is."""
+        return cut if self.free else cut[:-1]
+
+    @cached_property
+    def hub(self) -> Wholes:
+        """Dofs that belong to the hub."""
+        return np.empty(0, int) if self.free else _dofs(self.mesh.over(self.mesh.side(Side.INNER)))
+
+    @property
+    def cut_radii(self) -> Floats:
+        """Radii (mm) of the nodes of a cut."""
+        nodes = self.mesh.over(self._off_hub(self.mesh.section.ahead))
+        result: Floats = np.hypot(*self.mesh.in_section[nodes].T)
+        return result
+
+    @cached_property
+    def cut_turn(self) -> Any:
+        """Matrix (scipy CSR) from dofs with polar cuts to those in x, y, z of the turning axes."""
+        import scipy.sparse
+
+        angles = np.zeros(self.mesh.nodes)
+        for nodes in (self.mesh.section.ahead, self.mesh.section.behind):
+            every = self.mesh.over(nodes)
+            angles[every] = np.arctan2(*self.mesh.in_section[every].T[::-1])
+        cosine, sine, z = np.cos(angles), np.sin(angles), np.ones(len(angles))
+        diagonal, upper, lower = np.stack([cosine, cosine, z], -1).ravel(), np.zeros(self.dofs - 1), np.zeros(self.dofs - 1)
+        upper[::3], lower[::3] = -sine, sine
+        return scipy.sparse.diags([diagonal, upper, lower], [0, 1, -1], format="csr")
+
+    def stiffness(self, quads: Wholes | None = None) -> Any:
+        """Matrix (scipy CSR, N/mm) over the section's quadrangles, or some of them, in the turning axes."""
+        import scipy.sparse
+
+        chosen = self.mesh.section.quads if quads is None else self.mesh.section.quads[quads]
+        row, column, value = [], [], []
+        for layer, matrices in self._layers(chosen):
+            dofs = _dofs(self.mesh.elements(chosen, layer)).reshape(len(chosen), 60).astype(np.int32)
+            row.append(np.repeat(dofs, 60, axis=1).ravel())
+            column.append(np.tile(dofs, (1, 60)).ravel())
+            value.append(matrices.ravel())
+        triple = (np.concatenate(part) for part in (value, row, column))
+        values, rows, columns = triple
+        return scipy.sparse.csr_matrix((values, (rows, columns)), shape=(self.dofs, self.dofs))
+
+    def _layers(self, quads: Wholes):  # type: ignore[no-untyped-def]
+        """Each layer with the matrices of its hexahedra; equally thick layers share them."""
+        known: dict[float, Floats] = {}
+        for layer, thickness in enumerate(np.diff(self.mesh.planes)):
+            key = round(float(thickness), 9)
+            if key not in known:
+                known[key] = layer_matrices(self.mesh, quads, layer, self.material)
+            yield layer, known[key]
+
+    @cached_property
+    def condensed(self) -> Condensed:
+        """The sector with its hub held, condensed to its cuts."""
+        section = self.mesh.section
+        held = np.empty(0, int) if self.free else self.mesh.side(Side.INNER)
+        part = parts_of(section.points, section.quads, np.r_[section.behind, section.ahead, held])
+        layers = list(self._layers(section.quads))
+        local = np.full(self.dofs, -1)
+
+        def matrix_of(quads: Wholes) -> tuple[Wholes, Floats]:
+            elements = [_dofs(self.mesh.elements(section.quads[quads], layer)) for layer, _ in layers]
+            dofs = np.setdiff1d(np.concatenate(elements), self.hub)
+            local[dofs] = np.arange(len(dofs))
+            size = len(dofs) + 1  # the last row and column collect what is held
+            matrix = np.zeros(size * size)
+            for numbers, (_, matrices) in zip(elements, layers, strict=True):
+                place = local[numbers] % size
+                np.add.at(matrix, (place[:, :, None] * size + place[:, None, :]).ravel(), matrices[quads].ravel())
+            local[dofs] = -1
+            turn = self.cut_turn[dofs][:, dofs]
+            return dofs, turn.T @ (turn.T @ matrix.reshape(size, size)[:-1, :-1]).T
+
+        kept = np.r_[self.behind, self.ahead]
+        return condense(part, lambda nodes: np.sort(_dofs(self.mesh.over(nodes))), matrix_of, kept, self.tell)
+
+    @cached_property
+    def chain(self) -> Chain:
+        """The sector alone as a chain: on its cuts and its hub."""
+        condensed = self.condensed
+        solved, arriving = self._hub_forward
+        count, hub = len(condensed.kept), self.hub_forces.shape[1]
+        matrix = np.zeros((count + hub, count + hub))
+        matrix[:count, :count] = condensed.matrix
+        matrix[:count, count:] = arriving
+        matrix[count:, :count] = arriving.T
+        own = np.zeros((hub, hub)) if self.free else self.hub_turn[None] @ self.hub_forces
+        matrix[count:, count:] = own - sum(each.T @ each for each in solved)
+        return Chain(matrix, self.seen_by(1))
+
+    def seen_by(self, tooth: int) -> Floats:
+        """Dofs of the hub as a tooth's sector sees them, from those that the loaded one sees."""
+        if not self.free:
+            return np.eye(1)
+        nodes = self.mesh.section.points[[self.mesh.section.ahead[0], self.mesh.section.behind[0]]]
+        ahead, behind = np.arctan2(nodes[:, 1], nodes[:, 0])
+        return seen_at(float(ahead - behind) * tooth)
+
+    @property
+    def hub_solved(self) -> list[Floats]:
+        """What `backward` needs of the hub's forces."""
+        return self._hub_forward[0]
+
+    @cached_property
+    def _hub_forward(self) -> tuple[list[Floats], Floats]:
+        return self.condensed.forward(self.hub_forces)
+
+    @cached_property
+    def hub_forces(self) -> Floats:
+        """Forces (dofs, hub) by the hub's turn of 1 rad with all else held (N), or by each of the forces of a free bore."""
+        if self.free:
+            free: Floats = self.cut_turn.T @ bore_forces(self.mesh)
+            return free
+        near = np.flatnonzero(np.isin(self.mesh.section.quads, self.mesh.side(Side.INNER)).any(axis=1))
+        result: Floats = self.cut_turn.T @ (self.stiffness(near) @ (self.cut_turn @ self.hub_turn))
+        return result[:, None]
+
+    @cached_property
+    def hub_turn(self) -> Floats:
+        """How the dofs of the hub move when it turns by 1 rad (mm)."""
+        x, y = self.mesh.in_section.T
+        motion = np.stack([-y, x, np.zeros(len(x))], -1).ravel()
+        held = np.zeros(self.dofs)
+        held[self.hub] = motion[self.hub]
+        result: Floats = self.cut_turn.T @ held
+        return result
+
+
+def _dofs(nodes: Wholes) -> Wholes:
+    return (3 * nodes[..., None] + np.arange(3)).reshape(*nodes.shape[:-1], -1)

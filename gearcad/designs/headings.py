@@ -1,0 +1,78 @@
+"""The heading of a design table: which key each column holds, and every fault at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from gearcad.designs.cells import RawCell, plain_text
+from gearcad.designs.design import DesignKind
+from gearcad.designs.keys import COLUMNS, explain_unknown_column, nearest_table
+from gearcad.errors import SpecError, shown
+
+__all__ = ["column_letter", "kinds_of", "read_headings"]
+
+_OF_A_PAIR = ("pair", "pinion", "wheel")
+
+
+def column_letter(index: int) -> str:
+    """The name a spreadsheet gives the column of this index (from 0): A ... Z, AA ..."""
+    letters = ""
+    index += 1
+    while index:
+        index, letter = divmod(index - 1, 26)
+        letters = chr(ord("A") + letter) + letters
+    return letters
+
+
+def kinds_of(keys: Iterable[str]) -> set[DesignKind]:
+    """What full keys can make; none of [material] and [load] makes anything."""
+    owners = {key.partition(".")[0] for key in keys}
+    kinds = {DesignKind.GEAR} if "gear" in owners else set()
+    return kinds | {DesignKind.PAIR} if owners.intersection(_OF_A_PAIR) else kinds
+
+
+def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
+    """The full key of every column, "name" for that of the designs, "" under a blank heading; blank ones at the end are cut.
+
+    `where` names the file and row. A key without a table is one of [pair] or [gear], by what the table has. Raises
+    SpecError with one line per fault.
+    """
+    headings = [plain_text(cell) for cell in cells]
+    while headings and not headings[-1]:
+        headings.pop()
+    kinds = kinds_of(nearest_table(heading.partition(".")[0]) or "" for heading in headings if "." in heading)
+    places: dict[str, int] = {}
+    columns, faults = [], []
+    for index, heading in enumerate(headings):
+        key, fault = _key_of(heading, kinds) if heading else ("", "")
+        if not fault and key in places:
+            fault = f"is the same as column {column_letter(places[key])} ({headings[places[key]]}); keep one of them"
+        if fault:
+            faults.append(f"{where} column {column_letter(index)}: {shown(heading)}: {fault}")
+        elif key:
+            places[key] = index
+        columns.append(key)
+    if "name" not in headings:
+        faults.append(f"{where}: has no column name, which every table needs: it gives each design a name and a folder")
+    if faults:
+        raise SpecError("\n".join(faults))
+    return tuple(columns)
+
+
+def _key_of(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
+    """The full key of a heading, and what is wrong with it."""
+    if heading == "name":
+        return heading, ""
+    if heading in ("pair.name", "gear.name"):
+        return "", "is the name of the design; write name"
+    table, _, field = heading.partition(".")
+    if table in COLUMNS and field in COLUMNS[table]:
+        return heading, ""
+    if len(kinds) == 2 and heading in COLUMNS["gear"]:
+        homes = ("gear", "pair") if heading in COLUMNS["pair"] else ("gear", "pinion", "wheel")
+        written = " or ".join(f"{owner}.{heading}" for owner in homes)
+        return "", f"could be of a gear or of a pair, and this table has both; write {written}"
+    main = "pair" if DesignKind.PAIR in kinds else "gear"
+    if heading in COLUMNS[main] and len(kinds) < 2:
+        return f"{main}.{heading}", ""
+    return "", explain_unknown_column(heading, main)

@@ -1,0 +1,78 @@
+"""Faults of single values of a design: each is tried among values that are sound, so that no fault hides another."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping
+from functools import lru_cache
+
+from gearcad.designs.design import DesignKind
+from gearcad.designs.keys import SHARED
+from gearcad.designs.reader import Cell, design_from_tables
+from gearcad.errors import GeometryError, SpecError
+
+__all__ = ["fault_alone", "missing_faults", "nested", "permitted_alone"]
+
+Where = Callable[[str], str]
+
+_REQUIRED: dict[str, Cell] = {"teeth": 20, "normal_module": 2.0, "face_width": 20.0}
+"""What a gear cannot do without, and values that fit each other."""
+
+_GEARS = {DesignKind.GEAR: ("gear",), DesignKind.PAIR: ("pinion", "wheel")}
+_SOUND = {
+    kind: {f"{owner}.{field}": value for owner in owners for field, value in _REQUIRED.items()}
+    for kind, owners in _GEARS.items()
+}
+
+
+def nested(values: Mapping[str, Cell], kind: DesignKind) -> dict[str, dict[str, Cell]]:
+    """Values under their full keys as one mapping per table of a spec; the tables of the kind are there even if empty."""
+    owners = ("gear",) if kind is DesignKind.GEAR else ("pair", "pinion", "wheel")
+    tables: dict[str, dict[str, Cell]] = {owner: {} for owner in owners}
+    for key, value in values.items():
+        owner, _, field = key.partition(".")
+        tables.setdefault(owner, {})[field] = value
+    return tables
+
+
+def fault_alone(key: str, value: Cell, where: Where) -> SpecError | None:
+    """What is wrong with a value whatever the others are; `where` locates a key for the message."""
+    owner, _, field = key.partition(".")
+    kind = DesignKind.PAIR if owner in ("pair", "pinion", "wheel") else DesignKind.GEAR
+    others = _SOUND[kind] | ({"load.torque": 1.0} if owner == "load" else {})
+    if owner == "pair":
+        # What the gears have of their own would win.
+        others = {other: given for other, given in others.items() if not other.endswith(f".{field}")}
+    error = _fault(others | {key: value}, kind, where)
+    return error if error and error.key == key and not isinstance(error.__cause__, GeometryError) else None
+
+
+@lru_cache(maxsize=4096, typed=True)
+def permitted_alone(key: str, value: Cell) -> bool:
+    """True if a value is not wrong by itself. The rows of a table share many of theirs."""
+    return fault_alone(key, value, where=str) is None
+
+
+def missing_faults(given: Collection[str], kind: DesignKind, where: Where) -> Iterator[SpecError]:
+    """The faults of values that are not among the keys `given`; what both gears may share is missed once."""
+    for field in _REQUIRED:
+        for owner in _GEARS[kind]:
+            if f"{owner}.{field}" not in given and f"pair.{field}" not in given:
+                yield from _fault_without(f"{owner}.{field}", _SOUND[kind], kind, where)
+                if field in SHARED:
+                    break
+    if "load.torque" not in given and any(key.startswith("load.") for key in given):
+        yield from _fault_without("load.torque", _SOUND[kind] | {"load.speed": 0.0}, kind, where)
+
+
+def _fault_without(key: str, values: Mapping[str, Cell], kind: DesignKind, where: Where) -> Iterator[SpecError]:
+    error = _fault({other: value for other, value in values.items() if other != key}, kind, where)
+    if error is not None:
+        yield error
+
+
+def _fault(values: Mapping[str, Cell], kind: DesignKind, where: Where) -> SpecError | None:
+    try:
+        design_from_tables(nested(values, kind), where=where, default_name="trial")
+    except SpecError as error:
+        return error
+    return None

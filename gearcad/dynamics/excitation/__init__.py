@@ -1,0 +1,1 @@
+"""What makes a system vibrate: stiffness over the mesh, and deviations of teeth."""

@@ -1,0 +1,147 @@
+"""What a train or a pair of gears brings to its dynamics: the excitation of its meshes, and a pair as a train."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from gearcad.dynamics.excitation.excitation import Excitation, MeshExcitation, cycle_excitation
+from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, StiffnessShape, square_stiffness
+from gearcad.dynamics.excitation.tooth_errors import ToothDeviations, TransmissionError, random_deviations, tooth_errors
+from gearcad.dynamics.trains.graph import turning_pieces
+from gearcad.dynamics.trains.train import Inertia, Mesh, StiffnessWave, Train, TrainModel
+from gearcad.errors import GeometryError
+from gearcad.geometry import GearPair
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.rating.iso1328 import flank_tolerances
+from gearcad.rating.options import RatingOptions
+
+__all__ = ["pair_errors", "pair_excitation", "pair_train", "train_excitation"]
+
+_PRESSURE_ANGLE = 20.0
+"""Of gears of which a train tells only base radii and teeth (deg)."""
+
+_CONTACT_RATIO = 1.6
+"""Of such gears, where no square wave tells it."""
+
+_HARMONICS = 12
+"""Of the tooth frequency, in the errors of teeth: they fall with the square, to thousandths of a step of one tooth."""
+
+
+def train_excitation(train: Train, *, grade: int | None = None, seed: int = 0) -> Excitation:
+    """Stiffness waves, backlashes and pitch deviations of a train's meshes; random ones of an ISO 1328 `grade`, if given.
+
+    The deviations are those of the pinions' teeth, drawn with `seed` where a mesh has none given: with the wheels' the period
+    would be that of both.
+    """
+    ratios = _tooth_ratios(train)
+    meshes = []
+    for number, (mesh, ratio) in enumerate(zip(train.meshes, ratios, strict=True)):
+        error = _mesh_errors(mesh, grade, seed + number) if mesh.pitch_deviations or grade is not None else None
+        meshes.append(
+            MeshExcitation(
+                stiffness=_wave(mesh), phase=-360 * mesh.phase, frequency_ratio=ratio, error=error, backlash=mesh.backlash
+            )
+        )
+    return Excitation(meshes=tuple(meshes))
+
+
+def _wave(mesh: Mesh) -> StiffnessShape:
+    if mesh.shape is StiffnessWave.COSINE:
+        return CosineStiffness(variation=mesh.variation)
+    assert mesh.contact_ratio is not None  # a square wave has one
+    return square_stiffness(mesh.contact_ratio)
+
+
+def _mesh_errors(mesh: Mesh, grade: int | None, seed: int) -> TransmissionError:
+    """Of the pinion's teeth: as given, or random ones of a gear taken to have a pressure angle of 20 degrees."""
+    if mesh.pitch_deviations:
+        pitches = np.array(mesh.pitch_deviations)
+        # What is left after a turn would be no pitch deviation.
+        given = ToothDeviations(position=-np.cumsum(pitches - pitches.mean()))
+        return tooth_errors(given, contact_ratio=mesh.contact_ratio or _CONTACT_RATIO, harmonics=_HARMONICS)
+    assert grade is not None  # one of the two is there
+    diameter = 2 * mesh.base_radii[0] / math.cos(math.radians(_PRESSURE_ANGLE))
+    tolerances = flank_tolerances(grade, diameter, diameter / mesh.teeth)
+    ratio = mesh.contact_ratio or _CONTACT_RATIO
+    return tooth_errors(random_deviations(mesh.teeth, tolerances, seed), contact_ratio=ratio, harmonics=_HARMONICS)
+
+
+def _tooth_ratios(train: Train) -> list[Fraction]:
+    """Tooth frequency of every mesh over that of the first, by whole numbers of teeth: z3/z2 for a second stage."""
+    whole = [_wheel_teeth(mesh) for mesh in train.meshes]
+    exact = [
+        Mesh(
+            name=mesh.name,
+            pinion=mesh.pinion,
+            wheel=mesh.wheel,
+            base_radii=(float(mesh.teeth), float(wheel)),
+            stiffness=mesh.stiffness,
+            teeth=mesh.teeth,
+            internal=mesh.internal,
+        )
+        for mesh, wheel in zip(train.meshes, whole, strict=True)
+    ]
+    (speeds,) = turning_pieces([inertia.name for inertia in train.inertias], train.shafts, exact)
+    most = math.prod(mesh.teeth * wheel for mesh, wheel in zip(train.meshes, whole, strict=True))
+    first = speeds[train.meshes[0].pinion]
+    return [
+        Fraction(abs(speeds[mesh.pinion] / first)).limit_denominator(most) * Fraction(mesh.teeth, train.meshes[0].teeth)
+        for mesh in train.meshes
+    ]
+
+
+def _wheel_teeth(mesh: Mesh) -> int:
+    """z_2 = z_1 r_b2/r_b1. Raises GeometryError where that is far from a whole number."""
+    teeth = mesh.teeth * mesh.base_radii[1] / mesh.base_radii[0]
+    if abs(teeth - round(teeth)) > 0.2 or round(teeth) < 1:
+        permitted = f"must be in the ratio of whole numbers of teeth: with {mesh.teeth} of the pinion the wheel has {teeth:.3f}"
+        raise GeometryError(f"{mesh.name}.base_radii", mesh.base_radii[1], permitted, "mm")
+    return round(teeth)
+
+
+def pair_train(
+    pair: GearPair, cycle: MeshCycle, inertias: tuple[float, float], *, torque: float, speed: float, damping_ratio: float
+) -> Train:
+    """A pair by itself: its inertias (kg·m²), the mean tangent stiffness of its cycle, its backlash, a torque (N·m) on it."""
+    radii = (pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2)
+    across = math.cos(math.radians(pair.working_transverse_pressure_angle))
+    return Train(
+        name=pair.name,
+        model=TrainModel.ISOLATED,
+        inertias=tuple(Inertia(name=name, inertia=each) for name, each in zip(("pinion", "wheel"), inertias, strict=True)),
+        meshes=(
+            Mesh(
+                name="mesh",
+                pinion="pinion",
+                wheel="wheel",
+                base_radii=radii,
+                stiffness=cycle.tangent_mean,
+                teeth=pair.pinion.teeth,
+                damping_ratio=damping_ratio,
+                backlash=max(1000 * pair.circumferential_backlash * across, 0.0),
+            ),
+        ),
+        torques={"pinion": abs(torque), "wheel": abs(torque) * radii[1] / radii[0]},
+        speed=abs(speed),
+    )
+
+
+def pair_excitation(train: Train, cycle: MeshCycle, errors: TransmissionError | None = None) -> Excitation:
+    """The course of a pair's stiffness and transmission error, with the errors of its teeth."""
+    of = cycle_excitation(cycle, backlash=train.meshes[0].backlash)
+    if errors is not None:
+        assert of.error is not None  # a cycle has one
+        of = replace(of, error=replace(errors, line=of.error.line))
+    return Excitation(meshes=(of,))
+
+
+def pair_errors(pair: GearPair, rating: RatingOptions, seed: int) -> TransmissionError:
+    """Random pitch deviations of the rating's accuracy grade on the pinion's teeth, drawn with `seed`."""
+    gear = pair.pinion
+    tolerances = flank_tolerances(rating.accuracy_grade, gear.reference_diameter, gear.normal_module, rating.accuracy)
+    deviations = random_deviations(gear.teeth, tolerances, seed)
+    return tooth_errors(deviations, contact_ratio=max(pair.transverse_contact_ratio, 1.001), harmonics=_HARMONICS)

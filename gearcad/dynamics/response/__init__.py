@@ -1,0 +1,1 @@
+"""The steady vibration: harmonic balance, flanks that part, stability, charts over speed."""

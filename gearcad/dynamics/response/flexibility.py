@@ -1,0 +1,101 @@
+"""A system seen from its meshes: how forces of a frequency at the meshes move them, and turn inertias and shafts.
+
+SI units. The lines' modes are uncoupled, so everything is a sum over them; only the meshes at their mean stiffness couple.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearcad.arrays import Complexes, Floats
+from gearcad.dynamics.trains.system import System
+from gearcad.errors import GeometryError, SolverError
+
+__all__ = ["Flexibility", "StaticState", "flexibility", "senses", "static_state"]
+
+
+_LOSS = 1e-9
+"""Least loss factor of a line's mode: keeps the sum finite just at the frequency of an undamped one."""
+
+_MOST_AMPLIFIED = 1e9
+"""Deflection over the static one beyond which rounding decides: resonance without damping."""
+
+_NO_DAMPING = "no finite periodic motion: a harmonic of one of the frequencies meets a resonance without damping"
+
+
+@dataclass(frozen=True, eq=False)
+class Flexibility:
+    """Per force along the line of action: `mesh` (..., m, m) approaches, `others` (..., i + s, m) turns, then shaft torques."""
+
+    mesh: Complexes
+    others: Complexes
+
+
+def flexibility(system: System, frequencies: Floats) -> Flexibility:
+    """At circular frequencies (...) other than 0 (1/s), with the meshes at their mean stiffness.
+
+    With P = V^T a^-1 V of the lines alone, a = squares - w^2 + i w damping, and meshes K, that of the whole is P (1 + K P)^-1.
+    """
+    rows = np.hstack([system.inertias, system.shaft_torques])
+    count, others = system.mesh.shape[1], rows.shape[1]
+    w = frequencies[..., None]
+    modes = system.squares - w**2 + 1j * w * system.damping
+    least = _LOSS * (system.squares + w**2)
+    modes = np.where(np.abs(modes) < least, modes + 1j * least, modes)
+    products = np.hstack([system.mesh, rows])[:, :, None] * system.mesh[:, None, :]
+    sums = ((1 / modes) @ products.reshape(system.size, -1)).reshape(*frequencies.shape, count + others, count)
+    lines, rest = sums[..., :count, :], sums[..., count:, :]
+    mesh = system.stiffness + 1j * w * system.mesh_damping
+    try:
+        inverse = np.linalg.inv(np.eye(count) + mesh[..., None] * lines)
+        result = Flexibility(lines @ inverse, rest @ inverse)
+    except np.linalg.LinAlgError:
+        raise SolverError(_NO_DAMPING) from None
+    if not np.abs(result.mesh).max(initial=0.0) * system.stiffness.max() < _MOST_AMPLIFIED:
+        raise SolverError(_NO_DAMPING)
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class StaticState:
+    """At rest under the mean load, meshes at their mean stiffness: `modal` (n,), `approach` (m,), `others` (i + s,).
+
+    `unit_mesh` (m, m) and `unit_others` (i + s, m) are the same per force at the meshes, without the load.
+    """
+
+    modal: Floats
+    approach: Floats
+    others: Floats
+    unit_mesh: Floats
+    unit_others: Floats
+
+
+def static_state(system: System) -> StaticState:
+    """Raises GeometryError where a train that is free to turn has torques that do not balance, or the mesh pulls it apart."""
+    matrix = system.stiffness_matrix()
+    values, vectors = np.linalg.eigh(matrix)
+    limit = 1e-11 * max(values.max(), float(np.abs(matrix).max()))
+    if values.min() < -limit:
+        raise SolverError("the system has no stable state at rest: some stiffness is negative")
+    free = values <= limit
+    rest = vectors[:, free].T @ system.load
+    if np.abs(rest).max(initial=0.0) > 1e-8 * np.linalg.norm(system.load):
+        part = float(np.linalg.norm(rest) / np.linalg.norm(system.load))
+        raise GeometryError(
+            "load", part, "is the part of the torques that would speed up a train which is free to turn: they must balance"
+        )
+    inverse = (vectors[:, ~free] / values[~free]) @ vectors[:, ~free].T
+    rows = np.hstack([system.inertias, system.shaft_torques])
+    modal, unit = inverse @ system.load, inverse @ system.mesh
+    return StaticState(modal, system.mesh.T @ modal, rows.T @ modal, system.mesh.T @ unit, rows.T @ unit)
+
+
+def senses(system: System) -> Floats:
+    """(m,): 1 where the mean load presses the front flanks of a mesh, -1 where it presses those at the back.
+
+    Backlash and separation are counted from the flanks that carry the load.
+    """
+    modal = np.linalg.lstsq(system.stiffness_matrix(), system.load, rcond=1e-11)[0]
+    return np.where(system.mesh.T @ modal < 0, -1.0, 1.0)

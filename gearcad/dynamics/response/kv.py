@@ -1,0 +1,206 @@
+"""K_v chart: how much the load between the teeth and in the shafts exceeds the static one, over speed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.arrays import Floats
+from gearcad.dynamics.response.flexibility import StaticState
+from gearcad.dynamics.response.response import PeriodicResponse
+from gearcad.dynamics.trains.system import System
+from gearcad.errors import GeometryError, ParameterError, as_choice
+from gearcad.rating.dynamic_factor import DynamicFactor
+
+__all__ = ["ForceDefinition", "KvChart", "Peak", "chart_of", "extremes", "idle_shafts", "kv_chart", "torque_references"]
+
+
+_BLOCK = 2_000_000
+"""Samples that one block of speeds may have at a time."""
+
+_PROMINENCE = 0.005
+"""How far K_v must fall on both sides of a peak that counts as a resonance."""
+
+
+_IDLE, _IDLE_MOSTLY = 50.0, 3.0
+"""A shaft whose torque exceeds its static one so many times, and at half of the speeds still so many times, carries nothing at
+rest that a factor could refer to: one that only resonates is quiet at most speeds."""
+
+
+class ForceDefinition(Enum):
+    """Which force between the teeth K_v compares with the static one."""
+
+    SPRING = "spring"
+    """k(t) (y - e): (2.3) of J. Osinski's paper."""
+    WITH_DAMPING = "with damping"
+    """k(t) (y - e) + c (y' - e')."""
+
+
+class Peak(NamedTuple):
+    """A resonance: circular tooth frequency of the first mesh (1/s), and the factor there."""
+
+    frequency: float
+    factor: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class KvChart:
+    """Overload over `frequencies` (s,): circular tooth frequencies of the first mesh (1/s).
+
+    `factors` (s, m) is K_v of each mesh: greatest force over a period, by the `definition`, over the `static_forces` (m,) in N,
+    both of the flanks that carry; `least` (s, m) is the least over the static one, negative where flanks pull or those behind
+    them touch. `shaft_factors` (s, n) is the
+    greatest torque, in the sense of the static one, over the `shaft_references` (n,) in N·m; nan in shafts that are neither
+    loaded at rest nor have a reference. `standard` (s,) is K_v of ISO 6336-1:2006, Method B, of the pair of the first mesh.
+    """
+
+    frequencies: Floats
+    definition: ForceDefinition
+    factors: Floats
+    least: Floats
+    static_forces: Floats
+    shaft_factors: Floats
+    shaft_references: Floats
+    standard: Floats | None
+    stable: NDArray[np.bool_]
+    mesh_names: tuple[str, ...]
+    shaft_names: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+    def peaks(self, mesh: int = 0) -> list[Peak]:
+        """Resonances of a mesh, in order of frequency: maxima of K_v that stand out from both sides."""
+        from scipy.signal import find_peaks
+
+        found, _ = find_peaks(self.factors[:, mesh], prominence=_PROMINENCE)
+        return [Peak(float(self.frequencies[i]), float(self.factors[i, mesh])) for i in found]
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it: 1/s, N, N·m; no value (null) where a shaft has no factor."""
+        shafts = [[None if np.isnan(value) else float(value) for value in row] for row in self.shaft_factors.T]
+        return {
+            "frequency": self.frequencies.tolist(),
+            "definition": self.definition.value,
+            "kv": dict(zip(self.mesh_names, self.factors.T.tolist(), strict=True)),
+            "least_force": dict(zip(self.mesh_names, (self.least * self.static_forces).T.tolist(), strict=True)),
+            "static_force": dict(zip(self.mesh_names, self.static_forces.tolist(), strict=True)),
+            "shaft_overload": dict(zip(self.shaft_names, shafts, strict=True)),
+            "peaks": {name: [each._asdict() for each in self.peaks(j)] for j, name in enumerate(self.mesh_names)},
+            "kv_iso6336": None if self.standard is None else self.standard.tolist(),
+            "stable": self.stable.tolist(),
+            "warnings": list(self.warnings),
+        }
+
+
+def kv_chart(
+    response: PeriodicResponse,
+    *,
+    definition: ForceDefinition = ForceDefinition.SPRING,
+    shaft_references: Sequence[float | None] | None = None,
+    method_b: DynamicFactor | None = None,
+) -> KvChart:
+    """The chart of a response over speed, linear or of a sweep.
+
+    `shaft_references` (N·m), one per shaft, replace the static torque where given: for shafts that carry none. `method_b` are
+    the data of the pair of the first mesh. Raises GeometryError where a mesh carries no static load that K_v could refer to.
+    """
+    definition = as_choice("definition", definition, ForceDefinition)
+    means = response.static.others[response.system.inertias.shape[1] :]
+    _, signs = torque_references(means, shaft_references)
+    return chart_of(
+        response.system,
+        response.static,
+        response.frequencies,
+        extremes(response, definition, signs),
+        definition=definition,
+        shaft_references=shaft_references,
+        method_b=method_b,
+        stable=response.stable,
+        warnings=response.warnings,
+    )
+
+
+def chart_of(
+    system: System,
+    static: StaticState,
+    frequencies: Floats,
+    loads: tuple[Floats, Floats, Floats],
+    *,
+    definition: ForceDefinition = ForceDefinition.SPRING,
+    shaft_references: Sequence[float | None] | None = None,
+    method_b: DynamicFactor | None = None,
+    stable: NDArray[np.bool_],
+    warnings: tuple[str, ...],
+) -> KvChart:
+    """The chart of `extremes` that were found somehow."""
+    forces = np.abs(system.stiffness * static.approach)
+    if forces.min() <= 1e-9 * forces.max():
+        name = system.names[0][int(forces.argmin())]
+        raise GeometryError("static_force", float(forces.min()), f"of mesh {name} must not be 0 N: K_v refers to it", "N")
+    means = static.others[system.inertias.shape[1] :]
+    references, _ = torque_references(means, shaft_references)
+    factors, least, torques = loads
+    given = np.array([value is not None for value in shaft_references or [None] * len(means)], bool)
+    references = np.where(given | ~idle_shafts(torques, references), references, np.nan)
+    return KvChart(
+        frequencies=frequencies,
+        definition=definition,
+        factors=factors / forces,
+        least=least / forces,
+        static_forces=forces,
+        shaft_factors=torques / references,
+        shaft_references=references,
+        standard=None if method_b is None else method_b.values(frequencies * 30 / (np.pi * method_b.teeth)),
+        stable=stable,
+        mesh_names=system.names[0],
+        shaft_names=system.names[2],
+        warnings=warnings,
+    )
+
+
+def idle_shafts(torques: Floats, references: Floats) -> NDArray[np.bool_]:
+    """Which shafts (n,) have greatest torques (s, n) over speed that have little to do with those at rest (n,)."""
+    if not torques.size:
+        return np.zeros(len(references), bool)
+    idle = (torques.max(axis=0) >= _IDLE * references) & (np.median(torques, axis=0) >= _IDLE_MOSTLY * references)
+    return np.asarray(idle, bool)
+
+
+def torque_references(means: Floats, given: Sequence[float | None] | None = None) -> tuple[Floats, Floats]:
+    """Reference torques (n,), and the sense (n,) in which they act: 0 where it is unknown."""
+    count = len(means)
+    if given is not None and len(given) != count:
+        raise ParameterError("shaft_references", len(given), f"must be one number or None for each of {count} shafts")
+    loaded = np.abs(means) > 1e-9 * np.abs(means).max(initial=0.0)
+    references = np.where(loaded, np.abs(means), np.nan)
+    for i, value in enumerate(given or ()):
+        if value is not None:
+            if not np.isfinite(value) or value <= 0:
+                raise ParameterError("shaft_references", value, "must be above 0 N·m", "N·m")
+            references[i] = value
+    return references, np.where(loaded, np.sign(means), 0.0)
+
+
+def extremes(
+    response: PeriodicResponse, definition: ForceDefinition, signs: Floats, samples: int | None = None
+) -> tuple[Floats, Floats, Floats]:
+    """Greatest and least forces (s, m) and greatest torques (s, n) in the sense of `signs` (n,), block by block of speeds."""
+    count = samples or response.samples
+    wide = count * max(response.approach_coefficients.shape[2], response.torque_coefficients.shape[2])
+    block = max(1, _BLOCK // wide)
+    most, least, torques = [], [], []
+    for i in range(0, len(response.frequencies), block):
+        which = slice(i, i + block)
+        force = response.spring_forces(which, count)
+        if definition is ForceDefinition.WITH_DAMPING:
+            force = force + response.damping_forces(which, count)
+        force = response.senses * force
+        torque = response.shaft_torques(which, count)
+        most.append(force.max(axis=1))
+        least.append(force.min(axis=1))
+        torques.append(np.where(signs, torque * signs, np.abs(torque)).max(axis=1))
+    return np.concatenate(most), np.concatenate(least), np.concatenate(torques)

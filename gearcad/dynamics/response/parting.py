@@ -1,0 +1,151 @@
+"""Loads over speed where flanks part: the branch of motions through all speeds at which they do, up and down.
+
+SI units, frequencies are circular tooth frequencies of the first mesh (1/s).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gearcad.arrays import Bools, Complexes, Floats, Indices
+from gearcad.dynamics.response.backlash import Branch, Direction, trace
+from gearcad.dynamics.response.kv import ForceDefinition, extremes
+from gearcad.dynamics.response.periodic import harmonic_orders
+from gearcad.dynamics.response.refine import speeds_between
+from gearcad.dynamics.response.response import PeriodicResponse
+from gearcad.dynamics.response.speed_curves import SpeedCurves, Told
+from gearcad.errors import SolverError
+
+__all__ = ["MOST_ROUNDS", "Parted", "parted"]
+
+
+MOST_ROUNDS = 12
+"""Of speeds between: each quarters the intervals about a maximum."""
+
+_LEAST_HARMONICS = 12
+"""Of motions that are followed."""
+
+_MOST_UNKNOWNS = 80
+"""Most harmonics, of all meshes together, of motions that are followed: the errors of 18 teeth would take minutes."""
+
+_MARGIN = 0.9
+"""A branch begins at so much of the lowest frequency at which flanks part, where they do not yet."""
+
+_LOWER = 0.75
+"""Where that does not do, or flanks are still parted at its end, so much of the frequency is tried; the end, over as much."""
+
+_BESIDE = 1e-6
+"""Relative: how near to a fold the motions on both sides of a jump are shown."""
+
+
+@dataclass(frozen=True, eq=False)
+class Parted:
+    """A branch, the loads `told` of each of its motions, and which of them (s,) are seen running up, and running down."""
+
+    branch: Branch
+    told: Told
+    curves: SpeedCurves
+
+    def seen(self, direction: Direction) -> tuple[Told, Bools, Floats]:
+        """Loads (s,) over the branch's frequencies, whether they last, and the frequencies of jumps."""
+        # Near a fold more harmonics may find no motion where fewer did: the fold is a little before.
+        found = np.isfinite(self.told.left_out)
+        chosen, jumps = replace(self.branch, stable=self.branch.stable & found).seen(direction)
+        return self.told.at(chosen), self.branch.stable[chosen], jumps
+
+    def refined(self) -> Parted:
+        """With speeds between, until both directions show every maximum."""
+        of = self._with(_beside(self.branch))
+        for _ in range(MOST_ROUNDS):
+            curves = [of.curves.curves(of.seen(direction)[0]) for direction in Direction]
+            more = speeds_between(of.branch.frequencies, np.hstack(curves), 4 * _BESIDE)
+            if not len(more):
+                break
+            of = of._with(more)
+        return of
+
+    def _with(self, frequencies: Floats) -> Parted:
+        more = np.setdiff1d(frequencies, self.branch.frequencies)
+        if not len(more):
+            return self
+        others = self.branch.at(more)
+        if not len(others.frequencies):
+            return self
+        joined = Told.joined(self.told, loads(others, self.curves))
+        return Parted(self.branch.with_motions(others), joined, self.curves)
+
+    def holds(self, frequency: float) -> bool:
+        """Whether the branch goes through a frequency."""
+        return bool(self.branch.frequencies[0] <= frequency <= self.branch.frequencies[-1])
+
+    def coefficients(self, frequency: float) -> Complexes:
+        """(1, q, m) of the motion that is seen running up to a frequency."""
+        branch, row = self._running_up(frequency)
+        return branch.coefficients()[row]
+
+    def response(self, frequency: float) -> PeriodicResponse:
+        """The same, with the harmonics of the branch."""
+        branch, row = self._running_up(frequency)
+        return branch.response(row)
+
+    def _running_up(self, frequency: float) -> tuple[Branch, Indices]:
+        branch = self._with(np.array([frequency])).branch
+        chosen = branch.seen(Direction.UP)[0]
+        return branch, chosen[branch.frequencies == frequency]
+
+
+def parted(curves: SpeedCurves, frequencies: Floats, apart: Floats) -> Parted:
+    """Over rising frequencies (s,), through all at which flanks are `apart` (x,) in the linear motion, or that does not last.
+
+    Raises SolverError where there is no such branch.
+    """
+    ends = np.array([_MARGIN * apart[0], apart[-1] / _MARGIN])
+    places = np.searchsorted(frequencies, ends) + np.array([-1, 0])
+    low, high = (int(place) for place in np.clip(places, 0, len(frequencies) - 1))
+    high = max(high, min(low + 1, len(frequencies) - 1))
+    while True:
+        along, harmonics = frequencies[low : high + 1], _harmonics(curves, float(frequencies[low]))
+        try:
+            branch = trace(curves.system, curves.excitation, along, harmonics=harmonics)
+        except SolverError:
+            if low == 0:
+                raise
+            low = max(0, int(np.searchsorted(frequencies, _LOWER * frequencies[low])) - 1)
+            continue
+        found = Parted(branch, loads(branch, curves), curves)
+        if high == len(frequencies) - 1 or found.seen(Direction.UP)[0].least[-1].min() > 0:
+            return found.refined()
+        high = min(int(np.searchsorted(frequencies, frequencies[high] / _LOWER)), len(frequencies) - 1)
+
+
+def _harmonics(curves: SpeedCurves, frequency: float) -> int:
+    """Of the tooth frequencies; raises SolverError where these are too many unknowns."""
+    meshes = len(curves.system.stiffness)
+    wanted = float(curves.felt_orders(np.array([frequency]))[0]) / max(curves.excitation.orders)
+    for count in range(max(int(np.ceil(wanted)), _LEAST_HARMONICS), _LEAST_HARMONICS - 1, -1):
+        unknowns = meshes * len(harmonic_orders(curves.excitation, count))
+        if unknowns <= _MOST_UNKNOWNS:
+            return count
+    raise SolverError(f"motions in which they part would have {unknowns} harmonics here; leave tooth errors out to see them")
+
+
+def loads(branch: Branch, curves: SpeedCurves) -> Told:
+    """Of every motion of a branch, with as many harmonics as it needs; with its own where these lead astray."""
+    start, frequencies = branch.coefficients(), branch.frequencies[branch.index]
+    told = curves.told(frequencies, start)[0]
+    astray = np.flatnonzero(np.isinf(told.left_out))
+    if not len(astray):
+        return told
+    own = extremes(branch.response(astray), ForceDefinition.SPRING, curves.references[1])
+    instead = Told(frequencies[astray], *own, np.full(len(astray), np.inf))
+    rows = np.arange(len(frequencies))
+    rows[astray] = len(frequencies) + np.arange(len(astray))
+    return Told.joined(told, instead).at(rows)
+
+
+def _beside(branch: Branch) -> Floats:
+    """Frequencies close to both sides of the folds."""
+    near = np.concatenate([branch.folds * (1 - _BESIDE), branch.folds * (1 + _BESIDE)])
+    return np.unique(near[(near > branch.frequencies[0]) & (near < branch.frequencies[-1])])

@@ -1,0 +1,237 @@
+"""The charts of a System over speed: linear, or running up and down where flanks part, with every maximum between the speeds.
+
+SI units, frequencies are circular tooth frequencies of the first mesh (1/s).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearcad.arrays import Bools, Floats
+from gearcad.dynamics.excitation.excitation import Excitation
+from gearcad.dynamics.response.backlash import Direction
+from gearcad.dynamics.response.floquet import growth
+from gearcad.dynamics.response.kv import KvChart, chart_of, idle_shafts, kv_chart
+from gearcad.dynamics.response.parting import MOST_ROUNDS, Parted, parted
+from gearcad.dynamics.response.periodic import UNSTABLE, bonded, instability_warnings, periodic_response, runs
+from gearcad.dynamics.response.refine import speeds_between
+from gearcad.dynamics.response.resonances import LEAST_RATIO
+from gearcad.dynamics.response.response import PeriodicResponse
+from gearcad.dynamics.response.speed_curves import HIGHEST_SOUGHT, LEFT_OUT, SpeedCurves, Told
+from gearcad.dynamics.trains.system import System
+from gearcad.errors import SolverError
+from gearcad.rating.dynamic_factor import DynamicFactor
+
+__all__ = ["OverSpeed", "over_speed"]
+
+
+_PILOTS = 48
+"""Speeds at which it is looked which shafts are idle."""
+
+_DRAWN = 256
+"""Harmonics of a motion that is drawn: flanks that touch again do so within a hundredth of a tooth."""
+
+_CLOSE = 0.01
+"""Relative: speeds so near to a resonance of a low harmonic are looked at, however many high ones there are."""
+
+_STUCK = "flanks are taken to stick to each other"
+
+
+@dataclass(frozen=True, eq=False)
+class OverSpeed:
+    """Charts `up` and, where flanks part, `down`; frequencies of the jumps of both; what went wrong; and how it was found:
+    by `curves` of flanks that stick to each other, and a `branch` where those of the `excitation` part."""
+
+    excitation: Excitation
+    up: KvChart
+    down: KvChart | None
+    jumps: tuple[Floats, Floats]
+    notes: tuple[str, ...]
+    curves: SpeedCurves
+    branch: Parted | None
+
+    def response(self, frequency: float) -> PeriodicResponse:
+        """What is seen running up to any one frequency, with so many harmonics that it can be drawn over time."""
+        if not self.curves.resolvable:
+            return periodic_response(self.curves.system, self.curves.excitation, [frequency], harmonics=self.curves.few)
+        start, curves = None, self.curves
+        if self.branch is not None and self.branch.holds(frequency):
+            curves, start = self.branch.curves, self.branch.coefficients(frequency)
+        wanted = max(int(curves.orders(np.array([frequency]))[0]), _DRAWN * max(curves.excitation.orders))
+        balance = curves.balance(min(wanted, curves.most_orders))
+        (motions,) = balance.solve(np.array([curves.excitation.fundamental * frequency]), start)
+        if start is not None and not motions.solved.all():
+            return self.branch.response(frequency)  # type: ignore[union-attr]
+        return curves.response(motions)
+
+
+def over_speed(
+    system: System,
+    excitation: Excitation,
+    frequencies: Floats,
+    *,
+    harmonics: int | None = None,
+    method_b: DynamicFactor | None = None,
+) -> OverSpeed:
+    """Charts that hold rising `frequencies` and as many between them as their curves need.
+
+    `harmonics` of the tooth frequencies at most; else as many as leave out less than a hundredth of the load at rest.
+    """
+    excitation.fits(system)
+    linear = _curves(system, bonded(excitation), frequencies, harmonics)
+    if not linear.resolvable:
+        return _few(linear, excitation, frequencies, method_b)
+    told, skipped = _refined(linear, frequencies)
+    stable = growth(system, linear.excitation, told.frequencies) <= UNSTABLE
+    apart = np.asarray((told.least <= 0).any(axis=1), bool)
+    branch, notes = None, (*_standstill(linear), *_sharp(linear, told.frequencies), *_skipped(skipped))
+    if excitation.parting and (apart | ~stable).any():
+        curves = SpeedCurves(system, excitation, harmonics, linear.idle)
+        try:
+            branch = parted(curves, frequencies, told.frequencies[apart | ~stable])
+        except SolverError as error:
+            notes = (*notes, f"{_STUCK}, for want of a motion in which they part: {error}")
+    elif apart.any():
+        notes = (*notes, _would_part(told.frequencies, apart))
+    sides = [(told, stable, np.zeros(0))]
+    if branch is not None:
+        sides = [_together(told, stable, branch, direction) for direction in (Direction.UP, Direction.DOWN)]
+    charts = [_chart(linear, each, lasting, method_b) for each, lasting, _ in sides]
+    return OverSpeed(
+        excitation=excitation,
+        up=charts[0],
+        down=charts[1] if branch is not None else None,
+        jumps=(sides[0][2], sides[-1][2]),
+        notes=notes,
+        curves=linear,
+        branch=branch,
+    )
+
+
+def _curves(system: System, excitation: Excitation, frequencies: Floats, harmonics: int | None) -> SpeedCurves:
+    """With the shafts that some of the frequencies show to be idle."""
+    curves = SpeedCurves(system, excitation, harmonics)
+    if not curves.resolvable or np.isnan(curves.references[0]).all():
+        return curves
+    pilots = frequencies[np.unique(np.linspace(0, len(frequencies) - 1, _PILOTS).astype(int))]
+    few = 2 * max(excitation.orders)
+    torques = [curves.loads(each)[2] for each in curves.balance(few).solve(excitation.fundamental * pilots)]
+    return SpeedCurves(system, excitation, harmonics, idle_shafts(np.concatenate(torques), curves.references[0]))
+
+
+def _refined(curves: SpeedCurves, frequencies: Floats) -> tuple[Told, Floats]:
+    """At the frequencies, where resonances are narrower than their distance, and where maxima are sharper.
+
+    Also frequencies (x,) at which there might be sharper ones, but that are too low to look for them.
+    """
+    told, narrow = curves.told(frequencies)
+    skipped, more = np.zeros(0), narrow
+    for _ in range(MOST_ROUNDS):
+        more = np.setdiff1d(np.union1d(more, speeds_between(told.frequencies, curves.curves(told))), told.frequencies)
+        searched = curves.searched(more) | _near(more, narrow)
+        skipped, more = np.union1d(skipped, more[~searched]), more[searched]
+        if not len(more):
+            break
+        told, more = Told.joined(told, curves.told(more)[0]).rising(), np.zeros(0)
+    return told, skipped
+
+
+def _near(frequencies: Floats, places: Floats) -> Bools:
+    """Which of the frequencies (s,) lie close to any of the places (p,)."""
+    known = np.sort(places)
+    after = np.searchsorted(known, frequencies)
+    beside = np.stack([np.concatenate([[-np.inf], known, [np.inf]])[after + side] for side in (0, 1)])
+    return np.asarray((np.abs(beside - frequencies) <= _CLOSE * frequencies).any(axis=0), bool)
+
+
+def _together(told: Told, stable: Bools, branch: Parted, direction: Direction) -> tuple[Told, Bools, Floats]:
+    """Linear motions outside the branch, those of the branch within."""
+    inside, lasting, jumps = branch.seen(direction)
+    outside = (told.frequencies < inside.frequencies[0]) | (told.frequencies > inside.frequencies[-1])
+    joined = Told.joined(told.at(np.flatnonzero(outside)), inside)
+    order = np.argsort(joined.frequencies, kind="stable")
+    return joined.at(order), np.concatenate([stable[outside], lasting])[order], jumps
+
+
+def _chart(curves: SpeedCurves, told: Told, stable: Bools, method_b: DynamicFactor | None) -> KvChart:
+    warnings = (*instability_warnings(told.frequencies, stable), *_left_out(curves, told))
+    return chart_of(
+        curves.system,
+        curves.static,
+        told.frequencies,
+        (told.most, told.least, told.torques),
+        method_b=method_b,
+        stable=stable,
+        warnings=warnings,
+    )
+
+
+# ---------------------------------------------------------------------- what to know
+
+
+def _ranges(frequencies: Floats, marked: Bools) -> str:
+    return ", ".join(f"{part[0]:.6g} to {part[-1]:.6g}" for part in runs(frequencies, marked))
+
+
+def _would_part(frequencies: Floats, apart: Bools) -> str:
+    return (
+        f"flanks would part at tooth frequencies (1/s) {_ranges(frequencies, apart)}: "
+        "a sweep with backlash shows what happens there"
+    )
+
+
+def _left_out(curves: SpeedCurves, told: Told) -> tuple[str, ...]:
+    """Where there are fewer harmonics than a hundredth asks for."""
+    short = told.left_out > LEFT_OUT
+    if not short.any():
+        return ()
+    most = curves.most_orders // max(curves.excitation.orders)
+    return (
+        f"more than {most} harmonics of the tooth frequency would be needed at tooth frequencies (1/s) "
+        f"{_ranges(told.frequencies, short)}: what is left out may be more than 1 % of the load",
+    )
+
+
+def _standstill(curves: SpeedCurves) -> tuple[str, ...]:
+    """Where loads do not come down to those at rest, however slowly gears turn."""
+    factor = curves.standstill
+    if factor < 1 + LEFT_OUT:
+        return ()
+    return (
+        f"the stiffness of a mesh jumps where teeth come into mesh, at any speed at once: towards standstill K_v tends to "
+        f"{factor:.3f}, not to 1",
+    )
+
+
+def _skipped(frequencies: Floats) -> tuple[str, ...]:
+    """Low speeds, between which there is one resonance after the other."""
+    if not len(frequencies):
+        return ()
+    return (
+        f"up to a tooth frequency of {frequencies[-1]:.5g} 1/s resonances between the speeds are not looked for: they are met "
+        f"there by harmonics beyond the {HIGHEST_SOUGHT}th",
+    )
+
+
+def _sharp(curves: SpeedCurves, frequencies: Floats) -> tuple[str, ...]:
+    """Resonances that are hardly damped."""
+    sharp = curves.sharp(frequencies)
+    if not len(sharp):
+        return ()
+    return (
+        f"natural frequencies of {', '.join(f'{each:.5g}' for each in sharp / (2 * np.pi))} Hz have a damping ratio below "
+        f"{LEAST_RATIO:g}: their resonances are higher than shown, and a chart may pass them by",
+    )
+
+
+def _few(curves: SpeedCurves, excitation: Excitation, frequencies: Floats, method_b: DynamicFactor | None) -> OverSpeed:
+    """With a fixed number of harmonics, at these frequencies only."""
+    found = periodic_response(curves.system, curves.excitation, frequencies, harmonics=curves.few)
+    period = max(curves.excitation.orders)
+    note = (
+        f"the teeth of all meshes come again after {period} teeth only: K_v holds {curves.few} harmonics of the "
+        "tooth frequencies, and what is left out, and resonances between the speeds, are not looked for"
+    )
+    return OverSpeed(excitation, kv_chart(found, method_b=method_b), None, (np.zeros(0), np.zeros(0)), (note,), curves, None)

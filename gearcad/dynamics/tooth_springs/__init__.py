@@ -1,0 +1,1 @@
+"""Springs between single teeth, integrated from event to event."""

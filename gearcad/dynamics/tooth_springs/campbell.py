@@ -1,0 +1,172 @@
+"""The Campbell study of a pair: spectra of its motion over a range of speeds, and which speeds are chaotic."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearcad.arrays import Floats
+from gearcad.dynamics.tooth_springs.contact_model import ContactModel
+from gearcad.dynamics.tooth_springs.pair_history import Start, checked_samples, time_history
+from gearcad.dynamics.tooth_springs.spectra import Peak, Spectrum
+from gearcad.errors import ParameterError, require_number
+
+__all__ = ["CampbellStudy", "campbell"]
+
+
+HIGHEST_FREQUENCY = 15000.0
+"""Default end of the spectra (Hz): twice the tooth frequency of the thesis's fastest speed, and more."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CampbellStudy:
+    """Amplitudes (s, m) over speeds (s,) of the pinion in rpm and frequencies (m,) in Hz; `duration` in s, `sampling` in Hz.
+
+    `pinion_speed` is in rad/s, `approach` of the flanks in µm; both spectra cover the whole time, the first column is the mean.
+    `mean_approach` and `greatest_approach` (s,) in µm, `out_of_contact` (share of the time) and `growth` of a disturbance (1/s)
+    are those of the second half; `deepest` (s,) is the greatest approach in the whole time, the start from y = 0 included.
+    `chaotic` (s,) are the speeds at which a disturbance loses more than 6 digits (`digits_lost`): only statistics count there.
+    """
+
+    model: ContactModel
+    speeds: Floats
+    duration: float
+    sampling: float
+    frequency: Floats
+    pinion_speed: Floats
+    approach: Floats
+    mean_approach: Floats
+    greatest_approach: Floats
+    deepest: Floats
+    out_of_contact: Floats
+    growth: Floats
+    digits_lost: Floats
+    chaotic: NDArray[np.bool_]
+
+    def spectrum(self, speed: float) -> Spectrum:
+        """Of the pinion's speed at one of the speeds (rpm)."""
+        return Spectrum(self.frequency, self.pinion_speed[self._index(speed)])
+
+    def peaks(self, speed: float, count: int = 6) -> tuple[Peak, ...]:
+        """Highest peaks of the pinion's speed (Hz, rad/s) at one of the speeds (rpm)."""
+        return self.spectrum(speed).peaks(count)
+
+    def tooth_frequencies(self, harmonic: int = 1) -> Floats:
+        """(s,) i z_1 n/60 in Hz."""
+        return self.model.tooth_frequency(1.0, harmonic) * self.speeds
+
+    @property
+    def natural_frequencies(self) -> dict[str, float]:
+        """Lines of the diagram (Hz): with one pair, and with the mean number of pairs, which is met at high speed."""
+        found = {"one pair": self.model.natural_frequency()}
+        if self.model.contact_ratio != 1.0:
+            found["mean stiffness"] = self.model.natural_frequency(self.model.contact_ratio)
+        return found
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Those of the model, and what the motion adds to them."""
+        found = list(self.model.warnings)
+        worst = int(np.argmax(self.deepest))
+        if 1e-3 * self.deepest[worst] > self.model.normal_module:
+            found.append(
+                f"the flanks penetrate by up to {1e-3 * self.deepest[worst]:.4g} mm (at {self.speeds[worst]:g} rpm), more than"
+                f" the module of {self.model.normal_module:g} mm: no teeth do that"
+            )
+        if self.chaotic.any():
+            listed = ", ".join(f"{speed:g}" for speed in self.speeds[self.chaotic])
+            found.append(f"chaotic at {listed} rpm: spectra there change with the last digit of any input, statistics do not")
+        return tuple(found)
+
+    def to_dict(self) -> dict[str, Any]:
+        """A row per speed, for JSON; the spectra themselves are arrays."""
+        names = ("mean_approach", "greatest_approach", "deepest", "out_of_contact", "growth", "digits_lost", "chaotic")
+        return {
+            "duration": self.duration,
+            "sampling": self.sampling,
+            "natural_frequencies": self.natural_frequencies,
+            "speeds": self.speeds.tolist(),
+            **{name: getattr(self, name).tolist() for name in names},
+            "peaks": [[list(peak) for peak in self.peaks(speed)] for speed in self.speeds],
+            "warnings": list(self.warnings),
+        }
+
+    def _index(self, speed: float) -> int:
+        found = np.flatnonzero(np.isclose(self.speeds, speed, rtol=1e-12, atol=1e-9))
+        if len(found) == 0:
+            raise ParameterError("speed", speed, "must be one of the study's speeds", "rpm")
+        return int(found[0])
+
+
+class _Row(NamedTuple):
+    """What a study keeps of one speed."""
+
+    pinion_speed: Floats
+    approach: Floats
+    mean_approach: float
+    greatest_approach: float
+    deepest: float
+    out_of_contact: float
+    growth: float
+    digits_lost: float
+    chaotic: bool
+
+
+def campbell(
+    model: ContactModel,
+    speeds: ArrayLike,
+    *,
+    duration: float = 1.0,
+    sampling: float = 200000.0,
+    highest_frequency: float = HIGHEST_FREQUENCY,
+    start: Start | None = None,
+) -> CampbellStudy:
+    """The motion at each speed (rpm, rising, not negative) from the same start, on all cores; each speed by itself."""
+    checked = _checked_speeds(np.atleast_1d(np.asarray(speeds, float)).tolist())
+    checked_samples(duration, sampling)
+    require_number("highest_frequency", highest_frequency, "Hz", above=0)
+
+    def row(speed: float) -> _Row:
+        motion = time_history(model, speed, duration=duration, sampling=sampling, start=start)
+        settled = motion.settled
+        return _Row(
+            motion.spectrum(highest_frequency).amplitude,
+            motion.approach_spectrum(highest_frequency).amplitude,
+            float(settled.mean()),
+            float(settled.max()),
+            float(motion.approach.max()),
+            motion.out_of_contact,
+            motion.growth,
+            motion.digits_lost,
+            motion.chaotic,
+        )
+
+    # Integration and FFT leave the interpreter to other threads: no motion is held longer than its row takes.
+    with ThreadPoolExecutor(_cores()) as pool:
+        rows = list(pool.map(row, checked))
+    columns = {name: np.array(values) for name, values in zip(_Row._fields, zip(*rows, strict=True), strict=True)}
+    frequency = np.arange(columns["approach"].shape[1]) * (sampling / checked_samples(duration, sampling))
+    arrays = {"speeds": np.array(checked), "frequency": frequency, **columns}
+    for array in arrays.values():
+        array.flags.writeable = False
+    return CampbellStudy(model=model, duration=float(duration), sampling=float(sampling), **arrays)
+
+
+def _checked_speeds(speeds: Sequence[float]) -> Sequence[float]:
+    if len(speeds) == 0:
+        raise ParameterError("speeds", speeds, "must be at least one speed", "rpm")
+    for number, speed in enumerate(speeds):
+        require_number(f"speeds[{number}]", speed, "rpm", at_least=0)
+        if number and speed <= speeds[number - 1]:
+            raise ParameterError(f"speeds[{number}]", speed, f"must be above {speeds[number - 1]:g} rpm: speeds rise", "rpm")
+    return speeds
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -1,0 +1,84 @@
+"""A pair of gears on elastic bearings: turn, and travel in both directions, of pinion and wheel.
+
+The pinion's axis stands at the origin and the wheel's on +x; both angles count counter-clockwise. The pinion drives with its
+left flanks: the force on the wheel points along n = (sin alpha_wt, cos alpha_wt), and the approach of the flanks is
+y = n (u_1 - u_2) + r_b1 phi_1 + r_b2 phi_2.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearcad.dynamics.trains.system import System
+from gearcad.errors import plain_numbers, require_number
+
+__all__ = ["PairOnBearings"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairOnBearings:
+    """Masses (kg), inertias (kg·m²), base radii (mm), bearings (N/µm in x and y; damping N·s/m) of pinion and wheel.
+
+    `working_transverse_pressure_angle` in degrees, `mesh_stiffness` in N/µm, `mesh_damping` in N·s/m, `torque` on the pinion
+    in N·m (the wheel's holds it). Raises ParameterError.
+    """
+
+    masses: tuple[float, float]
+    inertias: tuple[float, float]
+    base_radii: tuple[float, float]
+    working_transverse_pressure_angle: float
+    mesh_stiffness: float
+    bearing_stiffness: tuple[tuple[float, float], tuple[float, float]]
+    mesh_damping: float = 0.0
+    bearing_damping: float = 0.0
+    torque: float = 0.0
+
+    def __post_init__(self) -> None:
+        plain_numbers(self)
+        for name, unit in (("masses", "kg"), ("inertias", "kg·m²"), ("base_radii", "mm")):
+            for value in getattr(self, name):
+                require_number(name, value, unit, above=0)
+        for value in (each for bearing in self.bearing_stiffness for each in bearing):
+            require_number("bearing_stiffness", value, "N/µm", above=0)
+        require_number("mesh_stiffness", self.mesh_stiffness, "N/µm", above=0)
+        require_number("working_transverse_pressure_angle", self.working_transverse_pressure_angle, "deg", at_least=0, below=90)
+        for name in ("mesh_damping", "bearing_damping"):
+            require_number(name, getattr(self, name), "N·s/m", at_least=0)
+        require_number("torque", self.torque, "N·m")
+
+    def system(self) -> System:
+        """The six coordinates x_1, y_1, phi_1, x_2, y_2, phi_2, each times the root of its mass or inertia."""
+        angle = math.radians(self.working_transverse_pressure_angle)
+        first, second = (radius / 1000 for radius in self.base_radii)
+        approach = np.array([math.sin(angle), math.cos(angle), first, -math.sin(angle), -math.cos(angle), second])
+        masses = np.array(
+            [value for mass, turn in zip(self.masses, self.inertias, strict=True) for value in (mass, mass, turn)]
+        )
+        springs, dampers, turns = np.zeros(6), np.zeros(6), np.zeros((6, 2))
+        for gear in (0, 1):
+            springs[3 * gear : 3 * gear + 2] = [1e6 * each for each in self.bearing_stiffness[gear]]
+            dampers[3 * gear : 3 * gear + 2] = self.bearing_damping
+            turns[3 * gear + 2, gear] = 1 / math.sqrt(self.inertias[gear])
+        load = np.zeros(6)
+        load[2], load[5] = self.torque, self.torque * second / first
+        root = np.sqrt(masses)
+        return System(
+            squares=springs / masses,
+            damping=dampers / masses,
+            mesh=(approach / root)[:, None],
+            inertias=turns,
+            shaft_torques=np.zeros((6, 0)),
+            load=load / root,
+            stiffness=np.array([1e6 * self.mesh_stiffness]),
+            mesh_damping=np.array([self.mesh_damping]),
+            names=(("mesh",), ("pinion", "wheel"), ()),
+        )
+
+    def frequencies(self) -> tuple[float, ...]:
+        """The six natural frequencies (Hz), lowest first; that of the gears' free turning is 0."""
+        squares = np.linalg.eigvalsh(self.system().stiffness_matrix())
+        squares[0] = 0.0  # but for rounding: nothing holds the gears' turning
+        return tuple((np.sqrt(squares) / (2 * math.pi)).tolist())

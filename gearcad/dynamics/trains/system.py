@@ -1,0 +1,52 @@
+"""The torsional system that all solvers work on: modes of the shaft lines, coupled by the meshes.
+
+Inside the dynamics rooms numbers are in SI units (m, N, kg, s, rad): inputs and results are in those of the house.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearcad.arrays import Floats
+
+__all__ = ["System"]
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """z'' + damping z' + squares z + mesh f = load, with y = mesh^T z and f_j = k_j(t) y_j + c_j y_j'.
+
+    z (n,) are coordinates of the shaft lines' own modes, of modal mass 1; a line that is not held has modes with squares 0.
+    `mesh` (n, m) gives the approach y of the flanks along the line of action (m) in each of m meshes, positive where they
+    press; `inertias` (n, i) the turn of each inertia (rad), `shaft_torques` (n, s) the torque in each shaft (N m). `load` (n,)
+    are the mean torques on the inertias; `stiffness` (m,) the mean of k_j (N/m), `mesh_damping` (m,) c_j (N s/m).
+    """
+
+    squares: Floats
+    damping: Floats
+    mesh: Floats
+    inertias: Floats
+    shaft_torques: Floats
+    load: Floats
+    stiffness: Floats
+    mesh_damping: Floats
+    names: tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]
+    """Of meshes, inertias and shafts."""
+
+    @property
+    def size(self) -> int:
+        """n."""
+        return len(self.squares)
+
+    def stiffness_matrix(self, stiffness: Floats | None = None) -> Floats:
+        """(n, n), with the meshes at their mean stiffness or another (m,) in N/m."""
+        k = self.stiffness if stiffness is None else stiffness
+        result: Floats = np.diag(self.squares) + (self.mesh * k) @ self.mesh.T
+        return result
+
+    def damping_matrix(self) -> Floats:
+        """(n, n)."""
+        result: Floats = np.diag(self.damping) + (self.mesh * self.mesh_damping) @ self.mesh.T
+        return result

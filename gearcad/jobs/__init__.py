@@ -1,0 +1,1 @@
+"""What gearcad does with a design, one module a verb."""

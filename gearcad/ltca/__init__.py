@@ -1,1 +1,0 @@
-"""Loaded tooth contact analysis: gears as solid bodies, in contact along lines that run across their flanks."""

@@ -1,0 +1,244 @@
+"""Parts, natural modes, resonances and speeds of a study of dynamics as tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from gearcad.dynamics.study import ModalStudy, TrainStudy
+from gearcad.dynamics.tooth_springs.campbell import CampbellStudy
+from gearcad.dynamics.trains.modes import NaturalModes
+from gearcad.dynamics.trains.shafts import shaft_inertia, shaft_stiffness
+from gearcad.dynamics.trains.train import Mesh, Shaft, StiffnessWave, TrainModel
+from gearcad.plots.paper import short
+
+__all__ = [
+    "MOST_PEAKS",
+    "Table",
+    "factor_text",
+    "inertia_table",
+    "mesh_table",
+    "mode_table",
+    "peak_table",
+    "shaft_table",
+    "speed_table",
+]
+
+_NONE = "–"  # an en dash where there is no value
+
+_NEAR = 0.04
+"""How far a resonance may be from a natural frequency whose name it gets: damping and parting flanks move it."""
+
+_NAMED = 8
+"""Harmonics of a tooth frequency that give a resonance its name: beyond, each lies near the next."""
+
+_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+MOST_PEAKS = 12
+"""Resonances of a mesh that are listed, the highest."""
+
+_LISTED = 3
+"""Peaks of a spectrum that the table of speeds names."""
+
+
+class Table(NamedTuple):
+    """Heads and cells (text) of a table; the first `words` columns are words, the others numbers."""
+
+    heads: tuple[str, ...]
+    rows: Sequence[tuple[str, ...]]
+    words: int = 1
+
+
+# ---------------------------------------------------------------------- parts of a train
+
+
+def inertia_table(study: TrainStudy | ModalStudy) -> Table:
+    """Inertias of the train with the torques on them and their speeds."""
+    train, ratios = study.train, study.train.speed_ratios
+    first = "pinion" if train.meshes else "inertia"
+    rows = [
+        (each.name, short(each.inertia), short(train.torques.get(each.name, 0.0)), short(ratios[each.name]))
+        for each in train.inertias
+    ]
+    return Table(("inertia", "kg·m²", "torque, N·m", f"turns per turn of the first {first}"), rows)
+
+
+def shaft_table(study: TrainStudy | ModalStudy) -> Table:
+    """Shafts, and where the chart has them, their greatest overload."""
+    heads = ("shaft", "from, to", "stiffness, N·m/rad", "inertia, kg·m²", "damping")
+    charted = isinstance(study, TrainStudy)
+    rows = []
+    for shaft in study.train.shafts:
+        overload = _overload(study, shaft) if isinstance(study, TrainStudy) else ()
+        mass = 0.0 if study.train.model is TrainModel.MASSLESS else shaft_inertia(shaft)
+        fixed = (f"{shaft.start}, {shaft.end}", short(shaft_stiffness(shaft)), _or_none(mass), _shaft_damping(shaft))
+        rows.append((_shaft_words(shaft), *fixed, *overload))
+    return Table((*heads, "at rest, N·m", "overload", "at rpm") if charted else heads, rows, 2)
+
+
+def _overload(study: TrainStudy, shaft: Shaft) -> tuple[str, ...]:
+    """Torque at rest, greatest overload and its speed, where the chart has them."""
+    chart = study.up
+    own = chart.shaft_names.index(shaft.name) if shaft.name in chart.shaft_names else None
+    if own is None or not np.isfinite(chart.shaft_factors[:, own]).all():
+        return _NONE, _NONE, _NONE
+    row = int(chart.shaft_factors[:, own].argmax())
+    return tuple(map(short, (chart.shaft_references[own], chart.shaft_factors[row, own], study.speeds[row])))
+
+
+def _shaft_words(shaft: Shaft) -> str:
+    if shaft.length is None or shaft.diameter is None:
+        return shaft.name
+    bore = f"/{short(shaft.inner_diameter)}" if shaft.inner_diameter else ""
+    return f"{shaft.name}, ⌀{short(shaft.diameter)}{bore} × {short(shaft.length)} mm"
+
+
+def _shaft_damping(shaft: Shaft) -> str:
+    parts = [f"ratio {short(shaft.damping_ratio)}"] if shaft.damping_ratio else []
+    parts += [f"{short(shaft.damping)} N·m·s/rad"] if shaft.damping else []
+    return ", ".join(parts) or _NONE
+
+
+def mesh_table(study: TrainStudy) -> Table:
+    """Meshes of the train, their damping and the force that they carry at rest."""
+    heads = (
+        "mesh",
+        "of",
+        "stiffness",
+        "z₁",
+        "r_b, mm",
+        "mean, N/µm",
+        "damping, N·s/m",
+        "backlash, µm",
+        "force at rest, N",
+    )
+    rows = []
+    for mesh, damping, force in zip(study.train.meshes, study.system.mesh_damping, study.up.static_forces, strict=True):
+        radii = " and ".join(short(radius) for radius in mesh.base_radii)
+        backlash = _NONE if mesh.backlash is None else short(mesh.backlash)
+        gears = f"{mesh.pinion}, {'ring ' if mesh.internal else ''}{mesh.wheel}"
+        numbers = (short(mesh.stiffness), _or_none(float(damping)), backlash, short(float(force)))
+        rows.append((mesh.name, gears, _wave(mesh), str(mesh.teeth), radii, *numbers))
+    return Table(heads, rows, 3)
+
+
+def _wave(mesh: Mesh) -> str:
+    if mesh.shape is StiffnessWave.SQUARE and mesh.contact_ratio is not None:
+        words = f"square, contact ratio {short(mesh.contact_ratio)}"
+    else:
+        words = f"cosine, ± {short(100 * mesh.variation)} %" if mesh.variation else "constant"
+    return f"{words}, delayed by {short(mesh.phase)} teeth" if mesh.phase else words
+
+
+# ---------------------------------------------------------------------- modes and resonances
+
+
+def mode_table(modes: NaturalModes) -> Table:
+    """Natural frequencies, the speeds that meet them, and where their energy is."""
+    several = len(modes.meshes) > 1
+    heads = ["mode", "Hz", "1/s"]
+    heads += [f"met at rpm, {name}" if several else "met at rpm" for name in modes.meshes]
+    heads += [f"energy in {name}, %" if several else "energy in the mesh, %" for name in modes.meshes]
+    rows = []
+    for mode in range(len(modes)):
+        rigid = mode < modes.rigid
+        speeds = [_NONE if rigid else short(speed) for speed in modes.rpm[mode]]
+        shares = [_NONE if rigid else f"{100 * share:.1f}" for share in modes.potential_meshes[mode]]
+        name = f"{mode + 1}, turns as a whole" if rigid else f"{mode + 1}, {_greatest(modes, mode)}"
+        rows.append((name, short(modes.frequency[mode]), short(modes.circular[mode]), *speeds, *shares))
+    return Table(tuple(heads), rows)
+
+
+def _greatest(modes: NaturalModes, mode: int) -> str:
+    """Which parts move most and give way most."""
+    moving = _named(modes.inertias, modes.kinetic_inertias[mode]) + _named(modes.shafts, modes.kinetic_shafts[mode], "shaft ")
+    bent = _named(modes.shafts, modes.potential_shafts[mode], "shaft ")
+    bent += _named(modes.meshes, modes.potential_meshes[mode], "mesh ")
+    names = dict.fromkeys(max(each)[1] for each in (moving, bent))
+    return f"most in {' and '.join(names)}"
+
+
+def _named(names: tuple[str, ...], shares: np.ndarray, kind: str = "") -> list[tuple[float, str]]:
+    return [
+        (float(share), name if name.startswith(kind.strip()) else kind + name)
+        for name, share in zip(names, shares, strict=True)
+    ]
+
+
+def peak_table(study: TrainStudy, frequencies: Sequence[float] = ()) -> Table:
+    """Resonances of every mesh in the charts, by speed; `frequencies` (Hz) stand for those of the modes if given."""
+    natural = 2 * np.pi * np.array(frequencies) if frequencies else study.modes.circular
+    heads = ("mesh", "near", "pinion, rpm", "tooth frequency, Hz", "1/s", "K_v")
+    rows = []
+    for mesh, name in enumerate(study.up.mesh_names):
+        senses: dict[tuple[float, float], list[str]] = {}
+        for sense, chart in (("up", study.up), ("down", study.down)):
+            for peak in chart.peaks(mesh) if chart is not None else ():
+                senses.setdefault((peak.frequency, round(peak.factor, 3)), []).append(sense)
+        highest = sorted(senses.items(), key=lambda item: -item[0][1])[:MOST_PEAKS]
+        for (frequency, factor), each in sorted(highest):
+            own = _ratio(study, mesh) * frequency
+            numbers = (float(study.rpm(np.array(frequency))), own / (2 * np.pi), own)
+            words = name if study.down is None else f"{name}, running {' and '.join(each)}"
+            last = "" if study.up.stable[study.up.frequencies == frequency].all() else ", unstable"
+            rows.append((words, _near(study, natural, mesh, frequency) + last, *map(short, numbers), factor_text(factor)))
+    return Table(heads, rows, 2)
+
+
+def factor_text(factor: float) -> str:
+    """K_v: three decimals of what is of interest."""
+    return f"{factor:.3f}" if factor < 10 else short(factor)
+
+
+def _ratio(study: TrainStudy, mesh: int) -> float:
+    return float(study.excitation.meshes[mesh].frequency_ratio)
+
+
+def _near(study: TrainStudy, natural: np.ndarray, mesh: int, frequency: float) -> str:
+    """The natural frequency that the lowest harmonic of a tooth frequency (1/s of the first mesh) meets there."""
+    found = [
+        (harmonic, abs(harmonic * _ratio(study, other) * frequency / circular - 1), mode + 1, other)
+        for other in range(len(study.excitation.meshes))
+        for harmonic in range(1, _NAMED + 1)
+        for mode, circular in enumerate(natural)
+        if circular
+    ]
+    near = [each for each in found if each[1] < _NEAR]
+    if not near:
+        return _NONE
+    # Its own teeth before those of another mesh.
+    harmonic, _, mode, other = min(near, key=lambda each: (each[0], each[3] != mesh, each[1]))
+    of = "" if _ratio(study, other) == _ratio(study, mesh) else f" of {study.up.mesh_names[other]}"
+    name = "f" + str(mode).translate(_LOWERED)
+    return f"{name}{of}" if harmonic == 1 else f"{name}/{harmonic}{of}"
+
+
+def speed_table(study: CampbellStudy) -> Table:
+    """Statistics of the motion at every speed of a Campbell study."""
+    heads = (
+        "rpm",
+        "tooth frequency, Hz",
+        "approach, mean, µm",
+        "greatest",
+        "with the start",
+        "parted, %",
+        "growth, 1/s",
+        "digits lost",
+        "highest peaks, Hz",
+        "",
+    )
+    columns = (study.mean_approach, study.greatest_approach, study.deepest)
+    rows = []
+    for row, speed in enumerate(study.speeds.tolist()):
+        peaks = ", ".join(short(peak.frequency) for peak in study.peaks(speed, _LISTED))
+        numbers = (short(speed), short(float(study.tooth_frequencies()[row])), *(short(float(each[row])) for each in columns))
+        parted, growth = f"{100 * study.out_of_contact[row]:.1f}", f"{study.growth[row]:.0f}"
+        chaotic = "chaotic" if study.chaotic[row] else ""
+        rows.append((*numbers, parted, growth, f"{study.digits_lost[row]:.1f}", peaks or _NONE, chaotic))
+    return Table(heads, rows, 0)
+
+
+def _or_none(value: float) -> str:
+    return short(value) if value else _NONE

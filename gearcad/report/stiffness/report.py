@@ -1,0 +1,206 @@
+"""The report of a comparison of methods for the mesh stiffness, and the section of it that the report of a check has."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
+from gearcad.contact.plane.elasticity import Plane
+from gearcad.errors import GearcadError
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.mounting import Mounting
+from gearcad.plots.paper import short
+from gearcad.plots.stiffness import divided, parts_inches, plot_load_dependence, plot_parts_of_all, plot_stiffness
+from gearcad.report.check.figures import Picture, figure_address, pair_picture, picture_address
+from gearcad.report.check.tables import gear_rows, load_rows, pair_rows
+from gearcad.report.page import page_html
+from gearcad.stiffness import (
+    CLOSED_FORMS,
+    METHODS,
+    PlaneStrainContact,
+    PlaneStressContact,
+    SolidContact,
+    StiffnessComparison,
+    StiffnessMethod,
+    compare_methods,
+)
+
+__all__ = ["StiffnessSection", "section_of_check", "stiffness_html", "write_stiffness_report"]
+
+_GEAR = "teeth normal_module helix_angle profile_shift face_width tip_diameter root_diameter body.bore"
+
+_NONE = "–"  # an en dash where a method has no value
+
+_TALL = (6.6, 4.8)
+"""Size (inches) of figures with a long legend."""
+
+
+class _Row(NamedTuple):
+    """A method in the table; stiffness in N/µm, per width in N/(mm µm), deviation in %."""
+
+    title: str
+    holds: str
+    mean: str
+    maximum: str
+    minimum: str
+    pitch_point: str
+    c_gamma_beta: str
+    c_gamma_alpha: str
+    single: str
+    deviation: str
+
+
+class StiffnessSection(NamedTuple):
+    """Table, curves and notes of a comparison; `referred` if there is a 3D contact to measure the others by."""
+
+    rows: list[_Row]
+    referred: bool
+    curves: Picture
+    notes: list[tuple[str, tuple[str, ...]]]
+    left_out: list[tuple[str, str]]
+
+
+def write_stiffness_report(comparison: StiffnessComparison, design_name: str, path: Path) -> None:
+    """Write the report of a comparison of the design's pair to `path`; the same comparison gives the same bytes."""
+    path.write_text(stiffness_html(comparison, design_name), encoding="utf-8")
+
+
+def stiffness_html(comparison: StiffnessComparison, design_name: str) -> str:
+    """The report as one HTML document without links."""
+    return page_html(
+        "stiffness.html",
+        design_name,
+        of=comparison,
+        stiffness=_section(comparison),
+        figures=_figures(comparison),
+        pair_picture=pair_picture(comparison.pair),
+        gear_rows=gear_rows(comparison.pair, _GEAR),
+        pair_rows=pair_rows(comparison.pair),
+        load_rows=load_rows(comparison.material, comparison.load, Mounting()),
+    )
+
+
+def section_of_check(result: CheckResult) -> StiffnessSection | str:
+    """The model of a check beside the closed forms; why not, where they cannot be had."""
+    from threadpoolctl import threadpool_limits
+
+    mounting = replace(result.mounting, centre_distance_change=0.0)  # the pair is as mounted already
+    try:
+        closed = compare_methods(
+            result.pair, result.material, result.load, CLOSED_FORMS, body=result.options.body, mounting=mounting
+        )
+        # Positions and torque of the check itself: solid bodies know what they answer there.
+        with threadpool_limits(1):
+            own = _own_method(result, mounting)(result.load, len(result.cycle.positions))
+    except GearcadError as error:
+        return str(error)
+    return _section(replace(closed, cycles=(*closed.cycles, own)))
+
+
+def _own_method(result: CheckResult, mounting: Mounting) -> StiffnessMethod:
+    """The model of a check as a method."""
+    given: dict[str, Any] = {
+        "pair": result.pair,
+        "material": result.material,
+        "body": result.options.body,
+        "mounting": mounting,
+        "bodies": result.cycle.model,
+    }
+    if isinstance(result, SolidCheck):
+        return SolidContact(**given)
+    assert isinstance(result, PlaneCheck)  # there are two
+    return (PlaneStressContact if result.options.plane_state is Plane.STRESS else PlaneStrainContact)(**given)
+
+
+def _section(comparison: StiffnessComparison) -> StiffnessSection:
+    return StiffnessSection(
+        rows=[_row(comparison, cycle) for cycle in comparison.cycles],
+        referred=comparison.reference is not None,
+        curves=Picture(
+            "Mesh stiffness along the line of action",
+            picture_address(partial(plot_stiffness, comparison), "svg", _TALL),
+            _curves_caption(comparison),
+        ),
+        notes=[(_title(cycle), cycle.notes) for cycle in comparison.cycles if cycle.notes],
+        left_out=[(METHODS[name].title, reason) for name, reason in comparison.left_out.items()],
+    )
+
+
+def _row(comparison: StiffnessComparison, cycle: MeshCycle) -> _Row:
+    deviation = comparison.deviation(cycle) if cycle is not comparison.reference else None
+    known = not cycle.mean_only
+    return _Row(
+        title=_title(cycle),
+        holds="; ".join(cycle.holds),
+        mean=short(cycle.mean),
+        maximum=short(cycle.maximum) if known else _NONE,
+        minimum=short(cycle.minimum) if known else _NONE,
+        pitch_point=short(cycle.pitch_point) if known else _NONE,
+        c_gamma_beta=short(cycle.secant_per_width),
+        c_gamma_alpha=short(cycle.tangent_per_width),
+        single=short(cycle.single_stiffness) if cycle.single_stiffness is not None else _NONE,
+        deviation=f"{100 * deviation:+.1f}" if deviation is not None else _NONE,
+    )
+
+
+def _figures(comparison: StiffnessComparison) -> list[Picture]:
+    """Those of the comparison alone: parts of the compliance, and the load's influence; none that would show nothing."""
+    found = []
+    if divided(comparison):
+        address = figure_address(partial(plot_parts_of_all, comparison), "svg", parts_inches(comparison))
+        found.append(Picture("Parts of the compliance", address, _parts_caption(comparison)))
+    if len(comparison.load_points) > len(comparison.cycles):
+        address = picture_address(partial(plot_load_dependence, comparison), "svg", _TALL)
+        found.append(Picture("Mean mesh stiffness over the load", address, _load_caption(comparison)))
+    return found
+
+
+def _title(cycle: MeshCycle) -> str:
+    return METHODS[cycle.method].title
+
+
+def _curves_caption(comparison: StiffnessComparison) -> str:
+    low, high = (pick(comparison.cycles, key=lambda cycle: cycle.mean) for pick in (min, max))
+    text = (
+        "Secant stiffness F_bt/δ of all pairs of teeth in contact, on the common face width, while the middle pair goes from "
+        "first contact A to last contact E. "
+    )
+    if any(cycle.mean_only for cycle in comparison.cycles):
+        text += "ISO 6336 knows the means only: the band reaches from c_γβ to c_γα, times the width. "
+    if low is high:
+        return text + f"The mean over one base pitch is {short(low.mean)} N/µm."
+    return text + (
+        f"The means over one base pitch reach from {short(low.mean)} N/µm ({_title(low)}) to {short(high.mean)} N/µm "
+        f"({_title(high)})."
+    )
+
+
+def _parts_caption(comparison: StiffnessComparison) -> str:
+    text = "What each part adds to 1/stiffness, for every method that tells parts apart. "
+    whole = [cycle for cycle in divided(comparison) if "pinion" in cycle.compliance_parts]
+    if whole:
+        names = "; ".join(_title(cycle) for cycle in whole)
+        text += f"A gear as a whole ({names}) is its teeth, its body and the flattening of its flanks. "
+    with_contact = [cycle for cycle in divided(comparison) if "contact" in cycle.compliance_parts]
+    shares = [
+        f"{100 * cycle.mean_of(cycle.compliance_parts['contact'] * cycle.mesh_stiffness):.0f} % ({_title(cycle)})"
+        for cycle in with_contact
+    ]
+    return text + (f"The contact itself is {' and '.join(shares)} of it on the mean." if shares else "")
+
+
+def _load_caption(comparison: StiffnessComparison) -> str:
+    text = (
+        "Means over one base pitch: secant (F over all of δ, whole lines) and tangent (dF/dδ at the load, dashed). The tangent "
+        "is what small vibrations about the load see. "
+    )
+    rises = []
+    for cycle in comparison.cycles:
+        points = sorted((point for point in comparison.load_points if point.method == cycle.method), key=lambda at: at.torque)
+        if len(points) > 1:
+            rises.append(f"{100 * (points[-1].mean / points[0].mean - 1):+.1f} % ({_title(cycle)})")
+    torques = [point.torque for point in comparison.load_points]
+    return text + f"From {short(min(torques))} to {short(max(torques))} N·m the secant changes by {', '.join(rises)}."

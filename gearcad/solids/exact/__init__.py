@@ -1,0 +1,1 @@
+"""The exact solid: Bezier surfaces and the topology made of them (OCP)."""

@@ -1,0 +1,116 @@
+"""The body of a gear: end faces, hubs, and the bore with its keyway, on edges shared with the teeth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from gearcad.geometry.gear import Gear
+from gearcad.solids.exact.kernel import Kernel
+
+__all__ = ["add_body"]
+
+Edges = list[tuple[Any, bool]]
+
+
+@dataclass(frozen=True)
+class _Ring:
+    """Edges of a closed contour at one height, counter-clockwise seen from +z, and the vertex each starts from."""
+
+    edges: list[Any]
+    starts: list[Any]
+
+    def loop(self, *, along: bool) -> Edges:
+        if along:
+            return [(edge, True) for edge in self.edges]
+        return [(edge, False) for edge in reversed(self.edges)]
+
+
+def add_body(gear: Gear, kernel: Kernel, lower: Edges, upper: Edges) -> None:
+    """Add end faces, hubs and bore to the kernel's shell; `lower` and `upper` are the outer loops of the toothed part.
+
+    Loops run counter-clockwise seen from +z.
+    """
+    body = gear.body
+    back, front = body.hub_ends
+    heights = (-back, gear.face_width + front)
+    opening = [_opening(gear, kernel, z) for z in heights] if body.bore else None
+    if opening:
+        _add_opening(gear, kernel, opening[0], opening[1], heights)
+    for which, (loop, hub) in enumerate(((lower, back), (upper, front))):
+        face_z = gear.face_width * which
+        hole = opening[which].loop(along=False) if opening else None
+        if hub:
+            rings = [_circle(kernel, body.hub_diameter / 2, z) for z in sorted((face_z, heights[which]))]
+            _add_tube(kernel, body.hub_diameter / 2, rings[0], rings[1], sorted((face_z, heights[which])), outward=True)
+            inner, outer = (rings[1], rings[0]) if which == 0 else (rings[0], rings[1])
+            kernel.face(kernel.plane(face_z), [loop, inner.loop(along=False)], outward=which == 1)
+            loop = outer.loop(along=True)
+        loops = [loop, hole] if hole else [loop]
+        kernel.face(kernel.plane(heights[which]), loops, outward=which == 1)
+
+
+def _circle(kernel: Kernel, radius: float, z: float) -> _Ring:
+    start = kernel.vertex((radius, 0.0, z))
+    return _Ring([kernel.edge(kernel.circle(radius, z), start, start, 0.0, 2 * math.pi)], [start])
+
+
+def _keyway_corners(gear: Gear) -> list[tuple[float, float]]:
+    """Bore meets upper wall, bore meets lower wall, lower and upper corner of the floor (mm)."""
+    radius, half = gear.body.bore / 2, gear.body.keyway_width / 2
+    wall = math.sqrt(radius**2 - half**2)
+    floor = radius + gear.body.keyway_depth
+    return [(wall, half), (wall, -half), (floor, -half), (floor, half)]
+
+
+def _opening(gear: Gear, kernel: Kernel, z: float) -> _Ring:
+    """Contour of bore and keyway at height z: the arc of the bore, lower wall, floor, upper wall."""
+    radius = gear.body.bore / 2
+    if not gear.body.keyway_width:
+        return _circle(kernel, radius, z)
+    corners = _keyway_corners(gear)
+    starts = [kernel.vertex((x, y, z)) for x, y in corners]
+    angle = math.asin(gear.body.keyway_width / gear.body.bore)
+    edges = [kernel.edge(kernel.circle(radius, z), starts[0], starts[1], angle, 2 * math.pi - angle)]
+    for k in (1, 2, 3):
+        after = (k + 1) % 4
+        line, length = kernel.line((*corners[k], z), (*corners[after], z))
+        edges.append(kernel.edge(line, starts[k], starts[after], 0.0, length))
+    return _Ring(edges, starts)
+
+
+def _add_tube(kernel: Kernel, radius: float, low: _Ring, high: _Ring, heights: Sequence[float], *, outward: bool) -> None:
+    """A full cylinder between two circles; its seam lies on +x."""
+    surface = kernel.cylinder(radius)
+    line, length = kernel.line((radius, 0.0, heights[0]), (radius, 0.0, heights[1]))
+    seam = kernel.edge(line, low.starts[0], high.starts[0], 0.0, length)
+    kernel.lay(seam, surface, kernel.line_2d(2 * math.pi, heights[0], 0, 1), kernel.line_2d(0, heights[0], 0, 1))
+    for ring, z in zip((low, high), heights, strict=True):
+        kernel.lay(ring.edges[0], surface, kernel.line_2d(0, z, 1, 0))
+    loop = [(low.edges[0], True), (seam, True), (high.edges[0], False), (seam, False)]
+    kernel.face(surface, [loop], outward=outward)
+
+
+def _add_opening(gear: Gear, kernel: Kernel, low: _Ring, high: _Ring, heights: tuple[float, float]) -> None:
+    """The wall of bore and keyway."""
+    radius = gear.body.bore / 2
+    if not gear.body.keyway_width:
+        _add_tube(kernel, radius, low, high, heights, outward=False)
+        return
+    corners = _keyway_corners(gear)
+    angle = math.asin(gear.body.keyway_width / gear.body.bore)
+    lines = [kernel.line((*corner, heights[0]), (*corner, heights[1])) for corner in corners]
+    uprights = [kernel.edge(line, low.starts[k], high.starts[k], 0.0, length) for k, (line, length) in enumerate(lines)]
+    cylinder = kernel.cylinder(radius)
+    kernel.lay(uprights[0], cylinder, kernel.line_2d(angle, heights[0], 0, 1))
+    kernel.lay(uprights[1], cylinder, kernel.line_2d(2 * math.pi - angle, heights[0], 0, 1))
+    for ring, z in zip((low, high), heights, strict=True):
+        kernel.lay(ring.edges[0], cylinder, kernel.line_2d(0, z, 1, 0))
+    for k in range(4):
+        after = (k + 1) % 4
+        loop = [(low.edges[k], True), (uprights[after], True), (high.edges[k], False), (uprights[k], False)]
+        (x0, y0), (x1, y1) = corners[k], corners[after]
+        surface = kernel.upright_plane((x0, y0, heights[0]), (x1 - x0, y1 - y0)) if k else cylinder
+        kernel.face(surface, [loop], outward=False)

@@ -1,0 +1,29 @@
+"""Mass and inertia of a gear, from its exact solid: bore, keyway, hubs and chamfers included."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from gearcad.geometry import Gear
+from gearcad.solids.exact.gear_solid import gear_solid
+
+__all__ = ["MassProperties", "mass_properties"]
+
+
+class MassProperties(NamedTuple):
+    """Mass in kg, moment of inertia about the gear's axis in kg·m²."""
+
+    mass: float
+    inertia: float
+
+
+def mass_properties(gear: Gear, density: float) -> MassProperties:
+    """Of a gear made of a material of `density` (kg/m³). Raises what `gear_solid` raises."""
+    from OCP.BRepGProp import BRepGProp
+    from OCP.gp import gp
+    from OCP.GProp import GProp_GProps
+
+    properties = GProp_GProps()
+    BRepGProp.VolumeProperties_s(gear_solid(gear).wrapped, properties)
+    volume, moment = properties.Mass(), properties.MomentOfInertia(gp.OZ_s())  # mm³, mm⁵
+    return MassProperties(volume * density * 1e-9, moment * density * 1e-15)

@@ -1,0 +1,223 @@
+"""Tooth 0 laid out: its outline, the sweep along the face width, and what the two ends make of it.
+
+Where a flank meets the cone of an end chamfer the curve is explicit in the flank's own parameter.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from gearcad.arrays import Floats
+from gearcad.geometry.gear import Gear
+from gearcad.solids.exact import bezier
+from gearcad.solids.exact.ends import End, gear_ends
+from gearcad.solids.exact.kernel import Kernel, bezier_curve, bezier_curve_2d
+from gearcad.solids.exact.outline import Arc, Piece, Span, accuracy_for, parameter_at_radius, tooth_outline
+from gearcad.solids.exact.sweep import required, sweep_of
+
+__all__ = ["Drawn", "Layout", "Rise", "Segment", "Side"]
+
+
+_ROUNDING = 1e-9
+"""Radii (mm) closer than this are the same: the ends have snapped to the junctions already."""
+
+_SAME = 1e-7
+"""Heights (mm) closer than this are the same for the kernel."""
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A stretch of one piece's edge on one end, between two of the end's stations (indices, see `_stations`)."""
+
+    piece: int
+    start: int
+    end: int
+    first: float
+    last: float
+    on_cone: bool
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """Curves of a segment, for tooth 0: in space from `first` to `last`, on its own face, and on the cone (if it is there)."""
+
+    curve: Any
+    first: float
+    last: float
+    on_face: Any
+    on_cone: Any = None
+
+
+@dataclass(frozen=True)
+class Side:
+    """The edge along the tooth at a junction, on one stretch of the face width, for tooth 0.
+
+    Its curve, the poles of its polar angle (rad) and the ends of the stretch (mm).
+    """
+
+    kernel: Kernel
+    curve: Any
+    angles: Floats
+    low: float
+    high: float
+
+    def on_cylinder(self, turn: float) -> Any:
+        """Its curve on the cylinder of a land, turned by `turn` (rad)."""
+        if np.all(self.angles == self.angles[0]):
+            return self.kernel.line_2d(float(self.angles[0]) + turn, 0, 0, 1)
+        poles = np.stack([self.angles + turn, np.linspace(self.low, self.high, len(self.angles))], -1)
+        return bezier_curve_2d(poles, self.low, self.high)
+
+
+@dataclass(frozen=True)
+class Rise:
+    """What of a stretch of the face width there is at a junction between both ends: heights (mm) of its lower and upper end."""
+
+    stretch: int
+    low: float
+    high: float
+
+
+class Layout:
+    """Tooth 0: pieces, sweep, and for each end the stations and segments of the outline."""
+
+    def __init__(self, gear: Gear, kernel: Kernel) -> None:
+        self.gear, self.kernel = gear, kernel
+        self.tolerance = accuracy_for(gear)
+        self._shape(tooth_outline(gear))
+        self.ends = gear_ends(gear, self.junctions[:, 0].tolist())
+        cuts = [end.radius(z) for end in self.ends for z in self.sweep.heights[1:-1] if end.chamfered]
+        if cuts:  # so that the edge of a chamfer on a piece lies on one stretch
+            self._shape(tooth_outline(gear, cuts))
+        self.segments = [self._segments(end) for end in self.ends]
+        self.rises = [self._rises(k) for k in range(len(self.pieces))]
+
+    def _shape(self, pieces: tuple[Piece, ...]) -> None:
+        self.pieces = pieces
+        self.sweep = sweep_of(self.gear, pieces)
+        self.junctions = np.array([self._start(piece) for piece in pieces])
+
+    # -------------------------------------------------------------- stations of the outline
+
+    @staticmethod
+    def _start(piece: Piece) -> tuple[float, float]:
+        """Radius and polar angle (rad) where a piece starts."""
+        if isinstance(piece, Arc):
+            return piece.radius, piece.first
+        x, y = piece.poles[0]
+        return math.hypot(x, y), math.atan2(y, x)
+
+    def _flank_at(self, k: int) -> tuple[Span, int]:
+        """A flank's piece at a junction, and its u there. One of both neighbours is a flank's, and the first piece is."""
+        piece, before = self.pieces[k % len(self.pieces)], self.pieces[k - 1]
+        if isinstance(piece, Span):
+            return piece, 0
+        assert isinstance(before, Span)
+        return before, 1
+
+    def turn(self, k: int, z: Any) -> Any:
+        """Angle (rad) by which a junction is turned at heights z (mm)."""
+        piece, u = self._flank_at(k)
+        return self.sweep.turn(piece, np.array(float(u)), z)
+
+    def _segments(self, end: End) -> tuple[list[Segment], Floats]:
+        """Segments of one end, and the (radius, polar angle there) of its stations: the junctions, then the breaks.
+
+        Station `len(pieces)` of a segment's end means the first junction of the next tooth.
+        """
+        count, found, breaks = len(self.pieces), list[Segment](), list[tuple[float, float]]()
+        for k, piece in enumerate(self.pieces):
+            first, last = piece.radii if isinstance(piece, Span) else (0.0, 0.0)
+            if isinstance(piece, Arc):
+                found.append(Segment(k, k, k + 1, piece.first, piece.last, piece.radius > end.edge_radius))
+            elif end.edge_radius >= max(first, last) - _ROUNDING or end.edge_radius <= min(first, last) + _ROUNDING:
+                found.append(Segment(k, k, k + 1, 0.0, 1.0, 2 * end.edge_radius < first + last))
+            else:
+                u = parameter_at_radius(piece, end.edge_radius)
+                angle = float(piece.polar(np.array([u]))[1][0] + self.sweep.turn(piece, np.array(u), np.array(end.z)))
+                station = count + 1 + len(breaks)
+                breaks.append((end.edge_radius, angle))
+                found.append(Segment(k, k, station, 0.0, u, first > last))
+                found.append(Segment(k, station, k + 1, u, 1.0, first < last))
+        radius, angle = self.junctions.T
+        turned = [at + float(self.turn(k, end.height(r))) for k, (r, at) in enumerate(zip(radius, angle, strict=True))]
+        following = (radius[0], turned[0] + 2 * math.pi / self.gear.teeth)
+        return found, np.array([*zip(radius, turned, strict=True), following, *breaks])
+
+    def place(self, end: End, stations: Floats) -> Floats:
+        """Points (n, 3) of stations (radius, polar angle) on an end of tooth 0."""
+        radius, angle = stations.T
+        return np.stack([radius * np.cos(angle), radius * np.sin(angle), end.height(radius)], -1)
+
+    def _rises(self, k: int) -> list[Rise]:
+        """The stretches of the face width that there are at a junction."""
+        low, high = (float(end.height(self.junctions[k, 0])) for end in self.ends)
+        parts = [(max(low, a), min(high, b)) for a, b in pairwise(self.sweep.heights)]
+        return [Rise(stretch, a, b) for stretch, (a, b) in enumerate(parts) if b - a > _SAME]
+
+    def stretches(self, k: int) -> range:
+        """The stretches of the face width that there are on a piece."""
+        after = (k + 1) % len(self.pieces)
+        low, high = (float(end.height(self.junctions[[k, after], 0]).mean()) for end in self.ends)
+        first, last = np.searchsorted(self.sweep.heights[1:-1], [low, high], side="right")
+        return range(int(first), int(last) + 1)
+
+    # -------------------------------------------------------------- curves
+
+    def draw(self, end: End, segment: Segment) -> Drawn:
+        """The curves of one segment."""
+        piece, line = self.pieces[segment.piece], self.kernel.line_2d
+        if isinstance(piece, Arc):
+            z = float(end.height(piece.radius))
+            first, last = (float(self.turn(k, np.array(z))) for k in (segment.start, segment.end))
+            circle, on_face = self.kernel.circle(piece.radius, z), line(0, z, 1, 0)
+            slant = (piece.radius - end.edge_radius) / end.sine if segment.on_cone else 0.0
+            return Drawn(circle, segment.first + first, segment.last + last, on_face, line(0, slant, end.inward, 0))
+        if segment.on_cone:
+            return self._draw_on_cone(end, segment, piece)
+        poles = self.sweep.section(piece, 0 if end.inward > 0 else 1)
+        return Drawn(bezier_curve(poles), segment.first, segment.last, line(0, end.z, 1, 0))
+
+    def _draw_on_cone(self, end: End, segment: Segment, piece: Span) -> Drawn:
+        """Where a flank meets the cone: z follows from the radius, so the curve is explicit in the flank's own u."""
+        first, span = segment.first, segment.last - segment.first
+
+        def curve(t: Floats) -> Floats:
+            u = first + t * span
+            radius, angle = piece.polar(u)
+            z = end.height(radius)
+            angle = angle + self.sweep.turn(piece, u, z)
+            slant = (radius - end.edge_radius) / end.sine
+            return np.stack([radius * np.cos(angle), radius * np.sin(angle), z, end.inward * angle, slant], -1)
+
+        scale = np.array([1, 1, 1, self.gear.tip_diameter / 2, 1.0])
+
+        def error(values: Floats, t: Floats) -> Floats:
+            return np.asarray(np.abs((values - curve(t)) * scale).max(-1))
+
+        poles = required(bezier.fit(curve, error, 0.25 * self.tolerance, least=3), "the edge of the end chamfer")
+        along = np.linspace(first, segment.last, len(poles))
+        on_face = bezier_curve_2d(np.stack([along, poles[:, 2]], -1), first, segment.last)
+        on_cone = bezier_curve_2d(poles[:, 3:], first, segment.last)
+        return Drawn(bezier_curve(poles[:, :3], first, segment.last), first, segment.last, on_face, on_cone)
+
+    def sides(self, k: int) -> list[Side]:
+        """Side edges at junction k, upwards."""
+        piece, u = self._flank_at(k)
+        radius, angle = self.junctions[k].tolist()
+        found = []
+        for rise in self.rises[k]:
+            low, high = self.sweep.heights[rise.stretch : rise.stretch + 2]
+            poles, angles = self.sweep.side(piece, u, (radius, angle), rise.stretch)
+            if len(poles) == 2 and poles[0, 0] == poles[1, 0] and poles[0, 1] == poles[1, 1]:
+                x, y, _ = poles[0].tolist()
+                curve = self.kernel.line((x, y, 0.0), (x, y, 1.0))[0]
+            else:
+                curve = bezier_curve(poles, low, high)
+            found.append(Side(self.kernel, curve, angles, low, high))
+        return found

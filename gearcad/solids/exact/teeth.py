@@ -1,0 +1,249 @@
+"""The toothed side of a gear: the layout of tooth 0 turned to all teeth, on shared vertices and edges."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from gearcad.arrays import Floats
+from gearcad.geometry.gear import Gear
+from gearcad.solids.exact.ends import End
+from gearcad.solids.exact.kernel import Kernel, bezier_curve, bezier_surface
+from gearcad.solids.exact.layout import Layout
+from gearcad.solids.exact.outline import Arc, Span
+
+__all__ = ["add_teeth"]
+
+Edges = list[tuple[Any, bool]]
+
+
+def add_teeth(gear: Gear, kernel: Kernel) -> tuple[Edges, Edges]:
+    """Add all faces of the toothed side to the kernel's shell; returns the outer loops of the lower and the upper end face.
+
+    The loops run counter-clockwise seen from +z.
+    """
+    layout = Layout(gear, kernel)
+    ring = _Ring(layout)
+    ring.add_sides()
+    return ring.close_end(0), ring.close_end(1)
+
+
+class _Ring:
+    """Turns the layout of tooth 0 into the vertices, edges and faces of all teeth.
+
+    Curves and surfaces are tooth 0's own, used again at the place of every tooth.
+    """
+
+    def __init__(self, layout: Layout) -> None:
+        self.layout, self.kernel = layout, layout.kernel
+        self.teeth = layout.gear.teeth
+        self.pitch = 2 * math.pi / self.teeth
+        self.places = [self.kernel.turned(i * self.pitch) for i in range(self.teeth)]
+        self.vertices = [self._vertices(which) for which in (0, 1)]
+        self.drawn = [[layout.draw(end, s) for s in layout.segments[e][0]] for e, end in enumerate(layout.ends)]
+        self.edges = [self._end_edges(which) for which in (0, 1)]
+        self.chains = [self._chains(which) for which in (0, 1)]
+        self.columns = self._columns()
+        self.side_curves = [layout.sides(k) for k in range(len(layout.pieces))]
+        self.side_edges = self._side_edges()
+
+    def _around(self, points: Floats) -> Floats:
+        """Points (n, 3) of tooth 0 turned to every tooth: (teeth, n, 3)."""
+        angle = self.pitch * np.arange(self.teeth)[:, None]
+        x, y, z = points.T
+        cosine, sine = np.cos(angle), np.sin(angle)
+        return np.stack([cosine * x - sine * y, sine * x + cosine * y, np.broadcast_to(z, (self.teeth, len(z)))], -1)
+
+    def _vertices(self, which: int) -> list[list[Any]]:
+        """Vertices of an end by tooth and station; the station after the last junction belongs to the next tooth."""
+        layout, count = self.layout, len(self.layout.pieces)
+        places = self._around(layout.place(layout.ends[which], layout.segments[which][1])).tolist()
+        made = [[None if k == count else self.kernel.vertex(p) for k, p in enumerate(tooth)] for tooth in places]
+        for i, tooth in enumerate(made):
+            tooth[count] = made[(i + 1) % self.teeth][0]
+        return made
+
+    def _end_edges(self, which: int) -> list[list[Any]]:
+        """Edges of an end by tooth and segment."""
+        segments, drawn = self.layout.segments[which][0], self.drawn[which]
+        return [
+            [
+                self.kernel.edge(d.curve, vertices[s.start], vertices[s.end], d.first, d.last, place)
+                for s, d in zip(segments, drawn, strict=True)
+            ]
+            for place, vertices in zip(self.places, self.vertices[which], strict=True)
+        ]
+
+    def _chains(self, which: int) -> list[list[int]]:
+        """Segments of an end by piece."""
+        segments = self.layout.segments[which][0]
+        return [[j for j, segment in enumerate(segments) if segment.piece == k] for k in range(len(self.layout.pieces))]
+
+    def _columns(self) -> list[list[list[Any]]]:
+        """Vertices along the teeth, upwards, by tooth and junction."""
+        layout = self.layout
+        columns = []
+        for k, rises in enumerate(layout.rises):
+            radius, angle = layout.junctions[k]
+            z = np.array([rise.high for rise in rises[:-1]])
+            angle = angle + layout.turn(k, z)
+            inner = self._around(np.stack([radius * np.cos(angle), radius * np.sin(angle), z], -1)).tolist()
+            columns.append([[self.kernel.vertex(point) for point in tooth] for tooth in inner])
+        lower, upper = self.vertices
+        return [[[lower[i][k], *inner[i], upper[i][k]] for k, inner in enumerate(columns)] for i in range(self.teeth)]
+
+    def _side_edges(self) -> list[list[list[Any]]]:
+        """Edges along the teeth, upwards, by tooth and junction."""
+        return [
+            [
+                [
+                    self.kernel.edge(side.curve, *ends, rise.low, rise.high, place)
+                    for side, rise, ends in zip(sides, rises, pairwise(column), strict=True)
+                ]
+                for sides, rises, column in zip(self.side_curves, self.layout.rises, columns, strict=True)
+            ]
+            for place, columns in zip(self.places, self.columns, strict=True)
+        ]
+
+    def add_sides(self) -> None:
+        """The faces of flanks, fillets, chamfers and lands."""
+        for k, piece in enumerate(self.layout.pieces):
+            if isinstance(piece, Arc):
+                self._add_land(k, piece)
+            else:
+                self._add_flank(k, piece)
+
+    def _add_land(self, k: int, piece: Arc) -> None:
+        """One face per tooth, over the whole width."""
+        kernel, surface = self.kernel, self.kernel.cylinder(piece.radius)
+        wraps, after = divmod(k + 1, len(self.layout.pieces))
+        left_curves = [side.on_cylinder(0.0) for side in self.side_curves[k]]
+        right_curves = [side.on_cylinder(wraps * self.pitch) for side in self.side_curves[after]]
+        for i, place in enumerate(self.places):
+            left, right = self.side_edges[i][k], self.side_edges[(i + wraps) % self.teeth][after]
+            for edge, curve in zip([*left, *right], [*left_curves, *right_curves], strict=True):
+                kernel.lay(edge, surface, curve, place=place)
+            lower, upper = (self._lay_end(which, i, k, surface) for which in (0, 1))
+            up, down = [(edge, True) for edge in right], [(edge, True) for edge in left]
+            kernel.face(surface, [[*lower, *up, *_backward(upper), *_backward(down)]], place=place)
+
+    def _add_flank(self, k: int, piece: Span) -> None:
+        """One face per tooth and stretch of the face width."""
+        kernel, heights, stretches = self.kernel, self.layout.sweep.heights, self.layout.stretches(k)
+        patches = self.layout.sweep.patches(piece)
+        wraps, after = divmod(k + 1, len(self.layout.pieces))
+        surfaces = {n: bezier_surface(patches[n], *heights[n : n + 2]) for n in stretches}
+        crossings = {n: bezier_curve(patches[n][:, 0]) for n in stretches[1:]}
+        on_left, on_right = kernel.line_2d(0, 0, 0, 1), kernel.line_2d(1, 0, 0, 1)
+        for i, place in enumerate(self.places):
+            follows = (i + wraps) % self.teeth
+            below: Edges = []
+            for n in stretches:
+                surface, above = surfaces[n], list[tuple[Any, bool]]()
+                left, right = self._rise(i, k, n), self._rise(follows, after, n)
+                for edges, curve in ((left, on_left), (right, on_right)):
+                    for edge, _ in edges:
+                        kernel.lay(edge, surface, curve, place=place)
+                if n == stretches[0]:
+                    below = self._lay_end(0, i, k, surface)
+                else:
+                    kernel.lay(below[0][0], surface, kernel.line_2d(0, heights[n], 1, 0), place=place)
+                if n == stretches[-1]:
+                    above = self._lay_end(1, i, k, surface)
+                else:
+                    ends = self._vertex(i, k, n + 1), self._vertex(follows, after, n + 1)
+                    above = [(kernel.edge(crossings[n + 1], *ends, 0.0, 1.0, place), True)]
+                    kernel.lay(above[0][0], surface, kernel.line_2d(0, heights[n + 1], 1, 0), place=place)
+                kernel.face(surface, [[*below, *right, *_backward(above), *_backward(left)]], place=place)
+                below = above
+
+    def _lay_end(self, which: int, i: int, k: int, surface: Any) -> Edges:
+        """The edges of an end on a piece of a tooth, laid on its surface."""
+        chain = self.chains[which][k]
+        for j in chain:
+            self.kernel.lay(self.edges[which][i][j], surface, self.drawn[which][j].on_face, place=self.places[i])
+        return [(self.edges[which][i][j], True) for j in chain]
+
+    def _rise(self, i: int, k: int, stretch: int) -> Edges:
+        """The edge at a junction of a tooth on a stretch of the face width; none where an end chamfer has taken it."""
+        edges, place = self.side_edges[i][k], stretch - self.layout.rises[k][0].stretch
+        return [(edges[place], True)] if 0 <= place < len(edges) else []
+
+    def _vertex(self, i: int, k: int, height: int) -> Any:
+        """The vertex at a junction of a tooth where a stretch begins or the one before ends."""
+        return self.columns[i][k][height - self.layout.rises[k][0].stretch]
+
+    # -------------------------------------------------------------- ends
+
+    def close_end(self, which: int) -> Edges:
+        """Add the cone faces of an end and return the outer loop of its plane."""
+        end, segments = self.layout.ends[which], self.layout.segments[which][0]
+        if not end.chamfered:
+            return [(edge, True) for tooth in self.edges[which] for edge in tooth]
+        cone = self.kernel.cone(end.edge_radius, end.sine, end.z, up=end.inward > 0)
+        for place, edges in zip(self.places, self.edges[which], strict=True):
+            for edge, drawn, segment in zip(edges, self.drawn[which], segments, strict=True):
+                if segment.on_cone:
+                    self.kernel.lay(edge, cone, drawn.on_cone, place=place)
+        if all(segment.on_cone for segment in segments):
+            return self._cone_below_root(which, end, cone)
+        return self._cone_on_teeth(which, end, cone)
+
+    def _cone_on_teeth(self, which: int, end: End, cone: Any) -> Edges:
+        """One piece of cone per tooth; the plane's loop crosses each tooth on the arc where the cone begins."""
+        segments, stations = self.layout.segments[which]
+        conic = [j for j, segment in enumerate(segments) if segment.on_cone]
+        start, stop = segments[conic[0]].start, segments[conic[-1]].end
+        first, last = stations[[start, stop], 1]
+        loop: Edges = []
+        for i, edges in enumerate(self.edges[which]):
+            vertices = self.vertices[which][i]
+            arc = self._foot(end, i, cone, vertices[start], vertices[stop], first, last)
+            self._add_cone_face(end, i, cone, [(edges[j], True) for j in conic], arc)
+            loop += [(edge, True) for edge in [*edges[: conic[0]], arc, *edges[conic[-1] + 1 :]]]
+        return loop
+
+    def _cone_below_root(self, which: int, end: End, cone: Any) -> Edges:
+        """One piece of cone per pitch, parted by generators from the start of each right flank; the plane is a disc."""
+        angle = self.layout.segments[which][1][0, 1]
+        foot = [end.edge_radius * math.cos(angle), end.edge_radius * math.sin(angle), end.z]
+        feet = [self.kernel.vertex(tooth[0]) for tooth in self._around(np.array([foot])).tolist()]
+        line, length = self.kernel.line(foot, self.layout.place(end, self.layout.segments[which][1][:1])[0])
+        generators = [
+            self.kernel.edge(line, feet[i], self.vertices[which][i][0], 0.0, length, place)
+            for i, place in enumerate(self.places)
+        ]
+        before, after = (self.kernel.line_2d(end.inward * at, 0, 0, 1) for at in (angle, angle + self.pitch))
+        loop: Edges = []
+        for i, place in enumerate(self.places):
+            follows = (i + 1) % self.teeth
+            arc = self._foot(end, i, cone, feet[i], feet[follows], angle, angle + self.pitch)
+            self.kernel.lay(generators[i], cone, before, place=place)
+            self.kernel.lay(generators[follows], cone, after, place=place)
+            rim = [(edge, True) for edge in self.edges[which][i]]
+            self._add_cone_face(end, i, cone, rim, arc, (generators[i], generators[follows]))
+            loop.append((arc, True))
+        return loop
+
+    def _foot(self, end: End, i: int, cone: Any, start: Any, stop: Any, first: float, last: float) -> Any:
+        """The arc on an end's plane where the cone of tooth i begins."""
+        arc = self.kernel.edge(self.kernel.circle(end.edge_radius, end.z), start, stop, first, last, self.places[i])
+        self.kernel.lay(arc, cone, self.kernel.line_2d(0, 0, end.inward, 0), place=self.places[i])
+        return arc
+
+    def _add_cone_face(self, end: End, i: int, cone: Any, rim: Edges, foot: Any, sides: tuple[Any, ...] = ()) -> None:
+        """A piece of cone between `foot` (on the plane) and `rim` (on the teeth), both counter-clockwise seen from +z.
+
+        `sides`: generators at the start and the end of the rim, pointing to it, where it does not close on the foot.
+        """
+        before, after = ([(edge, True)] for edge in sides) if sides else ([], [])
+        around = [*before, *rim, *_backward(after), (foot, False)]
+        self.kernel.face(cone, [_backward(around) if end.inward > 0 else around], place=self.places[i])
+
+
+def _backward(loop: Edges) -> Edges:
+    """A chain of edges run the other way."""
+    return [(edge, not along) for edge, along in reversed(loop)]

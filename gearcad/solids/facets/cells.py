@@ -1,0 +1,153 @@
+"""How far the cells of a tooth's grid are off the surface, where to split them, and along which diagonal to cut them.
+
+The exact side of a tooth is a screw surface S(s, z) = R(kappa z) C(s). Its triangles are halves of the cells of a grid of
+profile points and layers. The deviation of an edge that spans ds and dz is, to second order and along the normal,
+
+    |A + B D + C D^2| / |n|     with D = kappa dz (rad)
+
+A: sagitta of the profile, C: sagitta of the helix, B: their mixed (twist) term. Every part of that side has a Gaussian
+curvature of at most zero (involute helicoid and cylinders: zero), so a triangle deviates nowhere more than on its edges,
+and with the better of its two diagonals a cell is hardly worse than its sides. On modified flanks the deviation is that of
+the middle of the edge from the surface. Angles are radians in here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from gearcad.arrays import Bools, Floats
+from gearcad.geometry import Gear
+from gearcad.geometry.curves import Curve
+from gearcad.solids.facets.layers import EndCone, Screw
+from gearcad.solids.turned import FlankCurve
+
+__all__ = ["falling_cells", "split"]
+
+
+_PASSES = 20
+"""Rounds of splitting; each at least halves a cell that is too coarse, three are common."""
+
+_STEP = 1e-4
+"""Steps over which a normal is taken, as a share of a curve and of the face width."""
+
+
+class _Deviations(NamedTuple):
+    """Deviations (mm, signed) of edges along the profile, of rising and of falling diagonals: each (rows, len(s) - 1).
+
+    A diagonal rises from root to tip.
+    """
+
+    sides: Floats
+    rising: Floats
+    falling: Floats
+
+
+def split(gear: Gear, piece: FlankCurve, s: Floats, screw: Screw, cone: EndCone, aim: float) -> Floats:
+    """The parameters with the cells split that are off by more than `aim` (mm): long in z, on the cone, or bent unevenly."""
+    for _ in range(_PASSES):
+        flanks = [[np.abs(d) for d in deviations] for deviations in _deviations(gear, piece, s, screw, cone)]
+        worst = np.max([np.maximum(a.max(axis=0), np.minimum(b, c).max(axis=0)) for a, b, c in flanks], axis=0)
+        if cone.present:
+            worst = np.maximum(worst, _off_cone(gear, piece, s, screw, cone))
+        parts = np.ceil(np.sqrt(worst / aim) * (1 - 1e-6)).astype(int).clip(1, 16)
+        if np.all(parts == 1):
+            break
+        s = np.append(
+            np.concatenate([np.linspace(a, b, n, endpoint=False) for a, b, n in zip(s, s[1:], parts, strict=False)]), 1.0
+        )
+    return s
+
+
+def falling_cells(gear: Gear, piece: FlankCurve, s: Floats, screw: Screw, cone: EndCone) -> tuple[Bools, Bools]:
+    """Where the cells (layers, len(s) - 1) of the right and of the left flank are better cut from lower right to upper left.
+
+    Seen from outside; cells are numbered from root to tip.
+    """
+    found = _deviations(gear, piece, s, screw, cone)
+    rising = [np.abs(d.rising) <= np.abs(d.falling) for d in found]
+    if len(rising) == 1:  # the right flank is the left one turned end over end
+        left = np.broadcast_to(rising[0], (screw.layers, len(s) - 1))
+        return left[::-1], left
+    return ~rising[1], rising[0]
+
+
+def _deviations(gear: Gear, piece: FlankCurve, s: Floats, screw: Screw, cone: EndCone) -> list[_Deviations]:
+    """Those of the left and, where it is another one, the right flank."""
+    if not gear.modification.present:
+        return [_of_screw(piece.curve, s, screw, cone)]
+    return [_of_modified(gear, piece, s, screw, cone, left=left) for left in (True, False)]
+
+
+def _off_cone(gear: Gear, piece: FlankCurve, s: Floats, screw: Screw, cone: EndCone) -> Floats:
+    """Sagitta (mm) of the chords on the cone (len(s) - 1,)."""
+    radius, angle = piece.curve.polar(s)
+    setback = cone.setback(radius)
+    span = np.abs(np.diff(angle)) + np.abs(screw.kappa * np.diff(setback))
+    if gear.modification.present:
+        ends = np.stack([setback, screw.width - setback])
+        turns = [piece.turn(gear.flank_form, s, ends, left=left) for left in (True, False)]
+        span += np.abs(np.diff(turns)).max(axis=(0, 1))
+    return np.where(radius[1:] > cone.face_radius, radius[1:] * span**2 / 8, 0.0)
+
+
+def _of_screw(curve: Curve, s: Floats, screw: Screw, cone: EndCone) -> _Deviations:
+    """To second order; one row stands for all where every layer is the same."""
+    points, middle = curve.points(s), curve.points(0.5 * (s[1:] + s[:-1]))
+    heading = curve.direction(0.5 * (s[1:] + s[:-1]))
+    normal = np.stack([-np.sin(heading), np.cos(heading)], -1)
+    chord = points[1:] - points[:-1]
+    profile = np.sum(normal * (0.5 * (points[1:] + points[:-1]) - middle), -1)
+    mixed = (normal[:, 1] * chord[:, 0] - normal[:, 0] * chord[:, 1]) / 4
+    helix = -np.sum(normal * middle, -1) / 8
+    tilt = np.hypot(1.0, screw.kappa * (normal[:, 1] * middle[:, 0] - normal[:, 0] * middle[:, 1]))
+    turn = screw.kappa * screw.heights(cone.setback(curve.polar(s)[0]))
+    if not cone.present:  # every layer is the same
+        turn = turn[:2]
+
+    def deviation(angle: Floats) -> Floats:
+        result: Floats = (profile + angle * (mixed + angle * helix)) / tilt
+        return result
+
+    return _Deviations(
+        deviation(turn[:, 1:] - turn[:, :-1]),
+        deviation(turn[1:, 1:] - turn[:-1, :-1]),
+        deviation(turn[:-1, 1:] - turn[1:, :-1]),
+    )
+
+
+def _of_modified(gear: Gear, piece: FlankCurve, s: Floats, screw: Screw, cone: EndCone, *, left: bool) -> _Deviations:
+    """In the middles of the edges, along the normal; the right flank is mirrored first."""
+    hand = 1 if left else -1
+
+    def surface(s: Floats, z: Floats) -> Floats:
+        radius, angle = piece.curve.polar(s)
+        angle = angle + hand * (screw.kappa * z + piece.turn(gear.flank_form, s, z, left=left))
+        return np.stack(np.broadcast_arrays(radius * np.cos(angle), radius * np.sin(angle), z), -1)
+
+    z = screw.heights(cone.setback(piece.curve.polar(s)[0]))
+    corners, middle = surface(s, z), 0.5 * (s[1:] + s[:-1])
+
+    def deviation(first: tuple[slice, slice], last: tuple[slice, slice]) -> Floats:
+        height = 0.5 * (z[first] + z[last])
+        off = 0.5 * (corners[first] + corners[last]) - surface(middle, height)
+        result: Floats = np.sum(off * _normal(surface, middle, height, screw.width), -1)
+        return result
+
+    all_rows, lower, upper = slice(None), slice(None, -1), slice(1, None)
+    return _Deviations(
+        deviation((all_rows, lower), (all_rows, upper)),
+        deviation((lower, lower), (upper, upper)),
+        deviation((upper, lower), (lower, upper)),
+    )
+
+
+def _normal(surface: Callable[[Floats, Floats], Floats], s: Floats, z: Floats, width: float) -> Floats:
+    """Unit normals of a surface by differences."""
+    step = _STEP * width
+    along = surface(np.clip(s + _STEP, 0, 1), z) - surface(np.clip(s - _STEP, 0, 1), z)
+    normal = np.cross(along, surface(s, z + step) - surface(s, z - step))
+    result: Floats = normal / np.linalg.norm(normal, axis=-1, keepdims=True)
+    return result

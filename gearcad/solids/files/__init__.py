@@ -1,0 +1,1 @@
+"""Files of solids, facets and outlines."""
