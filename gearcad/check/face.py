@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearcad.check.result import Task
-from gearcad.check.summary import OfGears
+from gearcad.per_gear import PerGear
 from gearcad.rating.face_load import face_load_factor, root_face_load_factor, width_to_height
 
 __all__ = ["FaceFactors", "face_factors"]
@@ -30,7 +30,7 @@ def face_factors(task: Task) -> FaceFactors:
     return FaceFactors(misalignment, flank, root_face_load_factor(flank, width_to_height(task.pair)))
 
 
-def _mismatch(task: Task) -> OfGears[float]:
+def _mismatch(task: Task) -> PerGear[float]:
     """By how much (µm) the gap grows towards larger z over the common width, by the helix angle modification of each gear."""
     width, carries_left = task.pair.common_width.width, task.torque > 0
     found = []
@@ -38,4 +38,4 @@ def _mismatch(task: Task) -> OfGears[float]:
         hand = -1 if gear.helix_angle < 0 else 1
         depth = gear.modification.helix_angle_modification * hand * (-1 if carries_left else 1)
         found.append(depth * width / gear.face_width)
-    return OfGears(*found)
+    return PerGear(*found)

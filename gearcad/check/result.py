@@ -10,7 +10,7 @@ from gearcad.check.comparison import Comparison, Subject, Verdict, verdict
 from gearcad.check.convergence import Convergence
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.solid_summary import SolidSummary
-from gearcad.check.summary import OfGears, PlaneSummary, Summary, by_name
+from gearcad.check.summary import PlaneSummary, Summary, by_name
 from gearcad.contact.plane.cycle import Cycle
 from gearcad.contact.plane.pair import BodyModel
 from gearcad.contact.solid.cycle import SolidCycle
@@ -18,6 +18,7 @@ from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.per_gear import PerGear
 from gearcad.rating import Rating, RatingOptions, rate
 
 __all__ = ["CheckResult", "PlaneCheck", "SolidCheck", "SweepPoint", "Task"]
@@ -71,8 +72,8 @@ class SweepPoint(NamedTuple):
     torque: float
     mesh_stiffness: float
     contact_pressure: float | None
-    root_tension: OfGears[float]
-    torsional_stiffness: OfGears[float]
+    root_tension: PerGear[float]
+    torsional_stiffness: PerGear[float]
 
     def to_dict(self) -> dict[str, Any]:
         """As `check.json` has it."""

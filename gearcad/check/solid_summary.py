@@ -9,9 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.check.summary import OfGears, Summary, common_summary
+from gearcad.check.summary import Summary, common_summary
 from gearcad.contact.solid.contact import INTERIOR, SolidContact
 from gearcad.contact.solid.cycle import SolidCycle, SolidPosition, solid_pitch_point_contact
+from gearcad.per_gear import PerGear
 from gearcad.rating import LineContact
 
 __all__ = ["MiddleContact", "SolidSummary", "WorstPlace", "middle_contacts", "summarise_solid", "worst_place"]
@@ -32,13 +33,13 @@ class SolidSummary(Summary):
 
     transmission_error_harmonics: tuple[float, ...]
     contact_pressure_across: float | None
-    contact_pressure_radius: OfGears[float] | OfGears[None]
-    root_tension_height: OfGears[float]
-    root_tension_radius: OfGears[float]
+    contact_pressure_radius: PerGear[float] | PerGear[None]
+    root_tension_height: PerGear[float]
+    root_tension_radius: PerGear[float]
     contact_length_mean: float
     line_load_max: float | None
     face_load_factor: float
-    root_face_load_factor: OfGears[float]
+    root_face_load_factor: PerGear[float]
 
 
 class WorstPlace(NamedTuple):
@@ -97,12 +98,12 @@ def summarise_solid(cycle: SolidCycle, single: float) -> SolidSummary:
         share_pitch_point=at_pitch.share if at_pitch is not None else 0.0,
         corner_positions=sum(any(each.edge for each in position.contacts) for position in cycle.positions),
         transmission_error_harmonics=tuple(cycle.harmonics[:_HARMONICS].tolist()),
-        root_tension_height=OfGears(*(peak.height for peak in peaks)),
-        root_tension_radius=OfGears(*(peak.radius for peak in peaks)),
+        root_tension_height=PerGear(*(peak.height for peak in peaks)),
+        root_tension_radius=PerGear(*(peak.radius for peak in peaks)),
         contact_length_mean=float(np.mean([_loaded_length(position) for position in cycle.positions])),
         line_load_max=line_load.value if line_load is not None else None,
         face_load_factor=cycle.face_load_factor,
-        root_face_load_factor=OfGears(*(cycle.root_face_load_factor(gear) for gear in (0, 1))),
+        root_face_load_factor=PerGear(*(cycle.root_face_load_factor(gear) for gear in (0, 1))),
         missing=(dict.fromkeys(_AT_PITCH, reason) if reason else {}) | ({} if worst else _nothing_inside(cycle)),
     )
 
@@ -124,7 +125,7 @@ def _nothing_inside(cycle: SolidCycle) -> dict[str, str]:
 def _at_worst(cycle: SolidCycle, worst: WorstPlace | None) -> dict[str, Any]:
     """Where the greatest pressure is, and the stress below it."""
     if worst is None:
-        return dict.fromkeys(_AT_WORST[1:]) | {"contact_pressure_radius": OfGears(None, None)}
+        return dict.fromkeys(_AT_WORST[1:]) | {"contact_pressure_radius": PerGear(None, None)}
     line, below = worst.contact.line, line_contact(cycle, worst).greatest_von_mises
     bases = (cycle.model.pinion.flank.base_radius, cycle.model.wheel.flank.base_radius)
     lengths = (worst.of(line.pinion[0]), worst.of(line.wheel[0]))
@@ -132,7 +133,7 @@ def _at_worst(cycle: SolidCycle, worst: WorstPlace | None) -> dict[str, Any]:
         "von_mises": below.value,
         "von_mises_depth": below.depth,
         "contact_pressure_across": worst.of(line.across),
-        "contact_pressure_radius": OfGears(*map(math.hypot, bases, lengths)),
+        "contact_pressure_radius": PerGear(*map(math.hypot, bases, lengths)),
     }
 
 

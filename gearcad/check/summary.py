@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -14,8 +14,9 @@ from gearcad.contact.plane.cycle import INTERIOR, Cycle, PairContact, Position, 
 from gearcad.contact.plane.field import contact_frame, tooth_field
 from gearcad.contact.plane.subsurface import greatest_von_mises
 from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.per_gear import PerGear
 
-__all__ = ["Figures", "OfGears", "PlaneSummary", "Summary", "by_name", "common_summary", "figures", "summarise"]
+__all__ = ["Figures", "PlaneSummary", "Summary", "by_name", "common_summary", "figures", "summarise"]
 
 T = TypeVar("T")
 
@@ -25,18 +26,11 @@ _NEAR = 2.0
 """Half widths around a contact within which the stress below it is greatest."""
 
 
-class OfGears(NamedTuple, Generic[T]):
-    """A quantity of both gears."""
-
-    pinion: T
-    wheel: T
-
-
 def by_name(values: Mapping[str, Any]) -> dict[str, Any]:
     """As `check.json` has it: what both gears have gets a name for each, `root_tension_pinion`."""
     document: dict[str, Any] = {}
     for name, value in values.items():
-        if isinstance(value, OfGears):
+        if isinstance(value, PerGear):
             document |= {f"{name}_{gear}": of for gear, of in value._asdict().items()}
         else:
             document[name] = value
@@ -67,8 +61,8 @@ class Summary:
     share_pitch_point: float
     von_mises: float | None
     von_mises_depth: float | None
-    root_tension: OfGears[float]
-    root_compression: OfGears[float]
+    root_tension: PerGear[float]
+    root_compression: PerGear[float]
     bore_tension_pinion: float | None
     bore_tension_wheel: float | None
     corner_positions: int
@@ -99,13 +93,13 @@ class Figures(NamedTuple):
 
     mesh_stiffness: float
     contact_pressure: float | None
-    root_tension: OfGears[float]
+    root_tension: PerGear[float]
 
 
 def figures(cycle: Cycle | SolidCycle) -> Figures:
     """Mean mesh stiffness, greatest interior pressure and root tensions of a cycle."""
     worst = cycle.worst_contact
-    tension = OfGears(*(cycle.worst_position(gear).tension[gear].stress for gear in (0, 1)))
+    tension = PerGear(*(cycle.worst_position(gear).tension[gear].stress for gear in (0, 1)))
     return Figures(float(cycle.mean("stiffness")[0]), worst[1].peak_pressure if worst else None, tension)
 
 
@@ -122,8 +116,8 @@ def common_summary(cycle: Cycle | SolidCycle, single: float) -> dict[str, Any]:
         "single_stiffness": single,
         "transmission_error_peak_to_peak": _swing(extremes, "transmission_error"),
         "contact_pressure": value["contact_pressure"],
-        "root_tension": OfGears(value["root_tension_pinion"], value["root_tension_wheel"]),
-        "root_compression": OfGears(value["root_compression_pinion"], value["root_compression_wheel"]),
+        "root_tension": PerGear(value["root_tension_pinion"], value["root_tension_wheel"]),
+        "root_compression": PerGear(value["root_compression_pinion"], value["root_compression_wheel"]),
         "bore_tension_pinion": value["bore_tension_pinion"],
         "bore_tension_wheel": value["bore_tension_wheel"],
         "extremes": extremes,

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from gearcad.check.result import SweepPoint
-from gearcad.check.summary import OfGears, figures
+from gearcad.check.summary import figures
 from gearcad.contact.plane.cycle import Cycle
 from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.per_gear import PerGear
 
 __all__ = ["sweep_point"]
 
@@ -19,5 +20,5 @@ def sweep_point(cycle: Cycle | SolidCycle) -> SweepPoint:
     # A gear whose flank gives way by u along the line of action turns by u/r_b under the torque F r_b.
     radii = np.array([model.pair.pinion.base_diameter, model.pair.wheel.base_diameter]) / 2
     force = model.force(cycle.torque) * model.width
-    stiffness = OfGears(*(force * radii**2 / turns / 1000).tolist())
+    stiffness = PerGear(*(force * radii**2 / turns / 1000).tolist())
     return SweepPoint(abs(cycle.torque), few.mesh_stiffness, few.contact_pressure, few.root_tension, stiffness)

@@ -17,6 +17,7 @@ from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.path import ContactLineLengths, PathOfContact
 from gearcad.geometry.picture import pair_html
 from gearcad.geometry.shift import least_profile_shift_sum, profile_shift_sum, zero_backlash_centre_distance
+from gearcad.per_gear import PerGear
 from gearcad.ranges import OFFSET
 from gearcad.reprs import concise
 
@@ -133,6 +134,11 @@ class GearPair:
                     f"must be below {tip + 2 * clearance:.6f} mm: the tip reaches the {mate}'s root circle",
                     "mm",
                 )
+
+    @property
+    def gears(self) -> PerGear[Gear]:
+        """Pinion and wheel."""
+        return PerGear(self.pinion, self.wheel)
 
     # ------------------------------------------------------------------ working data
 

@@ -13,11 +13,12 @@ from gearcad.check.judge_solid import compare_solid
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import PlaneCheck, SolidCheck, SweepPoint, Task
 from gearcad.check.solid_summary import summarise_solid
-from gearcad.check.summary import OfGears, summarise
+from gearcad.check.summary import summarise
 from gearcad.contact.plane.cycle import run_cycle, single_stiffness
 from gearcad.contact.plane.pair import flexible_pair
 from gearcad.contact.solid.cycle import run_solid_cycle, solid_single_stiffness
 from gearcad.geometry import FlankModification
+from gearcad.per_gear import PerGear
 from support.coarse import coarse_model
 
 __all__ = ["NASTY_NAME", "small_check", "small_solid_check"]
@@ -47,8 +48,8 @@ def small_check() -> PlaneCheck:
         Convergence("root tension, wheel", (360.0, 357.0, 356.0), (0.5, 1.0, 2.0), 1.58, 0.0042),
     )
     sweep = (
-        SweepPoint(302.0, 15.2, 1700.0, OfGears(370.0, 350.0), OfGears(5.6e5, 9.8e5)),
-        SweepPoint(75.5, 14.5, 850.0, OfGears(92.5, 87.5), OfGears(5.2e5, 9.2e5)),
+        SweepPoint(302.0, 15.2, 1700.0, PerGear(370.0, 350.0), PerGear(5.6e5, 9.8e5)),
+        SweepPoint(75.5, 14.5, 850.0, PerGear(92.5, 87.5), PerGear(5.2e5, 9.2e5)),
     )
     task = Task(pair=pair, material=material, load=load, mounting=Mounting(), options=options)
     return PlaneCheck(
@@ -80,8 +81,8 @@ def small_solid_check() -> SolidCheck:
         Convergence("root tension, wheel", (312.0, 310.0, 309.0), (0.8, 1.0, 1.25), 3.1, 0.008),
     )
     sweep = (
-        SweepPoint(120.0, 12.1, 1400.0, OfGears(305.0, 310.0), OfGears(2.6e5, 4.8e5)),
-        SweepPoint(30.0, 11.5, 700.0, OfGears(76.0, 77.0), OfGears(2.2e5, 4.2e5)),
+        SweepPoint(120.0, 12.1, 1400.0, PerGear(305.0, 310.0), PerGear(2.6e5, 4.8e5)),
+        SweepPoint(30.0, 11.5, 700.0, PerGear(76.0, 77.0), PerGear(2.2e5, 4.2e5)),
     )
     return SolidCheck(
         **task.inputs,

@@ -1,0 +1,40 @@
+"""Notice: what to know before trusting a result, as data; who shows it chooses where and how."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+__all__ = ["Notice", "texts"]
+
+
+@dataclass(frozen=True)
+class Notice:
+    """One thing to know: `code` names its kind for programs, `text` says it, `where` is what it is about ("" for all of it).
+
+    >>> notice = Notice("thin-rim", "the rim bends", where="wheel")
+    >>> print(notice)
+    wheel: the rim bends
+    >>> print(notice.within("check"))
+    check: wheel: the rim bends
+    """
+
+    code: str
+    text: str
+    where: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.text}" if self.where else self.text
+
+    def within(self, owner: str) -> Notice:
+        """The same, seen from what holds its subject."""
+        return replace(self, where=f"{owner}: {self.where}" if self.where else owner)
+
+    def to_dict(self) -> dict[str, str]:
+        """As documents have it."""
+        return {"code": self.code, "where": self.where, "text": self.text}
+
+
+def texts(notices: Iterable[Notice]) -> tuple[str, ...]:
+    """Each notice in a line, without those said before."""
+    return tuple(dict.fromkeys(map(str, notices)))
