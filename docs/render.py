@@ -23,12 +23,12 @@ from vtkmodules.vtkRenderingCore import (
 
 from gearcad import Gear
 from gearcad.batch import Step, Wanted, run_table
+from gearcad.batch.study import plan_study, write_study
+from gearcad.designs import read_spec
 from gearcad.geometry import mesh_pose
-from gearcad.plot_data import read_points
 from gearcad.plots import plot_contours, save_plot
+from gearcad.plots.table_data import read_points
 from gearcad.solids import tessellate
-from gearcad.spec import read_spec
-from gearcad.study import plan_study, write_study
 
 FOLDER = Path(__file__).parent
 SPEC = FOLDER.parent / "templates" / "volvo-13-44.toml"

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import click
 
 import gearcad
-from gearcad.cli.group import debug_option, parse_choices, require_new_file, spec_argument
+from gearcad.cli.group import debug_option, format_option, parse_choices, require_new_file, spec_argument
 from gearcad.cli.progress import file_progress
+from gearcad.solids import FileOptions, Format
 
 if TYPE_CHECKING:
     from gearcad.designs.design import Design
@@ -71,12 +72,16 @@ def data(spec: Path, as_json: bool) -> None:
     print_datasheet(design, Console(highlight=False))
 
 
-@click.command(short_help="Write the solids of SPEC as STEP, STL and other files.")
+_BUILD = """Write the solids of SPEC: pinion.step, wheel.stl, assembly.step ... and data.json.
+
+\b
+""" + "\n".join(f"{kind.value:<6}{kind.entry.words}" for kind in Format)
+
+
+@click.command(short_help="Write the solids of SPEC as STEP, STL and other files.", help=_BUILD)
 @spec_argument
 @click.option("-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/NAME]")
-@click.option(
-    "--format", "formats", default="step,stl", show_default=True, help="Comma-separated list of step, stl, 3mf, glb, dxf, csv."
-)
+@format_option
 @click.option("--chord-error", default=0.005, show_default=True, metavar="MM", help="Largest error of the facets, in mm.")
 @click.option("--bracket", is_flag=True, help="Put the assembly on two shafts with a bracket (STEP).")
 @click.option("--circles", is_flag=True, help="Draw the tip, reference, base and root circles too (DXF).")
@@ -93,15 +98,7 @@ def build(
     as_json: bool,
     quiet: bool,
 ) -> None:
-    """Write the solids of SPEC: pinion.step, wheel.stl, assembly.step ... and data.json.
-
-    \b
-    step  the exact solid          stl       facets within --chord-error
-    3mf   facets, for printing     glb       facets, for viewers
-    dxf   exact section, for cutting         csv  points of flank and fillet
-    """
     from gearcad.designs import read_spec
-    from gearcad.jobs.build import Format
     from gearcad.jobs.build import build as build_files
     from gearcad.output import json_text
 
@@ -109,8 +106,8 @@ def build(
     design = read_spec(spec)
     folder = output if output is not None else Path("output") / design.name
     with file_progress(shown=not quiet) as progress:
-        options = {"bracket": bracket, "circles": circles}
-        files = build_files(design, folder, wanted, **options, chord_error=chord_error, progress=progress)
+        options = FileOptions(chord_error=chord_error, bracket=bracket, circles=circles)
+        files = build_files(design, folder, wanted, options, progress)
     if as_json:
         document = {"kind": "build", "name": design.name, "gearcad": gearcad.__version__, "output": str(folder)}
         click.echo(json_text({**document, "files": [str(file) for file in files], "warnings": list(design.warnings)}), nl=False)

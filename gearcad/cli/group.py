@@ -13,8 +13,9 @@ import click
 
 from gearcad.errors import GearcadError, ParameterError, SolverError, as_choice, printable, shown
 from gearcad.output import source_date
+from gearcad.solids import Format
 
-__all__ = ["Commands", "debug_option", "parse_choices", "require_new_file", "spec_argument"]
+__all__ = ["Commands", "debug_option", "format_option", "parse_choices", "require_new_file", "spec_argument"]
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Choice = TypeVar("Choice", bound=Enum)
@@ -92,6 +93,12 @@ def debug_option(command: Command) -> Command:
 
 def spec_argument(command: Command) -> Command:
     return click.argument("spec", type=click.Path(path_type=Path))(command)
+
+
+def format_option(command: Command) -> Command:
+    offered = ", ".join(kind.value for kind in Format)
+    help_text = f"Comma-separated list of {offered}."
+    return click.option("--format", "formats", default="step,stl", show_default=True, help=help_text)(command)
 
 
 def parse_choices(parameter: str, text: str, kind: type[Choice]) -> tuple[Choice, ...]:

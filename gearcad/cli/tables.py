@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 import click
 
 import gearcad
-from gearcad.cli.group import debug_option, parse_choices
+from gearcad.cli.group import debug_option, format_option, parse_choices
 from gearcad.cli.progress import row_progress
 from gearcad.errors import as_choice
+from gearcad.solids import FileOptions, Format
 
 if TYPE_CHECKING:
     from gearcad.batch import Summary
@@ -24,9 +25,7 @@ __all__ = ["batch"]
 @click.option("-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/TABLE]")
 @click.option("-j", "--jobs", type=int, metavar="N", help="Processes at work.  [default: the cores]")
 @click.option("--do", "steps", default="build", show_default=True, help="Comma-separated list of data, build, check.")
-@click.option(
-    "--format", "formats", default="step,stl", show_default=True, help="Comma-separated list of step, stl, 3mf, glb, dxf, csv."
-)
+@format_option
 @click.option("--chord-error", default=0.005, show_default=True, metavar="MM", help="Largest error of the facets, in mm.")
 @click.option("--bracket", is_flag=True, help="Put the assemblies on two shafts with a bracket (STEP).")
 @click.option("--circles", is_flag=True, help="Draw the tip, reference, base and root circles too (DXF).")
@@ -64,14 +63,11 @@ def batch(
     missing or changed. `gearcad new pairs` writes a commented table to begin with.
     """
     from gearcad.batch import Decimal, Step, Wanted, run_table
-    from gearcad.jobs.build import Format
 
     wanted = Wanted(
         steps=parse_choices("do", steps, Step),
         formats=parse_choices("format", formats, Format),
-        chord_error=chord_error,
-        bracket=bracket,
-        circles=circles,
+        options=FileOptions(chord_error=chord_error, bracket=bracket, circles=circles),
     )
     chosen = as_choice("decimal", decimal.lower(), Decimal)
     folder = output if output is not None else Path("output") / table.stem

@@ -3,24 +3,46 @@
 Everything starts from the ToothProfile; CadQuery, trimesh and ezdxf are imported when a function needs them.
 """
 
-from gearcad.solids.exact.assembly import PART_COLOURS, pair_assembly
-from gearcad.solids.exact.gear_solid import gear_solid
-from gearcad.solids.facets.tessellation import Facets, tessellate
-from gearcad.solids.files.contour import write_dxf
-from gearcad.solids.files.mesh_files import Part, write_scene, write_stl
-from gearcad.solids.files.points import write_points
-from gearcad.solids.files.step import write_step
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from gearcad.solids.exact.assembly import PART_COLOURS, pair_assembly
+    from gearcad.solids.exact.gear_solid import gear_solid
+    from gearcad.solids.facets.tessellation import Facets, tessellate
+    from gearcad.solids.files.contour import write_dxf
+    from gearcad.solids.files.formats import FileOptions, Format
+    from gearcad.solids.files.glb import write_glb
+    from gearcad.solids.files.points import write_points
+    from gearcad.solids.files.scene import Part, write_scene
+    from gearcad.solids.files.step import write_step
+    from gearcad.solids.files.stl import write_stl
+    from gearcad.solids.files.three_mf import write_3mf
+else:
+    from gearcad.lazy import lazily
 
 __all__ = [
     "PART_COLOURS",
     "Facets",
+    "FileOptions",
+    "Format",
     "Part",
     "gear_solid",
     "pair_assembly",
     "tessellate",
+    "write_3mf",
     "write_dxf",
+    "write_glb",
     "write_points",
     "write_scene",
     "write_step",
     "write_stl",
 ]
+
+if not TYPE_CHECKING:
+    _HOMES = ("formats", "scene", "stl", "three_mf", "glb", "contour", "points", "step")
+    __getattr__ = lazily(
+        __name__,
+        __all__,
+        (*(f"files.{home}" for home in _HOMES), "facets.tessellation", "exact.gear_solid", "exact.assembly"),
+    )

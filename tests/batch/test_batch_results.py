@@ -17,7 +17,7 @@ from gearcad.batch.results import _text
 from gearcad.designs import read_spec
 from gearcad.designs.table import open_table
 from gearcad.errors import OutputError, ParameterError
-from gearcad.jobs.build import Format
+from gearcad.solids import FileOptions, Format
 
 DATA = Wanted(steps=(Step.DATA,))
 POINTS = Wanted(formats=(Format.CSV,))
@@ -326,7 +326,7 @@ def test_want_of_memory_fails_the_row(tmp_path: Path, monkeypatch: pytest.Monkey
 def test_error_of_a_row_names_the_row_once(tmp_path: Path) -> None:
     """A pair that can be computed but not built with these options: the row's place leads what the builder says."""
     lines = ("name,normal_module,pinion.teeth,wheel.teeth,pinion.face_width,wheel.face_width", "bare,1,17,22,2,2")
-    summary = make(tmp_path, lines, Wanted(formats=(Format.STEP,), bracket=True))
+    summary = make(tmp_path, lines, Wanted(formats=(Format.STEP,), options=FileOptions(bracket=True)))
     (error,) = summary.errors
     assert error.startswith(f"{tmp_path / 'table.csv'} row 2 (bare): pinion.body.bore = 0 mm: must be above 0 mm")
     assert read_results(tmp_path / "out")[0]["error"] == error

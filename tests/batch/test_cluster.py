@@ -27,7 +27,7 @@ from gearcad.batch import run as run_module
 from gearcad.batch.row import Status, Task, make_row
 from gearcad.designs.table import open_table
 from gearcad.errors import ParameterError
-from gearcad.jobs.build import Format
+from gearcad.solids import Format
 
 distributed = pytest.importorskip("distributed")
 

@@ -21,7 +21,7 @@ from gearcad.batch import Step, Wanted, run_table
 from gearcad.batch.row import Status, Task, make_row
 from gearcad.batch.worker import close_workers, isolated
 from gearcad.designs.table import open_table
-from gearcad.jobs.build import Format
+from gearcad.solids import Format
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 

@@ -15,7 +15,7 @@ from support.batches import GEARS, made_now, snapshot, write_table
 import gearcad
 from gearcad.batch import Wanted, run_table
 from gearcad.batch.manifest import inputs_hash
-from gearcad.jobs.build import Format
+from gearcad.solids import Format
 
 POINTS = Wanted(formats=(Format.CSV,))
 

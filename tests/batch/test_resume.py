@@ -12,7 +12,7 @@ from support.batches import GEARS, PAIRS, lies, made_now, read_results, snapshot
 
 from gearcad.batch import Step, Summary, Wanted, run_table
 from gearcad.batch import run as run_module
-from gearcad.jobs.build import Format
+from gearcad.solids import FileOptions, Format
 
 POINTS = Wanted(formats=(Format.CSV,))
 DATA = Wanted(steps=(Step.DATA,))
@@ -186,7 +186,7 @@ def test_chord_error_makes_the_facets_again_and_nothing_else(tmp_path: Path) -> 
     both = (Format.STL, Format.CSV)
     make(tmp_path, GEARS[:3], Wanted(formats=both))
     before, old = snapshot(tmp_path / "out"), times(tmp_path / "out")
-    make(tmp_path, GEARS[:3], Wanted(formats=both, chord_error=0.02))
+    make(tmp_path, GEARS[:3], Wanted(formats=both, options=FileOptions(chord_error=0.02)))
     assert made_now(tmp_path / "out") == ["spur", "left"]
     new = times(tmp_path / "out")
     again = {path.partition("/")[2] for path in old if old[path] != new[path]}
@@ -201,7 +201,7 @@ def test_bracket_makes_the_step_files_again(tmp_path: Path) -> None:
     lines = (PAIRS[0] + ",pinion.body.bore,wheel.body.bore", PAIRS[1] + ",4,6")
     make(tmp_path, lines, Wanted(formats=(Format.STEP, Format.CSV)))
     before = times(tmp_path / "out")
-    make(tmp_path, lines, Wanted(formats=(Format.STEP, Format.CSV), bracket=True))
+    make(tmp_path, lines, Wanted(formats=(Format.STEP, Format.CSV), options=FileOptions(bracket=True)))
     after = times(tmp_path / "out")
     changed = {path.partition("/")[2] for path in before if before[path] != after[path]}
     assert changed == {"assembly.step", "pinion.step", "wheel.step", "data.json", "manifest.json"}
@@ -209,7 +209,7 @@ def test_bracket_makes_the_step_files_again(tmp_path: Path) -> None:
 
 def test_bracket_of_a_single_gear_is_no_matter(tmp_path: Path) -> None:
     """A table may hold both."""
-    make(tmp_path, GEARS[:2], Wanted(formats=(Format.STEP,), bracket=True))
+    make(tmp_path, GEARS[:2], Wanted(formats=(Format.STEP,), options=FileOptions(bracket=True)))
     assert files_of(tmp_path, "spur") == {"data.json", "gear.step", "manifest.json"}
 
 

@@ -15,7 +15,7 @@ from support.processes import PATIENCE, run_batch, start_batch, wait_until
 
 from gearcad.batch import Step, Wanted, run_table
 from gearcad.errors import OutputError
-from gearcad.jobs.build import Format
+from gearcad.solids import Format
 
 DATA = Wanted(steps=(Step.DATA,))
 POINTS = Wanted(formats=(Format.CSV,))

@@ -9,11 +9,13 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from gearcad import GeometryError, SolverError, solids
+from gearcad import GeometryError, SolverError
 from gearcad.cli import main
 from gearcad.designs import read_spec
 from gearcad.designs.design import Design
-from gearcad.jobs.build import Format, build
+from gearcad.jobs.build import build
+from gearcad.solids import FileOptions, Format
+from gearcad.solids.files import products
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 PAIR = ["pinion", "wheel"]
@@ -48,10 +50,17 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
         return make
 
-    for name, path_at in (("write_step", 1), ("write_stl", 1), ("write_scene", 1), ("write_dxf", 1), ("write_points", 1)):
-        monkeypatch.setattr(solids, name, writer(name, path_at))
+    for home in (
+        "step.write_step",
+        "stl.write_stl",
+        "three_mf.write_3mf",
+        "glb.write_glb",
+        "contour.write_dxf",
+        "points.write_points",
+    ):
+        monkeypatch.setattr(f"gearcad.solids.files.{home}", writer(home, 1))
     for name in ("gear_solid", "pair_assembly", "tessellate"):
-        monkeypatch.setattr(solids, name, maker(name))
+        monkeypatch.setattr(products, name, maker(name))
     return calls
 
 
@@ -81,7 +90,7 @@ def test_facets_of_a_gear_are_made_once_for_all_formats(pair: Design, stand_ins:
 
 
 def test_bracket_reaches_the_assembly(pair: Design, stand_ins: list[str], tmp_path: Path) -> None:
-    build(pair, tmp_path, [Format.STEP], bracket=True)
+    build(pair, tmp_path, [Format.STEP], FileOptions(bracket=True))
     assert "pair_assembly {'bracket': True}" in stand_ins
 
 
@@ -99,7 +108,7 @@ def test_failure_at_the_last_file_leaves_no_file_at_all(
     def fail(*_arguments: Any, **_options: Any) -> None:
         raise error
 
-    monkeypatch.setattr(solids, "pair_assembly", fail)
+    monkeypatch.setattr(products, "pair_assembly", fail)
     with pytest.raises(type(error)):
         build(pair, tmp_path / "output" / "x")
     assert list(tmp_path.iterdir()) == []
@@ -136,7 +145,7 @@ def test_kernel_failure_is_status_1(stand_ins: list[str], tmp_path: Path, monkey
         raise SolverError("the CAD kernel could not write it")
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(solids, "gear_solid", fail)
+    monkeypatch.setattr(products, "gear_solid", fail)
     result = CliRunner().invoke(main, ["build", str(TEMPLATES / "spur.toml"), "--quiet"])
     assert (result.exit_code, result.stderr) == (1, "Error: the CAD kernel could not write it\n")
     assert list(tmp_path.iterdir()) == []
@@ -148,7 +157,7 @@ def test_kernel_failure_is_status_1(stand_ins: list[str], tmp_path: Path, monkey
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("built")
-    build(read_spec(TEMPLATES / "volvo-13-44.toml"), folder, Format, chord_error=0.02)
+    build(read_spec(TEMPLATES / "volvo-13-44.toml"), folder, Format, FileOptions(chord_error=0.02))
     return folder
 
 
@@ -158,7 +167,7 @@ def test_every_file_of_the_reference_pair_is_there(built: Path) -> None:
 
 
 def test_equal_input_gives_equal_bytes(built: Path, tmp_path: Path) -> None:
-    build(read_spec(TEMPLATES / "volvo-13-44.toml"), tmp_path, Format, chord_error=0.02)
+    build(read_spec(TEMPLATES / "volvo-13-44.toml"), tmp_path, Format, FileOptions(chord_error=0.02))
     assert [name for name in sorted(names(built)) if (built / name).read_bytes() != (tmp_path / name).read_bytes()] == []
 
 
@@ -213,5 +222,5 @@ def test_bracket_without_bores_is_refused_and_leaves_nothing(pair: Design, tmp_p
     spec = tmp_path / "bare.toml"
     spec.write_text((TEMPLATES / "volvo-13-44.toml").read_text().replace("body.bore = 16.0", ""))
     with pytest.raises(GeometryError, match=r"pinion\.body\.bore = 0 mm: must be above 0 mm"):
-        build(read_spec(spec), tmp_path / "out", [Format.STEP], bracket=True)
+        build(read_spec(spec), tmp_path / "out", [Format.STEP], FileOptions(bracket=True))
     assert names(tmp_path) == {"bare.toml"}

@@ -16,8 +16,8 @@ from support.exact import chamfered_volume, distance_to_section, section_area, t
 from support.samples import SAMPLES
 
 from gearcad import BasicRack, Body, Gear, GearcadError, ParameterError
+from gearcad.solids import Part, write_scene, write_stl
 from gearcad.solids.facets.tessellation import Facets, tessellate
-from gearcad.solids.files.mesh_files import Part, write_scene, write_stl
 
 DEFAULT = 0.005  # mm
 ON_SURFACE = 1e-9  # mm: corners of the triangles lie on the exact surface but for rounding

@@ -1,0 +1,117 @@
+"""The formats of files: what each holds, which options it minds, and what writes it - an entry here, and a file of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gearcad.errors import require_number
+
+if TYPE_CHECKING:
+    from gearcad.solids.files.products import GearProduct, PairProduct
+
+__all__ = ["FileOptions", "Format", "formats_minding"]
+
+
+class Format(Enum):
+    """What can be written of a design, slowest first; the value is the suffix of the file."""
+
+    STEP = "step"
+    STL = "stl"
+    THREE_MF = "3mf"
+    GLB = "glb"
+    DXF = "dxf"
+    CSV = "csv"
+
+    @property
+    def entry(self) -> Entry:
+        """What there is to know of it."""
+        return _ENTRIES[self]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One format: what it holds, in words; what writes a gear, and a pair in mesh (None: it has no assemblies); which fields
+    of FileOptions matter to it.
+    """
+
+    words: str
+    write: Callable[[GearProduct, Path], None]
+    write_pair: Callable[[PairProduct, Path], None] | None = None
+    options: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class FileOptions:
+    """How files are made; which of it matters to a format stands with the format.
+
+    `chord_error` (mm) bounds the facets; `bracket` puts a pair on two shafts with a bracket; `circles` draws the tip,
+    reference, base and root circles beside a section. Raises ParameterError for a chord error that is not positive.
+    """
+
+    chord_error: float = 0.005
+    bracket: bool = False
+    circles: bool = False
+
+    def __post_init__(self) -> None:
+        require_number("chord_error", self.chord_error, "mm", above=0)
+
+    def minded_by(self, kind: Format) -> dict[str, Any]:
+        """Those that matter to a format."""
+        return {name: getattr(self, name) for name in kind.entry.options}
+
+
+def formats_minding(option: str) -> list[Format]:
+    """The formats to which a field of FileOptions matters."""
+    return [kind for kind in Format if option in kind.entry.options]
+
+
+def _step(product: GearProduct | PairProduct, path: Path) -> None:
+    from gearcad.solids.files.step import write_step
+
+    write_step(product.solid(), path, name=product.name)
+
+
+def _stl(product: GearProduct, path: Path) -> None:
+    from gearcad.solids.files.stl import write_stl
+
+    write_stl(product.facets, path)
+
+
+def _3mf(product: GearProduct | PairProduct, path: Path) -> None:
+    from gearcad.solids.files.three_mf import write_3mf
+
+    write_3mf(product.scene(), path)
+
+
+def _glb(product: GearProduct | PairProduct, path: Path) -> None:
+    from gearcad.solids.files.glb import write_glb
+
+    write_glb(product.scene(), path)
+
+
+def _dxf(product: GearProduct, path: Path) -> None:
+    from gearcad.solids.files.contour import write_dxf
+
+    write_dxf(product.gear, path, circles=product.options.circles)
+
+
+def _csv(product: GearProduct, path: Path) -> None:
+    from gearcad.solids.files.points import write_points
+
+    write_points(product.gear, path)
+
+
+_FACETED = ("chord_error",)
+
+_ENTRIES = {
+    Format.STEP: Entry("the exact solid", _step, _step, ("bracket",)),
+    Format.STL: Entry("facets within --chord-error", _stl, None, _FACETED),
+    Format.THREE_MF: Entry("facets, for printing", _3mf, _3mf, _FACETED),
+    Format.GLB: Entry("facets, for viewers", _glb, _glb, _FACETED),
+    Format.DXF: Entry("exact section, for cutting", _dxf, None, ("circles",)),
+    Format.CSV: Entry("points of flank and fillet", _csv),
+}

@@ -1,0 +1,75 @@
+"""What files hold: a gear or a pair in mesh, under the names and in the colours it has there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from gearcad.geometry import Gear, GearPair, mesh_pose
+from gearcad.per_gear import PerGear, Role
+from gearcad.solids.exact.assembly import PART_COLOURS, pair_assembly, part_names
+from gearcad.solids.exact.gear_solid import gear_solid
+from gearcad.solids.facets.tessellation import Facets, tessellate
+from gearcad.solids.files.formats import FileOptions
+from gearcad.solids.files.scene import Part
+
+if TYPE_CHECKING:
+    import cadquery
+
+__all__ = ["GearProduct", "PairProduct"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearProduct:
+    """A gear, called `name`; its facets are made once for all files that hold them."""
+
+    gear: Gear
+    name: str
+    options: FileOptions
+    colour: tuple[float, float, float] = Part.colour
+
+    @cached_property
+    def facets(self) -> Facets:
+        return tessellate(self.gear, self.options.chord_error)
+
+    def solid(self) -> cadquery.Solid:
+        """The exact solid."""
+        return gear_solid(self.gear)
+
+    def scene(self) -> list[Part]:
+        """The gear alone, unturned at the origin."""
+        return [Part(name=self.name, facets=self.facets, colour=self.colour)]
+
+
+@dataclass(frozen=True)
+class PairProduct:
+    """A pair in mesh."""
+
+    pair: GearPair
+    options: FileOptions
+
+    @property
+    def name(self) -> str:
+        return self.pair.name
+
+    @cached_property
+    def gears(self) -> PerGear[GearProduct]:
+        """The gears, each by itself."""
+        names = part_names(self.pair)
+
+        def product(role: Role) -> GearProduct:
+            name, colour = names[role.value], PART_COLOURS[role.value]
+            return GearProduct(gear=self.pair.gears.pick(role), name=name, options=self.options, colour=colour)
+
+        return PerGear.each(product)
+
+    def solid(self) -> cadquery.Assembly:
+        """The assembly of exact solids."""
+        return pair_assembly(self.pair, bracket=self.options.bracket)
+
+    def scene(self) -> list[Part]:
+        """Both gears posed in mesh."""
+        pose = mesh_pose(self.pair)
+        (pinion,), (wheel,) = self.gears.pinion.scene(), self.gears.wheel.scene()
+        return [pinion, replace(wheel, rotation=pose.rotation, offset=(pose.x, 0.0, pose.z))]
