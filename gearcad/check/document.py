@@ -6,8 +6,10 @@ import math
 from dataclasses import asdict
 from typing import Any
 
-from gearcad.check.document_solid import load_distribution, over_face, solid_mesh
-from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
+from gearcad.check.plane.result import PlaneCheck
+from gearcad.check.result import CheckResult
+from gearcad.check.solid.document import load_distribution, over_face, solid_mesh
+from gearcad.check.solid.result import SolidCheck
 from gearcad.contact.plane.cycle import PairContact
 from gearcad.contact.plane.flank import FlankCompliance
 from gearcad.contact.shared.extremes import Extreme

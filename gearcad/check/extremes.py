@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from gearcad.contact.plane.cycle import Cycle, Position
+from gearcad.contact.plane.cycle import Position
 from gearcad.contact.shared.extremes import Extreme, Quantity
-from gearcad.contact.solid.cycle import SolidCycle, SolidPosition
+from gearcad.contact.solid.cycle import SolidPosition
 
-__all__ = ["PLANE", "PRESSURE", "ROOTS", "SOLID", "STRESSES", "Extremes", "found"]
+__all__ = ["PLANE", "PRESSURE", "ROOTS", "SOLID", "STRESSES", "Extremes"]
 
 _Position: TypeAlias = Position | SolidPosition
 _Quantities: TypeAlias = tuple[Quantity[_Position], ...]
@@ -51,10 +51,3 @@ _COURSES: _Quantities = (
 PLANE: _Quantities = (*STRESSES, _compression(0), _compression(1), _bore(0), _bore(1), *_COURSES)
 SOLID: tuple[Quantity[SolidPosition], ...] = (*PLANE, Quantity("line_load_max", lambda position: position.line_load))
 """All that a summary tells."""
-
-
-def found(cycle: Cycle | SolidCycle) -> Extremes:
-    """All of a cycle."""
-    if isinstance(cycle, SolidCycle):
-        return {quantity.name: cycle.extreme(quantity) for quantity in SOLID}
-    return {quantity.name: cycle.extreme(quantity) for quantity in PLANE}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from gearcad.check.result import Task
+from gearcad.check.task import CheckTask
 from gearcad.per_gear import PerGear
 from gearcad.rating.face_load import face_load_factor, root_face_load_factor, width_to_height
 
@@ -19,7 +19,7 @@ class FaceFactors(NamedTuple):
     root: float
 
 
-def face_factors(task: Task) -> FaceFactors:
+def face_factors(task: CheckTask) -> FaceFactors:
     """From the mounting's misalignment and both helix angle modifications, over the common face width, and from nothing else.
 
     Deflections of shafts and bodies, crowning, end relief and running in are no part of it; K_v is 1.
@@ -30,7 +30,7 @@ def face_factors(task: Task) -> FaceFactors:
     return FaceFactors(misalignment, flank, root_face_load_factor(flank, width_to_height(task.pair)))
 
 
-def _mismatch(task: Task) -> PerGear[float]:
+def _mismatch(task: CheckTask) -> PerGear[float]:
     """By how much (µm) the gap grows towards larger z over the common width, by the helix angle modification of each gear."""
     width, carries_left = task.pair.common_width.width, task.torque > 0
     found = []

@@ -1,44 +1,27 @@
-"""The comparisons of a check in the plane: gates that decide, and references with a band that inform."""
+"""The comparisons that checks of both models have: gates that decide, and references with a band that inform."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from gearcad.check.comparison import Comparison, Role, Subject, against, at_most
 from gearcad.check.convergence import LEAST_ORDER, Convergence
 from gearcad.check.extremes import PRESSURE, ROOTS
-from gearcad.check.result import Task
-from gearcad.check.rim import bending_limits, bending_notes, rim_gates
-from gearcad.check.summary import PlaneSummary, Summary
-from gearcad.contact.plane.cycle import Cycle, PairContact
+from gearcad.check.rim import bending_notes
+from gearcad.check.summary import Summary
+from gearcad.check.task import CheckTask
+from gearcad.contact.plane.cycle import Cycle
+from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.per_gear import PerGear
 
-__all__ = ["REACTION", "compare_plane", "farness", "material_limits", "mesh_errors", "sampling", "standards"]
+__all__ = ["farness", "material_limits", "mesh_errors", "reactions", "sampling", "standards"]
 
-REACTION = 0.005
+_REACTION = 0.005
 """Torque on a hub against that applied: interpolation between unit loads, not equilibrium, makes up what is missing."""
 
-_HERTZ = 0.01
-_DISCRETISATION = 0.01
-
-SAMPLING = 0.002
+_SAMPLING = 0.002
 """What positions may miss of a stress."""
-
-
-def compare_plane(
-    task: Task, cycle: Cycle, summary: PlaneSummary, convergence: tuple[Convergence, ...]
-) -> tuple[Comparison, ...]:
-    """All comparisons, gates first."""
-    return (
-        *_hertz(cycle, summary),
-        *_reactions(cycle),
-        *mesh_errors(convergence, 3 * (_DISCRETISATION,), summary),
-        *sampling(summary),
-        *rim_gates(task),
-        *material_limits(task, summary),
-        *bending_limits(task, summary),
-        *standards(task, summary),
-    )
 
 
 def farness(computed: float, expected: float) -> float:
@@ -47,42 +30,14 @@ def farness(computed: float, expected: float) -> float:
     return found if math.isfinite(found) else math.inf
 
 
-def _hertz(cycle: Cycle, summary: PlaneSummary) -> Iterator[Comparison]:
-    """Peak pressure and half width against two cylinders under the load carried, where they are furthest apart."""
-    contacts = list(cycle.interior_contacts)
-    source = "Hertz: two cylinders of the flanks' curvature under the load that this pair of teeth carries"
-
-    def deviation(of: tuple[object, PairContact], name: str, reference: str) -> float:
-        computed, expected = float(getattr(of[1], name)), float(getattr(of[1], reference))
-        return farness(computed, expected)
-
-    for words, name, reference, unit in (
-        ("peak contact pressure", "peak_pressure", "hertz_pressure", "MPa"),
-        ("half width of contact", "half_width", "hertz_half_width", "mm"),
-    ):
-        if not contacts:
-            reason = summary.missing["contact_pressure"]
-            yield against(words, None, None, _HERTZ, unit, source, Role.GATE, reason=reason)
-            continue
-        position, contact = max(contacts, key=lambda of: deviation(of, name, reference))
-        note = f"the worst of {len(contacts)} interior contacts, at roll angle {position.roll_angle:.2f} deg"
-        reason = "its pressures have no width to tell" if math.isnan(getattr(contact, name)) else ""
-        yield against(words, getattr(contact, name), getattr(contact, reference), _HERTZ, unit, source, Role.GATE, note, reason)
-
-
-def _reactions(cycle: Cycle) -> Iterator[Comparison]:
-    """Torque on the hub of each gear against that applied, at the position where they differ most."""
+def reactions(torques: Iterable[PerGear[float]], cycle: Cycle | SolidCycle, source: str) -> Iterator[Comparison]:
+    """Torques (N·m) on the hubs, position by position, against those applied, where they differ most."""
     model = cycle.model
-    force = model.force(cycle.torque) * model.width / 1000
-    for gear, (owner, body) in enumerate((("pinion", model.pinion), ("wheel", model.wheel))):
-        reactions = [
-            sum(body.hub_torque(contact.centre(gear)) * contact.force for contact in position.contacts) * model.width / 1000
-            for position in cycle.every
-        ]
+    force, found = model.force(cycle.torque) * model.width / 1000, tuple(torques)
+    for role, body in PerGear(model.pinion, model.wheel).items():
         applied = force * body.flank.base_radius
-        worst = max(reactions, key=lambda reaction: farness(reaction, applied))
-        source = "equilibrium: the torque that is applied through the teeth"
-        yield against(f"torque reaction of the {owner}", worst, applied, REACTION, "N·m", source, Role.GATE)
+        worst = max((each.pick(role) for each in found), key=lambda torque: farness(torque, applied))
+        yield against(f"torque reaction of the {role.value}", worst, applied, _REACTION, "N·m", source, Role.GATE)
 
 
 def mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...], summary: Summary) -> Iterator[Comparison]:
@@ -97,10 +52,10 @@ def mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...],
         yield at_most(f"discretisation error, {each.quantity}", told, 100 * limit, "%", source, note)
 
 
-def sampling(summary: Summary, of_pressure: float = SAMPLING) -> Iterator[Comparison]:
+def sampling(summary: Summary, of_pressure: float = _SAMPLING) -> Iterator[Comparison]:
     """What the positions may miss of the stresses that are told, against what they may (relative)."""
     errors = summary.sampling_error
-    for words, names, limit in (("root stresses", ROOTS, SAMPLING), ("contact pressure", (PRESSURE,), of_pressure)):
+    for words, names, limit in (("root stresses", ROOTS, _SAMPLING), ("contact pressure", (PRESSURE,), of_pressure)):
         worst = max((each.name for each in names), key=lambda name: errors.get(name, math.inf))
         error = errors.get(worst, math.inf)
         yield at_most(
@@ -113,7 +68,7 @@ def sampling(summary: Summary, of_pressure: float = SAMPLING) -> Iterator[Compar
         )
 
 
-def material_limits(task: Task, summary: Summary) -> Iterator[Comparison]:
+def material_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
     """What the material gives a limit for."""
     material = task.material
     deep = f"{summary.von_mises_depth:.3g} mm deep" if summary.von_mises_depth is not None else ""
@@ -131,7 +86,7 @@ def material_limits(task: Task, summary: Summary) -> Iterator[Comparison]:
             yield at_most(words, value, limit, "MPa", f"limit of {material.name}", note, Subject.STRENGTH, reason)
 
 
-def standards(task: Task, summary: Summary) -> Iterator[Comparison]:
+def standards(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
     """Root stress and stiffness against ISO 6336 or DIN 3990, with a band for what the two leave out differently."""
     edition = task.rating.edition
     root, stiffness = task.options.root_band / 100, task.options.stiffness_band / 100

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from gearcad.check.comparison import Comparison, Subject, at_most
-from gearcad.check.result import Task
 from gearcad.check.summary import Summary
+from gearcad.check.task import CheckTask
 from gearcad.contact.plane.support import LEAST_RIM, Hold, Support, rim_ratio
 from gearcad.errors import format_number
 from gearcad.geometry import Gear
@@ -45,14 +45,14 @@ class _Rim(NamedTuple):
         return f"the {self.owner}'s rim ({thickness:.3g} mm, {self.ratio:.3g} tooth depths)"
 
 
-def _rims(task: Task) -> Iterator[_Rim]:
+def _rims(task: CheckTask) -> Iterator[_Rim]:
     body, pair = task.body, task.pair
     gears = zip(("pinion", "wheel"), (pair.pinion, pair.wheel), body.supports(pair), body.inner_radii(pair), strict=True)
     for owner, gear, support, radius in gears:
         yield _Rim(owner, gear, support, radius)
 
 
-def rim_gates(task: Task) -> Iterator[Comparison]:
+def rim_gates(task: CheckTask) -> Iterator[Comparison]:
     """A thin rim that is held rigidly does not bend: that is no model of it."""
     for rim in _rims(task):
         if rim.stiffened:
@@ -67,7 +67,7 @@ def rim_gates(task: Task) -> Iterator[Comparison]:
             )
 
 
-def bending_limits(task: Task, summary: Summary) -> Iterator[Comparison]:
+def bending_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
     """Where a rim bends, its roots are compressed more than stretched, and its bore is stretched too."""
     limit = task.material.root_limit
     least = limit[0] if isinstance(limit, tuple) else limit
@@ -76,13 +76,13 @@ def bending_limits(task: Task, summary: Summary) -> Iterator[Comparison]:
             continue
         for words, value, note in (
             ("root compression", abs(summary.root_compression[gear]), "where a rim bends it changes sign"),
-            ("tension on the bore", (summary.bore_tension_pinion, summary.bore_tension_wheel)[gear], "where the rim bends"),
+            ("tension on the bore", summary.bore_tension[gear], "where the rim bends"),
         ):
             source = f"limit of {task.material.name}"
             yield at_most(f"{words}, {rim.owner}", value, least, "MPa", source, note, Subject.STRENGTH)
 
 
-def bending_notes(task: Task, summary: Summary) -> tuple[str, str]:
+def bending_notes(task: CheckTask, summary: Summary) -> tuple[str, str]:
     """What the comparison of each gear's root tension with the standard's has to add where the rim bends."""
     ratings = (task.rating.pinion, task.rating.wheel)
     notes = [
@@ -95,12 +95,12 @@ def bending_notes(task: Task, summary: Summary) -> tuple[str, str]:
     return notes[0], notes[1]
 
 
-def rim_warnings(task: Task, summary: Summary) -> Iterator[str]:
+def rim_warnings(task: CheckTask, summary: Summary) -> Iterator[str]:
     """How a thin rim is taken, and what is evaluated of it."""
     for gear, rim in enumerate(_rims(task)):
         if rim.support.bends:
             tension, compression = summary.root_tension[gear], summary.root_compression[gear]
-            bore = (summary.bore_tension_pinion, summary.bore_tension_wheel)[gear]
+            bore = summary.bore_tension[gear]
             teeth = "all its teeth" if not task.body.solid else "its loaded teeth"
             yield (
                 f"{rim.words} bends: its bore is {rim.support.words} {format_number(_bore(task, gear))} mm; root tension "
@@ -118,5 +118,5 @@ def rim_warnings(task: Task, summary: Summary) -> Iterator[str]:
             )
 
 
-def _bore(task: Task, gear: int) -> float:
+def _bore(task: CheckTask, gear: int) -> float:
     return round(2 * task.body.inner_radii(task.pair)[gear], 4)

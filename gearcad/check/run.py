@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from gearcad.check.expected import expected_solid, solid_steps
 from gearcad.check.options import CheckOptions, Model
-from gearcad.check.plane import PLANE_MEMORY, PLANE_STEPS, check_plane
-from gearcad.check.result import CheckResult, Task
-from gearcad.check.solid import check_solid
+from gearcad.check.plane.run import PLANE_MEMORY, PLANE_STEPS, check_plane
+from gearcad.check.result import CheckResult
+from gearcad.check.solid.expected import expected_solid, solid_steps
+from gearcad.check.solid.run import check_solid
+from gearcad.check.task import CheckTask
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
@@ -33,7 +34,7 @@ def check_pair(
     Raises ParameterError and GeometryError for input that cannot be checked, SolverError where a solver fails.
     """
     task = _task(pair, material, load, options, mounting, rating)
-    if task.options.model_for(pair) is Model.PLANE:
+    if task.model is Model.PLANE:
         return check_plane(task, Agenda(progress, PLANE_STEPS))
     return check_solid(task, Agenda(progress, solid_steps(task)))
 
@@ -48,7 +49,7 @@ def expected_check(
 ) -> Expected:
     """What `check_pair` is expected to take. Raises what it raises for input that cannot be checked."""
     task = _task(pair, material, load, options, mounting, rating)
-    if task.options.model_for(pair) is Model.PLANE:
+    if task.model is Model.PLANE:
         return Expected(sum(PLANE_STEPS.values()), PLANE_MEMORY)
     return expected_solid(task)
 
@@ -60,9 +61,9 @@ def _task(
     options: CheckOptions | None,
     mounting: Mounting | None,
     rating: RatingOptions | None,
-) -> Task:
+) -> CheckTask:
     options, mounting = options or CheckOptions(), mounting or Mounting()
-    task = Task(
+    task = CheckTask(
         pair=mounting.mounted(pair),
         material=material,
         load=load,
@@ -74,7 +75,7 @@ def _task(
     return task
 
 
-def _require_meshing(task: Task) -> None:
+def _require_meshing(task: CheckTask) -> None:
     """Raise for what no contact analysis can make sense of."""
     if not task.torque:
         raise ParameterError("load.torque", task.torque, "must not be 0: without torque there is nothing to check", "N·m")

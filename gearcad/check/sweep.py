@@ -2,15 +2,34 @@
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
 import numpy as np
 
-from gearcad.check.result import SweepPoint
-from gearcad.check.summary import figures
+from gearcad.check.summary import by_name, figures
 from gearcad.contact.plane.cycle import Cycle
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.per_gear import PerGear
 
-__all__ = ["sweep_point"]
+__all__ = ["SweepPoint", "sweep_point"]
+
+
+class SweepPoint(NamedTuple):
+    """One torque (N·m on the pinion) of the sweep: mean mesh stiffness (N/(mm µm)), greatest pressure (None where all contacts
+    are near edges) and root tensions (MPa).
+
+    `torsional_stiffness` is M/phi of each gear (N·m/rad).
+    """
+
+    torque: float
+    mesh_stiffness: float
+    contact_pressure: float | None
+    root_tension: PerGear[float]
+    torsional_stiffness: PerGear[float]
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `check.json` has it."""
+        return by_name(self._asdict())
 
 
 def sweep_point(cycle: Cycle | SolidCycle) -> SweepPoint:

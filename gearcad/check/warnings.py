@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gearcad.check.result import Task
 from gearcad.check.summary import Summary
+from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import Cycle
 from gearcad.contact.solid.cycle import SolidCycle
 
@@ -15,7 +15,7 @@ _ABSURD = 0.03
 """Stress over modulus above which strains are no longer small."""
 
 
-def general_warnings(task: Task, cycle: Cycle | SolidCycle, summary: Summary) -> Iterator[str]:
+def general_warnings(task: CheckTask, cycle: Cycle | SolidCycle, summary: Summary) -> Iterator[str]:
     """Of the pair, of the load, and of the bodies."""
     yield from task.pair.warnings
     modulus = task.material.youngs_modulus

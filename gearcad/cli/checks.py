@@ -66,7 +66,7 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
 
 def _write_fields(result: CheckResult, folder: Path) -> None:
     """Stresses of the most stressed tooth of each gear, where the bodies are solid."""
-    from gearcad.check.result import SolidCheck
+    from gearcad.check.solid.result import SolidCheck
     from gearcad.contact.solid.field import shown_stress, worst_field, write_vtu
 
     if isinstance(result, SolidCheck):

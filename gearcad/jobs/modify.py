@@ -10,7 +10,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.check.options import CheckOptions, Model
-from gearcad.check.solid_summary import worst_place
+from gearcad.check.solid.summary import worst_place
 from gearcad.contact.optimum.search import Found, Search, conditions, start_search
 from gearcad.contact.optimum.variants import AMOUNTS, Condition, with_amounts
 from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearcad.check.result import CheckResult, PlaneCheck
+from gearcad.check.plane.result import PlaneCheck
+from gearcad.check.result import CheckResult
 from gearcad.geometry import GearPair
 from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, legend_above, prepared, short
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from gearcad.arrays import Bools, Floats
-from gearcad.check.result import SolidCheck
-from gearcad.check.solid_summary import middle_contacts
+from gearcad.check.solid.result import SolidCheck
+from gearcad.check.solid.summary import middle_contacts
 from gearcad.plots.check import PATH, mark_path
 from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, new_figure, prepared, short
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.check.result import PlaneCheck
+from gearcad.check.plane.result import PlaneCheck
 from gearcad.contact.plane.cycle import root_loads
 from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.plane.field import ToothField, contact_frame, tooth_field

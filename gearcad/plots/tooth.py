@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.check.result import SolidCheck
+from gearcad.check.solid.result import SolidCheck
 from gearcad.contact.solid.field import shown_stress, worst_field
 from gearcad.plots.paper import new_figure
 

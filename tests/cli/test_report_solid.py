@@ -110,8 +110,8 @@ def test_reasons_tell_width_unevenness_and_the_rest(document: lxml.html.HtmlElem
 def test_backwards_and_without_a_finer_mesh(text: str) -> None:
     result = small_solid_check()
     inside = tuple(each for each in result.comparisons if not each.quantity.startswith("change on"))
-    load = replace(result.load, torque=-result.load.torque)
-    changed = report_html(replace(result, convergence=(), comparisons=inside, load=load), "plain")
+    task = replace(result.task, load=replace(result.load, torque=-result.load.torque))
+    changed = report_html(replace(result, convergence=(), comparisons=inside, task=task), "plain")
     report = lxml.html.document_fromstring(changed)
     assert report.xpath("//h2[text()='Convergence']") == []
     assert len(report.xpath("//figure")) == _FIGURES + _VIEWS + _PORTRAIT - 1

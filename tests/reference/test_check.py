@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, Body, Gear, GearPair, Material
-from gearcad.check.summary import PlaneSummary, summarise
+from gearcad.check.plane.summary import PlaneSummary, summarise_plane
 from gearcad.contact.plane.cycle import Cycle, run_cycle
 from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.plane.pair import BodyModel, flexible_pair
@@ -53,7 +53,7 @@ def cycle(body: BodyModel | None = None, plane: Plane = Plane.STRAIN, positions:
 
 
 def summary(of: Cycle) -> PlaneSummary:
-    return summarise(of, 0.0)
+    return summarise_plane(of, 0.0)
 
 
 def test_full_rings() -> None:

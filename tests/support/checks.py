@@ -8,12 +8,15 @@ from functools import lru_cache
 from gearcad import Body, Gear, GearPair, Load, Material, Mounting
 from gearcad.check.convergence import Convergence
 from gearcad.check.extremes import PLANE, SOLID
-from gearcad.check.judge import compare_plane
-from gearcad.check.judge_solid import compare_solid
 from gearcad.check.options import CheckOptions
-from gearcad.check.result import PlaneCheck, SolidCheck, SweepPoint, Task
-from gearcad.check.solid_summary import summarise_solid
-from gearcad.check.summary import summarise
+from gearcad.check.plane.judge import compare_plane
+from gearcad.check.plane.result import PlaneCheck
+from gearcad.check.plane.summary import summarise_plane
+from gearcad.check.solid.judge import compare_solid
+from gearcad.check.solid.result import SolidCheck
+from gearcad.check.solid.summary import summarise_solid
+from gearcad.check.sweep import SweepPoint
+from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import run_cycle, single_stiffness
 from gearcad.contact.plane.pair import flexible_pair
 from gearcad.contact.solid.cycle import run_solid_cycle, solid_single_stiffness
@@ -41,7 +44,7 @@ def small_check() -> PlaneCheck:
     options = CheckOptions(positions=_POSITIONS)
     model = flexible_pair(pair, material)
     cycle = run_cycle(model, load.torque, _POSITIONS).searched(PLANE)
-    summary = summarise(cycle, single_stiffness(model, load.torque, 5))
+    summary = summarise_plane(cycle, single_stiffness(model, load.torque, 5))
     convergence = (
         Convergence("mean mesh stiffness", (15.4, 15.3, 15.2), (0.5, 1.0, 2.0), None, 0.006),
         Convergence("root tension, pinion", (380.0, 374.0, 372.0), (0.5, 1.0, 2.0), 1.58, 0.0081),
@@ -51,9 +54,9 @@ def small_check() -> PlaneCheck:
         SweepPoint(302.0, 15.2, 1700.0, PerGear(370.0, 350.0), PerGear(5.6e5, 9.8e5)),
         SweepPoint(75.5, 14.5, 850.0, PerGear(92.5, 87.5), PerGear(5.2e5, 9.2e5)),
     )
-    task = Task(pair=pair, material=material, load=load, mounting=Mounting(), options=options)
+    task = CheckTask(pair=pair, material=material, load=load, mounting=Mounting(), options=options)
     return PlaneCheck(
-        **task.inputs,
+        task=task,
         cycle=cycle,
         summary=summary,
         sweep=sweep,
@@ -71,7 +74,7 @@ def small_solid_check() -> SolidCheck:
     pair = replace(plain.pair, pinion=replace(plain.pair.pinion, modification=crowned))
     material, mounting = Material(name=NASTY_NAME, root_limit=300.0, yield_strength=2000.0), Mounting(misalignment=10.0)
     options = CheckOptions(model="3d", positions=12, body_teeth=3, refinement=0.7)
-    task = Task(pair=pair, material=material, load=Load(torque=torque), mounting=mounting, options=options)
+    task = CheckTask(pair=pair, material=material, load=Load(torque=torque), mounting=mounting, options=options)
     model = plain.remade(pair, mounting)
     cycle = run_solid_cycle(model, torque, 12).searched(SOLID)
     summary = summarise_solid(cycle, solid_single_stiffness(model, torque, 5))
@@ -85,7 +88,7 @@ def small_solid_check() -> SolidCheck:
         SweepPoint(30.0, 11.5, 700.0, PerGear(76.0, 77.0), PerGear(2.2e5, 4.2e5)),
     )
     return SolidCheck(
-        **task.inputs,
+        task=task,
         cycle=cycle,
         summary=summary,
         sweep=sweep,

@@ -11,24 +11,19 @@ from support.coarse import coarse_model
 from gearcad import Load, Material, Mounting
 from gearcad.check.face import face_factors
 from gearcad.check.judge import standards
-from gearcad.check.judge_solid import compare_solid
 from gearcad.check.options import CheckOptions
-from gearcad.check.result import Task
-from gearcad.check.solid_summary import summarise_solid
+from gearcad.check.solid.judge import compare_solid
+from gearcad.check.solid.summary import summarise_solid
+from gearcad.check.task import CheckTask
 from gearcad.contact.solid.cycle import run_solid_cycle
 
 _UNEVEN = 0.05
 """How uneven exact flanks of aligned spur gears carry along the face, away from its ends; 46 % against the mean length."""
 
 
-def task_of(result: Task, **changes: object) -> Task:
-    """The task of a check with changes."""
-    return replace(Task(**result.inputs), **changes)
-
-
 def test_references_of_stiffness_are_those_of_the_load() -> None:
     """15.12 N·m are 30 N/mm: ISO 6336-1 (90) leaves 0.3^0.25 of the stiffness that 302 N·m have."""
-    heavy, light = (task_of(small_check(), load=Load(torque=torque)) for torque in (302.0, 15.12))
+    heavy, light = (replace(small_check().task, load=Load(torque=torque)) for torque in (302.0, 15.12))
     assert light.rating.specific_load == pytest.approx(30.0)
     found = [{each.quantity: each.reference for each in standards(task, small_check().summary)} for task in (heavy, light)]
     for quantity in ("mean mesh stiffness", "single stiffness"):
@@ -37,9 +32,9 @@ def test_references_of_stiffness_are_those_of_the_load() -> None:
 
 def test_misalignment_meets_the_stiffness_of_the_load() -> None:
     """K_H_beta - 1 goes with c_gamma_beta over the load: with the power -3/4 of a load below 100 N/mm."""
-    task = task_of(small_solid_check())
+    task = small_solid_check().task
     width, radius = task.pair.common_width.width, task.pair.pinion.reference_diameter / 2000
-    factors = [face_factors(task_of(task, load=Load(torque=load * width * radius))).flank for load in (95.0, 90.0)]
+    factors = [face_factors(replace(task, load=Load(torque=load * width * radius))).flank for load in (95.0, 90.0)]
     assert all(factor < 2 for factor in factors)
     assert (factors[1] - 1) / (factors[0] - 1) == pytest.approx((90 / 95) ** -0.75, rel=1e-9)
 
@@ -47,7 +42,7 @@ def test_misalignment_meets_the_stiffness_of_the_load() -> None:
 def test_the_greatest_line_load_is_held_against_the_shortest_lines() -> None:
     """Spur gears carry all of the load on one line of the common width: what is above that is unevenness along it alone."""
     model, load = coarse_model("FZG C"), Load(torque=302.0)
-    task = Task(pair=model.pair, material=Material(), load=load, mounting=Mounting(), options=CheckOptions(model="3d"))
+    task = CheckTask(pair=model.pair, material=Material(), load=load, mounting=Mounting(), options=CheckOptions(model="3d"))
     cycle = run_solid_cycle(model, load.torque, 12)
     found = {each.quantity: each for each in compare_solid(task, cycle, summarise_solid(cycle, 12.0), ())}
     line = found["greatest line load"]

@@ -79,12 +79,12 @@ _LIMITS = ("contact pressure", "root stress", "von Mises stress below the flank"
     ],
 )
 def test_one_line_tells_what_was_judged(gates: list[Comparison], material: Material, said: str, passed: bool) -> None:
-    result = replace(small_check(), comparisons=tuple(gates), material=material)
+    result = replace(small_check(), comparisons=tuple(gates), task=replace(small_check().task, material=material))
     assert (result.verdict, result.passed) == (said, passed)
 
 
 def test_the_screen_keeps_columns_apart_and_tells_the_use_of_limits(capsys: pytest.CaptureFixture[str]) -> None:
-    result = replace(small_check(), load=Load(torque=30200.0))
+    result = replace(small_check(), task=replace(small_check().task, load=Load(torque=30200.0)))
     huge = against("root stress, wheel", -2.0594e5, 4.0592e14, 0.25, "MPa", "ISO 6336", Role.INFORMATION)
     silent = against("peak contact pressure", None, None, 0.01, "MPa", "Hertz", Role.GATE, reason="no contact is inside")
     changed = replace(result, comparisons=(gate(87.25), silent, huge), warnings=("the rim is thin",))

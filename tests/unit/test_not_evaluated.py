@@ -15,11 +15,14 @@ from support.coarse import coarse_model
 from gearcad import Load, Material
 from gearcad.check.comparison import Role, Verdict
 from gearcad.check.document import check_document
-from gearcad.check.judge import compare_plane
-from gearcad.check.judge_solid import compare_solid
-from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
-from gearcad.check.solid_summary import SolidSummary, summarise_solid
-from gearcad.check.summary import PlaneSummary, Summary, summarise
+from gearcad.check.plane.judge import compare_plane
+from gearcad.check.plane.result import PlaneCheck
+from gearcad.check.plane.summary import PlaneSummary, summarise_plane
+from gearcad.check.result import CheckResult
+from gearcad.check.solid.judge import compare_solid
+from gearcad.check.solid.result import SolidCheck
+from gearcad.check.solid.summary import SolidSummary, summarise_solid
+from gearcad.check.summary import Summary
 from gearcad.check.sweep import sweep_point
 from gearcad.check.warnings import general_warnings
 from gearcad.contact.plane.cycle import PairContact, run_cycle
@@ -37,9 +40,10 @@ def overloaded_plane() -> PlaneCheck:
     """FZG C at 3e5 N·m: contacts are wider than the flanks."""
     result, load = small_check(), Load(torque=3e5)
     cycle = run_cycle(result.cycle.model, load.torque, 12)
-    summary, sweep = summarise(cycle, 12.0), (sweep_point(cycle), sweep_point(run_cycle(result.cycle.model, 3e4, 4)))
-    changed = replace(result, load=load, material=LIMITS, cycle=cycle, summary=summary, sweep=sweep)
-    return replace(changed, comparisons=compare_plane(changed, cycle, summary, result.convergence))
+    summary, sweep = summarise_plane(cycle, 12.0), (sweep_point(cycle), sweep_point(run_cycle(result.cycle.model, 3e4, 4)))
+    task = replace(result.task, load=load, material=LIMITS)
+    changed = replace(result, task=task, cycle=cycle, summary=summary, sweep=sweep)
+    return replace(changed, comparisons=compare_plane(task, cycle, summary, result.convergence))
 
 
 @cache
@@ -48,8 +52,9 @@ def overloaded_solid() -> SolidCheck:
     result, load = small_solid_check(), Load(torque=2e4)
     cycle = run_solid_cycle(coarse_model("helical"), load.torque, 6)
     summary, sweep = summarise_solid(cycle, 12.0), (sweep_point(cycle), *result.sweep)
-    changed = replace(result, load=load, material=LIMITS, cycle=cycle, summary=summary, sweep=sweep)
-    return replace(changed, comparisons=compare_solid(changed, cycle, summary, result.convergence))
+    task = replace(result.task, load=load, material=LIMITS)
+    changed = replace(result, task=task, cycle=cycle, summary=summary, sweep=sweep)
+    return replace(changed, comparisons=compare_solid(task, cycle, summary, result.convergence))
 
 
 def nulls(result: CheckResult) -> set[str]:
@@ -85,7 +90,7 @@ def test_gates_without_a_figure_fail_and_say_why(overloaded: object) -> None:
     assert (result.numerics, result.strength, result.passed) == (Verdict.FAILED, Verdict.FAILED, False)
     # Both root stresses are there, and below their limit.
     assert all(each.passed for each in result.comparisons if each.quantity.startswith("root stress") and each.role is Role.GATE)
-    warnings = list(general_warnings(result, result.cycle, result.summary))
+    warnings = list(general_warnings(result.task, result.cycle, result.summary))
     assert any("the root stress is" in text and "linear elasticity means little" in text for text in warnings)
 
 
@@ -102,7 +107,7 @@ def test_the_report_says_what_is_not_there(overloaded: object, monkeypatch: pyte
 def summary_of(model: str, count: int) -> Summary:
     """That of a mesh cycle of very few positions."""
     if model == "2d":
-        return summarise(run_cycle(small_check().cycle.model, 302.0, count), 12.0)
+        return summarise_plane(run_cycle(small_check().cycle.model, 302.0, count), 12.0)
     return summarise_solid(run_solid_cycle(coarse_model("FZG C"), 302.0, count), 12.0)
 
 
@@ -121,7 +126,7 @@ def test_a_tooth_that_stands_back_does_not_touch_at_the_pitch_point() -> None:
     """Then its neighbours carry; there is no pressure to tell, and its share of the load is none."""
     model = small_check().cycle.model
     back = replace(model, line=replace(model.line, proud=-2.0))
-    summary = summarise(run_cycle(back, 30.0, 4), 12.0)
+    summary = summarise_plane(run_cycle(back, 30.0, 4), 12.0)
     assert (summary.contact_pressure_pitch_point, summary.half_width_pitch_point) == (None, None)
     assert summary.share_pitch_point == 0.0
     assert "does not touch" in summary.missing["contact_pressure_pitch_point"]

@@ -9,9 +9,9 @@ from support.checks import small_check
 
 from gearcad import Body, Gear, GearPair, Material
 from gearcad.check.judge import standards
-from gearcad.check.plane import plane_warnings
-from gearcad.check.result import Task
+from gearcad.check.plane.run import plane_warnings
 from gearcad.check.summary import Figures, figures
+from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import run_cycle
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
 from gearcad.contact.plane.pair import flexible_pair
@@ -23,9 +23,9 @@ from gearcad.stiffness import PlaneStrainContact, PlaneStressContact, StrainEner
 STRAIN, STRESS = (PlaneElasticity(Material(), plane) for plane in Plane)
 
 
-def task_of(pair: GearPair, **changes: object) -> Task:
+def task_of(pair: GearPair, **changes: object) -> CheckTask:
     """The task of a small check with another pair, and changes."""
-    return replace(Task(**small_check().inputs), pair=pair, **changes)
+    return replace(small_check().task, pair=pair, **changes)
 
 
 def fzg(pinion_width: float, wheel_width: float) -> GearPair:

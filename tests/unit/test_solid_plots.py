@@ -10,7 +10,7 @@ from support.checks import small_solid_check
 
 from gearcad import Material
 from gearcad.check.face import face_factors
-from gearcad.check.solid_summary import middle_contacts
+from gearcad.check.solid.summary import middle_contacts
 from gearcad.contact.solid.field import nodal_stress, worst_field
 from gearcad.meshing.outline import Side
 from gearcad.plots.check import plot_mesh_stiffness, plot_root_stress, plot_transmission_error
@@ -120,7 +120,7 @@ def test_misalignment_of_method_c_is_that_of_the_gap():
         type(form.modification)(helix_angle_modification=6.0), *[form.first, form.last], form.width, 1.0, form.hand
     )
     grows = 1000 * float(turned.depth(form.last, form.width) - turned.depth(form.last, 0.0))
-    factors = face_factors(result)
+    factors = face_factors(result.task)
     assert factors.misalignment == pytest.approx(10.0 + grows)
     specific, stiffness = result.rating.specific_load, result.rating.stiffness.mesh_beta
     assert factors.flank == pytest.approx(1 + abs(factors.misalignment) * stiffness / (2 * specific))

@@ -7,8 +7,8 @@ import pytest
 
 from gearcad import Gear, GearPair, Load, Material, Mounting, symbols
 from gearcad.check.options import CheckOptions
-from gearcad.check.solid_summary import SolidSummary
-from gearcad.check.summary import PlaneSummary
+from gearcad.check.plane.summary import PlaneSummary
+from gearcad.check.solid.summary import SolidSummary
 from gearcad.columns import column_symbol
 from gearcad.designs.keys import COLUMNS
 from gearcad.dynamics.options import DynamicsOptions

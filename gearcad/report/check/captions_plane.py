@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearcad.check.result import PlaneCheck
+from gearcad.check.plane.result import PlaneCheck
 from gearcad.contact.plane.cycle import PairContact
 from gearcad.contact.plane.field import ToothField
 from gearcad.plots.paper import short

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from gearcad.check.convergence import SOLID_ORDER
-from gearcad.check.result import SolidCheck
-from gearcad.check.solid_summary import middle_contacts
+from gearcad.check.solid.result import SolidCheck
+from gearcad.check.solid.summary import middle_contacts
 from gearcad.plots.paper import short
 from gearcad.report.check.captions import number
 

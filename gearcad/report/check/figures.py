@@ -8,7 +8,9 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
-from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
+from gearcad.check.plane.result import PlaneCheck
+from gearcad.check.result import CheckResult
+from gearcad.check.solid.result import SolidCheck
 from gearcad.geometry import GearPair
 from gearcad.plots.check import (
     plot_contact_pressure,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearcad.check.result import PlaneCheck
+from gearcad.check.plane.result import PlaneCheck
 from gearcad.meshing.outline import Side
 from gearcad.plots.paper import short
 from gearcad.report.check.captions_plane import share_at

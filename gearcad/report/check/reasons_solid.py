@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from gearcad.check.face import face_factors
-from gearcad.check.result import SolidCheck
-from gearcad.check.solid_summary import WorstPlace, worst_place
+from gearcad.check.solid.result import SolidCheck
+from gearcad.check.solid.summary import WorstPlace, worst_place
 from gearcad.geometry.path import contact_line_lengths
 from gearcad.plots.paper import short
 
@@ -47,7 +47,7 @@ def _root_reason(result: SolidCheck, gear: int, name: str) -> str:
 
 def face_reasons(result: SolidCheck) -> list[str]:
     """Load along the lines of contact, and along the face width."""
-    summary, rating, factors = result.summary, result.rating, face_factors(result)
+    summary, rating, factors = result.summary, result.rating, face_factors(result.task)
     length = contact_line_lengths(result.pair).mean
     mean = rating.normal_force * rating.application_factor / length
     worst = worst_place(result.cycle)

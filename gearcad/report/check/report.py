@@ -7,7 +7,9 @@ from typing import Any
 
 from gearcad.check.comparison import Comparison, Role
 from gearcad.check.convergence import SOLID_ORDER
-from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
+from gearcad.check.plane.result import PlaneCheck
+from gearcad.check.result import CheckResult
+from gearcad.check.solid.result import SolidCheck
 from gearcad.plots.paper import short
 from gearcad.report.check.figures import make_figures, pair_picture
 from gearcad.report.check.reasons import stiffness_reasons

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearcad.check.result import CheckResult, SolidCheck
+from gearcad.check.result import CheckResult
+from gearcad.check.solid.result import SolidCheck
 from gearcad.plots.paper import short
 from gearcad.plots.tooth import COLOUR_MAP, PITCH, YAW, ToothSurface, plot_tooth, tooth_surface
 from gearcad.report.check import captions_solid

@@ -7,7 +7,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
+from gearcad.check.plane.result import PlaneCheck
+from gearcad.check.result import CheckResult
+from gearcad.check.solid.result import SolidCheck
 from gearcad.contact.plane.elasticity import Plane
 from gearcad.errors import GearcadError
 from gearcad.mesh_cycle import MeshCycle

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gearcad.check.convergence import FEW_POSITIONS, SOLID_FACTORS
 from gearcad.check.options import Model
-from gearcad.check.result import Task
+from gearcad.check.task import CheckTask
 from gearcad.contact.solid.cost import POSITION_SECONDS
 from gearcad.contact.solid.pair import SolidSizes, expected_bodies, loaded_left
 from gearcad.progress import Expected
@@ -24,19 +24,19 @@ _PROGRAM = 0.15e9
 """Bytes of Python and its libraries."""
 
 
-def sizes_of(task: Task, factor: float) -> SolidSizes:
+def sizes_of(task: CheckTask, factor: float) -> SolidSizes:
     """Sizes of the check's mesh, refined by a factor."""
     return SolidSizes().refined(factor * task.options.refinement)
 
 
-def _bodies(task: Task) -> dict[str, Expected]:
+def _bodies(task: CheckTask) -> dict[str, Expected]:
     factors = dict(zip((COARSER, BODIES, FINER), SOLID_FACTORS, strict=True))
     wanted = (BODIES, COARSER, FINER) if task.options.refines else (BODIES,)
     pair = loaded_left(task.pair, task.torque)
     return {name: expected_bodies(pair, task.body, sizes_of(task, factors[name])) for name in wanted}
 
 
-def solid_steps(task: Task) -> dict[str, float]:
+def solid_steps(task: CheckTask) -> dict[str, float]:
     """Seconds expected of each step, in order."""
     few = _SOUGHT * FEW_POSITIONS * POSITION_SECONDS
     bodies = {name: each.seconds + few for name, each in _bodies(task).items()}
@@ -50,7 +50,7 @@ def solid_steps(task: Task) -> dict[str, float]:
     }
 
 
-def expected_solid(task: Task) -> Expected:
+def expected_solid(task: CheckTask) -> Expected:
     """Of the whole check: the bodies of the check's own mesh are kept while the others are solved."""
     memory = [each.memory for each in _bodies(task).values()]
     return Expected(sum(solid_steps(task).values()), _PROGRAM + memory[0] + max(memory[1:], default=0.0))

@@ -8,12 +8,13 @@ from collections.abc import Iterator
 from gearcad.check.comparison import Comparison, Role, against
 from gearcad.check.convergence import Convergence
 from gearcad.check.face import face_factors
-from gearcad.check.judge import REACTION, farness, material_limits, mesh_errors, sampling, standards
-from gearcad.check.result import Task
+from gearcad.check.judge import material_limits, mesh_errors, reactions, sampling, standards
 from gearcad.check.rim import bending_limits, rim_gates
-from gearcad.check.solid_summary import SolidSummary
+from gearcad.check.solid.summary import SolidSummary
+from gearcad.check.task import CheckTask
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.geometry.path import contact_line_lengths
+from gearcad.per_gear import PerGear
 
 __all__ = ["compare_solid"]
 
@@ -26,11 +27,12 @@ _FLICKER = 0.03
 
 
 def compare_solid(
-    task: Task, cycle: SolidCycle, summary: SolidSummary, convergence: tuple[Convergence, ...]
+    task: CheckTask, cycle: SolidCycle, summary: SolidSummary, convergence: tuple[Convergence, ...]
 ) -> tuple[Comparison, ...]:
     """All comparisons, gates first."""
+    source = f"equilibrium: the torque that is applied through the teeth, at the worst of {len(cycle.every)} positions"
     return (
-        *_reactions(cycle),
+        *reactions((PerGear(*position.torques) for position in cycle.every), cycle, source),
         *mesh_errors(convergence, _ERRORS, summary),
         *sampling(summary, _FLICKER),
         *rim_gates(task),
@@ -42,17 +44,7 @@ def compare_solid(
     )
 
 
-def _reactions(cycle: SolidCycle) -> Iterator[Comparison]:
-    """Torque on the hub of each gear against that applied, at the position where they differ most."""
-    source = f"equilibrium: the torque that is applied through the teeth, at the worst of {len(cycle.every)} positions"
-    force = cycle.model.force(cycle.torque) * cycle.model.width / 1000
-    for gear, (owner, body) in enumerate((("pinion", cycle.model.pinion), ("wheel", cycle.model.wheel))):
-        applied = force * body.flank.base_radius
-        worst = max((position.torques[gear] for position in cycle.every), key=lambda torque: farness(torque, applied))
-        yield against(f"torque reaction of the {owner}", worst, applied, REACTION, "N·m", source, Role.GATE)
-
-
-def _contact(task: Task, summary: SolidSummary) -> Iterator[Comparison]:
+def _contact(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
     """Pressure and lines of contact against part 2 of the standard and the geometry."""
     band, rating = task.options.contact_band / 100, task.rating
     away, middle = "the FE's is the greatest of all places away from edges", "in the middle of the common face width"
@@ -89,7 +81,7 @@ def _contact(task: Task, summary: SolidSummary) -> Iterator[Comparison]:
     )
 
 
-def _face(task: Task, summary: SolidSummary) -> Iterator[Comparison]:
+def _face(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
     """Face load factors against Method C."""
     band, factors = task.options.contact_band / 100, face_factors(task)
     note = (

@@ -6,12 +6,13 @@ from collections.abc import Iterator
 
 from gearcad.check.convergence import FACTORS, FEW_POSITIONS, three_meshes
 from gearcad.check.extremes import PLANE, ROOTS, STRESSES
-from gearcad.check.judge import compare_plane
 from gearcad.check.options import Model
-from gearcad.check.result import PlaneCheck, Task
+from gearcad.check.plane.judge import compare_plane
+from gearcad.check.plane.result import PlaneCheck
+from gearcad.check.plane.summary import summarise_plane
 from gearcad.check.rim import rim_warnings
-from gearcad.check.summary import summarise
 from gearcad.check.sweep import sweep_point
+from gearcad.check.task import CheckTask
 from gearcad.check.warnings import corner_warnings, general_warnings
 from gearcad.contact.plane.cycle import Cycle, run_cycle, single_stiffness
 from gearcad.contact.plane.elasticity import PlaneElasticity
@@ -32,12 +33,12 @@ PLANE_MEMORY = 0.4e9
 """Bytes."""
 
 
-def check_plane(task: Task, tell: Agenda) -> PlaneCheck:
+def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     """Check in the transverse section through the middle of the common face width. Raises what `check_pair` does."""
     tell("mesh cycle")
     model = _model(task, 1.0)
     cycle = run_cycle(model, task.torque, task.options.positions_of(Model.PLANE)).searched(PLANE)
-    summary = summarise(cycle, single_stiffness(model, task.torque))
+    summary = summarise_plane(cycle, single_stiffness(model, task.torque))
     tell("convergence")
     convergence = three_meshes(_refined(task, model)) if task.options.refines else ()
     tell("torque sweep")
@@ -51,7 +52,7 @@ def check_plane(task: Task, tell: Agenda) -> PlaneCheck:
         *plane_warnings(task, model.pinion.elasticity),
     )
     return PlaneCheck(
-        **task.inputs,
+        task=task,
         cycle=cycle,
         summary=summary,
         sweep=sweep,
@@ -61,20 +62,20 @@ def check_plane(task: Task, tell: Agenda) -> PlaneCheck:
     )
 
 
-def _model(task: Task, factor: float) -> FlexiblePair:
+def _model(task: CheckTask, factor: float) -> FlexiblePair:
     options = task.options
     sizes = MeshSizes().refined(factor * options.refinement)
     error = task.mounting.pitch_error
     return flexible_pair(task.pair, task.material, plane=options.plane_state, body=task.body, sizes=sizes, pitch_error=error)
 
 
-def _refined(task: Task, middle: FlexiblePair) -> Iterator[Cycle]:
+def _refined(task: CheckTask, middle: FlexiblePair) -> Iterator[Cycle]:
     for factor in FACTORS:
         model = middle if factor == 1 else _model(task, factor)
         yield run_cycle(model, task.torque, FEW_POSITIONS).searched(ROOTS)
 
 
-def plane_warnings(task: Task, elasticity: PlaneElasticity) -> Iterator[str]:
+def plane_warnings(task: CheckTask, elasticity: PlaneElasticity) -> Iterator[str]:
     """What a plane does not know of these bodies."""
     yield from thin_faces(task.pair, elasticity)
     yield from plane_pressure(elasticity)
@@ -82,7 +83,7 @@ def plane_warnings(task: Task, elasticity: PlaneElasticity) -> Iterator[str]:
     yield from _left_out(task)
 
 
-def _wider_gears(task: Task) -> Iterator[str]:
+def _wider_gears(task: CheckTask) -> Iterator[str]:
     """Gears whose root carries over more than the common width."""
     common = task.pair.common_width.width
     gears = (("pinion", task.pair.pinion, task.rating.pinion), ("wheel", task.pair.wheel, task.rating.wheel))
@@ -95,7 +96,7 @@ def _wider_gears(task: Task) -> Iterator[str]:
             )
 
 
-def _left_out(task: Task) -> list[str]:
+def _left_out(task: CheckTask) -> list[str]:
     gears = (("pinion", task.pair.pinion), ("wheel", task.pair.wheel))
     left_out = [f"the {name}'s modifications along the face width" for name, gear in gears if gear.modification.along_face]
     left_out += ["the misalignment"] if task.mounting.misalignment or task.mounting.misalignment_across else []

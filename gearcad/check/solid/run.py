@@ -6,14 +6,15 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from gearcad.check.convergence import FEW_POSITIONS, SOLID_FACTORS, three_solid_meshes
-from gearcad.check.expected import BODIES, COARSER, CYCLE, FINER, RATING, SWEEP, sizes_of
 from gearcad.check.extremes import ROOTS, SOLID, STRESSES
-from gearcad.check.judge_solid import compare_solid
 from gearcad.check.options import Model
-from gearcad.check.result import SolidCheck, Task
 from gearcad.check.rim import rim_warnings
-from gearcad.check.solid_summary import SolidSummary, summarise_solid
+from gearcad.check.solid.expected import BODIES, COARSER, CYCLE, FINER, RATING, SWEEP, sizes_of
+from gearcad.check.solid.judge import compare_solid
+from gearcad.check.solid.result import SolidCheck
+from gearcad.check.solid.summary import SolidSummary, summarise_solid
 from gearcad.check.sweep import sweep_point
+from gearcad.check.task import CheckTask
 from gearcad.check.warnings import corner_warnings, general_warnings
 from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle, solid_single_stiffness
 from gearcad.contact.solid.pair import SolidPair, loaded_left, solid_pair
@@ -25,7 +26,7 @@ _EDGE_RATIO = 1.5
 """Pressure beside an edge, over the greatest away from edges, from which on it is worth a warning."""
 
 
-def check_solid(task: Task, agenda: Agenda) -> SolidCheck:
+def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     """Check the bodies over their face widths. Raises what `check_pair` does.
 
     The model's left flanks carry. A negative torque loads the right ones: the pair is then mirrored in the plane x-z, which
@@ -48,7 +49,7 @@ def check_solid(task: Task, agenda: Agenda) -> SolidCheck:
         *_edge_warnings(cycle, summary),
     )
     return SolidCheck(
-        **task.inputs,
+        task=task,
         cycle=cycle,
         summary=summary,
         sweep=sweep,
@@ -58,13 +59,13 @@ def check_solid(task: Task, agenda: Agenda) -> SolidCheck:
     )
 
 
-def _model(task: Task, factor: float, tell: Share) -> SolidPair:
+def _model(task: CheckTask, factor: float, tell: Share) -> SolidPair:
     sizes = sizes_of(task, factor)
     pair, mounting = loaded_left(task.pair, task.torque), replace(task.mounting, centre_distance_change=0.0)
     return solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, tell=tell)
 
 
-def _refined(task: Task, middle: SolidPair, agenda: Agenda) -> Iterator[SolidCycle]:
+def _refined(task: CheckTask, middle: SolidPair, agenda: Agenda) -> Iterator[SolidCycle]:
     """The cycles of coarser, own and finer bodies; none but the own are kept."""
     coarser, _, finer = SOLID_FACTORS
     yield _few(_model(task, coarser, agenda.within(COARSER)), task)
@@ -72,7 +73,7 @@ def _refined(task: Task, middle: SolidPair, agenda: Agenda) -> Iterator[SolidCyc
     yield _few(_model(task, finer, agenda.within(FINER)), task)
 
 
-def _few(model: SolidPair, task: Task) -> SolidCycle:
+def _few(model: SolidPair, task: CheckTask) -> SolidCycle:
     return run_solid_cycle(model, task.torque, FEW_POSITIONS).searched(ROOTS)
 
 

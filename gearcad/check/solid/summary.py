@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.check.summary import Summary, common_summary
+from gearcad.check.extremes import SOLID
+from gearcad.check.summary import Summary, common_figures
 from gearcad.contact.solid.contact import INTERIOR, SolidContact
 from gearcad.contact.solid.cycle import SolidCycle, SolidPosition, solid_pitch_point_contact
 from gearcad.per_gear import PerGear
@@ -88,11 +89,15 @@ def summarise_solid(cycle: SolidCycle, single: float) -> SolidSummary:
     peaks = [cycle.worst_position(gear).tension[gear] for gear in (0, 1)]
     worst, at_pitch = worst_place(cycle), solid_pitch_point_contact(cycle.model, cycle.torque)
     pressure, width, reason = _at_pitch(at_pitch)
-    common = common_summary(cycle, single)
-    line_load = common["extremes"]["line_load_max"]
+    below = _below(cycle, worst) if worst is not None else _Below(None, None, None, PerGear(None, None))
+    extremes = {quantity.name: cycle.extreme(quantity) for quantity in SOLID}
+    line_load = extremes["line_load_max"]
     return SolidSummary(
-        **common,
-        **_at_worst(cycle, worst),
+        **common_figures(cycle, extremes, single),
+        von_mises=below.von_mises,
+        von_mises_depth=below.depth,
+        contact_pressure_across=below.across,
+        contact_pressure_radius=below.radius,
         contact_pressure_pitch_point=pressure,
         half_width_pitch_point=width,
         share_pitch_point=at_pitch.share if at_pitch is not None else 0.0,
@@ -122,19 +127,20 @@ def _nothing_inside(cycle: SolidCycle) -> dict[str, str]:
     return dict.fromkeys((*_AT_WORST, "line_load_max"), reason)
 
 
-def _at_worst(cycle: SolidCycle, worst: WorstPlace | None) -> dict[str, Any]:
-    """Where the greatest pressure is, and the stress below it."""
-    if worst is None:
-        return dict.fromkeys(_AT_WORST[1:]) | {"contact_pressure_radius": PerGear(None, None)}
-    line, below = worst.contact.line, line_contact(cycle, worst).greatest_von_mises
+class _Below(NamedTuple):
+    """Where the greatest pressure is (mm), and the stress below it (MPa) and its depth (mm)."""
+
+    von_mises: float | None
+    depth: float | None
+    across: float | None
+    radius: PerGear[float] | PerGear[None]
+
+
+def _below(cycle: SolidCycle, worst: WorstPlace) -> _Below:
+    line, stress = worst.contact.line, line_contact(cycle, worst).greatest_von_mises
     bases = (cycle.model.pinion.flank.base_radius, cycle.model.wheel.flank.base_radius)
     lengths = (worst.of(line.pinion[0]), worst.of(line.wheel[0]))
-    return {
-        "von_mises": below.value,
-        "von_mises_depth": below.depth,
-        "contact_pressure_across": worst.of(line.across),
-        "contact_pressure_radius": PerGear(*map(math.hypot, bases, lengths)),
-    }
+    return _Below(stress.value, stress.depth, worst.of(line.across), PerGear(*map(math.hypot, bases, lengths)))
 
 
 def _at_pitch(contact: SolidContact | None) -> tuple[float | None, float | None, str]:
