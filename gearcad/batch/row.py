@@ -183,7 +183,7 @@ def _flat(document: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any
     for key, value in document.items():
         if isinstance(value, dict):
             yield from _flat(value, f"{prefix}{key}.")
-        elif key == "warnings" or not prefix:
+        elif key in ("warnings", "notices") or not prefix:
             continue
         elif isinstance(value, list) and prefix == "pair.":
             yield from ((f"{prefix}{key}.{gear}", of_gear) for gear, of_gear in zip(("pinion", "wheel"), value, strict=True))

@@ -91,7 +91,7 @@ def standards(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
     edition = task.rating.edition
     root, stiffness = task.options.root_band / 100, task.options.stiffness_band / 100
     sharing = "ISO puts the whole load on one pair of teeth at its outer point; the FE shares it, and sees the true fillet"
-    widths = (task.rating.pinion.width, task.rating.wheel.width)
+    widths = task.rating.roots.map(lambda root: root.width)
     for owner, value, reference, width, bent in zip(
         ("pinion", "wheel"), summary.root_tension, task.rating.root_stresses, widths, bending_notes(task, summary), strict=True
     ):

@@ -84,13 +84,12 @@ def bending_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
 
 def bending_notes(task: CheckTask, summary: Summary) -> tuple[str, str]:
     """What the comparison of each gear's root tension with the standard's has to add where the rim bends."""
-    ratings = (task.rating.pinion, task.rating.wheel)
     notes = [
         f"; the rim bends: Y_B = {rating.rim_thickness_factor:.3g} raises ISO's tension, in the FE it is the compression "
         f"({compression:.0f} MPa) that rises"
         if rim.support.bends
         else ""
-        for rim, rating, compression in zip(_rims(task), ratings, summary.root_compression, strict=True)
+        for rim, rating, compression in zip(_rims(task), task.rating.roots, summary.root_compression, strict=True)
     ]
     return notes[0], notes[1]
 

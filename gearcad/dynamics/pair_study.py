@@ -24,6 +24,7 @@ from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.per_gear import PerGear
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 
@@ -170,7 +171,7 @@ def _method_b(
 ) -> tuple[DynamicFactor | None, str]:
     """K_v of ISO 6336-1, or None and why the standard has none for this pair."""
     try:
-        return DynamicFactor.of(pair, material, load, inertias, rating), ""
+        return DynamicFactor.of(pair, material, load, PerGear(*inertias), rating), ""
     except InputError as error:
         return None, str(error)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any
@@ -16,6 +17,7 @@ from gearcad.geometry.picture import gear_html
 from gearcad.geometry.profile import ToothProfile, base_half_angle
 from gearcad.geometry.rack import ISO53_A, BasicRack
 from gearcad.geometry.trochoid import ToolTip
+from gearcad.notice import Notice, texts
 from gearcad.reprs import concise
 
 __all__ = ["Gear"]
@@ -265,33 +267,39 @@ class Gear:
         )
 
     @cached_property
-    def warnings(self) -> tuple[str, ...]:
+    def notices(self) -> tuple[Notice, ...]:
         """What an engineer should know about this gear before making it."""
-        found = []
+        return (*self._notices_of_teeth(), *self._notices_of_inspection())
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+    def _notices_of_teeth(self) -> Iterator[Notice]:
         if self.undercut:
-            found.append(f"undercut: the involute begins at diameter {self.form_diameter:.4f} mm")
+            yield Notice("undercut", f"undercut: the involute begins at diameter {self.form_diameter:.4f} mm")
         if self.tip_thickness < THIN_TIP * self.normal_module:
-            found.append(
-                f"thin tip: normal thickness {self.tip_thickness:.4f} mm is below {THIN_TIP} m_n (0.4 m_n if case-hardened)"
-            )
+            thickness = f"normal thickness {self.tip_thickness:.4f} mm is below {THIN_TIP} m_n"
+            yield Notice("thin-tip", f"thin tip: {thickness} (0.4 m_n if case-hardened)")
         if self.body.web_thickness:
-            found.append("web: it counts in the rating alone (C_R, Y_B); the solid and its elements are a full disc")
+            text = "web: it counts in the rating alone (C_R, Y_B); the solid and its elements are a full disc"
+            yield Notice("web-not-modelled", text)
+
+    def _notices_of_inspection(self) -> Iterator[Notice]:
         lowest, highest = self.form_diameter, self.tip_form_diameter
-        if not lowest <= self.span_contact_diameter <= highest:
-            found.append(f"span: the anvils would touch at diameter {self.span_contact_diameter:.4f} mm, off the involute")
-        ball_contact = inspection.ball_contact_diameter(self, self.ball_diameter)
-        if not lowest <= ball_contact <= highest:
-            found.append(
-                f"balls: a ball of {self.ball_diameter:g} mm would touch at diameter {ball_contact:.4f} mm, off the involute"
-            )
-        if self.face_width < self.pin_axial_shift:
-            found.append(
-                f"pins: the dimension over two pins needs a face width of {self.pin_axial_shift:.4f} mm; use balls, or one pin"
-            )
-        span_width = self.span_measurement * math.sin(math.radians(abs(self.base_helix_angle)))
-        if self.face_width < span_width:
-            found.append(f"span: measuring over {self.span_teeth} teeth needs a face width of {span_width:.4f} mm")
-        return tuple(found)
+        if not lowest <= (touching := self.span_contact_diameter) <= highest:
+            yield Notice("span-off-involute", f"span: the anvils would touch at diameter {touching:.4f} mm, off the involute")
+        ball = self.ball_diameter
+        if not lowest <= (touching := inspection.ball_contact_diameter(self, ball)) <= highest:
+            text = f"balls: a ball of {ball:g} mm would touch at diameter {touching:.4f} mm, off the involute"
+            yield Notice("balls-off-involute", text)
+        if self.face_width < (width := self.pin_axial_shift):
+            text = f"pins: the dimension over two pins needs a face width of {width:.4f} mm; use balls, or one pin"
+            yield Notice("narrow-for-pins", text)
+        if self.face_width < (width := self.span_measurement * math.sin(math.radians(abs(self.base_helix_angle)))):
+            text = f"span: measuring over {self.span_teeth} teeth needs a face width of {width:.4f} mm"
+            yield Notice("narrow-for-span", text)
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
@@ -302,4 +310,5 @@ class Gear:
         derived = {name: getattr(self, name) for name in _DERIVED}
         if math.isinf(self.lead):
             derived["lead"] = None
-        return {**inputs, "rack": rack, "body": body, "modification": modification, **derived, "warnings": list(self.warnings)}
+        warnings = {"warnings": list(self.warnings), "notices": [notice.to_dict() for notice in self.notices]}
+        return {**inputs, "rack": rack, "body": body, "modification": modification, **derived, **warnings}

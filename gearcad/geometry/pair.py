@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -17,6 +18,7 @@ from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.path import ContactLineLengths, PathOfContact
 from gearcad.geometry.picture import pair_html
 from gearcad.geometry.shift import least_profile_shift_sum, profile_shift_sum, zero_backlash_centre_distance
+from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
 from gearcad.ranges import OFFSET
 from gearcad.reprs import concise
@@ -63,9 +65,9 @@ class GearPair:
 
     def __post_init__(self) -> None:
         plain_numbers(self)
-        for which in ("pinion", "wheel"):
-            if not isinstance(getattr(self, which), Gear):
-                raise ParameterError(which, getattr(self, which), "must be a Gear")
+        for role, gear in self.gears.items():
+            if not isinstance(gear, Gear):
+                raise ParameterError(role.value, gear, "must be a Gear")
         OFFSET.require("axial_offset", self.axial_offset)
         require_name("name", self.name)
         self._check_mates()
@@ -124,16 +126,11 @@ class GearPair:
                 f" shift sum at most {self._fitting_shift_sum:.6f}: the backlash would be {backlash:.6f} mm",
                 "mm",
             )
-        for number, clearance in enumerate(self.tip_clearances):
-            owner, mate = (("pinion", "wheel"), ("wheel", "pinion"))[number]
+        for role, clearance in self.tip_clearances.items():
             if clearance <= 0:
-                tip = getattr(self, owner).tip_diameter
-                raise GeometryError(
-                    f"{owner}.tip_diameter",
-                    tip,
-                    f"must be below {tip + 2 * clearance:.6f} mm: the tip reaches the {mate}'s root circle",
-                    "mm",
-                )
+                tip = self.gears.pick(role).tip_diameter
+                permitted = f"must be below {tip + 2 * clearance:.6f} mm: the tip reaches the {role.mate.value}'s root circle"
+                raise GeometryError(f"{role.value}.tip_diameter", tip, permitted, "mm")
 
     @property
     def gears(self) -> PerGear[Gear]:
@@ -201,10 +198,10 @@ class GearPair:
         return math.degrees(math.acos(cosine))
 
     @property
-    def working_pitch_diameters(self) -> tuple[float, float]:
+    def working_pitch_diameters(self) -> PerGear[float]:
         """d_w1 = 2 a/(1 + u), d_w2 = u d_w1."""
         pinion = 2 * self.centre_distance / (1 + self.gear_ratio)
-        return pinion, self.gear_ratio * pinion
+        return PerGear(pinion, self.gear_ratio * pinion)
 
     @property
     def tip_alteration(self) -> float:
@@ -213,9 +210,9 @@ class GearPair:
         return min(change - self.profile_shift_sum, 0.0)
 
     @property
-    def tip_clearances(self) -> tuple[float, float]:
-        """Clearance of the pinion's tip in the wheel's root, and of the wheel's tip in the pinion's root."""
-        return (
+    def tip_clearances(self) -> PerGear[float]:
+        """Clearance of each gear's tip in the mate's root."""
+        return PerGear(
             self.centre_distance - (self.pinion.tip_diameter + self.wheel.root_diameter) / 2,
             self.centre_distance - (self.wheel.tip_diameter + self.pinion.root_diameter) / 2,
         )
@@ -227,7 +224,7 @@ class GearPair:
         gap = 2 * math.pi / self.pinion.teeth
         for gear, turn in ((self.pinion, 1.0), (self.wheel, self.gear_ratio)):
             gap -= 2 * turn * (math.radians(gear.profile.base_half_angle) - working)
-        return gap * self.working_pitch_diameters[0] / 2
+        return gap * self.working_pitch_diameters.pinion / 2
 
     @property
     def normal_backlash(self) -> float:
@@ -240,9 +237,8 @@ class GearPair:
     @cached_property
     def common_width(self) -> CommonWidth:
         """Common face width and where its middle lies, seen from the pinion's middle."""
-        half = (self.pinion.face_width / 2, self.wheel.face_width / 2)
-        low = max(-half[0], self.axial_offset - half[1])
-        high = min(half[0], self.axial_offset + half[1])
+        own, mate = self.pinion.face_width / 2, self.wheel.face_width / 2
+        low, high = max(-own, self.axial_offset - mate), min(own, self.axial_offset + mate)
         return CommonWidth(high - low, (high + low) / 2)
 
     @cached_property
@@ -274,7 +270,7 @@ class GearPair:
         return self.transverse_contact_ratio + self.overlap_ratio
 
     @property
-    def active_root_diameters(self) -> tuple[float, float]:
+    def active_root_diameters(self) -> PerGear[float]:
         """Start-of-active-profile diameters d_Nf that the mate's tip form circle reaches (mm)."""
         return path.active_root_diameters(self)
 
@@ -284,32 +280,34 @@ class GearPair:
         return path.contact_line_lengths(self)
 
     @cached_property
-    def warnings(self) -> tuple[str, ...]:
+    def notices(self) -> tuple[Notice, ...]:
         """What an engineer should know about this pair before making it."""
-        found = self._fillet_interference()
-        if self.circumferential_backlash < -_SAME * self.pinion.normal_module:
-            found.append(
-                f"zero backlash: the printed profile shifts overlap by {-self.circumferential_backlash:.3g} mm (rounding)"
-            )
-        if self.transverse_contact_ratio < 1:
-            found.append(f"contact ratio: transverse contact ratio {self.transverse_contact_ratio:.4f} is below 1")
-        return tuple(found)
+        return (*self._fillet_interference(), *self._notices_of_mesh())
 
-    def _fillet_interference(self) -> list[str]:
-        found = []
-        gears = (("pinion", self.pinion, "wheel", self.wheel), ("wheel", self.wheel, "pinion", self.pinion))
-        for (owner, gear, other, mate), active in zip(gears, self.active_root_diameters, strict=True):
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+    def _notices_of_mesh(self) -> Iterator[Notice]:
+        if self.circumferential_backlash < -_SAME * self.pinion.normal_module:
+            overlap = f"{-self.circumferential_backlash:.3g} mm"
+            yield Notice("rounded-shifts", f"zero backlash: the printed profile shifts overlap by {overlap} (rounding)")
+        if (ratio := self.transverse_contact_ratio) < 1:
+            yield Notice("low-contact-ratio", f"contact ratio: transverse contact ratio {ratio:.4f} is below 1")
+
+    def _fillet_interference(self) -> Iterator[Notice]:
+        for role, gear in self.gears.items():
+            active, owner, other = self.active_root_diameters.pick(role), role.value, role.mate.value
             form = f"its root form circle {gear.form_diameter:.4f} mm"
             if gear.form_diameter > active:
-                found.append(
-                    f"fillet interference: the {other}'s tip reaches diameter {active:.4f} mm of the {owner}, below {form}"
-                )
-            elif cut := fillet_cut(self, gear, mate):
-                found.append(
-                    f"fillet interference: the edge of the {other}'s tip cuts {cut.depth:.2g} mm into the {owner}'s fillet at"
-                    f" diameter {cut.diameter:.4f} mm, below {form}"
-                )
-        return found
+                text = f"the {other}'s tip reaches diameter {active:.4f} mm of the {owner}, below {form}"
+            elif cut := fillet_cut(self, gear, self.gears.pick(role.mate)):
+                at = f"diameter {cut.diameter:.4f} mm, below {form}"
+                text = f"the edge of the {other}'s tip cuts {cut.depth:.2g} mm into the {owner}'s fillet at {at}"
+            else:
+                continue
+            yield Notice("fillet-interference", f"fillet interference: {text}")
 
     def to_dict(self) -> dict[str, Any]:
         """Derived properties of the pair under their names, for JSON (the gears have their own)."""
@@ -322,4 +320,5 @@ class GearPair:
             "path_of_contact": self.path_of_contact._asdict(),
             "contact_line_lengths": self.contact_line_lengths._asdict(),
             "warnings": list(self.warnings),
+            "notices": [notice.to_dict() for notice in self.notices],
         }

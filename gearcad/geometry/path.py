@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gearcad.per_gear import PerGear
+
 if TYPE_CHECKING:
     from gearcad.geometry.gear import Gear
     from gearcad.geometry.pair import GearPair
@@ -78,15 +80,15 @@ def usable_path(pair: GearPair) -> tuple[float, float]:
     return first, last
 
 
-def active_root_diameters(pair: GearPair) -> tuple[float, float]:
-    """d_Nf of pinion and wheel: the lowest points that the mate's tip form circle would touch (mm).
+def active_root_diameters(pair: GearPair) -> PerGear[float]:
+    """d_Nf: the lowest points that the mate's tip form circle would touch (mm).
 
     Where a tip passes beyond the base tangent point, the base circle is the lowest point an involute has.
     """
     path, whole = path_of_contact(pair), _base_tangent_distance(pair)
     pinion = math.hypot(pair.pinion.base_diameter, 2 * max(path.A, 0.0))
     wheel = math.hypot(pair.wheel.base_diameter, 2 * max(whole - path.E, 0.0))
-    return pinion, wheel
+    return PerGear(pinion, wheel)
 
 
 def contact_line_length(pair: GearPair, roll_angle: ArrayLike) -> Any:

@@ -18,6 +18,8 @@ from gearcad.errors import ParameterError, plain_numbers, require_number, requir
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.notice import Notice, texts
+from gearcad.per_gear import PerGear
 from gearcad.rating.iso1328 import flank_tolerances
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import rate
@@ -33,9 +35,10 @@ _MAIN_END, _SUPERCRITICAL = 1.15, 1.5
 _FINE = 5
 """The coarsest accuracy grade whose tip relief counts."""
 
-_NO_GROUP = (
+_NO_GROUP = Notice(
+    "no-material-group",
     "K_v of ISO 6336-1: the material has no group, so its flanks run in as those of hardened steel, which wear least; "
-    '[material] group = "Eh", "V", "GG" ... tells'
+    '[material] group = "Eh", "V", "GG" ... tells',
 )
 
 
@@ -60,12 +63,13 @@ class RunningFactors(NamedTuple):
     c_v7: float
 
 
-def reduced_mass(inertias: tuple[float, float], base_radii: tuple[float, float], width: float) -> float:
+def reduced_mass(inertias: PerGear[float], base_radii: PerGear[float], width: float) -> float:
     """m_red (kg/mm) of a pair along the line of action: J1 J2/(J1 r_b2^2 + J2 r_b1^2), over the face width.
 
     Moments of inertia J in kg·m², base radii and face width in mm.
     """
-    (j_1, j_2), (r_1, r_2) = inertias, (radius / 1000 for radius in base_radii)
+    j_1, j_2 = inertias
+    r_1, r_2 = (radius / 1000 for radius in base_radii)
     for name, value in (("inertias", min(inertias)), ("base_radii", min(base_radii)), ("width", width)):
         require_number(name, float(value), above=0)
     return j_1 * j_2 / (j_1 * r_2**2 + j_2 * r_1**2) / width
@@ -100,7 +104,7 @@ class DynamicFactor:
     `pitch_deviation` f_pb and `profile_deviation` f_falpha are those before running-in, which takes off y_alpha (18), (19) of
     the kind `running_in` (None: nothing) by the speed on the pinion's `reference_diameter` (mm) and by `flank_limit` (MPa).
     `tip_relief` C_a is 0 for grade 6 and coarser, for which B_k is 1. Stiffnesses are those of the load, `specific_load` is
-    F_t K_A/b. `warnings`: what to know before trusting it. Not part of it: gears of a planetary train or with several mates,
+    F_t K_A/b. `notices`: what to know before trusting it. Not part of it: gears of a planetary train or with several mates,
     whose mass differs.
     """
 
@@ -116,7 +120,7 @@ class DynamicFactor:
     reference_diameter: float = 0.0
     running_in: RunningIn | None = None
     flank_limit: float | None = None
-    warnings: tuple[str, ...] = ()
+    notices: tuple[Notice, ...] = ()
 
     @classmethod
     def of(
@@ -124,7 +128,7 @@ class DynamicFactor:
         pair: GearPair,
         material: Material,
         load: Load,
-        inertias: tuple[float, float],
+        inertias: PerGear[float],
         options: RatingOptions | None = None,
     ) -> DynamicFactor:
         """Of a pair of one material, with the deviations of the options' accuracy grade; inertias in kg·m².
@@ -133,13 +137,13 @@ class DynamicFactor:
         contact_endurance_limit.
         """
         options = options or RatingOptions()
-        rating, gears = rate(pair, material, load, options), (pair.pinion, pair.wheel)
+        rating = rate(pair, material, load, options)
         tolerances = [
             flank_tolerances(options.accuracy_grade, gear.reference_diameter, gear.normal_module, options.accuracy)
-            for gear in gears
+            for gear in pair.gears
         ]
         across = math.cos(math.radians(pair.pinion.transverse_pressure_angle))
-        radii = (pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2)
+        radii = pair.gears.map(lambda gear: gear.base_diameter / 2)
         kind = RunningIn.SURFACE_HARDENED if material.group is None else RunningIn.of(material.group)
         if kind.needs_flank_limit and material.contact_endurance_limit is None:
             permitted = f"must be given for material group {material.group}: how its flanks run in depends on it"
@@ -157,7 +161,7 @@ class DynamicFactor:
             reference_diameter=pair.pinion.reference_diameter,
             running_in=kind,
             flank_limit=material.contact_endurance_limit,
-            warnings=(_NO_GROUP,) if material.group is None else (),
+            notices=(_NO_GROUP,) if material.group is None else (),
         )
 
     def __post_init__(self) -> None:
@@ -172,6 +176,11 @@ class DynamicFactor:
             require_number(name, getattr(self, name), "µm", at_least=0)
         if self.running_in is not None:
             require_number("reference_diameter", self.reference_diameter, "mm", above=0)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
 
     @property
     def resonance_speed(self) -> float:
@@ -224,6 +233,6 @@ def _tip_relief(pair: GearPair, material: Material, grade: int) -> float:
     """C_a: 0 for coarse grades; else what both gears have by design, or else what running in makes, if that is known."""
     if grade > _FINE:
         return 0.0
-    designed = min(gear.modification.tip_relief for gear in (pair.pinion, pair.wheel))
+    designed = min(gear.modification.tip_relief for gear in pair.gears)
     limit = material.contact_endurance_limit
     return designed or (running_in_relief(limit) if limit is not None else 0.0)

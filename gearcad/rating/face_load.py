@@ -53,4 +53,4 @@ def root_face_load_factor(flank_factor: float, width_to_height: float) -> float:
 
 def width_to_height(pair: GearPair) -> float:
     """b/h: the smaller of both gears' face width over tooth depth h = (d_a - d_f)/2."""
-    return min(gear.face_width / ((gear.tip_diameter - gear.root_diameter) / 2) for gear in (pair.pinion, pair.wheel))
+    return min(gear.face_width / ((gear.tip_diameter - gear.root_diameter) / 2) for gear in pair.gears)

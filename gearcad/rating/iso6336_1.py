@@ -7,10 +7,12 @@ fewer teeth; equations are those of ISO 6336-1:2006.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material
+from gearcad.notice import Notice
 from gearcad.rating.iso6336_3 import RIM_LIMIT, rim_thickness_ratio
 
 __all__ = [
@@ -23,7 +25,7 @@ __all__ = [
     "mesh_stiffness_alpha",
     "mesh_stiffness_beta",
     "single_stiffness",
-    "stiffness_warnings",
+    "stiffness_notices",
     "theoretical_stiffness",
     "tooth_flexibility",
 ]
@@ -181,32 +183,37 @@ def mesh_stiffness(pair: GearPair, material: Material, specific_load: float) -> 
     )
 
 
-def stiffness_warnings(pair: GearPair, specific_load: float) -> list[str]:
+def stiffness_notices(pair: GearPair, specific_load: float) -> Iterator[Notice]:
     """Where the pair or its load leaves the range that clause 9 states for its formulas."""
-    found = []
+    for role, gear in pair.gears.items():
+        yield from _blank_notices(gear, role.value)
     first, second = _by_teeth(pair)
-    for owner, gear in (("pinion", pair.pinion), ("wheel", pair.wheel)):
-        web, rim = _blank(gear)
-        if not gear.body.web_thickness and (height := rim_thickness_ratio(gear)) < RIM_LIMIT:
-            found.append(f"c': C_R is 1 of a solid disc, but the {owner} has only {height:.3g} tooth heights under the root")
-        if not THIN_WEB <= web <= THICK_WEB:
-            limit = THIN_WEB if web < THIN_WEB else THICK_WEB
-            found.append(
-                f"c': C_R knows webs of {THIN_WEB:g} to {THICK_WEB:g} b, the {owner}'s {web:.3g} b counts as {limit:g} b"
-            )
-        if rim < THIN_RIM:
-            found.append(f"c': C_R knows rims from {THIN_RIM:g} m_n on, the {owner}'s {rim:.3g} m_n counts as {THIN_RIM:g} m_n")
     if first.profile_shift < second.profile_shift:
-        found.append(f"c': q' is stated for x_1 >= x_2, here {first.profile_shift:g} and {second.profile_shift:g}")
-    if not -0.5 <= pair.profile_shift_sum <= 2.0:
-        found.append(f"c': q' is stated for x_1 + x_2 from -0.5 to 2, here {pair.profile_shift_sum:.6g}")
+        here = f"{first.profile_shift:g} and {second.profile_shift:g}"
+        yield Notice("stiffness-shift-order", f"c': q' is stated for x_1 >= x_2, here {here}")
+    if not -0.5 <= (total := pair.profile_shift_sum) <= 2.0:
+        yield Notice("stiffness-shift-sum", f"c': q' is stated for x_1 + x_2 from -0.5 to 2, here {total:.6g}")
     if specific_load > HIGH_LOAD:
-        found.append(f"c': confirmed up to a specific load of {HIGH_LOAD:g} N/mm, here {specific_load:.0f} N/mm")
-    if pair.transverse_contact_ratio < 1.2:
-        found.append(
-            f"c_gamma: stated from a contact ratio of 1.2, here {pair.transverse_contact_ratio:.4f}: up to 10 % too high"
-        )
-    return found
+        text = f"c': confirmed up to a specific load of {HIGH_LOAD:g} N/mm, here {specific_load:.0f} N/mm"
+        yield Notice("stiffness-high-load", text)
+    if (ratio := pair.transverse_contact_ratio) < 1.2:
+        text = f"c_gamma: stated from a contact ratio of 1.2, here {ratio:.4f}: up to 10 % too high"
+        yield Notice("stiffness-contact-ratio", text)
+
+
+def _blank_notices(gear: Gear, owner: str) -> Iterator[Notice]:
+    """Where the body of a gear ("pinion" or "wheel") is not one that C_R knows."""
+    web, rim = _blank(gear)
+    if not gear.body.web_thickness and (height := rim_thickness_ratio(gear)) < RIM_LIMIT:
+        text = f"c': C_R is 1 of a solid disc, but the {owner} has only {height:.3g} tooth heights under the root"
+        yield Notice("stiffness-solid-disc", text)
+    if not THIN_WEB <= web <= THICK_WEB:
+        limit = THIN_WEB if web < THIN_WEB else THICK_WEB
+        text = f"c': C_R knows webs of {THIN_WEB:g} to {THICK_WEB:g} b, the {owner}'s {web:.3g} b counts as {limit:g} b"
+        yield Notice("stiffness-web", text)
+    if rim < THIN_RIM:
+        text = f"c': C_R knows rims from {THIN_RIM:g} m_n on, the {owner}'s {rim:.3g} m_n counts as {THIN_RIM:g} m_n"
+        yield Notice("stiffness-rim", text)
 
 
 def _blank(gear: Gear) -> tuple[float, float]:
@@ -217,5 +224,5 @@ def _blank(gear: Gear) -> tuple[float, float]:
 
 def _by_teeth(pair: GearPair) -> tuple[Gear, Gear]:
     """Gear 1 and gear 2 of the standard: fewer teeth first, with equal teeth the larger profile shift first."""
-    gears = sorted((pair.pinion, pair.wheel), key=lambda gear: (gear.teeth, -gear.profile_shift))
-    return gears[0], gears[1]
+    first, second = sorted(pair.gears, key=lambda gear: (gear.teeth, -gear.profile_shift))
+    return first, second

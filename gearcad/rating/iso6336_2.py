@@ -6,11 +6,14 @@ Stresses in MPa, angles in degrees; clauses are those of ISO 6336-2:2006.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair
 from gearcad.material import Material
+from gearcad.notice import Notice
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating.editions import Edition
 from gearcad.rating.hertz import reduced_modulus
 
@@ -19,8 +22,8 @@ __all__ = [
     "contact_factor",
     "contact_ratio_factor",
     "elasticity_factor",
+    "flank_notices",
     "flank_rating",
-    "flank_warnings",
     "helix_angle_factor",
     "nominal_contact_stress",
     "zone_factor",
@@ -31,15 +34,14 @@ __all__ = [
 class FlankRating:
     """Factors of the contact stress and the nominal stress sigma_H0 at the pitch point (MPa), without any load factor.
 
-    Inside the path of contact the flanks bear Z_B sigma_H0 (pinion) and Z_D sigma_H0 (wheel).
+    Inside the path of contact the flanks bear `contact_factors` times that: Z_B sigma_H0 (pinion) and Z_D sigma_H0 (wheel).
     """
 
     zone_factor: float
     elasticity_factor: float
     contact_ratio_factor: float
     helix_angle_factor: float
-    pinion_contact_factor: float
-    wheel_contact_factor: float
+    contact_factors: PerGear[float]
     nominal_stress: float
 
     def to_dict(self) -> dict[str, float]:
@@ -49,8 +51,8 @@ class FlankRating:
             "Z_E": self.elasticity_factor,
             "Z_eps": self.contact_ratio_factor,
             "Z_beta": self.helix_angle_factor,
-            "Z_B": self.pinion_contact_factor,
-            "Z_D": self.wheel_contact_factor,
+            "Z_B": self.contact_factors.pinion,
+            "Z_D": self.contact_factors.wheel,
             "sigma_H0": self.nominal_stress,
         }
 
@@ -89,26 +91,29 @@ def contact_factor(curvature: float, overlap_ratio: float) -> float:
     return max(curvature - overlap * (curvature - 1), 1.0)
 
 
-def single_contact_curvature(pair: GearPair) -> tuple[float, float]:
+def single_contact_curvature(pair: GearPair) -> PerGear[float]:
     """M_1 (17) and M_2 (18): how much the inner point of single contact of either gear is more curved than the pitch point.
 
     M_1 = tan alpha_wt/sqrt((sqrt(d_a1^2/d_b1^2 - 1) - 2 pi/z_1) (sqrt(d_a2^2/d_b2^2 - 1) - (eps_alpha - 1) 2 pi/z_2)), with
     the tip form circles for d_a; M_2 with the gears exchanged. Raises GeometryError where such a point is off the involute.
     """
-    tips = [math.sqrt((gear.tip_form_diameter / gear.base_diameter) ** 2 - 1) for gear in (pair.pinion, pair.wheel)]
-    pitches = [2 * math.pi / gear.teeth for gear in (pair.pinion, pair.wheel)]
     rest = pair.transverse_contact_ratio - 1
     tangent = math.tan(math.radians(pair.working_transverse_pressure_angle))
-    found = []
-    for own, mate in ((0, 1), (1, 0)):
-        inner, outer = tips[own] - pitches[own], tips[mate] - rest * pitches[mate]
+
+    def from_tip(role: Role, pitches: float) -> float:
+        """Roll length over base radius, so many base pitches below the tip."""
+        gear = pair.gears.pick(role)
+        return math.sqrt((gear.tip_form_diameter / gear.base_diameter) ** 2 - 1) - pitches * (2 * math.pi / gear.teeth)
+
+    def curvature(own: Role) -> float:
+        inner, outer = from_tip(own, 1), from_tip(own.mate, rest)
         if inner <= 0 or outer <= 0:
-            owner, other = ("pinion", "wheel")[own], ("pinion", "wheel")[mate]
-            size, below = ("larger", owner) if inner <= 0 else ("smaller", other)
-            permitted = f"must be {size} for a rating: single contact begins below the {below}'s base circle"
-            raise GeometryError(f"{owner}.tip_diameter", getattr(pair, owner).tip_diameter, permitted, "mm")
-        found.append(tangent / math.sqrt(inner * outer))
-    return found[0], found[1]
+            size, below = ("larger", own) if inner <= 0 else ("smaller", own.mate)
+            permitted = f"must be {size} for a rating: single contact begins below the {below.value}'s base circle"
+            raise GeometryError("tip_diameter", pair.gears.pick(own).tip_diameter, permitted, "mm")
+        return tangent / math.sqrt(inner * outer)
+
+    return PerGear.each(curvature)
 
 
 def nominal_contact_stress(pair: GearPair, factors: float, tangential_force: float) -> float:
@@ -127,23 +132,19 @@ def flank_rating(pair: GearPair, material: Material, tangential_force: float, ed
     elasticity = elasticity_factor((material.youngs_modulus,) * 2, (material.poisson_ratio,) * 2)
     ratio = contact_ratio_factor(pair.transverse_contact_ratio, pair.overlap_ratio)
     helix = helix_angle_factor(pinion.helix_angle, edition)
-    m_1, m_2 = single_contact_curvature(pair) if pair.overlap_ratio < 1 else (1.0, 1.0)
+    curvatures = single_contact_curvature(pair) if pair.overlap_ratio < 1 else PerGear(1.0, 1.0)
     return FlankRating(
         zone_factor=zone,
         elasticity_factor=elasticity,
         contact_ratio_factor=ratio,
         helix_angle_factor=helix,
-        pinion_contact_factor=contact_factor(m_1, pair.overlap_ratio),
-        wheel_contact_factor=contact_factor(m_2, pair.overlap_ratio),
+        contact_factors=curvatures.map(lambda curvature: contact_factor(curvature, pair.overlap_ratio)),
         nominal_stress=nominal_contact_stress(pair, zone * elasticity * ratio * helix, tangential_force),
     )
 
 
-def flank_warnings(pair: GearPair) -> list[str]:
+def flank_notices(pair: GearPair) -> Iterator[Notice]:
     """Where the pair leaves the range that part 2 states for its formulas."""
-    if pair.transverse_contact_ratio > 2:
-        return [
-            f"sigma_H: Z_eps, Z_B and Z_D hold for a contact ratio up to 2, here {pair.transverse_contact_ratio:.4f}:"
-            " two pairs of teeth share the load at any time"
-        ]
-    return []
+    if (ratio := pair.transverse_contact_ratio) > 2:
+        text = f"Z_eps, Z_B and Z_D hold for a contact ratio up to 2, here {ratio:.4f}"
+        yield Notice("flank-contact-ratio", f"sigma_H: {text}: two pairs of teeth share the load at any time")

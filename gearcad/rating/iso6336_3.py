@@ -11,11 +11,14 @@ Lengths in mm, stresses in MPa, angles in degrees; equations and clauses are tho
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
+from gearcad.notice import Notice
+from gearcad.per_gear import Role
 from gearcad.rating.editions import Edition
 from gearcad.rating.virtual import LoadPoint, VirtualGear, load_point
 
@@ -29,9 +32,9 @@ __all__ = [
     "nominal_root_stress",
     "rim_thickness_factor",
     "rim_thickness_ratio",
+    "root_notices",
     "root_rating",
     "root_section",
-    "root_warnings",
     "stress_correction_factor",
     "tangent_angle",
 ]
@@ -185,10 +188,10 @@ def deep_tooth_factor(virtual_contact_ratio: float, accuracy_grade: int, edition
     return 0.7 if virtual_contact_ratio > 2.5 else 2.366 - 0.666 * virtual_contact_ratio
 
 
-def loaded_width(pair: GearPair, gear: Gear) -> float:
+def loaded_width(pair: GearPair, role: Role) -> float:
     """b (mm) of one gear's root: the common width, and at either end what the gear stands over, at most m_n (clause 5)."""
-    common = pair.common_width
-    side = common.offset if gear is pair.pinion else common.offset - pair.axial_offset
+    common, gear = pair.common_width, pair.gears.pick(role)
+    side = common.offset if role is Role.PINION else common.offset - pair.axial_offset
     over = [gear.face_width / 2 - sign * side - common.width / 2 for sign in (1, -1)]
     return common.width + sum(min(each, gear.normal_module) for each in over)
 
@@ -198,8 +201,9 @@ def nominal_root_stress(tangential_force: float, width: float, normal_module: fl
     return tangential_force / (width * normal_module) * factors
 
 
-def root_rating(pair: GearPair, gear: Gear, tangential_force: float, edition: Edition, accuracy_grade: int) -> RootRating:
+def root_rating(pair: GearPair, role: Role, tangential_force: float, edition: Edition, accuracy_grade: int) -> RootRating:
     """Root stress of one gear of a pair under the tangential force F_t at the reference circle (N)."""
+    gear = pair.gears.pick(role)
     virtual, ratio = VirtualGear.of(gear), _virtual_contact_ratio(pair)
     load = load_point(virtual, ratio)
     section = root_section(gear, virtual, load)
@@ -207,7 +211,7 @@ def root_rating(pair: GearPair, gear: Gear, tangential_force: float, edition: Ed
     y_beta = helix_angle_factor(gear.helix_angle, pair.overlap_ratio)
     y_b = rim_thickness_factor(rim_thickness_ratio(gear), edition)
     y_dt = deep_tooth_factor(ratio, accuracy_grade, edition)
-    width = loaded_width(pair, gear)
+    width = loaded_width(pair, role)
     return RootRating(
         section=section,
         load_point=load,
@@ -226,20 +230,21 @@ def _virtual_contact_ratio(pair: GearPair) -> float:
     return pair.transverse_contact_ratio / math.cos(math.radians(pair.pinion.base_helix_angle)) ** 2
 
 
-def root_warnings(pair: GearPair, gear: Gear, rating: RootRating, owner: str) -> list[str]:
-    """Where one gear (`owner`: "pinion" or "wheel") leaves the range that part 3 states for its formulas."""
-    found = []
+def root_notices(pair: GearPair, role: Role, rating: RootRating) -> Iterator[Notice]:
+    """Where one gear leaves the range that part 3 states for its formulas."""
+    gear, root = pair.gears.pick(role), f"{role.value} root"
     if not rating.section.on_fillet:
-        found.append(f"{owner} root: the tangent at 30 deg touches beyond the fillet, so Y_F and Y_S do not hold")
+        text = "the tangent at 30 deg touches beyond the fillet, so Y_F and Y_S do not hold"
+        yield Notice("tangent-off-fillet", text, root)
     if gear.root_radius == 0:
-        found.append(f"{owner} root: Y_F and Y_S are stated for a tool with a rounded tip, here it is sharp")
-    if not 1 <= rating.section.notch_parameter < 8:
-        found.append(f"{owner} root: Y_S is stated for q_s from 1 to 8, here {rating.section.notch_parameter:.3g}")
+        yield Notice("sharp-tool", "Y_F and Y_S are stated for a tool with a rounded tip, here it is sharp", root)
+    if not 1 <= (notch := rating.section.notch_parameter) < 8:
+        yield Notice("notch-parameter", f"Y_S is stated for q_s from 1 to 8, here {notch:.3g}", root)
     if (rim := rim_thickness_ratio(gear)) < RIM_LIMIT:
         said = "is at most 0.5, which the standard asks to avoid" if rim <= 0.5 else f"weakens the root (below {RIM_LIMIT:g})"
         factor = rating.rim_thickness_factor
         known = f"Y_B = {factor:.4g}" if factor > 1 else "the standard chosen has no factor for it"
-        found.append(f"{owner} rim: {rim:.3g} tooth heights under the root {said}; {known}")
+        yield Notice("thin-rim", f"{rim:.3g} tooth heights under the root {said}; {known}", f"{role.value} rim")
     if (ratio := _virtual_contact_ratio(pair)) >= 2:
-        found.append(f"{owner} root: Y_F assumes that one pair of teeth carries alone, but eps_alphan is {ratio:.4f}")
-    return found
+        text = f"Y_F assumes that one pair of teeth carries alone, but eps_alphan is {ratio:.4f}"
+        yield Notice("deep-teeth", text, root)

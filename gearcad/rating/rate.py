@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,15 +11,17 @@ from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.notice import Notice, texts
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating.editions import Edition
 from gearcad.rating.hertz import LineContact
-from gearcad.rating.iso6336_1 import MeshStiffness, mesh_stiffness, stiffness_warnings
-from gearcad.rating.iso6336_2 import FlankRating, flank_rating, flank_warnings
-from gearcad.rating.iso6336_3 import RootRating, root_rating, root_warnings
+from gearcad.rating.iso6336_1 import MeshStiffness, mesh_stiffness, stiffness_notices
+from gearcad.rating.iso6336_2 import FlankRating, flank_notices, flank_rating
+from gearcad.rating.iso6336_3 import RootRating, root_notices, root_rating
 from gearcad.rating.mesh_contact import base_normal_force, pitch_point_contact
 from gearcad.rating.options import RatingOptions
 
-__all__ = ["Rating", "rate"]
+__all__ = ["Rating", "rate", "scope_notices"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,28 +39,33 @@ class Rating:
     specific_load: float
     stiffness: MeshStiffness
     flank: FlankRating
-    pinion: RootRating
-    wheel: RootRating
+    roots: PerGear[RootRating]
     pitch_point: LineContact
-    warnings: tuple[str, ...]
+    notices: tuple[Notice, ...]
 
     @property
-    def contact_stresses(self) -> tuple[float, float]:
-        """sigma_H of pinion and wheel (MPa): Z_B or Z_D times sigma_H0 sqrt(K_A) (ISO 6336-2, clause 5)."""
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+    @property
+    def contact_stresses(self) -> PerGear[float]:
+        """sigma_H (MPa): Z_B or Z_D times sigma_H0 sqrt(K_A) (ISO 6336-2, clause 5)."""
         stress = self.flank.nominal_stress * math.sqrt(self.application_factor)
-        return self.flank.pinion_contact_factor * stress, self.flank.wheel_contact_factor * stress
+        return self.flank.contact_factors.map(lambda factor: factor * stress)
 
     @property
-    def root_stresses(self) -> tuple[float, float]:
-        """sigma_F of pinion and wheel (MPa): sigma_F0 K_A (ISO 6336-3, clause 5)."""
-        factor = self.application_factor
-        return self.pinion.nominal_stress * factor, self.wheel.nominal_stress * factor
+    def root_stresses(self) -> PerGear[float]:
+        """sigma_F (MPa): sigma_F0 K_A (ISO 6336-3, clause 5)."""
+        return self.roots.map(lambda root: root.nominal_stress * self.application_factor)
 
     def to_dict(self) -> dict[str, Any]:
         """Values under their symbols, those of one gear under "pinion" and "wheel"; `gearcad.symbols.RATING` has the words."""
-        contact = self.pitch_point
-        gears = zip((self.pinion, self.wheel), self.contact_stresses, self.root_stresses, strict=True)
-        pinion, wheel = ({**root.to_dict(), "sigma_H": flank, "sigma_F": bending} for root, flank, bending in gears)
+        contact, flanks, bending = self.pitch_point, self.contact_stresses, self.root_stresses
+        gears = {
+            role.value: {**root.to_dict(), "sigma_H": flanks.pick(role), "sigma_F": bending.pick(role)}
+            for role, root in self.roots.items()
+        }
         return {
             "edition": self.edition.value,
             "F_t": self.tangential_force,
@@ -69,9 +77,9 @@ class Rating:
             "rho_C": contact.radius,
             "p_0": contact.peak_pressure,
             "b_H": contact.half_width,
-            "pinion": pinion,
-            "wheel": wheel,
+            **gears,
             "warnings": list(self.warnings),
+            "notices": [notice.to_dict() for notice in self.notices],
         }
 
 
@@ -92,14 +100,7 @@ def rate(
     _check(pair, load)
     force = 2000 * abs(load.torque) / pair.pinion.reference_diameter
     specific = force * load.application_factor / pair.common_width.width
-    warnings = [*_general_warnings(pair), *stiffness_warnings(pair, specific), *flank_warnings(pair)]
-    roots = []
-    for owner, gear in (("pinion", pair.pinion), ("wheel", pair.wheel)):
-        try:
-            roots.append(root_rating(pair, gear, force, edition, options.accuracy_grade))
-        except GeometryError as error:
-            raise error.within(owner) from None
-        warnings += root_warnings(pair, gear, roots[-1], owner)
+    roots = PerGear.each(lambda role: root_rating(pair, role, force, edition, options.accuracy_grade))
     return Rating(
         edition=edition,
         tangential_force=force,
@@ -108,10 +109,15 @@ def rate(
         specific_load=specific,
         stiffness=mesh_stiffness(pair, material, specific),
         flank=flank_rating(pair, material, force, edition),
-        pinion=roots[0],
-        wheel=roots[1],
+        roots=roots,
         pitch_point=pitch_point_contact(pair, material, load.torque),
-        warnings=tuple(warnings),
+        notices=(
+            *scope_notices(pair),
+            *_fillet_notices(pair),
+            *stiffness_notices(pair, specific),
+            *flank_notices(pair),
+            *(notice for role in Role for notice in root_notices(pair, role, roots.pick(role))),
+        ),
     )
 
 
@@ -124,16 +130,18 @@ def _check(pair: GearPair, load: Load) -> None:
         raise GeometryError("transverse_contact_ratio", ratio, f"must be at least 1 and below 3 for a rating: {meaning}")
 
 
-def _general_warnings(pair: GearPair) -> list[str]:
-    """The scope of the whole standard (ISO 6336-1, clause 1), and a contact ratio that the fillets do not let it have."""
-    found = []
+def scope_notices(pair: GearPair) -> Iterator[Notice]:
+    """Where the pair leaves the scope of the whole standard (ISO 6336-1, clause 1)."""
     if not 15 <= (angle := pair.pinion.rack.pressure_angle) <= 25:
-        found.append(f"ISO 6336 is confirmed for pressure angles from 15 to 25 deg, here {angle:g} deg")
+        text = f"ISO 6336 is confirmed for pressure angles from 15 to 25 deg, here {angle:g} deg"
+        yield Notice("scope-pressure-angle", text)
     if (helix := abs(pair.pinion.helix_angle)) > 30:
-        found.append(f"ISO 6336 is confirmed for helix angles up to 30 deg, here {helix:g} deg")
+        yield Notice("scope-helix-angle", f"ISO 6336 is confirmed for helix angles up to 30 deg, here {helix:g} deg")
+
+
+def _fillet_notices(pair: GearPair) -> Iterator[Notice]:
+    """Whether the fillets do not let the pair have its contact ratio."""
     usable, whole = pair.usable_contact_ratio, pair.transverse_contact_ratio
     if usable < whole - 1e-9:
-        found.append(
-            f"contact ratio: the tips reach {whole:.4f}, which the rating uses, but the fillets leave {usable:.4f} of involute"
-        )
-    return found
+        text = f"the tips reach {whole:.4f}, which the rating uses, but the fillets leave {usable:.4f} of involute"
+        yield Notice("fillets-limit-contact", f"contact ratio: {text}")

@@ -17,6 +17,7 @@ from gearcad.designs import read_spec
 from gearcad.errors import ParameterError
 from gearcad.geometry import FlankModification
 from gearcad.material import MaterialGroup
+from gearcad.per_gear import PerGear
 from gearcad.rating import Accuracy, DynamicFactor, RatingOptions, RunningIn, running_in_alpha
 from gearcad.rating.dynamic_factor import SpeedRange, running_factors
 from gearcad.rating.iso1328 import flank_tolerances
@@ -69,7 +70,7 @@ LIGHT = GearPair(
 )
 """8 N·m are 2000 * 8/(60 * 20) = 13.33 N/mm; 1 m/s is 318.3 rpm."""
 
-INERTIAS = (2e-4, 4e-3)
+INERTIAS = PerGear(2e-4, 4e-3)
 
 
 def test_low_load_softens_the_mesh() -> None:
@@ -87,7 +88,7 @@ def test_resonance_speed_of_the_alm_starter() -> None:
     """94.07 N/mm: it was 37,624 rpm with the stiffness of high loads; the inertias are those of the solids."""
     design = read_spec(TEMPLATES / "alm-18-161.toml")
     pair, load = design.loaded_pair("", "")
-    found = DynamicFactor.of(pair, STEEL, load, (6.8607e-6, 0.024773))
+    found = DynamicFactor.of(pair, STEEL, load, PerGear(6.8607e-6, 0.024773))
     assert found.resonance_speed == pytest.approx(37338, abs=1)
 
 
@@ -117,7 +118,7 @@ def test_stiffness_and_resonance_of_another_program() -> None:
     masses = (mass, mass * 1.6**2)
     inertias = [each * 26 * (gear.base_diameter / 2000) ** 2 for each, gear in zip(masses, (pinion, wheel), strict=True)]
     load = Load(torque=given["tangential_force_n"] * pinion.reference_diameter / 2000)
-    found = DynamicFactor.of(GearPair(pinion=pinion, wheel=wheel), STEEL, load, (inertias[0], inertias[1]))
+    found = DynamicFactor.of(GearPair(pinion=pinion, wheel=wheel), STEEL, load, PerGear(*inertias))
     assert found.single_stiffness == expected["c_prime"]
     assert found.mesh_stiffness == expected["c_gamma_alpha"]
     assert found.reduced_mass == expected["m_red_kg_mm"]
@@ -185,7 +186,7 @@ def test_a_material_without_group_wears_least_and_is_told() -> None:
         DynamicFactor.of(LIGHT, material, Load(torque=80.0), INERTIAS)
         for material in (STEEL, Material(group=MaterialGroup.CASE_HARDENED))
     )
-    assert replace(plain, warnings=()) == hard
+    assert replace(plain, notices=()) == hard
     assert "the material has no group" in plain.warnings[0]
 
 

@@ -24,6 +24,7 @@ from gearcad.dynamics.response.transient import integrate
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import GeometryError, ParameterError, SolverError
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.per_gear import PerGear
 from gearcad.rating.dynamic_factor import DynamicFactor, reduced_mass
 from gearcad.rating.iso1328 import flank_tolerances
 
@@ -380,7 +381,7 @@ def test_k_v_needs_a_static_load() -> None:
 def test_method_b_beside_ours() -> None:
     """One resonance: n_E1 of m_red and c_gamma is the natural frequency of the isolated pair."""
     width = 50.0
-    mass = reduced_mass((0.0058, 0.2228), (50.7, 135.3), width)
+    mass = reduced_mass(PerGear(0.0058, 0.2228), PerGear(50.7, 135.3), width)
     method_b = DynamicFactor(
         teeth=18,
         total_contact_ratio=1.6,

@@ -122,7 +122,8 @@ def test_infinite_lead_is_none_in_a_document() -> None:
 
 def test_warnings_of_a_gear() -> None:
     assert _gear().warnings == ()
-    assert any("undercut" in text for text in SAMPLES["undercut"].warnings)
+    notice, *_ = SAMPLES["undercut"].notices
+    assert notice.code == "undercut" and str(notice) == SAMPLES["undercut"].warnings[0]
     pointed = _gear(teeth=12, profile_shift=0.7)
     assert 0 < pointed.tip_thickness < 0.4
     assert any("thin tip" in text for text in pointed.warnings)

@@ -37,9 +37,9 @@ def test_single_contact_factors_are_ratios_of_curvature() -> None:
     radius = {name: place * (whole - place) for name, place in pair.path_of_contact._asdict().items()}
     expected = [math.sqrt(radius["C"] / radius[name]) for name in ("B", "D")]
     assert single_contact_curvature(pair) == pytest.approx(expected, rel=EXACT)
-    assert rate(pair, STEEL, LOAD).flank.pinion_contact_factor == pytest.approx(expected[0], rel=EXACT)
+    assert rate(pair, STEEL, LOAD).flank.contact_factors.pinion == pytest.approx(expected[0], rel=EXACT)
     assert expected[0] > 1 > expected[1]
-    assert rate(pair, STEEL, LOAD).flank.wheel_contact_factor == 1
+    assert rate(pair, STEEL, LOAD).flank.contact_factors.wheel == 1
 
 
 def test_torque_elasticity_and_application_factor() -> None:
@@ -47,12 +47,12 @@ def test_torque_elasticity_and_application_factor() -> None:
     one = rate(pair, STEEL, LOAD)
     other = rate(pair, replace(STEEL, youngs_modulus=51500.0), Load(torque=-700.0, application_factor=1.5))
     assert other.flank.nominal_stress / one.flank.nominal_stress == pytest.approx(math.sqrt(2 / 4), rel=EXACT)
-    assert other.pinion.nominal_stress / one.pinion.nominal_stress == pytest.approx(2, rel=EXACT)
+    assert other.roots.pinion.nominal_stress / one.roots.pinion.nominal_stress == pytest.approx(2, rel=EXACT)
     assert other.pitch_point.half_width / one.pitch_point.half_width == pytest.approx(math.sqrt(8), rel=EXACT)
     assert other.stiffness.mesh_alpha / one.stiffness.mesh_alpha == pytest.approx(1 / 4, rel=EXACT)
-    assert other.root_stresses == pytest.approx([1.5 * gear.nominal_stress for gear in (other.pinion, other.wheel)], rel=EXACT)
+    assert other.root_stresses == pytest.approx([1.5 * gear.nominal_stress for gear in other.roots], rel=EXACT)
     stress = other.flank.nominal_stress * math.sqrt(1.5)
-    assert other.contact_stresses == pytest.approx([stress * other.flank.pinion_contact_factor, stress], rel=EXACT)
+    assert other.contact_stresses == pytest.approx([stress * other.flank.contact_factors.pinion, stress], rel=EXACT)
     assert other.specific_load == pytest.approx(1.5 * 2 * one.specific_load, rel=EXACT)
 
 
@@ -69,8 +69,8 @@ def test_exchanged_gears(helix: float) -> None:
 def test_equal_gears_are_rated_equally() -> None:
     gear = Gear(teeth=25, normal_module=2.0, face_width=20.0, profile_shift=0.2)
     rating = rate(shortened(GearPair(pinion=gear, wheel=gear)), STEEL, LOAD)
-    assert rating.pinion == rating.wheel
-    assert rating.flank.pinion_contact_factor == pytest.approx(rating.flank.wheel_contact_factor, rel=EXACT)
+    assert rating.roots.pinion == rating.roots.wheel
+    assert rating.flank.contact_factors.pinion == pytest.approx(rating.flank.contact_factors.wheel, rel=EXACT)
     # With equal teeth but unequal shifts the order of the gears must not matter either.
     other = replace(gear, profile_shift=-0.1)
     stiffness = [rate(GearPair(pinion=a, wheel=b), STEEL, LOAD).stiffness for a, b in ((gear, other), (other, gear))]

@@ -60,7 +60,7 @@ def test_ranges(pair: GearPair, expected: str) -> None:
 def test_range_of_the_notch() -> None:
     pair = sample_pair(0.0, rack=BasicRack(root_radius=0.02))
     pair = replace(pair, wheel=replace(pair.wheel, teeth=180, profile_shift=0.6), centre_distance=None)
-    section = rate(pair, STEEL, LOAD).wheel.section
+    section = rate(pair, STEEL, LOAD).roots.wheel.section
     assert section.notch_parameter > 8
     assert section.notch_parameter == pytest.approx(section.chord / 2 / section.fillet_radius, rel=EXACT)
     assert f"wheel root: Y_S is stated for q_s from 1 to 8, here {section.notch_parameter:.3g}" in _warnings(pair)
@@ -75,7 +75,7 @@ def test_tangent_beyond_the_fillet() -> None:
         rack=BasicRack(pressure_angle=35.0, addendum=0.8, dedendum=0.9, root_radius=0.1),
     )
     pair = GearPair(pinion=gear, wheel=gear)
-    assert not rate(pair, STEEL, LOAD).wheel.section.on_fillet
+    assert not rate(pair, STEEL, LOAD).roots.wheel.section.on_fillet
     assert "wheel root: the tangent at 30 deg touches beyond the fillet, so Y_F and Y_S do not hold" in _warnings(pair)
 
 
@@ -98,11 +98,12 @@ def test_thin_rim_raises_the_root_stress() -> None:
         ratio = (gear.root_diameter - bore) / (gear.tip_diameter - gear.root_diameter)
         assert rim_thickness_ratio(gear) == pytest.approx(ratio, rel=EXACT)
         factor = 1.6 * math.log(2.242 / ratio)
-        assert rating.pinion.nominal_stress / solid.pinion.nominal_stress == pytest.approx(factor, rel=EXACT)
+        assert rating.roots.pinion.nominal_stress / solid.roots.pinion.nominal_stress == pytest.approx(factor, rel=EXACT)
         disc, warning = rating.warnings
+        assert [notice.code for notice in rating.notices] == ["stiffness-solid-disc", "thin-rim"]
         assert disc == f"c': C_R is 1 of a solid disc, but the pinion has only {ratio:.3g} tooth heights under the root"
         assert warning == f"pinion rim: {ratio:.3g} tooth heights under the root {words}; Y_B = {factor:.4g}"
-        assert rate(bored, STEEL, LOAD, RatingOptions(standard=Edition.DIN_1987)).pinion.rim_thickness_factor == 1
+        assert rate(bored, STEEL, LOAD, RatingOptions(standard=Edition.DIN_1987)).roots.pinion.rim_thickness_factor == 1
     webbed = replace(plain, pinion=replace(plain.pinion, body=Body(web_thickness=10.0, rim_thickness=5.0)))
     assert rim_thickness_ratio(webbed.pinion) == pytest.approx(ratio * 5 / ((webbed.pinion.root_diameter - 49) / 2))
     keyed = replace(plain.pinion, body=Body(bore=30.0, keyway_width=8.0, keyway_depth=3.3))
@@ -114,7 +115,9 @@ def test_deep_teeth_of_high_accuracy() -> None:
     ratio = pair.transverse_contact_ratio
     assert 2.05 < ratio < 2.5
     coarse, fine = (rate(pair, STEEL, LOAD, RatingOptions(accuracy_grade=grade)) for grade in (6, 4))
-    assert fine.wheel.nominal_stress / coarse.wheel.nominal_stress == pytest.approx(2.366 - 0.666 * ratio, rel=EXACT)
+    assert fine.roots.wheel.nominal_stress / coarse.roots.wheel.nominal_stress == pytest.approx(
+        2.366 - 0.666 * ratio, rel=EXACT
+    )
 
 
 # ---------------------------------------------------------------------- errors and documents
@@ -165,7 +168,7 @@ def test_standard_may_be_named() -> None:
 def test_document_has_a_symbol_for_everything() -> None:
     document = rate(sample_pair(), STEEL, LOAD).to_dict()
     assert json.loads(json.dumps(document)) == document
-    assert set(document) - {"pinion", "wheel", "warnings"} == set(symbols.RATING)
+    assert set(document) - {"pinion", "wheel", "warnings", "notices"} == set(symbols.RATING)
     assert set(document["pinion"]) == set(document["wheel"]) == set(symbols.GEAR_RATING)
     for table in (symbols.RATING, symbols.GEAR_RATING):
         words = [symbol.words for symbol in table.values()]

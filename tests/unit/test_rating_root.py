@@ -13,6 +13,7 @@ from support.ratings import STEEL, numbers, sample_pair, swapped
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError, Load
 from gearcad.geometry.curves import CurveKind, Fillet
 from gearcad.geometry.trochoid import ToolTip
+from gearcad.per_gear import Role
 from gearcad.rating import Edition, VirtualGear, rate
 from gearcad.rating.iso6336_3 import (
     deep_tooth_factor,
@@ -84,7 +85,7 @@ def _section_seen(fillet: Fillet) -> tuple[float, float, float]:
 def test_root_section_lies_on_the_trochoid(helix: float, changes: dict[str, Any]) -> None:
     pair = sample_pair(helix, **changes)
     rating = rate(pair, STEEL, LOAD)
-    for gear, root in ((pair.pinion, rating.pinion), (pair.wheel, rating.wheel)):
+    for gear, root in ((pair.pinion, rating.roots.pinion), (pair.wheel, rating.roots.wheel)):
         height, half_chord, radius = _section_seen(_fillet(gear))
         section, load = root.section, root.load_point
         assert section.on_fillet
@@ -101,7 +102,7 @@ def test_load_acts_at_the_outer_point_of_single_contact() -> None:
     rating = rate(pair, STEEL, LOAD)
     whole = pair.centre_distance * math.sin(math.radians(pair.working_transverse_pressure_angle))
     path = pair.path_of_contact
-    for gear, root, place in ((pair.pinion, rating.pinion, path.D), (pair.wheel, rating.wheel, whole - path.B)):
+    for gear, root, place in ((pair.pinion, rating.roots.pinion, path.D), (pair.wheel, rating.roots.wheel, whole - path.B)):
         diameter = math.hypot(gear.base_diameter, 2 * place)
         assert root.load_point.diameter == pytest.approx(diameter, rel=EXACT)
         assert root.load_point.half_angle == pytest.approx(gear.profile.half_angle(diameter / 2), rel=1e-11)
@@ -124,7 +125,7 @@ def test_undercut() -> None:
     expected = f"the tips reach {pair.transverse_contact_ratio:.4f}, which the rating uses, but the fillets leave"
     assert any(expected in warning for warning in rating.warnings)
     # The section lies below what undercut takes away.
-    section, height = rating.pinion.section, _section_seen(_fillet(gear))[0]
+    section, height = rating.roots.pinion.section, _section_seen(_fillet(gear))[0]
     assert section.on_fillet
     assert 2 * math.hypot(section.chord / 2, height) < gear.form_diameter
 
@@ -167,5 +168,5 @@ def test_widths_that_carry(widths: tuple[float, float], offset: float, expected:
     plain = sample_pair()
     gears = [replace(gear, face_width=width) for gear, width in zip((plain.pinion, plain.wheel), widths, strict=True)]
     pair = replace(plain, pinion=gears[0], wheel=gears[1], axial_offset=offset)
-    assert [loaded_width(pair, gear) for gear in gears] == pytest.approx(expected, rel=EXACT)
-    assert [loaded_width(swapped(pair), gear) for gear in gears] == pytest.approx(expected, rel=EXACT)
+    assert [loaded_width(pair, role) for role in Role] == pytest.approx(expected, rel=EXACT)
+    assert [loaded_width(swapped(pair), role.mate) for role in Role] == pytest.approx(expected, rel=EXACT)

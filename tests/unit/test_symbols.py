@@ -20,7 +20,7 @@ def _keys(document: dict[str, Any]) -> set[str]:
     found = set()
     for key, value in document.items():
         found |= {f"{key}.{inner}" for inner in value} if isinstance(value, dict) else {key}
-    return found - {"warnings"}
+    return found - {"warnings", "notices"}
 
 
 def test_every_field_of_a_gear_has_a_symbol_and_every_symbol_a_field() -> None:

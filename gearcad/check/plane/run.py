@@ -86,12 +86,12 @@ def plane_warnings(task: CheckTask, elasticity: PlaneElasticity) -> Iterator[str
 def _wider_gears(task: CheckTask) -> Iterator[str]:
     """Gears whose root carries over more than the common width."""
     common = task.pair.common_width.width
-    gears = (("pinion", task.pair.pinion, task.rating.pinion), ("wheel", task.pair.wheel, task.rating.wheel))
-    for owner, gear, rating in gears:
+    for role, rating in task.rating.roots.items():
+        own = task.pair.gears.pick(role).face_width
         if rating.width > (1 + _WORTH_A_WORD) * common:
             carry = f"by {task.rating.edition.part(3)} {rating.width:.4g} mm carry at its root"
             yield (
-                f"the {owner} is {gear.face_width:.4g} mm wide, and the plane model has the {common:.4g} mm in mesh; {carry}, "
+                f"the {role.value} is {own:.4g} mm wide, and the plane model has the {common:.4g} mm in mesh; {carry}, "
                 f"with {100 * (1 - common / rating.width):.2g} % less stress; --model 3d has the whole width"
             )
 

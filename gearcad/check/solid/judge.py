@@ -51,8 +51,8 @@ def _contact(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
     standard = rating.edition.dated_part(2)
     nominal = rating.flank.nominal_stress * math.sqrt(rating.application_factor)
     for words, key, reference, source, note in (
-        ("contact pressure, pinion", "contact_pressure", rating.contact_stresses[0], "Z_B sigma_H0", away),
-        ("contact pressure, wheel", "contact_pressure", rating.contact_stresses[1], "Z_D sigma_H0", away),
+        ("contact pressure, pinion", "contact_pressure", rating.contact_stresses.pinion, "Z_B sigma_H0", away),
+        ("contact pressure, wheel", "contact_pressure", rating.contact_stresses.wheel, "Z_D sigma_H0", away),
         ("contact pressure at the pitch point", "contact_pressure_pitch_point", nominal, "sigma_H0", middle),
     ):
         value, source, reason = getattr(summary, key), f"{source}, {standard} Method B", summary.missing.get(key, "")

@@ -24,7 +24,7 @@ def plane_root_reasons(result: PlaneCheck) -> list[str]:
 
 
 def _root_reason(result: PlaneCheck, gear: int, name: str) -> str:
-    path, rating = result.pair.path_of_contact, (result.rating.pinion, result.rating.wheel)[gear]
+    path, rating = result.pair.path_of_contact, result.rating.roots[gear]
     found, standard = result.summary.root_tension[gear], result.rating.root_stresses[gear]
     alone = root_at_single_contact(result, gear)
     letter, place = (("D", path.D), ("B", path.B))[gear]

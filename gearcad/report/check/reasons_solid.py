@@ -19,7 +19,7 @@ def solid_root_reasons(result: SolidCheck) -> list[str]:
 
 
 def _root_reason(result: SolidCheck, gear: int, name: str) -> str:
-    rating, summary = (result.rating.pinion, result.rating.wheel)[gear], result.summary
+    rating, summary = result.rating.roots[gear], result.summary
     found, standard, uneven = summary.root_tension[gear], result.rating.root_stresses[gear], summary.root_face_load_factor[gear]
     width = result.cycle.model.width
     same_width = standard * rating.width / width
