@@ -65,7 +65,7 @@ def make_parts(design: Design, parts: Iterable[str], wanted: Wanted, folder: Pat
     if formats:
         minded = {name: value for kind in formats for name, value in wanted.options.minded_by(kind).items()}
         options = FileOptions(**minded)
-        build(design, folder, formats, options if design.pair is not None else replace(options, bracket=False))
+        build(design, folder, formats, options if len(design.gears) > 1 else replace(options, bracket=False))
     elif DATA in parts:
         (folder / "data.json").write_text(json_text(design.to_dict()), encoding="utf-8")
 

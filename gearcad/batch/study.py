@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from gearcad.designs.cells import CellReader, Layout, guarded_text, list_text
 from gearcad.designs.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES, DesignKind
-from gearcad.designs.keys import KEYS, explain_unknown_column
-from gearcad.designs.reader import Cell, spec_values
+from gearcad.designs.keys import KEYS, Cell, explain_unknown_column
+from gearcad.designs.reader import spec_values
 from gearcad.designs.table import open_table
 from gearcad.errors import ParameterError, format_number, require_whole
 from gearcad.output import staged_files

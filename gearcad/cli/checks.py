@@ -35,14 +35,15 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
     """
     from gearcad.check.document import check_document
     from gearcad.check.options import CheckOptions
-    from gearcad.designs import read_spec
-    from gearcad.jobs.check import assess, expected_assessment
+    from gearcad.designs import PairDesign, read_spec
+    from gearcad.jobs.check import NO_MATE, assess, expected_assessment
     from gearcad.output import json_text, staged_files
     from gearcad.report import write_report
 
     design = read_spec(spec)
     if model is not None:
-        design = replace(design, check=replace(design.check or CheckOptions(), model=model))
+        pair = design.accepted(PairDesign, why=NO_MATE)
+        design = replace(pair, check=replace(pair.check or CheckOptions(), model=model))
     with job_progress(shown=not quiet, expected=None if quiet else expected_assessment(design)) as progress:
         result = assess(design, progress=progress)
     document = check_document(result)

@@ -58,10 +58,10 @@ def _write_new(path: Path, text: str, force: bool) -> None:
 @debug_option
 def data(spec: Path, as_json: bool) -> None:
     """Show the geometry of SPEC: every derived quantity, and warnings."""
-    from gearcad.designs import read_spec
+    from gearcad.designs import GearDesign, PairDesign, read_spec
     from gearcad.output import json_text
 
-    design = read_spec(spec)
+    design = read_spec(spec).accepted(GearDesign, PairDesign, why="there are no teeth")
     if as_json:
         click.echo(json_text(design.to_dict()), nl=False)
         return

@@ -39,12 +39,11 @@ def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> Non
     import numpy as np
 
     from gearcad.designs import read_spec
-    from gearcad.designs.trains import holds_train, read_train
     from gearcad.jobs.dynamics import dynamics_document, simulate
     from gearcad.output import json_text, staged_files
     from gearcad.report import write_dynamics_report
 
-    design = read_train(spec) if holds_train(spec) else read_spec(spec)
+    design = read_spec(spec)
     with job_progress(shown=not quiet) as progress:
         study = simulate(design, progress=progress)
     document = dynamics_document(study, design.name)

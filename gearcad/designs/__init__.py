@@ -1,7 +1,37 @@
 """Spec files (TOML) and design tables (CSV, .xlsx): the same keys in, a Design out."""
 
-from gearcad.designs.design import Design, DesignKind, as_design
-from gearcad.designs.reader import design_from_tables, read_spec
-from gearcad.designs.table import Row, Table, open_table
+from __future__ import annotations
 
-__all__ = ["Design", "DesignKind", "Row", "Table", "as_design", "design_from_tables", "open_table", "read_spec"]
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gearcad.designs.design import Design, DesignKind
+    from gearcad.designs.kinds.gear import GearDesign
+    from gearcad.designs.kinds.geared import GearedDesign, Inputs
+    from gearcad.designs.kinds.pair import PairDesign, as_design
+    from gearcad.designs.kinds.train import TrainDesign
+    from gearcad.designs.reader import design_from_tables, read_spec
+    from gearcad.designs.table import Row, Table, open_table
+
+__all__ = [
+    "Design",
+    "DesignKind",
+    "GearDesign",
+    "GearedDesign",
+    "Inputs",
+    "PairDesign",
+    "Row",
+    "Table",
+    "TrainDesign",
+    "as_design",
+    "design_from_tables",
+    "open_table",
+    "read_spec",
+]
+
+if not TYPE_CHECKING:
+    from gearcad.lazy import lazily
+
+    __getattr__ = lazily(
+        __name__, __all__, ("design", "kinds.geared", "kinds.gear", "kinds.pair", "reader", "table", "kinds.train")
+    )

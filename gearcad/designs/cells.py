@@ -8,8 +8,7 @@ from collections.abc import Iterable, Sequence
 from enum import Enum
 from typing import NamedTuple
 
-from gearcad.designs.keys import COLUMNS, LISTS
-from gearcad.designs.reader import WHOLE_FIELDS, Cell
+from gearcad.designs.keys import COLUMNS, LISTS, WHOLE_FIELDS, Cell
 from gearcad.errors import ParameterError
 
 __all__ = ["CellReader", "Layout", "RawCell", "Unreadable", "guarded_text", "is_blank", "is_comment", "list_text", "plain_text"]

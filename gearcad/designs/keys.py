@@ -20,11 +20,19 @@ __all__ = [
     "LISTS",
     "PARTS",
     "SHARED",
+    "WHOLE_FIELDS",
+    "Cell",
     "explain_unknown_column",
     "explain_unknown_key",
     "explain_unknown_table",
     "nearest_table",
 ]
+
+Cell = int | float | str | tuple[float, ...]
+"""What a spec and a cell of a design table can both hold."""
+
+WHOLE_FIELDS = ("teeth", "body_teeth", "positions", "speeds", "harmonics", "frequencies", "accuracy_grade", "seed")
+"""Fields that are whole numbers; elsewhere 2 means 2.0."""
 
 PARTS = ("rack", "body", "modification")
 """Fields of a gear that have fields of their own."""

@@ -13,7 +13,8 @@ from pathlib import Path
 from gearcad.designs.cells import CellReader, Layout, RawCell, is_blank, is_comment, plain_text
 from gearcad.designs.design import Design, DesignKind, require_plain_name
 from gearcad.designs.headings import column_letter, kinds_of, read_headings
-from gearcad.designs.reader import Cell, design_from_tables
+from gearcad.designs.keys import Cell
+from gearcad.designs.reader import design_from_tables
 from gearcad.designs.sheets import Record, Sheet, open_sheet
 from gearcad.designs.trials import fault_alone, missing_faults, nested, permitted_alone
 from gearcad.errors import ParameterError, SpecError, format_number, printable, shown

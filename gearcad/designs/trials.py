@@ -6,8 +6,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import lru_cache
 
 from gearcad.designs.design import DesignKind
-from gearcad.designs.keys import SHARED
-from gearcad.designs.reader import Cell, design_from_tables
+from gearcad.designs.keys import SHARED, Cell
+from gearcad.designs.reader import design_from_tables
 from gearcad.errors import GeometryError, SpecError
 
 __all__ = ["fault_alone", "missing_faults", "nested", "permitted_alone"]

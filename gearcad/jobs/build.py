@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-from gearcad.designs.design import Design
+from gearcad.designs import Design, GearDesign, GearedDesign, PairDesign
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.output import json_text, staged_files
 from gearcad.progress import Progress
@@ -45,9 +45,10 @@ def build(
     that have assemblies. All files appear, or none.
     Raises ParameterError or GeometryError for wrong input, a folder that cannot be written too.
     """
+    geared = design.accepted(GearDesign, PairDesign, why="there are no teeth")
     wanted = set(formats)
-    _check(design, wanted, options)
-    steps = list(_plan(design, [kind for kind in Format if kind in wanted], options))
+    _check(geared, wanted, options)
+    steps = list(_plan(geared, [kind for kind in Format if kind in wanted], options))
     with staged_files(folder) as staging:
         for done, step in enumerate(steps):
             if progress is not None:
@@ -56,10 +57,10 @@ def build(
     return [folder / step.file for step in steps]
 
 
-def _check(design: Design, formats: set[Format], options: FileOptions) -> None:
+def _check(design: GearedDesign, formats: set[Format], options: FileOptions) -> None:
     if not formats:
         raise ParameterError("format", "", f"must be one or more of {', '.join(kind.value for kind in Format)}")
-    if options.bracket and design.pair is None:
+    if options.bracket and design.assembly is None:
         raise GeometryError("bracket", True, "needs a pair: a single gear has no assembly")
     for option, where in _WHERE.items():
         needed = formats_minding(option)
@@ -67,10 +68,10 @@ def _check(design: Design, formats: set[Format], options: FileOptions) -> None:
             raise GeometryError(option, True, f"needs the format {' or '.join(kind.value for kind in needed)}: {where}")
 
 
-def _plan(design: Design, formats: list[Format], options: FileOptions) -> Iterator[_Step]:
+def _plan(design: GearedDesign, formats: list[Format], options: FileOptions) -> Iterator[_Step]:
     """Every file of the design, quickest first."""
     yield _Step("data.json", partial(_write_data, design))
-    pair = PairProduct(design.pair, options) if design.pair is not None else None
+    pair = PairProduct(design.assembly, options) if design.assembly is not None else None
     gears = _products(design, pair, options)
     for kind in reversed(formats):
         for name, product in gears.items():
@@ -79,7 +80,7 @@ def _plan(design: Design, formats: list[Format], options: FileOptions) -> Iterat
             yield _Step(f"assembly.{kind.value}", partial(kind.entry.write_pair, pair))
 
 
-def _products(design: Design, pair: PairProduct | None, options: FileOptions) -> dict[str, GearProduct]:
+def _products(design: GearedDesign, pair: PairProduct | None, options: FileOptions) -> dict[str, GearProduct]:
     """The gears as files hold them, by the names of these files."""
     if pair is not None:
         return {role.value: product for role, product in pair.gears.items()}

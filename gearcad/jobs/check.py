@@ -6,13 +6,15 @@ from typing import Unpack
 
 from gearcad.check.result import CheckResult
 from gearcad.check.run import check_pair, expected_check
-from gearcad.designs.design import Design, Inputs, as_design
+from gearcad.designs import Design, Inputs, PairDesign, as_design
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.progress import Expected, Progress
 
-__all__ = ["assess", "expected_assessment"]
+__all__ = ["NO_MATE", "assess", "expected_assessment"]
+
+NO_MATE = "a single gear has nothing to press against"
 
 
 def assess(
@@ -32,21 +34,21 @@ def assess(
 
     Raises ParameterError for a design without pair or load, and what `check_pair` raises.
     """
-    design = as_design(subject, load, **inputs)
-    pair, given = _loaded(design)
+    design, given = _loaded(as_design(subject, load, **inputs))
     from threadpoolctl import threadpool_limits
 
     # The dense systems are small, and solid bodies are solved side by side: more threads cost more than they bring.
     with threadpool_limits(1):
         material = design.material or Material()
-        return check_pair(pair, material, given, design.check, progress, design.mounting, design.rating)
+        return check_pair(design.pair, material, given, design.check, progress, design.mounting, design.rating)
 
 
 def expected_assessment(design: Design) -> Expected:
     """What `assess` is expected to take. Raises what it raises for a design that cannot be checked."""
-    pair, load = _loaded(design)
-    return expected_check(pair, design.material or Material(), load, design.check, design.mounting, design.rating)
+    of, load = _loaded(design)
+    return expected_check(of.pair, of.material or Material(), load, of.check, of.mounting, of.rating)
 
 
-def _loaded(design: Design) -> tuple[GearPair, Load]:
-    return design.loaded_pair("nothing to press against", "without it there is no stress")
+def _loaded(design: Design) -> tuple[PairDesign, Load]:
+    pair = design.accepted(PairDesign, why=NO_MATE)
+    return pair, pair.loaded("without it there is no stress")

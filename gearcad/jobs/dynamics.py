@@ -7,8 +7,8 @@ from typing import Any, Unpack
 
 from gearcad import __version__
 from gearcad.check.options import CheckOptions
-from gearcad.designs.design import Design, Inputs, as_design
-from gearcad.designs.trains import TrainDesign
+from gearcad.designs import Design, Inputs, PairDesign, TrainDesign, as_design
+from gearcad.designs.design import not_accepted
 from gearcad.dynamics.options import DynamicsOptions, PairModel
 from gearcad.dynamics.pair_study import ContactStudy, PairStudy, study_contact, study_pair
 from gearcad.dynamics.study import ModalStudy, TrainStudy, study_modes, study_train
@@ -32,7 +32,7 @@ _STEPS = {
 
 
 def simulate(
-    subject: Design | GearPair | TrainDesign,
+    subject: Design | GearPair,
     load: Load | None = None,
     *,
     progress: Progress | None = None,
@@ -48,16 +48,21 @@ def simulate(
     from threadpoolctl import threadpool_limits
 
     with threadpool_limits(1):  # the dense systems are small
-        if isinstance(subject, TrainDesign):
-            if not subject.train.meshes:
-                return study_modes(subject.train, subject.options)
-            return study_train(subject.train, subject.options, tell=_teller(progress, "train"))
-        return _of_pair(as_design(subject, load, **inputs), progress)
+        design = as_design(subject, load, **inputs)
+        if isinstance(design, TrainDesign):
+            return _of_train(design, progress)
+        if isinstance(design, PairDesign):
+            return _of_pair(design, progress)
+        raise not_accepted(type(design), (PairDesign, TrainDesign), "a single gear has no mesh")
 
 
-def _of_pair(design: Design, progress: Progress | None) -> PairStudy | ContactStudy:
-    if design.pair is None:
-        raise ParameterError("kind", design.kind.value, "must be a pair or a train: a single gear has no mesh")
+def _of_train(design: TrainDesign, progress: Progress | None) -> TrainStudy | ModalStudy:
+    if not design.train.meshes:
+        return study_modes(design.train, design.dynamics)
+    return study_train(design.train, design.dynamics, tell=_teller(progress, "train"))
+
+
+def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | ContactStudy:
     if design.load is None or not design.load.torque:
         given = None if design.load is None else design.load.torque
         raise ParameterError("load.torque", given, "must be given, in N·m on the pinion: flanks without load rattle")

@@ -15,7 +15,7 @@ from gearcad.contact.optimum.search import Found, Search, conditions, start_sear
 from gearcad.contact.optimum.variants import AMOUNTS, Condition, with_amounts
 from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, loaded_left, solid_pair
-from gearcad.designs.design import Design, Inputs, as_design
+from gearcad.designs import Design, Inputs, PairDesign, as_design
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair, ReliefShape
 from gearcad.load import Load
@@ -86,7 +86,7 @@ class Robustness(NamedTuple):
 class Proposal:
     """Modifications for a design at a torque (N·m on the pinion), and what they do; `pair` is the design's with them."""
 
-    design: Design
+    design: PairDesign
     pair: GearPair
     torque: float
     found: Found
@@ -107,7 +107,6 @@ class Proposal:
     @cached_property
     def changes(self) -> dict[str, float | str]:
         """The keys of the spec that change, with their values."""
-        assert self.design.pair is not None  # propose saw to it
         found: dict[str, float | str] = {"pair.name": self.name}
         for owner in ("pinion", "wheel"):
             old, new = (getattr(pair, owner).modification for pair in (self.design.pair, self.pair))
@@ -169,7 +168,7 @@ def propose(
 
     Raises ParameterError for a design without pair or load, and what `gearcad.contact` does.
     """
-    design = as_design(subject, load, **inputs)
+    design = as_design(subject, load, **inputs).accepted(PairDesign, why="flanks are modified for those of a mate")
     pair, torque = _task(design, torque, pressure)
     from threadpoolctl import threadpool_limits
 
@@ -206,10 +205,8 @@ def _tell(progress: Progress | None, step: str, share: float = 0.0) -> None:
         progress(step, _STEPS.index(step) + share, len(_STEPS))
 
 
-def _task(design: Design, torque: float | None, pressure: float | None) -> tuple[GearPair, float]:
+def _task(design: PairDesign, torque: float | None, pressure: float | None) -> tuple[GearPair, float]:
     """Pair and torque; raises for what cannot be searched."""
-    if design.pair is None:
-        raise ParameterError("kind", design.kind.value, "must be a pair: flanks are modified for those of a mate")
     if torque is not None:
         TORQUE.require("torque", torque)
     elif design.load is None:
@@ -227,7 +224,7 @@ def _task(design: Design, torque: float | None, pressure: float | None) -> tuple
     return design.pair, torque
 
 
-def _model(design: Design, pair: GearPair, torque: float, options: CheckOptions, progress: Progress | None) -> SolidPair:
+def _model(design: PairDesign, pair: GearPair, torque: float, options: CheckOptions, progress: Progress | None) -> SolidPair:
     """The solid bodies, as `gearcad check --model 3d` makes them."""
     mounting = design.mounting or Mounting()
     return solid_pair(

@@ -9,7 +9,7 @@ from typing import Any, Unpack
 
 from gearcad import __version__
 from gearcad.check.options import CheckOptions
-from gearcad.designs.design import Design, Inputs, as_design
+from gearcad.designs import Design, Inputs, PairDesign, as_design
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
@@ -42,14 +42,13 @@ def compare(
 
     Raises ParameterError for a design without pair or load, and what `compare_methods` raises.
     """
-    design = as_design(subject, load, **inputs)
-    pair, given = _loaded(design)
+    design, given = _loaded(as_design(subject, load, **inputs))
     from threadpoolctl import threadpool_limits
 
     # The dense systems are small, and solid bodies are solved side by side: more threads cost more than they bring.
     with threadpool_limits(1):
         return compare_methods(
-            pair,
+            design.pair,
             design.material or Material(),
             given,
             methods,
@@ -62,13 +61,14 @@ def compare(
 
 def expected_comparison(design: Design, methods: Sequence[str] = tuple(METHODS), positions: int = 0) -> Expected:
     """What `compare` is expected to take. Raises ParameterError for a design without pair or load."""
-    pair, _ = _loaded(design)
-    body, material = (design.check or CheckOptions()).body, design.material or Material()
-    return expected_methods(pair, material, methods, body=body, mounting=design.mounting, positions=positions)
+    of, _ = _loaded(design)
+    body, material = (of.check or CheckOptions()).body, of.material or Material()
+    return expected_methods(of.pair, material, methods, body=body, mounting=of.mounting, positions=positions)
 
 
-def _loaded(design: Design) -> tuple[GearPair, Load]:
-    return design.loaded_pair("no mesh", "stiffness depends on it")
+def _loaded(design: Design) -> tuple[PairDesign, Load]:
+    pair = design.accepted(PairDesign, why="a single gear has no mesh")
+    return pair, pair.loaded("stiffness depends on it")
 
 
 def stiffness_document(comparison: StiffnessComparison, name: str, harmonics: int = 0) -> dict[str, Any]:

@@ -6,10 +6,11 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from gearcad import Body, Gear, datasheet, symbols
+from gearcad import Body, Gear, symbols
+from gearcad.cli import datasheet
 from gearcad.cli.datasheet import print_datasheet
-from gearcad.designs import read_spec
-from gearcad.designs.design import Design, DesignKind
+from gearcad.designs import GearDesign, read_spec
+from gearcad.designs.design import Design
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 
@@ -41,7 +42,7 @@ def test_pair_shows_both_gears_side_by_side_then_the_pair() -> None:
 
 def test_body_shows_what_is_there_and_nothing_else() -> None:
     gear = Gear(teeth=30, normal_module=2.0, face_width=9.0, body=Body(bore=20.0, keyway_width=6.0, keyway_depth=2.8))
-    text = sheet(Design(kind=DesignKind.GEAR, name="x", gear=gear))
+    text = sheet(GearDesign(name="x", gear=gear))
     body = text[text.index("\nBody\n") : text.index("\n\n", text.index("\nBody\n"))]
     assert [line.split()[-1] for line in body.strip().splitlines()[1:]] == ["20.0000", "6.0000", "2.8000"]
     assert text.endswith("\nNo warnings.\n")
@@ -58,6 +59,6 @@ def test_terminal_gets_colour_and_the_same_words(width: int) -> None:
 
 def test_spur_gear_has_no_lead_and_zero_has_no_sign() -> None:
     gear = Gear(teeth=30, normal_module=2.0, face_width=9.0, profile_shift=-0.00001)
-    lines = sheet(Design(kind=DesignKind.GEAR, name="x", gear=gear)).splitlines()
+    lines = sheet(GearDesign(name="x", gear=gear)).splitlines()
     assert not any("lead" in line for line in lines)
     assert next(line for line in lines if "profile shift" in line).endswith(" 0.0000")

@@ -261,7 +261,9 @@ def test_what_makes_no_dynamics(here: Path, text: str, message: str) -> None:
 def test_other_commands_send_a_train_here(here: Path, command: str) -> None:
     result = run(command, spec(TRAIN))
     assert result.exit_code == 2
-    assert "[train] describes a train, which only `gearcad dynamics` can treat" in result.stderr
+    permitted = "a gear or a pair" if command in ("data", "build") else "a pair"
+    said = f"Error: kind = 'train': must be {permitted}: a train is for `gearcad dynamics`\n"
+    assert result.stderr == said
 
 
 def test_one_accuracy_grade_for_the_standard(here: Path) -> None:

@@ -13,9 +13,9 @@ import pytest
 from hypothesis import given, settings
 from support.hostile import CHEAP, hostile_rows, hostile_specs, physical_specs, put, run_politely, toml_text
 
+from gearcad.designs import read_spec
 from gearcad.designs.starters import starter_text
 from gearcad.designs.table import open_table
-from gearcad.designs.trains import read_train
 from gearcad.errors import SpecError
 from gearcad.ranges import TORQUE
 
@@ -41,7 +41,7 @@ def test_data_of_a_hostile_spec(text: str) -> None:
 @given(text=hostile_specs(trains=True))
 def test_reading_a_hostile_train(text: str) -> None:
     try:
-        read_train(spec_file(text))
+        read_spec(spec_file(text))
     except SpecError as error:
         assert str(error).isprintable()
 

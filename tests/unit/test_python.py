@@ -29,7 +29,6 @@ from gearcad import (
 )
 from gearcad.check import CheckOptions
 from gearcad.designs import Design, as_design, read_spec
-from gearcad.designs.trains import read_train
 from gearcad.dynamics import DynamicsOptions
 from gearcad.jobs.dynamics import simulate
 from gearcad.jobs.modify import propose
@@ -63,7 +62,7 @@ PIXEL = 1.5
         Mounting(misalignment=5),
         CheckOptions(model="3d", torques=[10, 20]),
         DynamicsOptions(),
-        read_train(TEMPLATES / "train-1-stage.toml").train,
+        read_spec(TEMPLATES / "train-1-stage.toml").train,
     ],
     ids=lambda each: type(each).__name__,
 )

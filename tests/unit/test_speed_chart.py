@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 from support.responses import cosine, isolated, oscillator, preloaded, two_stages
 
-from gearcad.designs.trains import read_train
+from gearcad.designs import read_spec
 from gearcad.dynamics.excitation.excitation import Excitation, MeshExcitation
 from gearcad.dynamics.excitation.mesh_curves import CurveStiffness, square_stiffness
 from gearcad.dynamics.excitation.polyline import Polyline
@@ -37,7 +37,7 @@ MAXIMUM = 0.01
 
 
 def starter(name: str, model: str | None = None, damping_ratio: float | None = None) -> Train:
-    train = read_train(TEMPLATES / f"{name}.toml").train
+    train = read_spec(TEMPLATES / f"{name}.toml").train
     if damping_ratio is not None:
         train = replace(train, shafts=[replace(shaft, damping_ratio=damping_ratio) for shaft in train.shafts])
     return train if model is None else replace(train, model=model)

@@ -1,21 +1,20 @@
-"""Spec files of trains: `[train]` with its lists of inertias, shafts and meshes; TOML in, a Train out."""
+"""A train: `[train]` with its lists of inertias, shafts and meshes."""
 
 from __future__ import annotations
 
 import difflib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
-from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from dataclasses import dataclass, field, fields
+from typing import Any, ClassVar, Self
 
-from gearcad.designs.design import require_plain_name
-from gearcad.designs.reader import Where, read_tables
+from gearcad.designs.design import Design, DesignKind, require_plain_name
+from gearcad.designs.files import Where
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.trains.train import Inertia, Mesh, Shaft, Train
 from gearcad.errors import InputError, SpecError, format_number, shown
 
-__all__ = ["TrainDesign", "holds_train", "read_train"]
+__all__ = ["TrainDesign"]
 
 _PARTS: dict[str, type[Any]] = {"inertia": Inertia, "shaft": Shaft, "mesh": Mesh}
 _LISTS = {"inertia": "inertias", "shaft": "shafts", "mesh": "meshes"}
@@ -36,37 +35,35 @@ _OF_PAIRS = (
 )
 """Keys of [dynamics] that a train has in its own parts, or has no use for."""
 
-Part = TypeVar("Part")
 
+@dataclass(frozen=True, kw_only=True)
+class TrainDesign(Design):
+    """A train of shafts and meshes, and what the study of its dynamics looks at."""
 
-class TrainDesign(NamedTuple):
-    """A train with the name of its output folder, and what its study looks at."""
+    kind: ClassVar[DesignKind] = DesignKind.TRAIN
+    elsewhere: ClassVar[str] = "a train is for `gearcad dynamics`"
 
-    name: str
     train: Train
-    options: DynamicsOptions
+    dynamics: DynamicsOptions = field(default=DynamicsOptions())
 
-
-def holds_train(path: Path | str) -> bool:
-    """True if a spec has [train]. Raises SpecError for a file that cannot be read."""
-    return "train" in read_tables(path)[0]
-
-
-def read_train(path: Path | str) -> TrainDesign:
-    """Read a spec with [train]. Raises SpecError, one line that names the file, the line, the key and what is permitted."""
-    tables, where = read_tables(path)
-    for table in tables:
-        if table not in ("train", "dynamics"):
-            raise SpecError(f"{where(table)}: [{shown(table)}] cannot stand beside [train]: permitted is [dynamics]")
-    return _Reader(where).design(tables, Path(path).stem)
+    @classmethod
+    def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
+        """That of [train]; beside it there is [dynamics]. Raises SpecError."""
+        for table in tables:
+            if table not in ("train", "dynamics"):
+                raise SpecError(f"{where(table)}: [{shown(table)}] cannot stand beside [train]: permitted is [dynamics]")
+        reader = _Reader(where)
+        train = reader.train(tables["train"], default_name)
+        return cls(name=train.name, train=train, dynamics=reader.dynamics(tables.get("dynamics", {})))
 
 
 @dataclass(frozen=True)
 class _Reader:
     where: Where
 
-    def design(self, tables: Mapping[str, Any], default_name: str) -> TrainDesign:
-        given = self._table(tables["train"], "train", (*(field.name for field in fields(Train)), *_LISTS))
+    def train(self, content: Any, default_name: str) -> Train:
+        """The train of [train] and its parts."""
+        given = self._table(content, "train", (*(field.name for field in fields(Train)), *_LISTS))
         for plural in _LISTS.values():
             if plural in given:
                 single = next(key for key, name in _LISTS.items() if name == plural)
@@ -76,12 +73,14 @@ class _Reader:
         given["torques"] = self._torques(given.pop("torques", {}))
         with self._blame("train"):
             require_plain_name(name)
-            train = Train(name=name, **{key: _number(key, value) for key, value in given.items()}, **parts)
+            return Train(name=name, **{key: _number(key, value) for key, value in given.items()}, **parts)
+
+    def dynamics(self, content: Any) -> DynamicsOptions:
+        """The options of [dynamics]."""
         permitted = tuple(field.name for field in fields(DynamicsOptions) if field.name not in _OF_PAIRS)
-        chosen = self._table(tables.get("dynamics", {}), "dynamics", permitted)
+        chosen = self._table(content, "dynamics", permitted)
         with self._blame("dynamics"):
-            options = DynamicsOptions(**{key: _number(key, value) for key, value in chosen.items()})
-        return TrainDesign(name, train, options)
+            return DynamicsOptions(**{key: _number(key, value) for key, value in chosen.items()})
 
     def _parts(self, listed: Any, key: str) -> tuple[Any, ...]:
         """The inertias, shafts or meshes of a train."""

@@ -1,0 +1,72 @@
+"""Spec files as they are written: TOML in, its tables and the places of their keys out."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from gearcad.designs.lines import explain_syntax, find_lines, nearest_line
+from gearcad.designs.suffixes import is_table_name
+from gearcad.errors import SpecError, format_number, printable, shown
+
+__all__ = ["Where", "read_tables", "require_sane_tables"]
+
+Where = Callable[[str], str]
+"""Says where a key stands, such as `pair.toml line 7`, for the beginning of a message."""
+
+_DEEPEST = 50
+"""Levels of tables and lists in each other: no key of ours needs more than a few."""
+
+_MOST_WHOLE = 10**15
+
+
+def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
+    """The tables of a TOML spec as they are written, and what locates a key of theirs for messages. Raises SpecError."""
+    path, file = Path(path), printable(str(path))
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except OSError as error:
+        raise SpecError(
+            f"{file}: cannot be read ({error.strerror}); give a spec file, or make one with `gearcad new`"
+        ) from error
+    except UnicodeDecodeError as error:
+        _refuse_table(path)
+        raise SpecError(f"{file}: is not UTF-8 text (byte {error.start}); save it as UTF-8") from error
+    try:
+        tables = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        _refuse_table(path)
+        raise SpecError(f"{file}{explain_syntax(error, text)}") from error
+    except ValueError as error:
+        raise SpecError(f"{file}: has a whole number of thousands of digits; write a smaller one") from error
+    except RecursionError as error:
+        raise SpecError(f"{file}: has lists or tables in each other, hundreds deep") from error
+    lines = find_lines(text)
+
+    def where(key: str) -> str:
+        line = nearest_line(lines, key)
+        return f"{file} line {line}" if line else file
+
+    require_sane_tables(tables, where)
+    return tables, where
+
+
+def _refuse_table(path: Path) -> None:
+    if is_table_name(path):
+        raise SpecError(f"{path}: is a design table, not the spec of one design; use `gearcad batch {path}`")
+
+
+def require_sane_tables(content: Any, where: Where, key: str = "", depth: int = 0) -> None:
+    """Raise SpecError for a whole number in the tables of a spec that a float could not hold, and for tables too deep."""
+    if depth > _DEEPEST:
+        raise SpecError(f"{where(key)}: {shown(key)}: has lists or tables in each other, more than {_DEEPEST} deep", key)
+    if isinstance(content, Mapping):
+        for name, inner in content.items():
+            require_sane_tables(inner, where, f"{key}.{name}" if key else name, depth + 1)
+    elif isinstance(content, list | tuple):
+        for number, inner in enumerate(content):
+            require_sane_tables(inner, where, f"{key}[{number}]" if isinstance(inner, Mapping) else key, depth + 1)
+    elif isinstance(content, int) and abs(content) > _MOST_WHOLE:
+        raise SpecError(f"{where(key)}: {shown(key)}: must be a smaller number; this is {format_number(content)}", key)

@@ -1,0 +1,86 @@
+"""What a gear and a pair have in common: the inputs beside the teeth, and the tables of a spec that hold them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any, TypedDict
+
+from gearcad.check.options import CheckOptions
+from gearcad.designs.design import Design
+from gearcad.designs.files import Where
+from gearcad.designs.keys import KEYS, explain_unknown_table
+from gearcad.designs.spec import Spec
+from gearcad.dynamics.options import DynamicsOptions
+from gearcad.errors import SpecError, format_number, shown
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.material import Material
+from gearcad.mounting import Mounting
+from gearcad.rating.options import RatingOptions
+
+__all__ = ["GearedDesign", "Inputs", "beside_teeth", "require_tables"]
+
+_BESIDE: dict[str, type[Any]] = {
+    "material": Material,
+    "load": Load,
+    "mounting": Mounting,
+    "check": CheckOptions,
+    "dynamics": DynamicsOptions,
+    "rating": RatingOptions,
+}
+
+
+class Inputs(TypedDict, total=False):
+    """What a job may be given beside a pair and its load, under the names of a spec's tables."""
+
+    material: Material
+    mounting: Mounting
+    check: CheckOptions
+    dynamics: DynamicsOptions
+    rating: RatingOptions
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearedDesign(Design):
+    """A gear or a pair with the inputs that later stages need; None for those of which a spec says nothing."""
+
+    material: Material | None = None
+    load: Load | None = None
+    mounting: Mounting | None = None
+    check: CheckOptions | None = None
+    dynamics: DynamicsOptions | None = None
+    rating: RatingOptions | None = None
+
+    @classmethod
+    def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:
+        """The values of a spec, whose tables are those of this kind. Raises SpecError."""
+        require_tables(tables, where)
+        return Spec.of(tables, where)
+
+    @property
+    def assembly(self) -> GearPair | None:
+        """What stands in mesh; None for a single gear."""
+        return None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
+        given = {table: getattr(self, table) for table in _BESIDE}
+        return super().to_dict() | {table: asdict(value) for table, value in given.items() if value is not None}
+
+
+def require_tables(tables: Mapping[str, Any], where: Where) -> None:
+    """Raise SpecError for tables that no gear and no pair has, and for those of a pair beside [gear]."""
+    for table, content in tables.items():
+        if table not in KEYS:
+            raise SpecError(f"{where(table)}: {shown(table)}: {explain_unknown_table(table)}")
+        if not isinstance(content, Mapping):
+            raise SpecError(f"{where(table)}: {table} = {format_number(content)}: must be a table, headed [{table}]")
+    for other in ("pair", "pinion", "wheel"):
+        if "gear" in tables and other in tables:
+            raise SpecError(f"{where(other)}: [{other}] cannot stand beside [gear]: one spec makes a gear or a pair")
+
+
+def beside_teeth(spec: Spec, tables: Mapping[str, Any]) -> dict[str, Any]:
+    """What the tables beside those of the gears make, as keyword arguments of a GearedDesign."""
+    return {table: spec.simple(table, kind) for table, kind in _BESIDE.items() if table in tables}

@@ -1,0 +1,155 @@
+"""A pair of gears: `[pair]`, `[pinion]` and `[wheel]`.
+
+What both gears share may stand in `[pair]`; a gear's own value wins, and the wheel takes the opposite hand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Self, Unpack
+
+from gearcad.designs.auto import AUTO, make_gears, resolve_profile_shifts, resolve_tip_alterations
+from gearcad.designs.design import Design, DesignKind
+from gearcad.designs.files import Where
+from gearcad.designs.keys import SHARED
+from gearcad.designs.kinds.geared import GearedDesign, Inputs, beside_teeth, require_tables
+from gearcad.designs.spec import Given, Spec
+from gearcad.errors import ParameterError, SpecError, as_choice, require_number
+from gearcad.geometry import Gear, GearPair, ShiftSplit
+from gearcad.load import Load
+
+__all__ = ["PairDesign", "as_design"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairDesign(GearedDesign):
+    """A pair of gears, and what later stages need."""
+
+    kind: ClassVar[DesignKind] = DesignKind.PAIR
+
+    pair: GearPair
+
+    @classmethod
+    def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
+        """That of [pair], [pinion] and [wheel]. Raises SpecError."""
+        spec = cls.spec(tables, where)
+        beside = beside_teeth(spec, tables)
+        name = spec.name("pair", default_name)
+        pair = spec.pair(name)
+        with spec.blame("pair"):
+            return cls(name=name, pair=pair, **beside)
+
+    @classmethod
+    def spec(cls, tables: Mapping[str, Any], where: Where) -> _PairSpec:
+        """The values of a spec that has all tables of a pair. Raises SpecError."""
+        require_tables(tables, where)
+        _require_pair(tables, where)
+        return _PairSpec.of(tables, where)
+
+    @property
+    def gears(self) -> dict[str, Gear]:
+        """Pinion and wheel."""
+        return {role.value: gear for role, gear in self.pair.gears.items()}
+
+    @property
+    def assembly(self) -> GearPair:
+        """The pair."""
+        return self.pair
+
+    @property
+    def described(self) -> Mapping[str, Gear | GearPair]:
+        """The gears, and the pair that they make."""
+        return {**self.gears, "pair": self.pair}
+
+    def loaded(self, why: str) -> Load:
+        """Its load. Raises ParameterError where there is none, that ends with why it is needed."""
+        if self.load is None:
+            raise ParameterError("load.torque", None, f"must be given, in N·m on the pinion: {why}")
+        return self.load
+
+
+def as_design(subject: Design | GearPair, load: Load | None = None, **inputs: Unpack[Inputs]) -> Design:
+    """A design as it is, or that of a pair, with what is given in place of its own. Raises ParameterError."""
+    if isinstance(subject, GearPair):
+        subject = PairDesign(name=subject.name, pair=subject)
+    if not isinstance(subject, Design):
+        raise ParameterError("subject", subject, "must be a GearPair or a Design")
+    given: dict[str, Any] = {**inputs, "load": load} if load is not None else {**inputs}
+    for name, value in given.items():
+        if not hasattr(subject, name):
+            raise ParameterError(name, value, f"is nothing that a {subject.kind.value} has")
+    return replace(subject, **given)
+
+
+def _require_pair(tables: Mapping[str, Any], where: Where) -> None:
+    """Raise SpecError unless all tables of a pair are there."""
+    needed = ("pair", "pinion", "wheel")
+    if not any(table in tables for table in needed):
+        raise SpecError(f"{where('')}: makes nothing yet: must have [gear], or [pair] with [pinion] and [wheel]")
+    for table in needed:
+        if table not in tables:
+            raise SpecError(f"{where('')}: [{table}] is missing: a pair needs [pair], [pinion] and [wheel]")
+
+
+class _PairSpec(Spec):
+    """The values of a pair's spec, and how its gears come to theirs."""
+
+    def pair(self, name: str) -> GearPair:
+        """The pair of `[pair]`, `[pinion]` and `[wheel]`, with every "auto" resolved."""
+        self._share_values()
+        self._oppose_helix()
+        inputs = {}
+        for owner in ("pinion", "wheel"):
+            with self.blame(owner):
+                inputs[owner] = {"name": owner} | self.gear_inputs(owner)
+        with self.blame("pair"):
+            given = self._pair_inputs()
+            split = given.pop("profile_shift_split", None)
+            self._resolve_auto(inputs, given.get("centre_distance"), split)
+            gears = make_gears(inputs, {owner: self._automatic(owner) for owner in inputs}, given.get("centre_distance"))
+            return GearPair(pinion=gears["pinion"], wheel=gears["wheel"], **given | {"name": name})
+
+    def _automatic(self, owner: str) -> list[str]:
+        """Fields of a gear that stood as "auto"."""
+        values = {field: self.values.get(f"{owner}.{field}") for field in ("profile_shift", "tip_alteration")}
+        return [field for field, given in values.items() if given is not None and given.note.startswith(AUTO)]
+
+    def _pair_inputs(self) -> dict[str, Any]:
+        given = {key: value for key, value in self.fields_of("pair").items() if key not in SHARED}
+        if "centre_distance" in given:
+            require_number("centre_distance", given["centre_distance"], "mm", above=0)
+        if "profile_shift_split" in given:
+            given["profile_shift_split"] = as_choice("profile_shift_split", given["profile_shift_split"], ShiftSplit)
+        return given
+
+    def _share_values(self) -> None:
+        """Give both gears what stands in [pair], unless they have their own; the helix angle is the pinion's."""
+        for owner in ("pinion", "wheel"):
+            renamed = f"{owner}.rack" in self.values
+            for field in SHARED:
+                given = self.values.get(f"pair.{field}")
+                if given is None or (field == "helix_angle" and owner == "wheel"):
+                    continue
+                if not (renamed and field.startswith("rack")):
+                    self.values.setdefault(f"{owner}.{field}", given)
+
+    def _oppose_helix(self) -> None:
+        """The gear without a helix angle takes the mate's, of the opposite hand."""
+        for owner, mate in (("wheel", "pinion"), ("pinion", "wheel")):
+            given = self.values.get(f"{mate}.helix_angle")
+            if given is not None and f"{owner}.helix_angle" not in self.values:
+                value = 0.0 - given.value if isinstance(given.value, float) else given.value
+                self.values[f"{owner}.helix_angle"] = given._replace(value=value)
+
+    def _resolve_auto(self, inputs: dict[str, dict[str, Any]], distance: float | None, split: ShiftSplit | None) -> None:
+        pinion, wheel = inputs["pinion"], inputs["wheel"]
+        shifts = resolve_profile_shifts(pinion, wheel, distance, split)
+        alterations = resolve_tip_alterations(pinion, wheel, shifts, distance)
+        asked = "" if distance is None else f": centre distance {distance:g} mm asks for x1 + x2 = {sum(shifts):.6g}"
+        for owner, shift, alteration in zip(inputs, shifts, alterations, strict=True):
+            for field, value, note in (("profile_shift", shift, AUTO + asked), ("tip_alteration", alteration, AUTO)):
+                if inputs[owner].get(field, AUTO if field == "tip_alteration" else 0.0) == AUTO:
+                    key = self.values.get(f"{owner}.{field}", Given(AUTO, f"{owner}.{field}")).key
+                    self.values[f"{owner}.{field}"] = Given(value, key, note)
+            inputs[owner] |= {"profile_shift": shift, "tip_alteration": alteration}

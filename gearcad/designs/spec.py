@@ -1,0 +1,164 @@
+"""Spec: the values of one spec's tables under their dotted keys, and how inputs are made of them.
+
+What both gears of a pair share may stand in `[pair]`, so an error is led back to the key that the user wrote.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, fields
+from typing import Any, NamedTuple, Self, TypeVar
+
+from gearcad.designs.auto import AUTO
+from gearcad.designs.design import require_plain_name
+from gearcad.designs.files import Where, require_sane_tables
+from gearcad.designs.keys import KEYS, PARTS, SHARED, WHOLE_FIELDS, explain_unknown_key
+from gearcad.errors import InputError, ParameterError, SpecError, format_number, shown
+from gearcad.geometry import NAMED_RACKS, BasicRack, Body, FlankModification
+from gearcad.load import Load
+
+__all__ = ["Given", "Spec"]
+
+_DERIVED = ("tip_diameter", "root_diameter", "centre_distance")
+
+Simple = TypeVar("Simple")
+
+
+class Given(NamedTuple):
+    """A value, the key under which the user wrote it, and how it came about if it was not written."""
+
+    value: Any
+    key: str
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Spec:
+    """The values of one spec under their dotted keys, and how to make inputs of them."""
+
+    values: dict[str, Given]
+    where: Where
+
+    @classmethod
+    def of(cls, tables: Mapping[str, Any], where: Where) -> Self:
+        """Every value under its dotted key, whole numbers turned into floats where floats are meant. Raises SpecError."""
+        values = {}
+        for table, content in tables.items():
+            for field, value in _entries(content):
+                key = f"{table}.{field}"
+                if field not in KEYS[table]:
+                    raise SpecError(f"{where(key)}: {shown(key)}: {explain_unknown_key(table, field)}")
+                require_sane_tables(value, where, key)
+                if isinstance(value, int) and not isinstance(value, bool):
+                    value = value if field in WHOLE_FIELDS else float(value)
+                # The sum makes -0.0 a plain zero, so that equal inputs give equal files.
+                values[key] = Given(value + 0.0 if isinstance(value, float) else value, key)
+        return cls(values, where)
+
+    @contextmanager
+    def blame(self, owner: str) -> Iterator[None]:
+        """Turn an InputError about a field of `owner` into a SpecError about the key that set it."""
+        try:
+            yield
+        except InputError as error:
+            raise self._explained(error, owner) from error
+
+    def _explained(self, error: InputError, owner: str) -> SpecError:
+        field = error.parameter
+        if field.startswith(("pinion.", "wheel.")):
+            owner, _, field = field.partition(".")
+        # The profile knows the chamfer, not whose it is.
+        field = "body.tip_chamfer" if field == "tip_chamfer" else field
+        permitted = error.permitted
+        if owner in ("pinion", "wheel") and field in ("profile_shift", "tip_alteration") and isinstance(error, ParameterError):
+            permitted += f', or "{AUTO}"'
+        given = self.values.get(f"{owner}.{field}")
+        if given is None and error.value is None:
+            shared = " (here or in [pair])" if owner in ("pinion", "wheel") and field in SHARED else ""
+            key = f"{owner}.{field}"
+            return SpecError(f"{self.where(key)}: {key} is missing: {permitted}{shared}", key)
+        if given is None:
+            given = self._unwritten(owner, field)
+        note = f" ({given.note})" if given.note else ""
+        unit = f" {error.unit}" if error.unit else ""
+        cause = self._automatic_cause(owner, field)
+        text = f"{self.where(given.key)}: {given.key} = {format_number(error.value)}{unit}{note}: {permitted}{cause}"
+        return SpecError(text, given.key)
+
+    def _automatic_cause(self, owner: str, field: str) -> str:
+        """A reminder that the profile shift of the gear at fault was derived, and from what."""
+        shift = self.values.get(f"{owner}.profile_shift")
+        if field == "profile_shift" or shift is None or not shift.note:
+            return ""
+        return f"; its profile_shift is {shift.value:.6g} ({shift.note})"
+
+    def _unwritten(self, owner: str, field: str) -> Given:
+        """Where a value that nobody wrote comes from."""
+        named = self.values.get(f"{owner}.rack")
+        if named and field.startswith("rack."):
+            return named._replace(key=f"{owner}.{field}", note=f"of {named.value}")
+        note = "derived" if field in _DERIVED else "from the file's name" if field == "name" else "by default"
+        return Given(None, f"{owner}.{field}", note)
+
+    def name(self, main: str, default: str) -> str:
+        """The name of the design, which its main table or else the file gives."""
+        given = self.values.get(f"{main}.name")
+        with self.blame(main):
+            require_plain_name(default if given is None else given.value)
+        return default if given is None else str(given.value)
+
+    def fields_of(self, owner: str) -> dict[str, Any]:
+        """Values of one table, still flat: `rack.root_radius` is one key."""
+        return {key.partition(".")[2]: given.value for key, given in self.values.items() if key.startswith(owner + ".")}
+
+    def simple(self, owner: str, kind: type[Simple]) -> Simple:
+        """What a table of plain values makes: a Material, a Load, a Mounting, or the options of a job."""
+        values = self.fields_of(owner)
+        with self.blame(owner):
+            if not isinstance(values.get("name", ""), str):
+                raise ParameterError("name", values["name"], "must be a text")
+            if kind is Load:
+                values.setdefault("torque", None)
+            return kind(**values)
+
+    def gear_inputs(self, owner: str) -> dict[str, Any]:
+        """Keyword arguments of Gear; "auto" not yet resolved, what is missing as None for Gear to complain about."""
+        given = self.fields_of(owner)
+        parts: dict[str, dict[str, Any]] = {part: {} for part in PARTS}
+        inputs: dict[str, Any] = dict.fromkeys(("teeth", "normal_module", "face_width"))
+        for key, value in given.items():
+            part, _, field = key.partition(".")
+            if field:
+                parts[part][field] = value
+            elif key != "rack":
+                inputs[key] = value
+        try:
+            base = _named_rack(given["rack"]) if "rack" in given else BasicRack()
+            inputs["rack"] = BasicRack(**{f.name: getattr(base, f.name) for f in fields(base)} | parts["rack"])
+        except InputError as error:
+            if error.parameter == "rack":
+                raise
+            raise error.within("rack") from error
+        for part, kind in (("body", Body), ("modification", FlankModification)):
+            try:
+                inputs[part] = kind(**parts[part])
+            except InputError as error:
+                raise error.within(part) from error
+        return inputs
+
+
+def _entries(content: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Keys and values of one table, those of `rack`, `body` and `modification` joined to them with a dot."""
+    for field, value in content.items():
+        if field in PARTS and isinstance(value, Mapping):
+            yield from ((f"{field}.{inner}", item) for inner, item in value.items())
+        else:
+            yield field, value
+
+
+def _named_rack(name: Any) -> BasicRack:
+    if not isinstance(name, str) or name not in NAMED_RACKS:
+        names = ", ".join(repr(known) for known in NAMED_RACKS)
+        raise ParameterError("rack", name, f"must be one of {names}, or be described by rack.addendum, rack.dedendum ...")
+    return NAMED_RACKS[name]
