@@ -11,6 +11,7 @@ import numpy as np
 
 from gearcad import symbols
 from gearcad.arrays import Floats
+from gearcad.geometry.helix import twist
 from gearcad.geometry.pose import MeshPose, mesh_pose
 
 if TYPE_CHECKING:
@@ -80,7 +81,7 @@ def _svg(placed: list[tuple[Gear, MeshPose]]) -> str:
 def _shapes(gear: Gear, pose: MeshPose, pixel: float) -> Iterator[str]:
     """The outline with its bore, and the reference circle; `pixel` is its size (mm)."""
     # Seen at the pinion's z = 0, a helical wheel that begins at another height is turned by then.
-    turn = math.radians(pose.rotation) - pose.z * math.tan(math.radians(gear.helix_angle)) * 2 / gear.reference_diameter
+    turn = math.radians(pose.rotation) - twist(gear, pose.z)
     cosine, sine = math.cos(turn), math.sin(turn)
     turned = gear.profile.contour(_CHORD_ERROR * pixel) @ np.array([[cosine, sine], [-sine, cosine]])
     outline = _polygon(turned + np.array([pose.x, 0.0]), pixel)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
+from gearcad.geometry.helix import twist
+
 if TYPE_CHECKING:
     from gearcad.geometry.pair import GearPair
 
@@ -26,7 +28,6 @@ class MeshPose(NamedTuple):
 def mesh_pose(pair: GearPair, pinion_rotation: float = 0.0) -> MeshPose:
     """Pose of the wheel with the middles of the gears in one plane (moved by `axial_offset`), at any pinion rotation (deg)."""
     z = (pair.pinion.face_width - pair.wheel.face_width) / 2 + pair.axial_offset
-    helix = math.tan(math.radians(pair.pinion.helix_angle))
-    turn = pinion_rotation + math.degrees(z * helix / (pair.pinion.reference_diameter / 2))
+    turn = pinion_rotation + math.degrees(twist(pair.pinion, z))
     facing = 0.0 if pair.wheel.teeth % 2 else 180 / pair.wheel.teeth
     return MeshPose(facing - turn / pair.gear_ratio, pair.centre_distance, z)

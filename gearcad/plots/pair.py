@@ -9,6 +9,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.geometry import Gear, GearPair, mesh_pose
+from gearcad.geometry.helix import twist
 from gearcad.plots.paper import DARK, GEARS, MARKED, new_figure
 
 if TYPE_CHECKING:
@@ -62,8 +63,8 @@ def plot_pair(pair: GearPair, ax: Axes | None = None) -> Axes:
 
 def _helix_turn(pair: GearPair) -> float:
     """How far (deg) a helical pinion's section at the wheel's lower end is turned: what `mesh_pose` takes into account."""
-    pose, pinion = mesh_pose(pair), pair.pinion
-    return math.degrees(pose.z * math.tan(math.radians(pinion.helix_angle)) / (pinion.reference_diameter / 2))
+    pose = mesh_pose(pair)
+    return math.degrees(twist(pair.pinion, pose.z))
 
 
 def _fill(axes: Axes, gear: Gear, x: float, rotation: float, colour: str) -> None:

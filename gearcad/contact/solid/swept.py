@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,6 +9,7 @@ import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.geometry import Gear
+from gearcad.geometry.helix import twist
 from gearcad.meshing.outline import Side
 from gearcad.meshing.quads import QuadMesh
 
@@ -120,5 +120,4 @@ def _turned_vectors(vectors: Floats, angles: Floats) -> Floats:
 
 def sweep(gear: Gear, section: QuadMesh, layers: int) -> SweptMesh:
     """Sweep the section of a gear over its face width."""
-    rate = math.tan(math.radians(gear.helix_angle)) / (gear.reference_diameter / 2)
-    return SweptMesh(section, layer_planes(gear.face_width, layers), rate)
+    return SweptMesh(section, layer_planes(gear.face_width, layers), twist(gear))

@@ -17,6 +17,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.errors import SolverError
 from gearcad.geometry.gear import Gear
+from gearcad.geometry.helix import twist
 from gearcad.solids.exact import bezier
 from gearcad.solids.exact.outline import Piece, Span, accuracy_for
 
@@ -51,7 +52,7 @@ class Sweep:
     def __init__(self, gear: Gear) -> None:
         self.gear, self.width = gear, gear.face_width
         self.tolerance = accuracy_for(gear)
-        self.rate = math.tan(math.radians(gear.helix_angle)) / (gear.reference_diameter / 2)
+        self.rate = twist(gear)
         self.heights: tuple[float, ...] = (0.0, gear.face_width)
 
     def turn(self, piece: Span, u: Floats, z: Floats) -> Floats:

@@ -10,6 +10,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.geometry import Gear
+from gearcad.geometry.helix import twist
 
 __all__ = ["EndCone", "Screw", "aim_for", "arc_step", "least_distance"]
 
@@ -79,7 +80,7 @@ class Screw:
 
     @classmethod
     def of(cls, gear: Gear, chord_error: float) -> Screw:
-        kappa = math.tan(math.radians(gear.helix_angle)) / (gear.reference_diameter / 2)
+        kappa = twist(gear)
         width = gear.face_width
         if not gear.modification.present:
             step = arc_step(gear.tip_diameter / 2, chord_error)
