@@ -52,7 +52,7 @@ class Wanted:
         """
         parts: dict[str, dict[str, Any]] = {DATA: {}}
         for kind in self.formats if Step.BUILD in self.steps else ():
-            parts[kind.value] = self.options.minded_by(kind)
+            parts[kind.value] = kind.minded(self.options)
         return (parts, {CHECK: {}}) if Step.CHECK in self.steps else (parts,)
 
 
@@ -63,7 +63,7 @@ def make_parts(design: Design, parts: Iterable[str], wanted: Wanted, folder: Pat
         return
     formats = [Format(part) for part in parts if part != DATA]
     if formats:
-        minded = {name: value for kind in formats for name, value in wanted.options.minded_by(kind).items()}
+        minded = {name: value for kind in formats for name, value in kind.minded(wanted.options).items()}
         options = FileOptions(**minded)
         build(design, folder, formats, options if len(design.gears) > 1 else replace(options, bracket=False))
     elif DATA in parts:

@@ -8,13 +8,15 @@ from __future__ import annotations
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from gearcad.solids.exact.assembly import PART_COLOURS, pair_assembly
-    from gearcad.solids.exact.gear_solid import gear_solid
+    from gearcad.solids.exact.solid import gear_solid
     from gearcad.solids.facets.tessellation import Facets, tessellate
-    from gearcad.solids.files.contour import write_dxf
-    from gearcad.solids.files.formats import FileOptions, Format
+    from gearcad.solids.files.dxf import write_dxf
+    from gearcad.solids.files.formats import Format
     from gearcad.solids.files.glb import write_glb
+    from gearcad.solids.files.options import FileOptions
+    from gearcad.solids.files.part import Part
     from gearcad.solids.files.points import write_points
-    from gearcad.solids.files.scene import Part, write_scene
+    from gearcad.solids.files.scene import write_scene
     from gearcad.solids.files.step import write_step
     from gearcad.solids.files.stl import write_stl
     from gearcad.solids.files.three_mf import write_3mf
@@ -40,9 +42,9 @@ __all__ = [
 ]
 
 if not TYPE_CHECKING:
-    _HOMES = ("formats", "scene", "stl", "three_mf", "glb", "contour", "points", "step")
+    _FILES = ("formats", "options", "part", "scene", "stl", "three_mf", "glb", "dxf", "points", "step")
     __getattr__ = lazily(
         __name__,
         __all__,
-        (*(f"files.{home}" for home in _HOMES), "facets.tessellation", "exact.gear_solid", "exact.assembly"),
+        (*(f"files.{home}" for home in _FILES), "facets.tessellation", "exact.solid", "exact.assembly"),
     )

@@ -55,7 +55,7 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         "stl.write_stl",
         "three_mf.write_3mf",
         "glb.write_glb",
-        "contour.write_dxf",
+        "dxf.write_dxf",
         "points.write_points",
     ):
         monkeypatch.setattr(f"gearcad.solids.files.{home}", writer(home, 1))

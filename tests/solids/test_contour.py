@@ -14,7 +14,8 @@ from support.samples import SAMPLES
 
 from gearcad import Body, Gear, ParameterError
 from gearcad.geometry.curves import CurveKind
-from gearcad.solids.files.contour import gear_contour, write_dxf
+from gearcad.solids.files.contour import gear_contour
+from gearcad.solids.files.dxf import write_dxf
 
 ACCURACY = 0.0005  # mm, the default
 EXACT = 1e-9  # mm: joints and lands are exact but for rounding

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from gearcad.errors import GeometryError
 from gearcad.geometry.pair import GearPair
 from gearcad.geometry.pose import mesh_pose
-from gearcad.solids.exact.gear_solid import gear_solid
+from gearcad.solids.exact.solid import gear_solid
 
 if TYPE_CHECKING:
     import cadquery

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearcad.geometry import Gear
-from gearcad.solids.exact.gear_solid import gear_solid
+from gearcad.solids.exact.solid import gear_solid
 
 __all__ = ["MassProperties", "mass_properties"]
 

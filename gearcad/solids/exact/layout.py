@@ -91,7 +91,7 @@ class Layout:
         self.tolerance = accuracy_for(gear)
         self._shape(tooth_outline(gear))
         self.ends = gear_ends(gear, self.junctions[:, 0].tolist())
-        cuts = [end.radius(z) for end in self.ends for z in self.sweep.heights[1:-1] if end.chamfered]
+        cuts = [end.cone.radius(abs(z - end.z)) for end in self.ends for z in self.sweep.heights[1:-1] if end.cone.present]
         if cuts:  # so that the edge of a chamfer on a piece lies on one stretch
             self._shape(tooth_outline(gear, cuts))
         self.segments = [self._segments(end) for end in self.ends]
@@ -134,14 +134,14 @@ class Layout:
         for k, piece in enumerate(self.pieces):
             first, last = piece.radii if isinstance(piece, Span) else (0.0, 0.0)
             if isinstance(piece, Arc):
-                found.append(Segment(k, k, k + 1, piece.first, piece.last, piece.radius > end.edge_radius))
-            elif end.edge_radius >= max(first, last) - _ROUNDING or end.edge_radius <= min(first, last) + _ROUNDING:
-                found.append(Segment(k, k, k + 1, 0.0, 1.0, 2 * end.edge_radius < first + last))
+                found.append(Segment(k, k, k + 1, piece.first, piece.last, piece.radius > end.cone.face_radius))
+            elif end.cone.face_radius >= max(first, last) - _ROUNDING or end.cone.face_radius <= min(first, last) + _ROUNDING:
+                found.append(Segment(k, k, k + 1, 0.0, 1.0, 2 * end.cone.face_radius < first + last))
             else:
-                u = parameter_at_radius(piece, end.edge_radius)
+                u = parameter_at_radius(piece, end.cone.face_radius)
                 angle = float(piece.polar(np.array([u]))[1][0] + self.sweep.turn(piece, np.array(u), np.array(end.z)))
                 station = count + 1 + len(breaks)
-                breaks.append((end.edge_radius, angle))
+                breaks.append((end.cone.face_radius, angle))
                 found.append(Segment(k, k, station, 0.0, u, first > last))
                 found.append(Segment(k, station, k + 1, u, 1.0, first < last))
         radius, angle = self.junctions.T
@@ -176,7 +176,7 @@ class Layout:
             z = float(end.height(piece.radius))
             first, last = (float(self.turn(k, np.array(z))) for k in (segment.start, segment.end))
             circle, on_face = self.kernel.circle(piece.radius, z), line(0, z, 1, 0)
-            slant = (piece.radius - end.edge_radius) / end.sine if segment.on_cone else 0.0
+            slant = (piece.radius - end.cone.face_radius) / end.cone.sine if segment.on_cone else 0.0
             return Drawn(circle, segment.first + first, segment.last + last, on_face, line(0, slant, end.inward, 0))
         if segment.on_cone:
             return self._draw_on_cone(end, segment, piece)
@@ -192,7 +192,7 @@ class Layout:
             radius, angle = piece.polar(u)
             z = end.height(radius)
             angle = angle + self.sweep.turn(piece, u, z)
-            slant = (radius - end.edge_radius) / end.sine
+            slant = (radius - end.cone.face_radius) / end.cone.sine
             return np.stack([radius * np.cos(angle), radius * np.sin(angle), z, end.inward * angle, slant], -1)
 
         scale = np.array([1, 1, 1, self.gear.tip_diameter / 2, 1.0])

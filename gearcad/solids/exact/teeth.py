@@ -181,9 +181,9 @@ class _Ring:
     def close_end(self, which: int) -> Edges:
         """Add the cone faces of an end and return the outer loop of its plane."""
         end, segments = self.layout.ends[which], self.layout.segments[which][0]
-        if not end.chamfered:
+        if not end.cone.present:
             return [(edge, True) for tooth in self.edges[which] for edge in tooth]
-        cone = self.kernel.cone(end.edge_radius, end.sine, end.z, up=end.inward > 0)
+        cone = self.kernel.cone(end.cone.face_radius, end.cone.sine, end.z, up=end.inward > 0)
         for place, edges in zip(self.places, self.edges[which], strict=True):
             for edge, drawn, segment in zip(edges, self.drawn[which], segments, strict=True):
                 if segment.on_cone:
@@ -209,7 +209,7 @@ class _Ring:
     def _cone_below_root(self, which: int, end: End, cone: Any) -> Edges:
         """One piece of cone per pitch, parted by generators from the start of each right flank; the plane is a disc."""
         angle = self.layout.segments[which][1][0, 1]
-        foot = [end.edge_radius * math.cos(angle), end.edge_radius * math.sin(angle), end.z]
+        foot = [end.cone.face_radius * math.cos(angle), end.cone.face_radius * math.sin(angle), end.z]
         feet = [self.kernel.vertex(tooth[0]) for tooth in self._around(np.array([foot])).tolist()]
         line, length = self.kernel.line(foot, self.layout.place(end, self.layout.segments[which][1][:1])[0])
         generators = [
@@ -230,7 +230,7 @@ class _Ring:
 
     def _foot(self, end: End, i: int, cone: Any, start: Any, stop: Any, first: float, last: float) -> Any:
         """The arc on an end's plane where the cone of tooth i begins."""
-        arc = self.kernel.edge(self.kernel.circle(end.edge_radius, end.z), start, stop, first, last, self.places[i])
+        arc = self.kernel.edge(self.kernel.circle(end.cone.face_radius, end.z), start, stop, first, last, self.places[i])
         self.kernel.lay(arc, cone, self.kernel.line_2d(0, 0, end.inward, 0), place=self.places[i])
         return arc
 

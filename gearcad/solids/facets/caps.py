@@ -53,8 +53,8 @@ def cap_teeth(grid: ToothGrid, end: GearEnd, next_vertex: int) -> Cap:
 class _Capper:
     def __init__(self, grid: ToothGrid, end: GearEnd, next_vertex: int) -> None:
         self.grid, self.end, self.next_vertex = grid, end, next_vertex
-        self.z = grid.screw.width - grid.setback if end.top else grid.setback
-        self.turn = grid.screw.kappa * self.z
+        self.z = grid.layers.width - grid.setback if end.top else grid.setback
+        self.turn = grid.layers.kappa * self.z
         right, left = (turns[-1 if end.top else 0] for turns in grid.turns)
         self.right, self.left = right - grid.half_angle, left + grid.half_angle
         self.own: list[tuple[int, float]] = []
@@ -131,7 +131,7 @@ class _Capper:
 
     def _down_the_cone(self, vertices: Floats, faces: Wholes, ring: Wholes, angle: Floats) -> Cap:
         """The cone reaches below the teeth: go on along its generators to the circle where it meets the end plane."""
-        z = self.grid.screw.width if self.end.top else 0.0
+        z = self.grid.layers.width if self.end.top else 0.0
         circle = _points(np.array(self.grid.cone.face_radius), angle, np.array(z))
         inner = self.next_vertex + len(vertices) + np.arange(len(ring))
         outer_next, inner_next = np.roll(ring, -1), np.roll(inner, -1)

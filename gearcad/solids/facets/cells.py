@@ -21,7 +21,8 @@ import numpy as np
 from gearcad.arrays import Bools, Floats
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve
-from gearcad.solids.facets.layers import EndCone, Screw
+from gearcad.solids.cone import EndCone
+from gearcad.solids.facets.layers import Layers
 from gearcad.solids.turned import FlankCurve
 
 __all__ = ["falling_cells", "split"]
@@ -45,13 +46,13 @@ class _Deviations(NamedTuple):
     falling: Floats
 
 
-def split(gear: Gear, piece: FlankCurve, s: Floats, screw: Screw, cone: EndCone, aim: float) -> Floats:
+def split(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone, aim: float) -> Floats:
     """The parameters with the cells split that are off by more than `aim` (mm): long in z, on the cone, or bent unevenly."""
     for _ in range(_PASSES):
-        flanks = [[np.abs(d) for d in deviations] for deviations in _deviations(gear, piece, s, screw, cone)]
+        flanks = [[np.abs(d) for d in deviations] for deviations in _deviations(gear, piece, s, layers, cone)]
         worst = np.max([np.maximum(a.max(axis=0), np.minimum(b, c).max(axis=0)) for a, b, c in flanks], axis=0)
         if cone.present:
-            worst = np.maximum(worst, _off_cone(gear, piece, s, screw, cone))
+            worst = np.maximum(worst, _off_cone(gear, piece, s, layers, cone))
         parts = np.ceil(np.sqrt(worst / aim) * (1 - 1e-6)).astype(int).clip(1, 16)
         if np.all(parts == 1):
             break
@@ -61,39 +62,39 @@ def split(gear: Gear, piece: FlankCurve, s: Floats, screw: Screw, cone: EndCone,
     return s
 
 
-def falling_cells(gear: Gear, piece: FlankCurve, s: Floats, screw: Screw, cone: EndCone) -> tuple[Bools, Bools]:
+def falling_cells(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone) -> tuple[Bools, Bools]:
     """Where the cells (layers, len(s) - 1) of the right and of the left flank are better cut from lower right to upper left.
 
     Seen from outside; cells are numbered from root to tip.
     """
-    found = _deviations(gear, piece, s, screw, cone)
+    found = _deviations(gear, piece, s, layers, cone)
     rising = [np.abs(d.rising) <= np.abs(d.falling) for d in found]
     if len(rising) == 1:  # the right flank is the left one turned end over end
-        left = np.broadcast_to(rising[0], (screw.layers, len(s) - 1))
+        left = np.broadcast_to(rising[0], (layers.count, len(s) - 1))
         return left[::-1], left
     return ~rising[1], rising[0]
 
 
-def _deviations(gear: Gear, piece: FlankCurve, s: Floats, screw: Screw, cone: EndCone) -> list[_Deviations]:
+def _deviations(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone) -> list[_Deviations]:
     """Those of the left and, where it is another one, the right flank."""
     if not gear.modification.present:
-        return [_of_screw(piece.curve, s, screw, cone)]
-    return [_of_modified(gear, piece, s, screw, cone, left=left) for left in (True, False)]
+        return [_of_screw(piece.curve, s, layers, cone)]
+    return [_of_modified(gear, piece, s, layers, cone, left=left) for left in (True, False)]
 
 
-def _off_cone(gear: Gear, piece: FlankCurve, s: Floats, screw: Screw, cone: EndCone) -> Floats:
+def _off_cone(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone) -> Floats:
     """Sagitta (mm) of the chords on the cone (len(s) - 1,)."""
     radius, angle = piece.curve.polar(s)
     setback = cone.setback(radius)
-    span = np.abs(np.diff(angle)) + np.abs(screw.kappa * np.diff(setback))
+    span = np.abs(np.diff(angle)) + np.abs(layers.kappa * np.diff(setback))
     if gear.modification.present:
-        ends = np.stack([setback, screw.width - setback])
+        ends = np.stack([setback, layers.width - setback])
         turns = [piece.turn(gear.flank_form, s, ends, left=left) for left in (True, False)]
         span += np.abs(np.diff(turns)).max(axis=(0, 1))
     return np.where(radius[1:] > cone.face_radius, radius[1:] * span**2 / 8, 0.0)
 
 
-def _of_screw(curve: Curve, s: Floats, screw: Screw, cone: EndCone) -> _Deviations:
+def _of_screw(curve: Curve, s: Floats, layers: Layers, cone: EndCone) -> _Deviations:
     """To second order; one row stands for all where every layer is the same."""
     points, middle = curve.points(s), curve.points(0.5 * (s[1:] + s[:-1]))
     heading = curve.direction(0.5 * (s[1:] + s[:-1]))
@@ -102,8 +103,8 @@ def _of_screw(curve: Curve, s: Floats, screw: Screw, cone: EndCone) -> _Deviatio
     profile = np.sum(normal * (0.5 * (points[1:] + points[:-1]) - middle), -1)
     mixed = (normal[:, 1] * chord[:, 0] - normal[:, 0] * chord[:, 1]) / 4
     helix = -np.sum(normal * middle, -1) / 8
-    tilt = np.hypot(1.0, screw.kappa * (normal[:, 1] * middle[:, 0] - normal[:, 0] * middle[:, 1]))
-    turn = screw.kappa * screw.heights(cone.setback(curve.polar(s)[0]))
+    tilt = np.hypot(1.0, layers.kappa * (normal[:, 1] * middle[:, 0] - normal[:, 0] * middle[:, 1]))
+    turn = layers.kappa * layers.heights(cone.setback(curve.polar(s)[0]))
     if not cone.present:  # every layer is the same
         turn = turn[:2]
 
@@ -118,22 +119,22 @@ def _of_screw(curve: Curve, s: Floats, screw: Screw, cone: EndCone) -> _Deviatio
     )
 
 
-def _of_modified(gear: Gear, piece: FlankCurve, s: Floats, screw: Screw, cone: EndCone, *, left: bool) -> _Deviations:
+def _of_modified(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone, *, left: bool) -> _Deviations:
     """In the middles of the edges, along the normal; the right flank is mirrored first."""
     hand = 1 if left else -1
 
     def surface(s: Floats, z: Floats) -> Floats:
         radius, angle = piece.curve.polar(s)
-        angle = angle + hand * (screw.kappa * z + piece.turn(gear.flank_form, s, z, left=left))
+        angle = angle + hand * (layers.kappa * z + piece.turn(gear.flank_form, s, z, left=left))
         return np.stack(np.broadcast_arrays(radius * np.cos(angle), radius * np.sin(angle), z), -1)
 
-    z = screw.heights(cone.setback(piece.curve.polar(s)[0]))
+    z = layers.heights(cone.setback(piece.curve.polar(s)[0]))
     corners, middle = surface(s, z), 0.5 * (s[1:] + s[:-1])
 
     def deviation(first: tuple[slice, slice], last: tuple[slice, slice]) -> Floats:
         height = 0.5 * (z[first] + z[last])
         off = 0.5 * (corners[first] + corners[last]) - surface(middle, height)
-        result: Floats = np.sum(off * _normal(surface, middle, height, screw.width), -1)
+        result: Floats = np.sum(off * _normal(surface, middle, height, layers.width), -1)
         return result
 
     all_rows, lower, upper = slice(None), slice(None, -1), slice(1, None)

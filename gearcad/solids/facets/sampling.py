@@ -10,13 +10,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gearcad.arrays import Floats
+from gearcad.arrays import Bools, Floats
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, parameters_within
+from gearcad.solids.cone import EndCone
 from gearcad.solids.facets.cells import falling_cells, split
-from gearcad.solids.facets.layers import EndCone, Screw, aim_for, arc_step, least_distance
+from gearcad.solids.facets.layers import Layers
+from gearcad.solids.facets.tolerance import aim_for, arc_step, least_distance
 from gearcad.solids.turned import FlankCurve, flank_curves
 
 __all__ = ["ToothGrid", "tooth_grid"]
@@ -39,10 +40,10 @@ class ToothGrid:
     turns: tuple[Floats, Floats]
     tip_steps: int
     root_steps: int
-    falling: tuple[NDArray[np.bool_], NDArray[np.bool_]]
+    falling: tuple[Bools, Bools]
     cone: EndCone
     face_level: int
-    screw: Screw
+    layers: Layers
     teeth: int
 
     @property
@@ -77,14 +78,14 @@ class ToothGrid:
         return same(self.radius), same(self.setback), around(right, land, left, space)
 
     @cached_property
-    def falling_cells(self) -> NDArray[np.bool_]:
+    def falling_cells(self) -> Bools:
         """(layers, period): true where a cell is cut from its lower right to its upper left, seen from outside.
 
         On a land the diagonal is the one that spans less about the axis: against the helix.
         """
         right, left = self.falling
         _, setback, angle = self.outline
-        angle = angle + self.screw.kappa * self.screw.heights(setback)
+        angle = angle + self.layers.kappa * self.layers.heights(setback)
         angle = np.column_stack([angle, angle[:, 0] + 2 * math.pi / self.teeth])
         shorter = np.abs(angle[1:, :-1] - angle[:-1, 1:]) < np.abs(angle[1:, 1:] - angle[:-1, :-1])
         tip, space = self.flank_steps, self.period - self.root_steps
@@ -94,11 +95,12 @@ class ToothGrid:
 def tooth_grid(gear: Gear, chord_error: float) -> ToothGrid:
     """Grid of one tooth within `chord_error` (mm) of the surface everywhere."""
     near = least_distance(gear, chord_error)
-    screw = Screw.of(gear, chord_error)
+    layers = Layers.of(gear, chord_error)
     pieces = flank_curves(gear)
     curves = [piece.curve for piece in pieces]
-    cone = _snapped(EndCone.of(gear), gear.root_diameter / 2, curves, near)
-    samples = [_samples(gear, piece, screw, cone, chord_error) for piece in pieces]
+    ends = [gear.root_diameter / 2, *(float(curve.polar(1.0)[0]) for curve in curves)]
+    cone = EndCone.of(gear).snapped(ends, near)
+    samples = [_samples(gear, piece, layers, cone, chord_error) for piece in pieces]
 
     polar = [curve.polar(s) for curve, s in zip(curves, samples, strict=True)]
     radius = np.concatenate([polar[0][0][:1], *(r[1:] for r, _ in polar)])
@@ -110,7 +112,7 @@ def tooth_grid(gear: Gear, chord_error: float) -> ToothGrid:
         if cone.face_radius >= radius[0]:
             radius[face_level] = cone.face_radius
     setback = cone.setback(radius)
-    right, left = turns = _turns(gear, pieces, samples, screw.heights(setback))
+    right, left = turns = _turns(gear, pieces, samples, layers.heights(setback))
     root_half = math.pi / gear.teeth - angle[0] + (right[:, 0] - left[:, 0]).max() / 2
     tip_half = angle[-1] + (left[:, -1] - right[:, -1]).max() / 2
     # Ends that turn stay apart, however near they are.
@@ -121,7 +123,7 @@ def tooth_grid(gear: Gear, chord_error: float) -> ToothGrid:
         angle[0] = math.pi / gear.teeth
     if not tip_steps:
         angle[-1] = 0.0
-    cells = zip(*(falling_cells(gear, piece, s, screw, cone) for piece, s in zip(pieces, samples, strict=True)), strict=True)
+    cells = zip(*(falling_cells(gear, piece, s, layers, cone) for piece, s in zip(pieces, samples, strict=True)), strict=True)
     right_cells, left_cells = (np.concatenate(falling, axis=1) for falling in cells)
     return ToothGrid(
         radius=radius,
@@ -133,20 +135,20 @@ def tooth_grid(gear: Gear, chord_error: float) -> ToothGrid:
         falling=(right_cells, left_cells),
         cone=cone,
         face_level=face_level,
-        screw=screw,
+        layers=layers,
         teeth=gear.teeth,
     )
 
 
-def _samples(gear: Gear, piece: FlankCurve, screw: Screw, cone: EndCone, chord_error: float) -> Floats:
+def _samples(gear: Gear, piece: FlankCurve, layers: Layers, cone: EndCone, chord_error: float) -> Floats:
     """Parameters of a curve, among them those where the cone begins and where it crosses a knot of the layers."""
     near, aim = least_distance(gear, chord_error), aim_for(gear, chord_error)
     s = parameters_within(piece.curve, aim)
     if cone.present:
-        depths = {0.0, *(min(z, screw.width - z) for z in screw.knots)}
+        depths = {0.0, *(min(z, layers.width - z) for z in layers.knots)}
         for depth in sorted(depths):
-            s = _with_radius(piece.curve, s, cone.face_radius + depth * cone.slope, near)
-    return split(gear, piece, s, screw, cone, aim)
+            s = _with_radius(piece.curve, s, cone.radius(depth), near)
+    return split(gear, piece, s, layers, cone, aim)
 
 
 def _turns(gear: Gear, pieces: list[FlankCurve], samples: list[Floats], heights: Floats) -> tuple[Floats, Floats]:
@@ -172,12 +174,6 @@ def _land_steps(half_angle: float, radius: float, chord_error: float, near: floa
     if 2 * half_angle * radius < near:
         return 0
     return max(1, math.ceil(2 * half_angle / arc_step(radius, chord_error) - 1e-9))
-
-
-def _snapped(cone: EndCone, root_radius: float, curves: list[Curve], near: float) -> EndCone:
-    """The cone with its face radius moved onto the end of a curve that is nearer than `near`."""
-    ends = [root_radius, *(float(curve.polar(1.0)[0]) for curve in curves)]
-    return next((EndCone(end, cone.slope) for end in ends if abs(end - cone.face_radius) < near), cone)
 
 
 def _with_radius(curve: Curve, s: Floats, at: float, near: float) -> Floats:

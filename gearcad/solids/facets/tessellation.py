@@ -12,8 +12,8 @@ from gearcad.errors import ParameterError, require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.limits import at_least
 from gearcad.solids.facets.caps import GearEnd, cap_teeth
-from gearcad.solids.facets.layers import arc_step
 from gearcad.solids.facets.sampling import ToothGrid, tooth_grid
+from gearcad.solids.facets.tolerance import arc_step
 from gearcad.solids.facets.zipper import keyway_order, middles, zip_rings
 
 __all__ = ["Facets", "tessellate"]
@@ -86,12 +86,12 @@ class _Builder:
 
     def _side(self) -> None:
         """The grid of all teeth: layers x teeth x period, every cell cut along its better diagonal."""
-        grid, screw = self.grid, self.grid.screw
+        grid, layers = self.grid, self.grid.layers
         radius, setback, angle = grid.outline
-        z = screw.heights(setback)[:, None, :]
-        turn = angle[:, None, :] + 2 * np.pi / grid.teeth * np.arange(grid.teeth)[:, None] + screw.kappa * z
+        z = layers.heights(setback)[:, None, :]
+        turn = angle[:, None, :] + 2 * np.pi / grid.teeth * np.arange(grid.teeth)[:, None] + layers.kappa * z
         x, y, z = np.broadcast_arrays(radius * np.cos(turn), radius * np.sin(turn), z)
-        numbers = self.add(np.stack([x, y, z], -1).reshape(-1, 3)).reshape(screw.layers + 1, -1)
+        numbers = self.add(np.stack([x, y, z], -1).reshape(-1, 3)).reshape(layers.count + 1, -1)
         a, d = numbers[:-1], numbers[1:]
         b, c = np.roll(a, -1, axis=1), np.roll(d, -1, axis=1)
         falling = np.tile(grid.falling_cells, grid.teeth)
@@ -122,7 +122,7 @@ class _Builder:
         hub = body.hub_ends[top]
         z = self.gear.face_width if top else 0.0
         end = GearEnd(
-            first_vertex=self.grid.screw.layers * self.grid.teeth * self.grid.period if top else 0,
+            first_vertex=self.grid.layers.count * self.grid.teeth * self.grid.period if top else 0,
             top=top,
             inner_radius=(body.hub_diameter if hub else body.opening_diameter) / 2,
             step=arc_step(self.gear.tip_diameter / 2, self.chord_error),

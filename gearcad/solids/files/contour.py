@@ -1,43 +1,24 @@
-"""DXF of the transverse profile as modified: one closed contour of true arcs for laser and wire cutting."""
+"""The transverse profile as modified, as one closed contour of true arcs."""
 
 from __future__ import annotations
 
 import math
-from collections import OrderedDict
-from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
-from threading import Lock
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.errors import SolverError, require_number
-from gearcad.geometry import Body, Gear
+from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.solids.turned import middle_section
 
-if TYPE_CHECKING:
-    from ezdxf.document import Drawing
-    from ezdxf.layouts import Modelspace
-
-__all__ = ["gear_contour", "write_dxf"]
-
-
-_LAYERS = {"PROFILE": (7, "CONTINUOUS"), "BORE": (7, "CONTINUOUS")}
-_CIRCLES = {"CIRCLES": (8, "CENTER")}
-"""Colour (AutoCAD index) and line type of layers; circles are grey and dash-dotted, as they are not to be cut."""
+__all__ = ["extent_of", "gear_contour"]
 
 _CHECKED = np.linspace(0.0, 1.0, 17)[1:-1]
 """Where between its ends a pair of arcs is compared with the curve."""
 
 _MOST_PAIRS = 1000
-
-_fixed_meta_data = Lock()
-"""Held while the global option of ezdxf is changed, so that threads do not restore each other's value."""
-
-_MILLIMETRES, _METRIC = 4, 1
 
 
 @dataclass(frozen=True)
@@ -46,37 +27,6 @@ class _Arcs:
 
     vertices: Floats
     bulges: Floats
-
-
-def write_dxf(gear: Gear, path: Path | str, *, accuracy: float = 0.0005, circles: bool = False) -> None:
-    """Write the transverse section as DXF (R2010, mm): tooth 0 on +x.
-
-    The flanks are as modified at mid face width, where modifications along the face are nothing (see `middle_section`).
-    Layer PROFILE holds the contour, one closed polyline of arcs (see `gear_contour`); BORE the bore, a circle, or with a
-    keyway a closed polyline; CIRCLES, with `circles`, the tip, reference, base and root circles, which are not to be cut.
-    The header states how far the drawing reaches. Equal input gives equal bytes.
-    Raises ParameterError for an `accuracy` (mm) below 1e-7.
-    """
-    import ezdxf
-
-    contour = gear_contour(gear, accuracy)
-    with _fixed_meta_data:
-        # The only way to keep ezdxf from writing the time and new identifiers into the file is this global option.
-        before = ezdxf.options.write_fixed_meta_data_for_testing
-        ezdxf.options.write_fixed_meta_data_for_testing = True
-        try:
-            document = _document()
-            space = document.modelspace()
-            space.add_lwpolyline(contour.tolist(), format="xyb", close=True, dxfattribs={"layer": "PROFILE"})
-            _draw_bore(space, gear.body)
-            low, high = _extent(contour)
-            if circles:
-                low, high = _draw_circles(document, gear)
-            space.reset_extents((*low, 0.0), (*high, 0.0))
-            with Path(path).open("w", encoding=document.output_encoding, errors="dxfreplace", newline="\n") as stream:
-                document.write(stream)
-        finally:
-            ezdxf.options.write_fixed_meta_data_for_testing = before
 
 
 def gear_contour(gear: Gear, accuracy: float = 0.0005) -> Floats:
@@ -104,6 +54,21 @@ def gear_contour(gear: Gear, accuracy: float = 0.0005) -> Floats:
     cosine, sine = np.cos(turn), np.sin(turn)
     columns = np.broadcast_arrays(cosine * x - sine * y, sine * x + cosine * y, bulge)
     return np.stack(columns, -1).reshape(-1, 3)
+
+
+def extent_of(contour: Floats) -> tuple[Floats, Floats]:
+    """Least and greatest x and y (mm) of a closed contour (n, 3) of arcs: at vertices, or where an arc is level or upright."""
+    start, bulge = contour[:, :2], contour[:, 2]
+    chord = np.roll(start, -1, axis=0) - start
+    with np.errstate(divide="ignore", invalid="ignore"):  # straight ones have no centre, and no point inside
+        middle = start + chord / 2 + (0.25 / bulge - 0.25 * bulge)[:, None] * np.stack([-chord[:, 1], chord[:, 0]], -1)
+        radius = np.hypot(*(start - middle).T)
+        ends = middle[:, None] + radius[:, None, None] * np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
+        away = ends - start[:, None]
+        # An arc is what of its circle lies right of its chord if it turns left, and the other way round.
+        inside = (chord[:, None, 0] * away[..., 1] - chord[:, None, 1] * away[..., 0]) * bulge[:, None] < 0
+    points = np.concatenate([start, ends[inside]])
+    return points.min(axis=0), points.max(axis=0)
 
 
 # ---------------------------------------------------------------------- curves as arcs
@@ -175,66 +140,3 @@ def _deviation(curve: Curve, s: Floats, arcs: _Arcs) -> float:
 def _joined(chains: list[_Arcs]) -> _Arcs:
     vertices = [chains[0].vertices[:1], *(chain.vertices[1:] for chain in chains)]
     return _Arcs(np.concatenate(vertices), np.concatenate([chain.bulges for chain in chains]))
-
-
-# ---------------------------------------------------------------------- drawing
-
-
-def _document() -> Drawing:
-    import ezdxf
-
-    document = ezdxf.new("R2010", setup=["linetypes"])
-    # ezdxf adds these from a set when it writes, in an order that changes from process to process.
-    document.classes.add_required_classes(document.dxfversion)
-    document.classes.classes = OrderedDict(sorted(document.classes.classes.items()))
-    document.header["$INSUNITS"], document.header["$MEASUREMENT"] = _MILLIMETRES, _METRIC
-    _add_layers(document, _LAYERS)
-    return document
-
-
-def _add_layers(document: Drawing, layers: Mapping[str, tuple[int, str]]) -> None:
-    for name, (colour, linetype) in layers.items():
-        document.layers.add(name, color=colour, linetype=linetype)
-
-
-def _draw_circles(document: Drawing, gear: Gear) -> tuple[Floats, Floats]:
-    """The circles of reference; how far they reach."""
-    _add_layers(document, _CIRCLES)
-    for diameter in (gear.tip_diameter, gear.reference_diameter, gear.base_diameter, gear.root_diameter):
-        document.modelspace().add_circle((0, 0), diameter / 2, dxfattribs={"layer": "CIRCLES"})
-    reach = np.full(2, gear.tip_diameter / 2)
-    return -reach, reach
-
-
-def _extent(contour: Floats) -> tuple[Floats, Floats]:
-    """Least and greatest x and y (mm) of a closed contour (n, 3) of arcs: at vertices, or where an arc is level or upright."""
-    start, bulge = contour[:, :2], contour[:, 2]
-    chord = np.roll(start, -1, axis=0) - start
-    with np.errstate(divide="ignore", invalid="ignore"):  # straight ones have no centre, and no point inside
-        middle = start + chord / 2 + (0.25 / bulge - 0.25 * bulge)[:, None] * np.stack([-chord[:, 1], chord[:, 0]], -1)
-        radius = np.hypot(*(start - middle).T)
-        ends = middle[:, None] + radius[:, None, None] * np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
-        away = ends - start[:, None]
-        # An arc is what of its circle lies right of its chord if it turns left, and the other way round.
-        inside = (chord[:, None, 0] * away[..., 1] - chord[:, None, 1] * away[..., 0]) * bulge[:, None] < 0
-    points = np.concatenate([start, ends[inside]])
-    return points.min(axis=0), points.max(axis=0)
-
-
-def _draw_bore(space: Modelspace, body: Body) -> None:
-    radius, half_width = body.bore / 2, body.keyway_width / 2
-    if not radius:
-        return
-    if not half_width:
-        space.add_circle((0, 0), radius, dxfattribs={"layer": "BORE"})
-        return
-    end = math.asin(half_width / radius)
-    corner, floor = radius * math.cos(end), radius + body.keyway_depth
-    # The arc goes the long way round, from the keyway's upper to its lower wall.
-    points = [
-        (corner, half_width, math.tan((math.pi - end) / 2)),
-        (corner, -half_width, 0.0),
-        (floor, -half_width, 0.0),
-        (floor, half_width, 0.0),
-    ]
-    space.add_lwpolyline(points, format="xyb", close=True, dxfattribs={"layer": "BORE"})

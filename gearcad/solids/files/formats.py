@@ -8,12 +8,11 @@ from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gearcad.errors import require_number
-
 if TYPE_CHECKING:
+    from gearcad.solids.files.options import FileOptions
     from gearcad.solids.files.products import GearProduct, PairProduct
 
-__all__ = ["FileOptions", "Format", "formats_minding"]
+__all__ = ["Format", "formats_minding"]
 
 
 class Format(Enum):
@@ -31,6 +30,10 @@ class Format(Enum):
         """What there is to know of it."""
         return _ENTRIES[self]
 
+    def minded(self, options: FileOptions) -> dict[str, Any]:
+        """Those of the options that matter to it, by name."""
+        return {name: getattr(options, name) for name in self.entry.options}
+
 
 @dataclass(frozen=True)
 class Entry:
@@ -42,26 +45,6 @@ class Entry:
     write: Callable[[GearProduct, Path], None]
     write_pair: Callable[[PairProduct, Path], None] | None = None
     options: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, kw_only=True)
-class FileOptions:
-    """How files are made; which of it matters to a format stands with the format.
-
-    `chord_error` (mm) bounds the facets; `bracket` puts a pair on two shafts with a bracket; `circles` draws the tip,
-    reference, base and root circles beside a section. Raises ParameterError for a chord error that is not positive.
-    """
-
-    chord_error: float = 0.005
-    bracket: bool = False
-    circles: bool = False
-
-    def __post_init__(self) -> None:
-        require_number("chord_error", self.chord_error, "mm", above=0)
-
-    def minded_by(self, kind: Format) -> dict[str, Any]:
-        """Those that matter to a format."""
-        return {name: getattr(self, name) for name in kind.entry.options}
 
 
 def formats_minding(option: str) -> list[Format]:
@@ -94,7 +77,7 @@ def _glb(product: GearProduct | PairProduct, path: Path) -> None:
 
 
 def _dxf(product: GearProduct, path: Path) -> None:
-    from gearcad.solids.files.contour import write_dxf
+    from gearcad.solids.files.dxf import write_dxf
 
     write_dxf(product.gear, path, circles=product.options.circles)
 

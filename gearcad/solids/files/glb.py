@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gearcad.solids.files.scene import Part
+from gearcad.solids.files.part import Part
 
 __all__ = ["write_glb"]
 

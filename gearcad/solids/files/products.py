@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from gearcad.geometry import Gear, GearPair, mesh_pose
 from gearcad.per_gear import PerGear, Role
 from gearcad.solids.exact.assembly import PART_COLOURS, pair_assembly, part_names
-from gearcad.solids.exact.gear_solid import gear_solid
+from gearcad.solids.exact.solid import gear_solid
 from gearcad.solids.facets.tessellation import Facets, tessellate
-from gearcad.solids.files.formats import FileOptions
-from gearcad.solids.files.scene import Part
+from gearcad.solids.files.options import FileOptions
+from gearcad.solids.files.part import Part
 
 if TYPE_CHECKING:
     import cadquery

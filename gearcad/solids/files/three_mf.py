@@ -8,7 +8,7 @@ from xml.sax.saxutils import quoteattr
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from gearcad.arrays import Floats
-from gearcad.solids.files.scene import Part
+from gearcad.solids.files.part import Part
 
 __all__ = ["write_3mf"]
 

@@ -1,4 +1,4 @@
-"""The body of a gear: end faces, hubs, and the bore with its keyway, on edges shared with the teeth."""
+"""The blank of a gear: end faces, hubs, and the bore with its keyway, on edges shared with the teeth."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 from gearcad.geometry.gear import Gear
 from gearcad.solids.exact.kernel import Kernel
 
-__all__ = ["add_body"]
+__all__ = ["add_blank"]
 
 Edges = list[tuple[Any, bool]]
 
@@ -28,7 +28,7 @@ class _Ring:
         return [(edge, False) for edge in reversed(self.edges)]
 
 
-def add_body(gear: Gear, kernel: Kernel, lower: Edges, upper: Edges) -> None:
+def add_blank(gear: Gear, kernel: Kernel, lower: Edges, upper: Edges) -> None:
     """Add end faces, hubs and bore to the kernel's shell; `lower` and `upper` are the outer loops of the toothed part.
 
     Loops run counter-clockwise seen from +z.

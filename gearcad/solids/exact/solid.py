@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gearcad.geometry.gear import Gear
-from gearcad.solids.exact.body import add_body
+from gearcad.solids.exact.blank import add_blank
 from gearcad.solids.exact.kernel import Kernel
 from gearcad.solids.exact.outline import accuracy_for
 from gearcad.solids.exact.teeth import add_teeth
@@ -26,5 +26,5 @@ def gear_solid(gear: Gear) -> cadquery.Solid:
 
     kernel = Kernel(accuracy_for(gear))
     lower, upper = add_teeth(gear, kernel)
-    add_body(gear, kernel, lower, upper)
+    add_blank(gear, kernel, lower, upper)
     return cadquery.Solid(kernel.solid())

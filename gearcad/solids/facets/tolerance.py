@@ -1,0 +1,27 @@
+"""How coarse triangles may be: the chord error that was asked for, as angles, distances and deviations of edges."""
+
+from __future__ import annotations
+
+import math
+
+from gearcad.geometry import Gear
+
+__all__ = ["aim_for", "arc_step", "least_distance"]
+
+_CONVEX = 0.75
+"""Share of the chord error for the edges on modified flanks: a triangle on a convex place deviates up to 4/3 as much inside."""
+
+
+def arc_step(radius: float, chord_error: float) -> float:
+    """Largest angle (rad) that a chord of a circle may span within `chord_error` (mm)."""
+    return 2 * math.acos(max(1 - chord_error / radius, 0.5))
+
+
+def least_distance(gear: Gear, chord_error: float) -> float:
+    """Distance (mm) below which two points are made one: nothing against the chord error, or two steps of a float32."""
+    return max(1e-3 * chord_error, 3e-7 * gear.tip_diameter / 2)
+
+
+def aim_for(gear: Gear, chord_error: float) -> float:
+    """Largest deviation (mm) of an edge that keeps a gear's triangles within `chord_error` (mm)."""
+    return _CONVEX * chord_error if gear.modification.present else chord_error
