@@ -7,7 +7,8 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from gearcad.solids.exact.assembly import PART_COLOURS, pair_assembly
+    from gearcad.solids.colours import PART_COLOURS
+    from gearcad.solids.exact.assembly import pair_assembly
     from gearcad.solids.exact.solid import gear_solid
     from gearcad.solids.facets.tessellation import Facets, tessellate
     from gearcad.solids.files.dxf import write_dxf
@@ -46,5 +47,5 @@ if not TYPE_CHECKING:
     __getattr__ = lazily(
         __name__,
         __all__,
-        (*(f"files.{home}" for home in _FILES), "facets.tessellation", "exact.solid", "exact.assembly"),
+        ("colours", *(f"files.{home}" for home in _FILES), "facets.tessellation", "exact.solid", "exact.assembly"),
     )

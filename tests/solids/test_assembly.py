@@ -10,8 +10,9 @@ import cadquery
 import pytest
 
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError
+from gearcad.per_gear import PerGear
 from gearcad.solids import pair_assembly, write_step
-from gearcad.solids.exact.assembly import part_names
+from gearcad.solids.exact.assembly import PartNames, part_names
 
 TIP_ALTERATION = -0.007246444637613869  # (80 - a_d)/2.5 - (0.107 - 0.378)
 
@@ -87,13 +88,13 @@ def test_bracket_shafts_fill_the_bores() -> None:
 def test_parts_are_products_of_their_pair() -> None:
     """Twelve pairs of a batch are 24 products: two of one name replace each other in CAD and PDM."""
     pair = _clean()
-    roles = {role: f"{pair.name} {role}" for role in ("pinion", "wheel", "bracket")}
-    assert part_names(pair) == roles
+    names = PartNames(PerGear("pair pinion", "pair wheel"), "pair bracket")
+    assert part_names(pair) == names
     assert [child.name for child in pair_assembly(pair).children] == ["pair pinion", "pair wheel"]
     pinion, wheel = (replace(gear, name="4711") for gear in (pair.pinion, pair.wheel))
-    assert part_names(replace(pair, pinion=pinion)) == roles | {"pinion": "4711"}
-    assert part_names(replace(pair, pinion=pinion, wheel=wheel)) == roles  # a name must not be that of both
-    assert part_names(replace(pair, pinion=pinion, name="4711"))["pinion"] == "4711 pinion"  # nor that of the pair
+    assert part_names(replace(pair, pinion=pinion)).gears == PerGear("4711", "pair wheel")
+    assert part_names(replace(pair, pinion=pinion, wheel=wheel)) == names  # a name must not be that of both
+    assert part_names(replace(pair, pinion=pinion, name="4711")).gears.pinion == "4711 pinion"  # nor that of the pair
 
 
 def test_bracket_needs_bores() -> None:

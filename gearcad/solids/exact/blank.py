@@ -16,7 +16,7 @@ Edges = list[tuple[Any, bool]]
 
 
 @dataclass(frozen=True)
-class _Ring:
+class _Contour:
     """Edges of a closed contour at one height, counter-clockwise seen from +z, and the vertex each starts from."""
 
     edges: list[Any]
@@ -52,9 +52,9 @@ def add_blank(gear: Gear, kernel: Kernel, lower: Edges, upper: Edges) -> None:
         kernel.face(kernel.plane(heights[which]), loops, outward=which == 1)
 
 
-def _circle(kernel: Kernel, radius: float, z: float) -> _Ring:
+def _circle(kernel: Kernel, radius: float, z: float) -> _Contour:
     start = kernel.vertex((radius, 0.0, z))
-    return _Ring([kernel.edge(kernel.circle(radius, z), start, start, 0.0, 2 * math.pi)], [start])
+    return _Contour([kernel.edge(kernel.circle(radius, z), start, start, 0.0, 2 * math.pi)], [start])
 
 
 def _keyway_corners(gear: Gear) -> list[tuple[float, float]]:
@@ -65,7 +65,7 @@ def _keyway_corners(gear: Gear) -> list[tuple[float, float]]:
     return [(wall, half), (wall, -half), (floor, -half), (floor, half)]
 
 
-def _opening(gear: Gear, kernel: Kernel, z: float) -> _Ring:
+def _opening(gear: Gear, kernel: Kernel, z: float) -> _Contour:
     """Contour of bore and keyway at height z: the arc of the bore, lower wall, floor, upper wall."""
     radius = gear.body.bore / 2
     if not gear.body.keyway_width:
@@ -78,10 +78,10 @@ def _opening(gear: Gear, kernel: Kernel, z: float) -> _Ring:
         after = (k + 1) % 4
         line, length = kernel.line((*corners[k], z), (*corners[after], z))
         edges.append(kernel.edge(line, starts[k], starts[after], 0.0, length))
-    return _Ring(edges, starts)
+    return _Contour(edges, starts)
 
 
-def _add_tube(kernel: Kernel, radius: float, low: _Ring, high: _Ring, heights: Sequence[float], *, outward: bool) -> None:
+def _add_tube(kernel: Kernel, radius: float, low: _Contour, high: _Contour, heights: Sequence[float], *, outward: bool) -> None:
     """A full cylinder between two circles; its seam lies on +x."""
     surface = kernel.cylinder(radius)
     line, length = kernel.line((radius, 0.0, heights[0]), (radius, 0.0, heights[1]))
@@ -93,7 +93,7 @@ def _add_tube(kernel: Kernel, radius: float, low: _Ring, high: _Ring, heights: S
     kernel.face(surface, [loop], outward=outward)
 
 
-def _add_opening(gear: Gear, kernel: Kernel, low: _Ring, high: _Ring, heights: tuple[float, float]) -> None:
+def _add_opening(gear: Gear, kernel: Kernel, low: _Contour, high: _Contour, heights: tuple[float, float]) -> None:
     """The wall of bore and keyway."""
     radius = gear.body.bore / 2
     if not gear.body.keyway_width:

@@ -17,10 +17,10 @@ from gearcad.geometry.gear import Gear
 from gearcad.solids.exact import bezier
 from gearcad.solids.exact.ends import End, gear_ends
 from gearcad.solids.exact.kernel import Kernel, bezier_curve, bezier_curve_2d
-from gearcad.solids.exact.outline import Arc, Piece, Span, accuracy_for, parameter_at_radius, tooth_outline
+from gearcad.solids.exact.outline import FlankSpan, LandArc, Piece, accuracy_for, parameter_at_radius, tooth_outline
 from gearcad.solids.exact.sweep import required, sweep_of
 
-__all__ = ["Drawn", "Layout", "Rise", "Segment", "Side"]
+__all__ = ["Drawn", "Rise", "Segment", "SideEdge", "ToothLayout"]
 
 
 _ROUNDING = 1e-9
@@ -54,7 +54,7 @@ class Drawn:
 
 
 @dataclass(frozen=True)
-class Side:
+class SideEdge:
     """The edge along the tooth at a junction, on one stretch of the face width, for tooth 0.
 
     Its curve, the poles of its polar angle (rad) and the ends of the stretch (mm).
@@ -83,7 +83,7 @@ class Rise:
     high: float
 
 
-class Layout:
+class ToothLayout:
     """Tooth 0: pieces, sweep, and for each end the stations and segments of the outline."""
 
     def __init__(self, gear: Gear, kernel: Kernel) -> None:
@@ -107,17 +107,17 @@ class Layout:
     @staticmethod
     def _start(piece: Piece) -> tuple[float, float]:
         """Radius and polar angle (rad) where a piece starts."""
-        if isinstance(piece, Arc):
+        if isinstance(piece, LandArc):
             return piece.radius, piece.first
         x, y = piece.poles[0]
         return math.hypot(x, y), math.atan2(y, x)
 
-    def _flank_at(self, k: int) -> tuple[Span, int]:
+    def _flank_at(self, k: int) -> tuple[FlankSpan, int]:
         """A flank's piece at a junction, and its u there. One of both neighbours is a flank's, and the first piece is."""
         piece, before = self.pieces[k % len(self.pieces)], self.pieces[k - 1]
-        if isinstance(piece, Span):
+        if isinstance(piece, FlankSpan):
             return piece, 0
-        assert isinstance(before, Span)
+        assert isinstance(before, FlankSpan)
         return before, 1
 
     def turn(self, k: int, z: Any) -> Any:
@@ -132,8 +132,8 @@ class Layout:
         """
         count, found, breaks = len(self.pieces), list[Segment](), list[tuple[float, float]]()
         for k, piece in enumerate(self.pieces):
-            first, last = piece.radii if isinstance(piece, Span) else (0.0, 0.0)
-            if isinstance(piece, Arc):
+            first, last = piece.radii if isinstance(piece, FlankSpan) else (0.0, 0.0)
+            if isinstance(piece, LandArc):
                 found.append(Segment(k, k, k + 1, piece.first, piece.last, piece.radius > end.cone.face_radius))
             elif end.cone.face_radius >= max(first, last) - _ROUNDING or end.cone.face_radius <= min(first, last) + _ROUNDING:
                 found.append(Segment(k, k, k + 1, 0.0, 1.0, 2 * end.cone.face_radius < first + last))
@@ -172,7 +172,7 @@ class Layout:
     def draw(self, end: End, segment: Segment) -> Drawn:
         """The curves of one segment."""
         piece, line = self.pieces[segment.piece], self.kernel.line_2d
-        if isinstance(piece, Arc):
+        if isinstance(piece, LandArc):
             z = float(end.height(piece.radius))
             first, last = (float(self.turn(k, np.array(z))) for k in (segment.start, segment.end))
             circle, on_face = self.kernel.circle(piece.radius, z), line(0, z, 1, 0)
@@ -183,7 +183,7 @@ class Layout:
         poles = self.sweep.section(piece, 0 if end.inward > 0 else 1)
         return Drawn(bezier_curve(poles), segment.first, segment.last, line(0, end.z, 1, 0))
 
-    def _draw_on_cone(self, end: End, segment: Segment, piece: Span) -> Drawn:
+    def _draw_on_cone(self, end: End, segment: Segment, piece: FlankSpan) -> Drawn:
         """Where a flank meets the cone: z follows from the radius, so the curve is explicit in the flank's own u."""
         first, span = segment.first, segment.last - segment.first
 
@@ -206,8 +206,8 @@ class Layout:
         on_cone = bezier_curve_2d(poles[:, 3:], first, segment.last)
         return Drawn(bezier_curve(poles[:, :3], first, segment.last), first, segment.last, on_face, on_cone)
 
-    def sides(self, k: int) -> list[Side]:
-        """Side edges at junction k, upwards."""
+    def sides(self, k: int) -> list[SideEdge]:
+        """SideEdge edges at junction k, upwards."""
         piece, u = self._flank_at(k)
         radius, angle = self.junctions[k].tolist()
         found = []
@@ -219,5 +219,5 @@ class Layout:
                 curve = self.kernel.line((x, y, 0.0), (x, y, 1.0))[0]
             else:
                 curve = bezier_curve(poles, low, high)
-            found.append(Side(self.kernel, curve, angles, low, high))
+            found.append(SideEdge(self.kernel, curve, angles, low, high))
         return found

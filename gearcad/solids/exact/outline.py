@@ -16,7 +16,7 @@ from gearcad.geometry.modification import FlankForm
 from gearcad.solids.exact import bezier
 from gearcad.solids.turned import FlankCurve, flank_curves
 
-__all__ = ["Arc", "Piece", "Span", "accuracy_for", "parameter_at_radius", "tooth_outline"]
+__all__ = ["FlankSpan", "LandArc", "Piece", "accuracy_for", "parameter_at_radius", "tooth_outline"]
 
 Error = Callable[[Floats, Floats], Floats]
 
@@ -33,7 +33,7 @@ def accuracy_for(gear: Gear) -> float:
 
 
 @dataclass(frozen=True, eq=False)
-class Span:
+class FlankSpan:
     """One Bezier piece of a flank: `poles` (n + 1, 2) in mm run counter-clockwise, u in [0, 1] along them.
 
     It is `curve` from the parameter `first` at u = 0 to `last` at u = 1, on the left or right flank.
@@ -62,7 +62,7 @@ class Span:
 
 
 @dataclass(frozen=True)
-class Arc:
+class LandArc:
     """A land: arc of `radius` (mm) about the axis between two polar angles (rad), counter-clockwise."""
 
     radius: float
@@ -74,7 +74,7 @@ class Arc:
         return self.radius, self.radius
 
 
-Piece = Span | Arc
+Piece = FlankSpan | LandArc
 
 
 def tooth_outline(gear: Gear, cuts: Sequence[float] = ()) -> tuple[Piece, ...]:
@@ -99,10 +99,10 @@ def tooth_outline(gear: Gear, cuts: Sequence[float] = ()) -> tuple[Piece, ...]:
     left = [replace(piece, poles=piece.poles[::-1], first=piece.last, last=piece.first) for piece in reversed(flank)]
     tip = right[-1].poles[-1]
     half = -math.atan2(tip[1], tip[0])
-    pieces: list[Piece] = [*right, Arc(gear.tip_diameter / 2, -half, half), *left]
+    pieces: list[Piece] = [*right, LandArc(gear.tip_diameter / 2, -half, half), *left]
     if isinstance(curves[0], Land) and curves[0].kind is CurveKind.ROOT:
         start = float(curves[0].last)
-        pieces.append(Arc(gear.root_diameter / 2, start, 2 * math.pi / gear.teeth - start))
+        pieces.append(LandArc(gear.root_diameter / 2, start, 2 * math.pi / gear.teeth - start))
     return tuple(pieces)
 
 
@@ -115,7 +115,7 @@ def _cut(curve: Curve, radii: Sequence[float]) -> list[float]:
     return [0.0, *(_crossing(lambda s: float(curve.polar(s)[0]), cut, 0.0, 1.0) for cut in radius[1:-1]), 1.0]
 
 
-def _fitted(curve: FlankCurve, first: float, last: float, tolerance: float) -> list[Span]:
+def _fitted(curve: FlankCurve, first: float, last: float, tolerance: float) -> list[FlankSpan]:
     """Spans of a curve of the left flank on [first, last], root to tip, within `tolerance` (mm) along the normal."""
 
     def deviation(values: Floats, s: Floats) -> Floats:
@@ -125,7 +125,7 @@ def _fitted(curve: FlankCurve, first: float, last: float, tolerance: float) -> l
     return _halved(curve, first, last, deviation, tolerance)
 
 
-def _fitted_throughout(curve: FlankCurve, first: float, last: float, tolerance: float) -> list[Span]:
+def _fitted_throughout(curve: FlankCurve, first: float, last: float, tolerance: float) -> list[FlankSpan]:
     """The same within a quarter of it and along the curve too: modifications turn a point by what its parameter says."""
 
     def deviation(values: Floats, s: Floats) -> Floats:
@@ -134,7 +134,7 @@ def _fitted_throughout(curve: FlankCurve, first: float, last: float, tolerance: 
     return _halved(curve, first, last, deviation, 0.25 * tolerance)
 
 
-def _halved(curve: FlankCurve, first: float, last: float, deviation: Error, tolerance: float) -> list[Span]:
+def _halved(curve: FlankCurve, first: float, last: float, deviation: Error, tolerance: float) -> list[FlankSpan]:
     """The span of a curve on [first, last], or those of its halves, until the degree is moderate."""
 
     def parameter(t: Floats) -> Floats:
@@ -148,7 +148,7 @@ def _halved(curve: FlankCurve, first: float, last: float, deviation: Error, tole
         most=_SPLIT_DEGREE,
     )
     if poles is not None:
-        return [Span(poles, curve, first, last, left=True)]
+        return [FlankSpan(poles, curve, first, last, left=True)]
     middle = (first + last) / 2
     halves = (first, middle), (middle, last)
     return [span for half in halves for span in _halved(curve, *half, deviation, tolerance)]
@@ -160,7 +160,7 @@ def _join(flank: list[Floats]) -> None:
         before[-1] = after[0]
 
 
-def parameter_at_radius(span: Span, radius: float) -> float:
+def parameter_at_radius(span: FlankSpan, radius: float) -> float:
     """u at which a span crosses `radius` (mm); the radius is monotone along every piece of a flank."""
     low, high = (0.0, 1.0) if span.radii[0] < span.radii[1] else (1.0, 0.0)
     return _crossing(lambda u: float(span.polar(np.array([u]))[0][0]), radius, low, high)

@@ -19,7 +19,7 @@ from gearcad.errors import SolverError
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.helix import twist
 from gearcad.solids.exact import bezier
-from gearcad.solids.exact.outline import Piece, Span, accuracy_for
+from gearcad.solids.exact.outline import FlankSpan, Piece, accuracy_for
 
 __all__ = ["ModifiedSweep", "Sweep", "required", "sweep_of"]
 
@@ -55,22 +55,22 @@ class Sweep:
         self.rate = twist(gear)
         self.heights: tuple[float, ...] = (0.0, gear.face_width)
 
-    def turn(self, piece: Span, u: Floats, z: Floats) -> Floats:
+    def turn(self, piece: FlankSpan, u: Floats, z: Floats) -> Floats:
         """Angle (rad) by which the point at u of a piece is turned at height z (mm); u and z broadcast."""
         return self.rate * z
 
-    def patches(self, piece: Span) -> list[Floats]:
+    def patches(self, piece: FlankSpan) -> list[Floats]:
         """Poles (n + 1, m + 1, 3) of the surface of a piece on every stretch."""
         return [self._screwed(piece.poles)]
 
-    def section(self, piece: Span, which: int) -> Floats:
+    def section(self, piece: FlankSpan, which: int) -> Floats:
         """Poles (n + 1, 3) of a piece on the plane of the lower (0) or upper (1) end."""
         z = which * self.width
         cosine, sine = math.cos(self.rate * z), math.sin(self.rate * z)
         x, y = piece.poles.T
         return np.stack([cosine * x - sine * y, sine * x + cosine * y, np.full(len(x), z)], -1)
 
-    def side(self, piece: Span, u: int, place: tuple[float, float], stretch: int) -> tuple[Floats, Floats]:
+    def side(self, piece: FlankSpan, u: int, place: tuple[float, float], stretch: int) -> tuple[Floats, Floats]:
         """Poles (m + 1, 3) of the edge along the tooth at the end u = 0 or 1 of a piece, and those of its polar angle (rad).
 
         `place` is that end's radius (mm) and polar angle (rad).
@@ -109,17 +109,17 @@ class ModifiedSweep(Sweep):
     def __init__(self, gear: Gear, pieces: Sequence[Piece]) -> None:
         super().__init__(gear)
         self.form = gear.flank_form
-        spans = [piece for piece in pieces if isinstance(piece, Span)]
+        spans = [piece for piece in pieces if isinstance(piece, FlankSpan)]
         breaks = (0.0, *self.form.height_breaks, self.width)
         found = [stretch for low, high in pairwise(breaks) for stretch in self._stretches(spans, low, high)]
         self.heights = (*(low for low, _, _ in found), self.width)
         self._degrees = [degree for _, _, degree in found]
         self._patches = {span: self._fitted(span) for span in spans}
 
-    def turn(self, piece: Span, u: Floats, z: Floats) -> Floats:
+    def turn(self, piece: FlankSpan, u: Floats, z: Floats) -> Floats:
         return self.rate * z + piece.turn(self.form, u, z)
 
-    def _points(self, piece: Span, u: Floats, z: Floats) -> Floats:
+    def _points(self, piece: FlankSpan, u: Floats, z: Floats) -> Floats:
         """Exact points (n, m, 2) of the modified surface at u (n,) and z (m,)."""
         radius, angle = (value[:, None] for value in piece.polar(u))
         angle = angle + self.turn(piece, u[:, None], z)
@@ -134,7 +134,7 @@ class ModifiedSweep(Sweep):
         poles = bezier.fit(function, error, _SHARE * self.tolerance, least=least, most=most)
         return None if poles is None else len(poles) - 1
 
-    def _stretches(self, spans: list[Span], low: float, high: float) -> list[tuple[float, float, int]]:
+    def _stretches(self, spans: list[FlankSpan], low: float, high: float) -> list[tuple[float, float, int]]:
         """Stretches from `low` to `high` with their degrees along z, the same one for all pieces."""
 
         def along(t: Floats) -> Floats:
@@ -147,20 +147,20 @@ class ModifiedSweep(Sweep):
         middle = (low + high) / 2
         return self._stretches(spans, low, middle) + self._stretches(spans, middle, high)
 
-    def patches(self, piece: Span) -> list[Floats]:
+    def patches(self, piece: FlankSpan) -> list[Floats]:
         return self._patches[piece]
 
-    def section(self, piece: Span, which: int) -> Floats:
+    def section(self, piece: FlankSpan, which: int) -> Floats:
         patch = self.patches(piece)[-which]
         return patch[:, -which]
 
-    def side(self, piece: Span, u: int, place: tuple[float, float], stretch: int) -> tuple[Floats, Floats]:
+    def side(self, piece: FlankSpan, u: int, place: tuple[float, float], stretch: int) -> tuple[Floats, Floats]:
         low, high = self.heights[stretch : stretch + 2]
         # A depth is a parabola along z, so three of its values give its poles.
         first, middle, last = place[1] + self.turn(piece, np.array(float(u)), np.array([low, (low + high) / 2, high]))
         return self.patches(piece)[stretch][-u], np.array([first, 2 * middle - (first + last) / 2, last])
 
-    def _fitted(self, piece: Span) -> list[Floats]:
+    def _fitted(self, piece: FlankSpan) -> list[Floats]:
         """Poles of the surface of a piece on every stretch, of one degree along u."""
         places = np.concatenate([low + _PROBES * (high - low) for low, high in pairwise(self.heights)])
 
@@ -172,7 +172,7 @@ class ModifiedSweep(Sweep):
             raise SolverError(f"a modified flank needs a higher degree than the CAD kernel has ({bezier.MOST_DEGREE})")
         return [self._patch(piece, degree, stretch) for stretch in range(len(self._degrees))]
 
-    def _patch(self, piece: Span, degree: int, stretch: int) -> Floats:
+    def _patch(self, piece: FlankSpan, degree: int, stretch: int) -> Floats:
         low, high = self.heights[stretch : stretch + 2]
         along = self._degrees[stretch]
 

@@ -12,8 +12,8 @@ from gearcad.arrays import Floats
 from gearcad.geometry.gear import Gear
 from gearcad.solids.exact.ends import End
 from gearcad.solids.exact.kernel import Kernel, bezier_curve, bezier_surface
-from gearcad.solids.exact.layout import Layout
-from gearcad.solids.exact.outline import Arc, Span
+from gearcad.solids.exact.layout import ToothLayout
+from gearcad.solids.exact.outline import FlankSpan, LandArc
 
 __all__ = ["add_teeth"]
 
@@ -25,19 +25,19 @@ def add_teeth(gear: Gear, kernel: Kernel) -> tuple[Edges, Edges]:
 
     The loops run counter-clockwise seen from +z.
     """
-    layout = Layout(gear, kernel)
-    ring = _Ring(layout)
+    layout = ToothLayout(gear, kernel)
+    ring = _ToothRing(layout)
     ring.add_sides()
     return ring.close_end(0), ring.close_end(1)
 
 
-class _Ring:
+class _ToothRing:
     """Turns the layout of tooth 0 into the vertices, edges and faces of all teeth.
 
     Curves and surfaces are tooth 0's own, used again at the place of every tooth.
     """
 
-    def __init__(self, layout: Layout) -> None:
+    def __init__(self, layout: ToothLayout) -> None:
         self.layout, self.kernel = layout, layout.kernel
         self.teeth = layout.gear.teeth
         self.pitch = 2 * math.pi / self.teeth
@@ -111,12 +111,12 @@ class _Ring:
     def add_sides(self) -> None:
         """The faces of flanks, fillets, chamfers and lands."""
         for k, piece in enumerate(self.layout.pieces):
-            if isinstance(piece, Arc):
+            if isinstance(piece, LandArc):
                 self._add_land(k, piece)
             else:
                 self._add_flank(k, piece)
 
-    def _add_land(self, k: int, piece: Arc) -> None:
+    def _add_land(self, k: int, piece: LandArc) -> None:
         """One face per tooth, over the whole width."""
         kernel, surface = self.kernel, self.kernel.cylinder(piece.radius)
         wraps, after = divmod(k + 1, len(self.layout.pieces))
@@ -130,7 +130,7 @@ class _Ring:
             up, down = [(edge, True) for edge in right], [(edge, True) for edge in left]
             kernel.face(surface, [[*lower, *up, *_backward(upper), *_backward(down)]], place=place)
 
-    def _add_flank(self, k: int, piece: Span) -> None:
+    def _add_flank(self, k: int, piece: FlankSpan) -> None:
         """One face per tooth and stretch of the face width."""
         kernel, heights, stretches = self.kernel, self.layout.sweep.heights, self.layout.stretches(k)
         patches = self.layout.sweep.patches(piece)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.solids.colours import STEEL, Colour
 from gearcad.solids.facets.tessellation import Facets
 
 __all__ = ["Part"]
@@ -22,7 +23,7 @@ class Part:
 
     name: str
     facets: Facets
-    colour: tuple[float, float, float] = (0.62, 0.66, 0.72)
+    colour: Colour = STEEL
     rotation: float = 0.0
     offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
 

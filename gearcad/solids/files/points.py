@@ -18,7 +18,7 @@ from gearcad.geometry.curves import Curve, CurveKind, Fillet, Involute, paramete
 from gearcad.geometry.trochoid import ToolTip
 from gearcad.solids.turned import TurnedCurve, middle_section
 
-__all__ = ["PointBlock", "gear_points", "tool_in_gear", "tool_outline", "write_points"]
+__all__ = ["PointBlock", "gear_points", "write_points"]
 
 
 _NO_FLAT = 1e-9
@@ -85,7 +85,7 @@ def _parameter(curve: Curve, s: Floats) -> Floats:
 # ---------------------------------------------------------------------- the tool
 
 
-def tool_in_gear(tool: ToolTip, teeth: int, xi: ArrayLike, eta: ArrayLike, roll: ArrayLike = 0.0) -> Floats:
+def _tool_in_gear(tool: ToolTip, teeth: int, xi: ArrayLike, eta: ArrayLike, roll: ArrayLike = 0.0) -> Floats:
     """Points (..., 2) in mm of the tool, seen from the gear turned by `roll` (rad) from where the tool is centred.
 
     The tool's tooth stands in the space between teeth 0 and 1. `xi` (mm) runs along the rolling line from the middle of
@@ -98,7 +98,7 @@ def tool_in_gear(tool: ToolTip, teeth: int, xi: ArrayLike, eta: ArrayLike, roll:
     return np.stack([radius * np.cos(angle), radius * np.sin(angle)], -1)
 
 
-def tool_outline(gear: Gear, chord_error: float) -> tuple[Floats, Floats, Floats]:
+def _tool_outline(gear: Gear, chord_error: float) -> tuple[Floats, Floats, Floats]:
     """Half of the tool's tooth in the transverse section, towards tooth 0: theta (rad), xi and eta (mm), each (n,).
 
     From the middle of its tip over the tip arc (an ellipse there) and along the straight flank to the tip circle's line.
@@ -122,17 +122,17 @@ def tool_outline(gear: Gear, chord_error: float) -> tuple[Floats, Floats, Floats
 def _tool(gear: Gear, chord_error: float) -> Iterator[PointBlock]:
     tool = gear.profile.tool
     fillet = next(curve for curve in gear.profile.curves if isinstance(curve, Fillet))
-    theta, xi, eta = tool_outline(gear, chord_error)
+    theta, xi, eta = _tool_outline(gear, chord_error)
     whole = np.r_[-xi[:0:-1], xi], np.r_[eta[:0:-1], eta]
     yield PointBlock(
-        "tool outline", np.degrees(np.r_[-theta[:0:-1], theta]), tool_in_gear(tool, gear.teeth, whole[0], whole[1])
+        "tool outline", np.degrees(np.r_[-theta[:0:-1], theta]), _tool_in_gear(tool, gear.teeth, whole[0], whole[1])
     )
     first, last = (float(tool.roll(angle)) for angle in (0.0, fillet.last))
     centre = tool.u / math.cos(tool.helix_angle), tool.v
     for name, (along, across) in (("tool path", centre), ("tool corner path", tool.outline(0.0))):
 
         def path(roll: Floats, along: float = along, across: float = across) -> Floats:
-            return tool_in_gear(tool, gear.teeth, along, across, roll)
+            return _tool_in_gear(tool, gear.teeth, along, across, roll)
 
         roll = _evenly_within(path, first, last, chord_error)
         yield PointBlock(name, np.degrees(roll), path(roll))

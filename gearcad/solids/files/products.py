@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from gearcad.geometry import Gear, GearPair, mesh_pose
 from gearcad.per_gear import PerGear, Role
-from gearcad.solids.exact.assembly import PART_COLOURS, pair_assembly, part_names
+from gearcad.solids.colours import PART_COLOURS, STEEL, Colour
+from gearcad.solids.exact.assembly import pair_assembly, part_names
 from gearcad.solids.exact.solid import gear_solid
 from gearcad.solids.facets.tessellation import Facets, tessellate
 from gearcad.solids.files.options import FileOptions
@@ -27,7 +28,7 @@ class GearProduct:
     gear: Gear
     name: str
     options: FileOptions
-    colour: tuple[float, float, float] = Part.colour
+    colour: Colour = STEEL
 
     @cached_property
     def facets(self) -> Facets:
@@ -56,11 +57,11 @@ class PairProduct:
     @cached_property
     def gears(self) -> PerGear[GearProduct]:
         """The gears, each by itself."""
-        names = part_names(self.pair)
+        names = part_names(self.pair).gears
 
         def product(role: Role) -> GearProduct:
-            name, colour = names[role.value], PART_COLOURS[role.value]
-            return GearProduct(gear=self.pair.gears.pick(role), name=name, options=self.options, colour=colour)
+            gear, name, colour = self.pair.gears.pick(role), names.pick(role), PART_COLOURS[role.value]
+            return GearProduct(gear=gear, name=name, options=self.options, colour=colour)
 
         return PerGear.each(product)
 

@@ -12,6 +12,7 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any
 
 from gearcad.errors import SolverError
+from gearcad.solids.colours import STEEL
 from gearcad.solids.files import part21
 
 if TYPE_CHECKING:
@@ -32,7 +33,6 @@ _COLOUR_BLOCK = re.compile(
 )
 _REFERENCE = re.compile(rb"#(\d+)")
 _ENTITY = re.compile(rb"^#\d+ = ", re.MULTILINE)
-_STEEL = (0.62, 0.66, 0.72)
 
 _kernel = RLock()
 """Held while the kernel's global settings are changed."""
@@ -167,7 +167,7 @@ def _part_document(solid: Any, name: str) -> Any:
     label = XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).AddShape(solid.wrapped, False)
     _name(label, name)
     colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
-    colours.SetColor(label, Quantity_Color(*_STEEL, Quantity_TOC_RGB), XCAFDoc_ColorGen)
+    colours.SetColor(label, Quantity_Color(*STEEL, Quantity_TOC_RGB), XCAFDoc_ColorGen)
     return document
 
 
