@@ -10,7 +10,10 @@ from gearcad.errors import ParameterError, as_choice, plain_numbers
 from gearcad.ranges import DENSITY, MODULUS, POISSON_RATIO, STRENGTH
 from gearcad.reprs import concise
 
-__all__ = ["Material", "MaterialGroup"]
+__all__ = ["STEEL_MODULUS", "Material", "MaterialGroup"]
+
+STEEL_MODULUS = 206000.0
+"""Young's modulus (MPa) of steel: of what nothing else is said about."""
 
 
 class MaterialGroup(StrEnum):
@@ -47,7 +50,7 @@ class Material:
     """
 
     name: str = "steel"
-    youngs_modulus: float = 206000.0
+    youngs_modulus: float = STEEL_MODULUS
     poisson_ratio: float = 0.3
     density: float = 7850.0
     yield_strength: float | None = None

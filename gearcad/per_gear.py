@@ -11,7 +11,7 @@ from gearcad.errors import InputError
 
 __all__ = ["PerGear", "Role", "naming"]
 
-T = TypeVar("T")
+T = TypeVar("T", covariant=True)
 U = TypeVar("U")
 
 

@@ -8,7 +8,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from gearcad.check.summary import figures
-from gearcad.contact.plane.cycle import Cycle
+from gearcad.contact.plane.cycle import PlaneCycle
+from gearcad.contact.shared.loaded import Cycle
 from gearcad.contact.solid.cycle import SolidCycle
 
 __all__ = [
@@ -73,7 +74,7 @@ class Convergence:
         return asdict(self)
 
 
-def three_meshes(cycles: Iterable[Cycle]) -> tuple[Convergence, ...]:
+def three_meshes(cycles: Iterable[PlaneCycle]) -> tuple[Convergence, ...]:
     """From the cycles on meshes refined by FACTORS: Richardson's estimate of the middle one's error."""
     return tuple(_of_plane(quantity, values) for quantity, values in _values(cycles))
 
@@ -83,7 +84,7 @@ def three_solid_meshes(cycles: Iterable[SolidCycle]) -> tuple[Convergence, ...]:
     return tuple(_of_solids(quantity, values) for quantity, values in _values(cycles))
 
 
-def _values(cycles: Iterable[Cycle | SolidCycle]) -> list[tuple[str, tuple[float, ...]]]:
+def _values(cycles: Iterable[Cycle]) -> list[tuple[str, tuple[float, ...]]]:
     """Mean mesh stiffness - of the even positions, the same on every mesh - and root tension of both gears, mesh by mesh.
 
     A cycle is let go before the next is made.

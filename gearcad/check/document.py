@@ -6,15 +6,10 @@ import math
 from dataclasses import asdict
 from typing import Any
 
-from gearcad.check.plane.result import PlaneCheck
 from gearcad.check.result import CheckResult
-from gearcad.check.solid.document import load_distribution, over_face, solid_mesh
+from gearcad.check.solid.document import load_distribution, over_face
 from gearcad.check.solid.result import SolidCheck
-from gearcad.contact.plane.cycle import PairContact
-from gearcad.contact.plane.flank import FlankCompliance
 from gearcad.contact.shared.extremes import Extreme
-from gearcad.contact.solid.contact import SolidContact
-from gearcad.meshing.quality import mesh_quality
 
 __all__ = ["check_document"]
 
@@ -55,21 +50,10 @@ def _extreme(of: Extreme | None) -> dict[str, float | None] | None:
 
 def _of_model(result: CheckResult) -> dict[str, Any]:
     """What only one of the models has to tell."""
+    mesh = {"mesh": {role.value: body.mesh_document for role, body in result.cycle.model.bodies.items()}}
     if isinstance(result, SolidCheck):
-        pinion, wheel = result.cycle.model.pinion, result.cycle.model.wheel
-        return {
-            "mesh": {"pinion": solid_mesh(pinion), "wheel": solid_mesh(wheel)},
-            "load_distribution": load_distribution(result.cycle),
-            "face": over_face(result.cycle),
-        }
-    assert isinstance(result, PlaneCheck)  # there are two
-    return {"mesh": {"pinion": _mesh(result.cycle.model.pinion), "wheel": _mesh(result.cycle.model.wheel)}}
-
-
-def _mesh(body: FlankCompliance) -> dict[str, Any]:
-    """Size and quality of the mesh of one tooth sector."""
-    mesh = body.ring.sector.mesh
-    return {"nodes": len(mesh.points), **asdict(mesh_quality(mesh.points, mesh.triangles))}
+        return {**mesh, "load_distribution": load_distribution(result.cycle), "face": over_face(result.cycle)}
+    return mesh
 
 
 def _cycle(result: CheckResult) -> dict[str, Any]:
@@ -86,14 +70,9 @@ def _cycle(result: CheckResult) -> dict[str, Any]:
         "transmission_error": [position.transmission_error for position in positions],
         "pairs": pairs,
         "load_share": [[of[pair].share if pair in of else 0.0 for pair in pairs] for of in by_tooth],
-        "contact_pressure": [[_pressure(of[pair]) if pair in of else 0.0 for pair in pairs] for of in by_tooth],
-        "root_stress_pinion": [position.tension[0].stress for position in positions],
-        "root_stress_wheel": [position.tension[1].stress for position in positions],
-        "root_compression_pinion": [position.compression[0].stress for position in positions],
-        "root_compression_wheel": [position.compression[1].stress for position in positions],
+        "contact_pressure": [[of[pair].interior_pressure if pair in of else 0.0 for pair in pairs] for of in by_tooth],
+        "root_stress_pinion": [position.tension.pinion.stress for position in positions],
+        "root_stress_wheel": [position.tension.wheel.stress for position in positions],
+        "root_compression_pinion": [position.compression.pinion.stress for position in positions],
+        "root_compression_wheel": [position.compression.wheel.stress for position in positions],
     }
-
-
-def _pressure(contact: PairContact | SolidContact) -> float | None:
-    inside = len(contact.inside) if isinstance(contact, SolidContact) else contact.interior
-    return contact.peak_pressure if inside else None

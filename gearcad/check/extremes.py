@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import TypeAlias
 
-from gearcad.contact.plane.cycle import Position
+from gearcad.contact.plane.cycle import PlanePosition
 from gearcad.contact.shared.extremes import Extreme, Quantity
 from gearcad.contact.solid.cycle import SolidPosition
 
 __all__ = ["PLANE", "PRESSURE", "ROOTS", "SOLID", "STRESSES", "Extremes"]
 
-_Position: TypeAlias = Position | SolidPosition
+_Position: TypeAlias = PlanePosition | SolidPosition
 _Quantities: TypeAlias = tuple[Quantity[_Position], ...]
 
 Extremes: TypeAlias = dict[str, Extreme | None]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from gearcad.check.comparison import Comparison, Role, Subject, against, at_most
 from gearcad.check.convergence import LEAST_ORDER, Convergence
@@ -11,9 +11,7 @@ from gearcad.check.extremes import PRESSURE, ROOTS
 from gearcad.check.rim import bending_notes
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
-from gearcad.contact.plane.cycle import Cycle
-from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.per_gear import PerGear
+from gearcad.contact.shared.loaded import Cycle
 
 __all__ = ["farness", "material_limits", "mesh_errors", "reactions", "sampling", "standards"]
 
@@ -30,13 +28,13 @@ def farness(computed: float, expected: float) -> float:
     return found if math.isfinite(found) else math.inf
 
 
-def reactions(torques: Iterable[PerGear[float]], cycle: Cycle | SolidCycle, source: str) -> Iterator[Comparison]:
+def reactions(cycle: Cycle, source: str) -> Iterator[Comparison]:
     """Torques (N·m) on the hubs, position by position, against those applied, where they differ most."""
     model = cycle.model
-    force, found = model.force(cycle.torque) * model.width / 1000, tuple(torques)
-    for role, body in PerGear(model.pinion, model.wheel).items():
+    force = model.force(cycle.torque) * model.width / 1000
+    for role, body in model.bodies.items():
         applied = force * body.flank.base_radius
-        worst = max((each.pick(role) for each in found), key=lambda torque: farness(torque, applied))
+        worst = max((position.torques.pick(role) for position in cycle.every), key=lambda torque: farness(torque, applied))
         yield against(f"torque reaction of the {role.value}", worst, applied, _REACTION, "N·m", source, Role.GATE)
 
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from enum import Enum
 
 from gearcad.contact.plane.elasticity import Plane
-from gearcad.contact.plane.pair import BodyModel
-from gearcad.contact.plane.support import STEEL, Hold
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.shared.holding import Hold
 from gearcad.errors import (
     GeometryError,
     ParameterError,
@@ -19,6 +19,8 @@ from gearcad.errors import (
     require_whole,
 )
 from gearcad.geometry import GearPair
+from gearcad.material import STEEL_MODULUS
+from gearcad.per_gear import PerGear
 from gearcad.ranges import BAND, LENGTH, MODULUS, TORQUE
 from gearcad.reprs import concise
 
@@ -73,7 +75,7 @@ class CheckOptions:
     wheel_inner_diameter: float | None = None
     pinion_support: str = "auto"
     wheel_support: str = "auto"
-    shaft_modulus: float = STEEL
+    shaft_modulus: float = STEEL_MODULUS
     pinion_shaft_bore: float = 0.0
     wheel_shaft_bore: float = 0.0
     torques: tuple[float, ...] = ()
@@ -138,12 +140,12 @@ class CheckOptions:
     @property
     def body(self) -> BodyModel:
         """The bodies as the FE wants them."""
-        inner = (self.pinion_inner_diameter, self.wheel_inner_diameter)
+        inner = PerGear(self.pinion_inner_diameter, self.wheel_inner_diameter)
         return BodyModel(
             teeth=self.body_teeth or None,
             cuts=Cuts(self.cuts),
             inner_diameters=inner,
-            holds=(Hold(self.pinion_support), Hold(self.wheel_support)),
+            holds=PerGear(Hold(self.pinion_support), Hold(self.wheel_support)),
             shaft_modulus=self.shaft_modulus,
-            shaft_bores=(self.pinion_shaft_bore, self.wheel_shaft_bore),
+            shaft_bores=PerGear(self.pinion_shaft_bore, self.wheel_shaft_bore),
         )

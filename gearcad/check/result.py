@@ -11,7 +11,7 @@ from gearcad.check.options import CheckOptions, Model
 from gearcad.check.summary import Summary
 from gearcad.check.sweep import SweepPoint
 from gearcad.check.task import CheckTask
-from gearcad.contact.plane.cycle import Cycle
+from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.geometry import GearPair
 from gearcad.load import Load
@@ -27,7 +27,7 @@ class CheckResult:
     """A task, and everything that its check found out."""
 
     task: CheckTask
-    cycle: Cycle | SolidCycle
+    cycle: PlaneCycle | SolidCycle
     summary: Summary
     sweep: tuple[SweepPoint, ...]
     convergence: tuple[Convergence, ...]

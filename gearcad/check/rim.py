@@ -8,9 +8,10 @@ from typing import NamedTuple
 from gearcad.check.comparison import Comparison, Subject, at_most
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
-from gearcad.contact.plane.support import LEAST_RIM, Hold, Support, rim_ratio
+from gearcad.contact.shared.holding import Hold, Support, rim_ratio
 from gearcad.errors import format_number
 from gearcad.geometry import Gear
+from gearcad.rating.iso6336_3 import RIM_LIMIT
 
 __all__ = ["bending_limits", "bending_notes", "rim_gates", "rim_warnings"]
 
@@ -36,7 +37,7 @@ class _Rim(NamedTuple):
     def stiffened(self) -> bool:
         """True if the gear has a thin rim, and the model keeps it from bending."""
         bore = self.gear.body.bore / 2
-        thin = bool(bore) and rim_ratio(self.gear, bore) < LEAST_RIM
+        thin = bool(bore) and rim_ratio(self.gear, bore) < RIM_LIMIT
         return thin and self.support.hold is Hold.RIGID and self.radius > bore - _SAME
 
     @property
@@ -59,7 +60,7 @@ def rim_gates(task: CheckTask) -> Iterator[Comparison]:
             yield at_most(
                 f"tooth depth over rim, {rim.owner}",
                 1 / rim.ratio if rim.ratio > 0 else None,
-                1 / LEAST_RIM,
+                1 / RIM_LIMIT,
                 "",
                 _SOURCE,
                 f'a rim as thin as that bends, which a rigid bore keeps it from: {rim.owner}_support = "free"',
@@ -106,7 +107,7 @@ def rim_warnings(task: CheckTask, summary: Summary) -> Iterator[str]:
                 f"({tension:.0f} MPa) and compression ({compression:.0f} MPa) are the greatest of {teeth}, the tension "
                 f"on its bore is {bore or 0:.0f} MPa"
             )
-        elif rim.ratio < LEAST_RIM and rim.support.hold is Hold.RIGID:
+        elif rim.ratio < RIM_LIMIT and rim.support.hold is Hold.RIGID:
             yield f'{rim.words} is held rigidly, which keeps it from bending; {rim.owner}_support = "free" lets it'
         elif rim.support.hold is Hold.SHAFT:
             yield f"the {rim.owner} is bonded to its shaft: a fit that opens under load is softer"

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple, TypedDict
 
 from gearcad.check.extremes import Extremes
-from gearcad.contact.plane.cycle import Cycle
-from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.contact.shared.loaded import Cycle
 from gearcad.per_gear import PerGear
 
 __all__ = ["CommonFigures", "Figures", "Summary", "by_name", "common_figures", "figures"]
@@ -84,11 +83,11 @@ class Figures(NamedTuple):
     root_tension: PerGear[float]
 
 
-def figures(cycle: Cycle | SolidCycle) -> Figures:
+def figures(cycle: Cycle) -> Figures:
     """Mean mesh stiffness, greatest interior pressure and root tensions of a cycle."""
     worst = cycle.worst_contact
-    tension = PerGear(*(cycle.worst_position(gear).tension[gear].stress for gear in (0, 1)))
-    return Figures(float(cycle.mean("stiffness")[0]), worst[1].peak_pressure if worst else None, tension)
+    tension = PerGear.each(lambda role: cycle.worst_position(role).tension.pick(role).stress)
+    return Figures(float(cycle.mean("stiffness")[0]), worst[1].interior_pressure if worst else None, tension)
 
 
 class CommonFigures(TypedDict):
@@ -108,7 +107,7 @@ class CommonFigures(TypedDict):
     extremes: Extremes
 
 
-def common_figures(cycle: Cycle | SolidCycle, extremes: Extremes, single: float) -> CommonFigures:
+def common_figures(cycle: Cycle, extremes: Extremes, single: float) -> CommonFigures:
     """Those of a cycle and its extremes; `single` is the stiffness of one pair of teeth alone."""
 
     def value(name: str) -> float | None:

@@ -7,8 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearcad.check.summary import by_name, figures
-from gearcad.contact.plane.cycle import Cycle
-from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.contact.shared.loaded import Cycle
 from gearcad.per_gear import PerGear
 
 __all__ = ["SweepPoint", "sweep_point"]
@@ -32,7 +31,7 @@ class SweepPoint(NamedTuple):
         return by_name(self._asdict())
 
 
-def sweep_point(cycle: Cycle | SolidCycle) -> SweepPoint:
+def sweep_point(cycle: Cycle) -> SweepPoint:
     """The figures of a cycle at its torque."""
     few, model = figures(cycle), cycle.model
     turns, _ = cycle.mean("approach_parts")

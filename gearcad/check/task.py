@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from gearcad.check.options import CheckOptions, Model
-from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
@@ -46,7 +46,7 @@ class CheckTask:
     def body(self) -> BodyModel:
         """The bodies as the model of the pair takes them."""
         body = self.options.body
-        return body.of_solids() if self.model is Model.SOLID else body
+        return body.for_solids() if self.model is Model.SOLID else body
 
     @cached_property
     def rating(self) -> Rating:

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
-from gearcad.contact.plane.cycle import Cycle
-from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.contact.shared.loaded import Cycle
 
 __all__ = ["corner_warnings", "general_warnings"]
 
@@ -15,7 +14,7 @@ _ABSURD = 0.03
 """Stress over modulus above which strains are no longer small."""
 
 
-def general_warnings(task: CheckTask, cycle: Cycle | SolidCycle, summary: Summary) -> Iterator[str]:
+def general_warnings(task: CheckTask, cycle: Cycle, summary: Summary) -> Iterator[str]:
     """Of the pair, of the load, and of the bodies."""
     yield from task.pair.warnings
     modulus = task.material.youngs_modulus
@@ -35,7 +34,7 @@ def general_warnings(task: CheckTask, cycle: Cycle | SolidCycle, summary: Summar
             yield f"the {name} has no bore: its body is taken as held on diameter {2 * body.hub_radius:.6g} mm"
 
 
-def corner_warnings(cycle: Cycle | SolidCycle, summary: Summary) -> Iterator[str]:
+def corner_warnings(cycle: Cycle, summary: Summary) -> Iterator[str]:
     """Of tips whose edge touches."""
     if summary.corner_positions:
         yield (

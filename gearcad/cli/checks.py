@@ -11,13 +11,14 @@ import click
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.progress import job_progress
 from gearcad.cli.verdict import print_verdict
+from gearcad.per_gear import PerGear
 
 if TYPE_CHECKING:
     from gearcad.check.result import CheckResult
 
 __all__ = ["check"]
 
-_FIELDS = ("stress_pinion.vtu", "stress_wheel.vtu")
+_FIELDS = PerGear("stress_pinion.vtu", "stress_wheel.vtu")
 
 
 @click.command(short_help="Check the strength of SPEC's pair by finite elements.")
@@ -71,6 +72,6 @@ def _write_fields(result: CheckResult, folder: Path) -> None:
     from gearcad.contact.solid.field import shown_stress, worst_field, write_vtu
 
     if isinstance(result, SolidCheck):
-        for gear, name in enumerate(_FIELDS):
-            field = worst_field(result.cycle, gear)
-            write_vtu(field, folder / name, shown_stress(result.cycle, gear, field))
+        for role, name in _FIELDS.items():
+            field = worst_field(result.cycle, role)
+            write_vtu(field, folder / name, shown_stress(result.cycle, role, field))

@@ -13,7 +13,7 @@ from gearcad.check.options import CheckOptions, Model
 from gearcad.check.solid.summary import worst_place
 from gearcad.contact.optimum.search import Found, Search, conditions, start_search
 from gearcad.contact.optimum.variants import AMOUNTS, Condition, with_amounts
-from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, loaded_left, solid_pair
 from gearcad.designs import Design, Inputs, PairDesign, as_design
 from gearcad.errors import GeometryError, ParameterError
@@ -21,6 +21,7 @@ from gearcad.geometry import GearPair, ReliefShape
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.per_gear import Role
 from gearcad.progress import Progress
 from gearcad.ranges import STRENGTH, TORQUE
 
@@ -58,7 +59,7 @@ class Figures:
             permitted = "must leave a place of contact away from the edges of the flanks: beside them no pressure is told"
             raise ParameterError("torque", cycle.torque, permitted, "N·m")
         first, second, third = cycle.harmonics[:3].tolist()
-        pinion, wheel = (cycle.worst_position(gear).tension[gear].stress for gear in (0, 1))
+        pinion, wheel = (cycle.worst_position(role).tension.pick(role).stress for role in Role)
         return cls(
             transmission_error_peak_to_peak=float(np.ptp(cycle.values("transmission_error"))),
             transmission_error_harmonics=(first, second, third),
@@ -66,7 +67,7 @@ class Figures:
             root_tension_pinion=pinion,
             root_tension_wheel=wheel,
             face_load_factor=cycle.face_load_factor,
-            edge_positions=sum(any(contact.edge for contact in position.contacts) for position in cycle.positions),
+            edge_positions=cycle.edge_positions,
         )
 
 
@@ -176,7 +177,7 @@ def propose(
     with threadpool_limits(1):
         model = _model(design, pair, torque, options, progress)
         _tell(progress, "mesh cycle")
-        before = run_solid_cycle(model, torque, options.positions_of(Model.SOLID))
+        before = SolidCycle.run(model, torque, options.positions_of(Model.SOLID))
         _tell(progress, "search")
         count, limits = len(before.positions), _limits(design.material or Material(), pressure)
         tried = [
@@ -289,7 +290,7 @@ def _best(tried: list[_Tried], limits: list[float]) -> _Tried:
 
 def _cycle(model: SolidPair, found: Found, shape: ReliefShape, torque: float, count: int) -> SolidCycle:
     modified = model.remade(with_amounts(model.pair, found.amounts, shape), model.mounting)
-    return run_solid_cycle(modified, torque, count)
+    return SolidCycle.run(modified, torque, count)
 
 
 def unmirrored(amounts: Floats, pair: GearPair, torque: float) -> Floats:

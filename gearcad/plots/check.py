@@ -14,7 +14,7 @@ from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, l
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from gearcad.contact.plane.cycle import PairContact
+    from gearcad.contact.plane.cycle import PlanePairContact
 
 __all__ = [
     "PATH",
@@ -38,9 +38,9 @@ def plot_contact_pressure(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     """
     axes = prepared(ax, PATH, "peak pressure in MPa")
     contacts = _along_path(result)
-    lengths = np.array([contact.pair.pinion for contact in contacts])
+    lengths = np.array([contact.place for contact in contacts])
     inside = np.array([contact.interior for contact in contacts])
-    corner = np.array([contact.edge_distance < 0 for contact in contacts])
+    corner = np.array([contact.edge for contact in contacts])
     for name, words, colour, width in (
         ("hertz_pressure", "Hertz, under the load carried", PALE, 3.5),
         ("peak_pressure", "finite elements", SERIES[0], 1.3),
@@ -64,9 +64,9 @@ def plot_load_share(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     """Part of the load that a pair of teeth carries along the path of contact, contact of corners beyond it included."""
     axes = prepared(ax, PATH, "share of the load")
     contacts = _along_path(result)
-    lengths = np.array([contact.pair.pinion for contact in contacts])
+    lengths = np.array([contact.place for contact in contacts])
     shares = np.array([contact.share for contact in contacts])
-    corner = np.array([contact.edge_distance < 0 for contact in contacts])
+    corner = np.array([contact.edge for contact in contacts])
     axes.plot(lengths, shares, color=SERIES[0], label="finite elements")
     if corner.any():
         axes.plot(lengths[corner], shares[corner], "x", color=DARK, markersize=5, label="a corner touches")
@@ -124,10 +124,10 @@ def plot_root_stress(result: CheckResult, ax: Axes | None = None) -> Axes:
     return axes
 
 
-def _along_path(result: PlaneCheck) -> list[PairContact]:
+def _along_path(result: PlaneCheck) -> list[PlanePairContact]:
     """All contacts of the cycle in the order in which one pair of teeth goes through them."""
     contacts = [contact for position in result.cycle.every for contact in position.contacts]
-    return sorted(contacts, key=lambda contact: contact.pair.pinion)
+    return sorted(contacts, key=lambda contact: contact.place)
 
 
 def mark_path(axes: Axes, pair: GearPair) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from gearcad.arrays import Bools, Floats
 from gearcad.check.solid.result import SolidCheck
 from gearcad.check.solid.summary import middle_contacts
+from gearcad.per_gear import PerGear, Role
 from gearcad.plots.check import PATH, mark_path
 from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, new_figure, prepared, short
 
@@ -48,8 +49,8 @@ class Cells(NamedTuple):
 
     place: Floats
     across: Floats
-    rolls: tuple[Floats, Floats]
-    heights: tuple[Floats, Floats]
+    rolls: PerGear[Floats]
+    heights: PerGear[Floats]
     line_load: Floats
     pressure: Floats
     interior: Bools
@@ -60,8 +61,8 @@ class Cells(NamedTuple):
         return Cells(
             self.place[chosen],
             self.across[chosen],
-            (self.rolls[0][chosen], self.rolls[1][chosen]),
-            (self.heights[0][chosen], self.heights[1][chosen]),
+            self.rolls.map(lambda each: each[chosen]),
+            self.heights.map(lambda each: each[chosen]),
             self.line_load[chosen],
             self.pressure[chosen],
             self.interior[chosen],
@@ -73,12 +74,12 @@ def loaded_cells(result: SolidCheck) -> Cells:
     """All of a cycle."""
     contacts = [contact for position in result.cycle.every for contact in position.contacts]
     lines = [contact.line for contact in contacts]
-    pinion, wheel = (np.concatenate(of, axis=1) for of in ([line.pinion for line in lines], [line.wheel for line in lines]))
+    pinion, wheel = (np.concatenate([line.places.pick(role) for line in lines], axis=1) for role in Role)
     return Cells(
         np.concatenate([line.nominal for line in lines]),
         np.concatenate([line.across for line in lines]),
-        (pinion[0], wheel[0]),
-        (pinion[1], wheel[1]),
+        PerGear(pinion[0], wheel[0]),
+        PerGear(pinion[1], wheel[1]),
         np.concatenate([contact.line_loads for contact in contacts]),
         np.concatenate([contact.pressures for contact in contacts]),
         np.concatenate([contact.interior for contact in contacts]),
@@ -101,19 +102,26 @@ def plot_line_loads(result: SolidCheck, ax: Axes | None = None) -> Axes:
     return axes
 
 
-def plot_contact_pattern(result: SolidCheck, gear: int, ax: Axes | None = None) -> Axes:
-    """Greatest pressure of the cycle at every place of the flank of the pinion (0) or the wheel (1), in the flank's outline.
+def plot_contact_pattern(result: SolidCheck, role: Role, ax: Axes | None = None) -> Axes:
+    """Greatest pressure of the cycle at every place of the flank of a gear, in the flank's outline.
 
     Contact of edges is left out.
     """
     axes = new_figure().subplots() if ax is None else ax
-    cells, own = loaded_cells(result), (result.pair.pinion, result.pair.wheel)[gear]
+    cells, own = loaded_cells(result), result.pair.gears.pick(role)
     cells = cells.only(~cells.on_edge)
-    _map(axes, cells.heights[gear], cells.rolls[gear], cells.pressure, result.summary.contact_pressure, "pressure in MPa")
+    _map(
+        axes,
+        cells.heights.pick(role),
+        cells.rolls.pick(role),
+        cells.pressure,
+        result.summary.contact_pressure,
+        "pressure in MPa",
+    )
     form = own.flank_form
     z, roll = np.array([0, 1, 1, 0, 0]) * form.width, np.array([0, 0, 1, 1, 0]) * (form.last - form.first) + form.first
-    axes.plot(z, roll, color=DARK, linewidth=1.2, label=f"flank of the {GEARS[gear][0]}, tip above")
-    low, high = result.cycle.model.common_heights(gear)
+    axes.plot(z, roll, color=DARK, linewidth=1.2, label=f"flank of the {role.value}, tip above")
+    low, high = result.cycle.model.common_heights(role)
     for height, words in ((low, "ends of the common width"), (high, None)):
         axes.axvline(height, color=MARKED, linestyle=":", linewidth=1.2, label=words)
     axes.set_xlabel("along the axis, z in mm")
@@ -189,16 +197,16 @@ def plot_load_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
 def plot_root_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
     """Greatest root tension of the cycle along the face of both gears; what stands out beyond the common width is pale."""
     axes, part = prepared(ax, _ACROSS, "root tension in MPa"), result.rating.edition.part(3)
-    for gear, (words, colour, marker) in enumerate(GEARS):
-        heights, stress = result.cycle.root_along_face(gear)
-        low, high = result.cycle.model.common_heights(gear)
+    for role, (words, colour, marker) in zip(Role, GEARS, strict=True):
+        heights, stress = result.cycle.root_along_face(role)
+        low, high = result.cycle.model.common_heights(role)
         across = heights - (low + high) / 2
-        factor = result.summary.root_face_load_factor[gear]
+        factor = result.summary.root_face_load_factor.pick(role)
         axes.plot(across, stress, color=colour, linewidth=1.0, alpha=0.4)
         inside = (heights >= low) & (heights <= high)
         label = rf"{words}, $K_{{F\beta}}$ = {factor:.2f}"
         axes.plot(across[inside], stress[inside], color=colour, marker=marker, markersize=3.5, label=label)
-        standard = result.rating.root_stresses[gear]
+        standard = result.rating.root_stresses.pick(role)
         axes.axhline(standard, color=colour, linestyle=":", linewidth=1.4, label=f"{words}, {part}: {standard:.0f} MPa")
     axes.set_ylim(bottom=0)
     legend_above(axes, 2)

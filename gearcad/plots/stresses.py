@@ -13,13 +13,14 @@ from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.plane.field import ToothField, contact_frame, tooth_field
 from gearcad.contact.plane.subsurface import strip_stresses
 from gearcad.meshing.outline import Side
+from gearcad.per_gear import Role
 from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, new_figure, prepared
 from gearcad.rating import LineContact, Stresses
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from gearcad.contact.plane.cycle import PairContact, Position
+    from gearcad.contact.plane.cycle import PlanePairContact, PlanePosition
 
 __all__ = [
     "depth_stresses",
@@ -52,7 +53,7 @@ _LEAST_ANGLE, _ISO_ANGLE = 20.0, 30.0
 """Tangent angles (deg) from which on a fillet is the root, and where ISO 6336-3 looks."""
 
 
-def shown_contact(result: PlaneCheck) -> tuple[Position, PairContact]:
+def shown_contact(result: PlaneCheck) -> tuple[PlanePosition, PlanePairContact]:
     """The contact of the greatest pressure away from corners, or that of the greatest load where all are near them."""
     return result.cycle.worst_contact or result.cycle.heaviest_contact
 
@@ -60,8 +61,8 @@ def shown_contact(result: PlaneCheck) -> tuple[Position, PairContact]:
 def worst_fields(result: PlaneCheck) -> list[ToothField]:
     """Stresses in three teeth of each gear at the position of the contact that is shown."""
     position, contact = shown_contact(result)
-    teeth = range(contact.pair.tooth - 1, contact.pair.tooth + 2)
-    return [tooth_field(result.cycle, position, gear, tooth) for gear in (0, 1) for tooth in teeth]
+    teeth = range(contact.tooth - 1, contact.tooth + 2)
+    return [tooth_field(result.cycle, position, role, tooth) for role in Role for tooth in teeth]
 
 
 def plot_stress_field(result: PlaneCheck, ax: Axes | None = None, fields: list[ToothField] | None = None) -> Axes:
@@ -108,10 +109,10 @@ def _plot_field(
     return axes
 
 
-def fillet_curve(result: PlaneCheck, gear: int, side: Side) -> tuple[Floats, Floats]:
+def fillet_curve(result: PlaneCheck, role: Role, side: Side) -> tuple[Floats, Floats]:
     """Tangent angles (deg) and stresses (MPa) along a fillet of the most stressed tooth when its gear's tension is greatest."""
-    fillets = result.cycle.model.fillets[gear]
-    seen = root_loads(result.cycle.worst_position(gear).contacts, gear)
+    fillets = result.cycle.model.fillets.pick(role)
+    seen = root_loads(result.cycle.worst_position(role).contacts, role)
     worst = max(seen, key=lambda loads: fillets.greatest(Side.LEFT_FILLET, loads).stress)
     angles = fillets.places(side)[1]
     order = np.argsort(angles)
@@ -121,13 +122,13 @@ def fillet_curve(result: PlaneCheck, gear: int, side: Side) -> tuple[Floats, Flo
 def plot_fillets(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     """Stress along both fillets of each gear at its worst position, over the tangent's angle to the middle of the tooth."""
     axes = prepared(ax, "tangent angle, from the middle of the tooth, in °", "stress along the fillet in MPa")
-    for gear, (words, colour, marker) in enumerate(GEARS):
+    for role, (words, colour, marker) in zip(Role, GEARS, strict=True):
         for side, kind, style in ((Side.LEFT_FILLET, "tension", "-"), (Side.RIGHT_FILLET, "compression", "--")):
-            angles, stresses = fillet_curve(result, gear, side)
+            angles, stresses = fillet_curve(result, role, side)
             root = angles >= _LEAST_ANGLE
             axes.plot(angles[root], stresses[root], color=colour, linestyle=style, label=f"{words}, {kind}")
-        found = result.cycle.worst_position(gear).tension[gear]
-        bends = (result.cycle.model.pinion, result.cycle.model.wheel)[gear].ring.support.bends
+        found = result.cycle.worst_position(role).tension.pick(role)
+        bends = result.cycle.model.bodies.pick(role).ring.support.bends
         label = f"{words}, greatest{' of all teeth' if bends else ''}: {found.tangent_angle:.0f}°"
         axes.plot([found.tangent_angle], [found.stress], marker, color=colour, label=label)
     axes.axvline(_ISO_ANGLE, color=MARKED, linestyle=":", label="30°, ISO 6336-3")
@@ -162,7 +163,7 @@ _DEPTH_WORDS = {
 """Stresses of a depth profile as the legend has them."""
 
 
-def depth_stresses(result: PlaneCheck, contact: PairContact, depth: Floats) -> Stresses:
+def depth_stresses(result: PlaneCheck, contact: PlanePairContact, depth: Floats) -> Stresses:
     """Stresses of a half-plane below the centre of the pressures of a contact, in the directions of `Stresses`."""
     cells = contact.pair.cells
     middle = float((cells.place * contact.pressures).sum() / contact.pressures.sum())
@@ -174,7 +175,7 @@ def depth_stresses(result: PlaneCheck, contact: PairContact, depth: Floats) -> S
     return Stresses(depth, across, along, down, largest, mises)
 
 
-def hertz_contact(result: PlaneCheck, contact: PairContact) -> LineContact:
+def hertz_contact(result: PlaneCheck, contact: PlanePairContact) -> LineContact:
     """Two cylinders of the curvature of the flanks under the load of a contact."""
     return LineContact(
         load_per_width=contact.force,

@@ -11,6 +11,7 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.check.solid.result import SolidCheck
 from gearcad.contact.solid.field import shown_stress, worst_field
+from gearcad.per_gear import Role
 from gearcad.plots.paper import new_figure
 
 if TYPE_CHECKING:
@@ -47,15 +48,15 @@ class ToothSurface:
     most: float
 
 
-def tooth_surface(result: SolidCheck, gear: int) -> ToothSurface:
-    """The most stressed tooth of the pinion (0) or the wheel (1), with the body just below it."""
-    field, own = worst_field(result.cycle, gear), (result.pair.pinion, result.pair.wheel)[gear]
+def tooth_surface(result: SolidCheck, role: Role) -> ToothSurface:
+    """The most stressed tooth of a gear, with the body just below it."""
+    field, own = worst_field(result.cycle, role), result.pair.gears.pick(role)
     faces = field.above(own.root_diameter / 2 - _BELOW * own.normal_module).surface
     used, index = np.unique(faces, return_inverse=True)
     triangles = index.reshape(faces.shape)[:, _PARTS].reshape(-1, 3)
     points, stress = field.points[used], field.von_mises[used]
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    return ToothSurface(points - middle, triangles, stress, shown_stress(result.cycle, gear, field))
+    return ToothSurface(points - middle, triangles, stress, shown_stress(result.cycle, role, field))
 
 
 def viewed(points: Floats) -> Floats:

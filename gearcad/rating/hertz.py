@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,8 +16,18 @@ from numpy.typing import ArrayLike
 from gearcad.arrays import Floats
 from gearcad.errors import plain_numbers, require_number
 
-__all__ = ["LineContact", "Peak", "Stresses", "reduced_modulus", "reduced_radius"]
+__all__ = [
+    "LineContact",
+    "Peak",
+    "Stresses",
+    "half_width",
+    "half_width_by_curvature",
+    "peak_pressure",
+    "reduced_modulus",
+    "reduced_radius",
+]
 
+Size = TypeVar("Size", float, Floats)
 
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
@@ -56,6 +66,23 @@ def reduced_radius(radii: tuple[float, float]) -> float:
     return radii[0] * radii[1] / (radii[0] + radii[1])
 
 
+def half_width(load_per_width: Size, radius: Size, modulus: float) -> Size:
+    """a (mm): a^2 = 4 P R/(pi E*) (Johnson 4.43). Numbers, or arrays of one shape."""
+    result: Size = np.sqrt(4 * load_per_width * radius / (math.pi * modulus))
+    return result
+
+
+def half_width_by_curvature(load_per_width: float, curvature: float, modulus: float) -> float:
+    """The same by the relative curvature 1/R (1/mm); infinite where one surface is hollower than the other is round."""
+    return math.sqrt(4 * load_per_width / (math.pi * modulus * curvature)) if curvature > 0 else math.inf
+
+
+def peak_pressure(load_per_width: Size, radius: Size, modulus: float) -> Size:
+    """p_0 (MPa) in the middle of the contact: sqrt(P E*/(pi R)) = 2 P/(pi a) (Johnson 4.45). Numbers, or arrays."""
+    result: Size = np.sqrt(load_per_width * modulus / (math.pi * radius))
+    return result
+
+
 @dataclass(frozen=True, kw_only=True)
 class LineContact:
     """Two cylinders under a load per length of their line of contact.
@@ -78,13 +105,13 @@ class LineContact:
 
     @property
     def half_width(self) -> float:
-        """a (mm): a^2 = 4 P R/(pi E*) (Johnson 4.43)."""
-        return math.sqrt(4 * self.load_per_width * self.radius / (math.pi * self.modulus))
+        """a (mm)."""
+        return float(half_width(self.load_per_width, self.radius, self.modulus))
 
     @property
     def peak_pressure(self) -> float:
-        """p_0 (MPa) in the middle of the contact: sqrt(P E*/(pi R)) = 2 P/(pi a) (Johnson 4.45)."""
-        return math.sqrt(self.load_per_width * self.modulus / (math.pi * self.radius))
+        """p_0 (MPa) in the middle of the contact."""
+        return float(peak_pressure(self.load_per_width, self.radius, self.modulus))
 
     def pressure(self, x: ArrayLike) -> Any:
         """Pressure (MPa) at `x` (mm) from the middle: p_0 sqrt(1 - x^2/a^2), 0 outside (Johnson 4.44). Scalar or array."""

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.errors import GearcadError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load

@@ -12,12 +12,11 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.contact.plane.cycle import single_stiffness
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
 from gearcad.contact.plane.limits import thin_faces
-from gearcad.contact.plane.pair import FlexiblePair, PairInMesh, flexible_pair
+from gearcad.contact.plane.pair import PlanePair, plane_pair
+from gearcad.contact.shared.engaged import EngagedPair
 from gearcad.contact.solid.cost import POSITION_SECONDS
-from gearcad.contact.solid.cycle import solid_single_stiffness
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, expected_bodies, loaded_left, solid_pair
 from gearcad.errors import GeometryError
 from gearcad.load import Load
@@ -61,7 +60,7 @@ class ContactMethod(StiffnessMethod):
 
     def _cycle(self, load: Load, count: int) -> MeshCycle:
         torque, force = math.copysign(self.torque(load), load.torque), self.force(load)
-        angles = PairInMesh(self.mounted).roll_angles(count)
+        angles = EngagedPair(self.mounted).roll_angles(count)
         found = [self._at(angle, torque) for angle in angles.tolist()]
         softer, harder = (
             np.array([self._at(angle, torque * (1 + sign * _STEP)).approach for angle in angles.tolist()]) for sign in (-1, 1)
@@ -99,7 +98,7 @@ class ContactMethod(StiffnessMethod):
 class PlaneContact(ContactMethod):
     """Contact in the transverse section, for spur gears."""
 
-    bodies: FlexiblePair | None = field(default=None, repr=False)
+    bodies: PlanePair | None = field(default=None, repr=False)
     """Those of a check, if there was one; else they are made."""
 
     plane: ClassVar[Plane]
@@ -113,12 +112,12 @@ class PlaneContact(ContactMethod):
             raise GeometryError("pair.helix_angle", helix, permitted, "deg")
 
     @cached_property
-    def model(self) -> FlexiblePair:
+    def model(self) -> PlanePair:
         """The bodies, factorised."""
         if self.bodies is not None:
             return self.bodies
         error = self.mounting.pitch_error
-        return flexible_pair(self.mounted, self.material, plane=self.plane, body=self.body, pitch_error=error)
+        return plane_pair(self.mounted, self.material, plane=self.plane, body=self.body, pitch_error=error)
 
     def _at(self, roll_angle: float, torque: float) -> _Loaded:
         found = self.model.solve(roll_angle, torque)
@@ -128,7 +127,7 @@ class PlaneContact(ContactMethod):
         return _Loaded(found.approach, self.model.rigid_approach(roll_angle), found.parts, forces)
 
     def _single(self, torque: float) -> float:
-        return single_stiffness(self.model, torque)
+        return self.model.single_stiffness(torque)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -205,7 +204,7 @@ class SolidContact(ContactMethod):
         return _Loaded(found.approach / flat, found.rigid / flat, (found.parts[0] / flat, found.parts[1] / flat), forces)
 
     def _single(self, torque: float) -> float:
-        return solid_single_stiffness(self.model(torque), torque)
+        return self.model(torque).single_stiffness(torque)
 
 
 def _closed(values: Floats) -> Floats:

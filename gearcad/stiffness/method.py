@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar
 
-from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.errors import GeometryError, ParameterError, require_whole
 from gearcad.geometry import GearPair
 from gearcad.load import Load

@@ -15,7 +15,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
-from gearcad.contact.plane.flank import FlankCompliance
+from gearcad.contact.plane.flank import PlaneCompliance
 from gearcad.contact.plane.limits import thin_faces
 from gearcad.contact.plane.pair import flank_body
 from gearcad.geometry import Gear
@@ -44,7 +44,7 @@ class StrainEnergy(SliceMethod):
     plane: ClassVar[Plane] = Plane.STRAIN
 
     @cached_property
-    def bodies(self) -> tuple[list[tuple[float, FlankCompliance]], list[tuple[float, FlankCompliance]]]:
+    def bodies(self) -> tuple[list[tuple[float, PlaneCompliance]], list[tuple[float, PlaneCompliance]]]:
         """For pinion and wheel: bodies of the section, with their weights."""
         pair = self.mounted
         held = self.body.inner_radii(pair)
@@ -78,7 +78,7 @@ class StrainEnergy(SliceMethod):
         return SinglePair(lengths, parts, factor / (2 * math.pi * modulus))
 
 
-def weighted_displacement(body: FlankCompliance, length: float, half_width: float) -> float:
+def weighted_displacement(body: PlaneCompliance, length: float, half_width: float) -> float:
     """2 U/F² (mm²/N): displacement of the flank under an ellipse of pressure around a roll length (mm), weighted with it."""
     place = np.arange(_POINTS, 0, -1) * math.pi / (_POINTS + 1)
     weight = 2 / (_POINTS + 1) * np.sin(place) ** 2
@@ -93,7 +93,7 @@ def weighted_displacement(body: FlankCompliance, length: float, half_width: floa
     return float(regular + edge)
 
 
-def _displacements(gear: Gear, bodies: list[tuple[float, FlankCompliance]], curvatures: Floats, half_widths: Floats) -> Floats:
+def _displacements(gear: Gear, bodies: list[tuple[float, PlaneCompliance]], curvatures: Floats, half_widths: Floats) -> Floats:
     """2 U/F² (n,) in mm²/N where the flank's radius of curvature in the section is `curvatures` (n,) in mm."""
     total = np.zeros(len(curvatures))
     for weight, body in bodies:

@@ -20,9 +20,10 @@ import gmsh, skfem, scipy.interpolate, scipy.sparse.linalg
 from dataclasses import replace
 from gearcad import Gear, GearPair, Load, Material
 from gearcad.check.run import check_pair
-from gearcad.contact.plane.brute import nodal_compliance
-from gearcad.contact.plane.cycle import run_cycle
-from gearcad.contact.plane.pair import BodyModel, flexible_pair
+from support.brute import nodal_compliance
+from gearcad.contact.plane.cycle import PlaneCycle
+from gearcad.contact.plane.pair import plane_pair
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.meshing import MeshSizes
 pair = GearPair(
     pinion=Gear(teeth=18, normal_module=1.5, face_width=10, profile_shift=0.3422, tip_alteration=-0.0104),
@@ -38,11 +39,11 @@ print(json.dumps({"seconds": seconds, "peak_GB": resource.getrusage(resource.RUS
 """
 
 CASES = {
-    "full rings": ("run_cycle(flexible_pair(pair, Material()), 12.7, 60)", 1.5, 0.5),
-    "3 teeth": ("run_cycle(flexible_pair(pair, Material(), body=BodyModel(teeth=3)), 12.7, 60)", 0.8, 0.5),
+    "full rings": ("PlaneCycle.run(plane_pair(pair, Material()), 12.7, 60)", 1.5, 0.5),
+    "3 teeth": ("PlaneCycle.run(plane_pair(pair, Material(), body=BodyModel(teeth=3)), 12.7, 60)", 0.8, 0.5),
     "whole check": ("check_pair(pair, Material(), Load(torque=12.7))", 10.0, 1.0),
     "brute force, 8 um": (
-        "run_cycle(flexible_pair(pair, Material(), sizes=replace(MeshSizes(), flank=0.0053, corner=0.0053), "
+        "PlaneCycle.run(plane_pair(pair, Material(), sizes=replace(MeshSizes(), flank=0.0053, corner=0.0053), "
         "solve=nodal_compliance), 12.7, 60)",
         None,
         None,

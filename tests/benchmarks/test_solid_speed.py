@@ -21,8 +21,8 @@ from dataclasses import replace
 from threadpoolctl import threadpool_limits
 from gearcad import FlankModification, Material, Mounting
 from gearcad.contact.shared.chain import Cuts
-from gearcad.contact.plane.pair import BodyModel
-from gearcad.contact.solid.cycle import run_solid_cycle
+from gearcad.contact.shared.bodies import BodyModel
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import solid_pair
 from gearcad.designs import read_spec
 from gearcad.designs.starters import starter_text
@@ -31,18 +31,17 @@ with tempfile.TemporaryDirectory() as folder:
     spec = pathlib.Path(folder) / "volvo-13-44.toml"
     spec.write_text(starter_text("volvo")[1])
     pair = read_spec(spec).pair
-gears = (pair.pinion, pair.wheel)
-held = tuple(gear.root_diameter - 4 * gear.normal_module for gear in gears)
+held = pair.gears.map(lambda gear: gear.root_diameter - 4 * gear.normal_module)
 sectors = BodyModel(teeth=3, cuts=Cuts.FREE, inner_diameters=held)
 modified = replace(pair, pinion=replace(pair.pinion, modification=FlankModification(tip_relief=15, tip_relief_length=2.0)))
 with threadpool_limits(1):
     start = time.perf_counter()
     model = solid_pair(pair, Material(youngs_modulus=205e3), body=BODY)
-    run_solid_cycle(model, 220.0, 24)
+    SolidCycle.run(model, 220.0, 24)
     first = time.perf_counter()
-    run_solid_cycle(model, 150.0, 24)
+    SolidCycle.run(model, 150.0, 24)
     load = time.perf_counter()
-    run_solid_cycle(model.remade(modified, Mounting()), 220.0, 24)
+    SolidCycle.run(model.remade(modified, Mounting()), 220.0, 24)
     modification = time.perf_counter()
 print(json.dumps({
     "bodies and 24 positions": first - start, "new load": load - first, "new modification": modification - load,

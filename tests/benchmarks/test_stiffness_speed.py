@@ -18,8 +18,9 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
-from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.per_gear import PerGear
 from gearcad.stiffness import CLOSED_FORMS, METHODS, PotentialEnergy, StiffnessMethod
 
 pytestmark = pytest.mark.benchmark_suite
@@ -50,7 +51,7 @@ def _method(of: type[StiffnessMethod], name: str) -> StiffnessMethod:
     """A method with new gears, which have no profile yet."""
     teeth, bores = PAIRS[name]
     pinion, wheel = (Gear(teeth=z, normal_module=_MODULE, face_width=_WIDTH, rack=_RACK) for z in teeth)
-    material, body = Material(youngs_modulus=_YOUNG, poisson_ratio=_POISSON), BodyModel(inner_diameters=bores)
+    material, body = Material(youngs_modulus=_YOUNG, poisson_ratio=_POISSON), BodyModel(inner_diameters=PerGear(*bores))
     return of(pair=GearPair(pinion=pinion, wheel=wheel), material=material, body=body, positions=POSITIONS)
 
 

@@ -13,8 +13,8 @@ from threadpoolctl import threadpool_limits
 
 from gearcad import Material
 from gearcad.cli import main
-from gearcad.contact.plane.pair import BodyModel
-from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle
+from gearcad.contact.shared.bodies import BodyModel
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
 from gearcad.designs import read_spec
 
@@ -89,7 +89,7 @@ def test_the_written_spec_does_what_the_proposal_says(here: Path) -> None:
     with threadpool_limits(1):
         body, sizes = BodyModel(teeth=3), SolidSizes().refined(0.5)
         model = solid_pair(design.pair, Material(), body=body, sizes=sizes)
-        told(after, run_solid_cycle(model, 50.0, 16))
+        told(after, SolidCycle.run(model, 50.0, 16))
 
 
 def told(figures: dict[str, Any], cycle: SolidCycle) -> None:

@@ -14,6 +14,7 @@ from support.checks import NASTY_NAME, small_check
 
 from gearcad import __version__
 from gearcad.check.comparison import Role
+from gearcad.per_gear import PerGear
 from gearcad.plots.paper import short
 from gearcad.report import report_html, write_report
 from gearcad.report.check import report as write
@@ -155,8 +156,8 @@ def test_holds_the_rating_under_its_symbols(document):
 def test_reasons_separate_sharing_width_and_fillet(document):
     result = small_check()
     pinion, wheel = (item.text_content() for item in document.xpath("//h3[text()='Root stress']/following-sibling::ul[1]/li"))
-    for gear, reason in enumerate((pinion, wheel)):
-        alone, found = root_at_single_contact(result, gear), result.summary.root_tension[gear]
+    for role, reason in PerGear(pinion, wheel).items():
+        alone, found = root_at_single_contact(result, role), result.summary.root_tension.pick(role)
         assert f"finite elements have {short(alone)} MPa" in reason
         assert f"sharing the load makes {100 * (found / alone - 1):+.1f} %" in reason
     # Only the pinion is wider than the common width.

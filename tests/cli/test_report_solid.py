@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 from support.checks import NASTY_NAME, small_solid_check
 
-from gearcad.check.comparison import Role
+from gearcad.check import comparison
+from gearcad.per_gear import PerGear, Role
 from gearcad.plots.paper import short
 from gearcad.plots.tooth import tooth_surface
 from gearcad.report import report_html
@@ -59,23 +60,23 @@ def test_nasty_names_stay_text(document: lxml.html.HtmlElement, text: str) -> No
 
 def test_holds_every_comparison(document: lxml.html.HtmlElement) -> None:
     rows = [[cell.text_content() for cell in row] for row in document.xpath("//tr[@class]")]
-    wanted = sorted(small_solid_check().comparisons, key=lambda each: each.role is not Role.GATE)
+    wanted = sorted(small_solid_check().comparisons, key=lambda each: each.role is not comparison.Role.GATE)
     assert [row[:4] for row in rows] == [
         [each.quantity, short(each.computed), short(each.reference), each.unit] for each in wanted
     ]
-    failed = [each.quantity for each in wanted if each.role is Role.GATE and not each.passed]
+    failed = [each.quantity for each in wanted if each.role is comparison.Role.GATE and not each.passed]
     tensions = small_solid_check().summary.root_tension._asdict()
     overloaded = [f"root stress, {gear}" for gear, tension in tensions.items() if tension > 300.0]
     # The pinion's bore of 28 mm leaves a rim of 1.1 tooth depths, which three teeth between held cuts do not bend.
     assert failed == ["discretisation error, mean mesh stiffness", "tooth depth over rim, pinion", *overloaded]
 
 
-@pytest.mark.parametrize("gear", [0, 1])
-def test_a_view_holds_the_surface_of_the_tooth(document: lxml.html.HtmlElement, gear: int) -> None:
-    figure = document.xpath("//figure[@class='tooth']")[gear]
+@pytest.mark.parametrize("role", Role)
+def test_a_view_holds_the_surface_of_the_tooth(document: lxml.html.HtmlElement, role: Role) -> None:
+    figure = PerGear(*document.xpath("//figure[@class='tooth']")).pick(role)
     assert [child.tag for child in figure][:2] == ["canvas", "img"]  # where there is no WebGL the picture stays
     data = json.loads(figure.xpath("./script[@type='application/json']")[0].text)
-    surface = tooth_surface(small_solid_check(), gear)
+    surface = tooth_surface(small_solid_check(), role)
 
     def unpacked(name: str, kind: str) -> np.ndarray:
         return np.frombuffer(base64.b64decode(data[name], validate=True), kind)

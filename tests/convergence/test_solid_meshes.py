@@ -15,8 +15,8 @@ import gearcad.check.convergence as convergence
 from gearcad import Material
 from gearcad.check.convergence import FEW_POSITIONS, SOLID_FACTORS, Convergence, three_solid_meshes
 from gearcad.check.summary import figures
-from gearcad.contact.plane.pair import BodyModel
-from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle
+from gearcad.contact.shared.bodies import BodyModel
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
 
 Floats = NDArray[np.float64]
@@ -74,7 +74,7 @@ def cycle(name: str, factor: float) -> SolidCycle:
     body, sizes = BodyModel(teeth=3), SolidSizes().refined(factor)
     with threadpool_limits(1):
         model = solid_pair(coarse_pair(name), Material(), body=body, sizes=sizes)
-        return run_solid_cycle(model, TORQUES[name], FEW_POSITIONS)
+        return SolidCycle.run(model, TORQUES[name], FEW_POSITIONS)
 
 
 @pytest.mark.long

@@ -12,15 +12,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+from support.brute import nodal_compliance
 
 import gearcad.contact.plane.pair as flexible_pairs
 from gearcad import Gear, GearPair, Material
-from gearcad.contact.plane.brute import nodal_compliance
-from gearcad.contact.plane.cycle import Cycle, run_cycle
+from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.elasticity import PlaneElasticity
 from gearcad.contact.plane.flank import flank_compliance
-from gearcad.contact.plane.pair import BodyModel, flexible_pair
-from gearcad.contact.plane.ring import Cuts, assemble
+from gearcad.contact.plane.pair import plane_pair
+from gearcad.contact.plane.ring import assemble
+from gearcad.contact.shared.bodies import BodyModel
+from gearcad.contact.shared.chain import Cuts
 from gearcad.meshing import MeshSizes, mesh_sector
 
 TORQUE = 12.7
@@ -38,9 +40,9 @@ def thesis_pair() -> GearPair:
 
 def cycle(
     body: BodyModel, positions: int, sizes: MeshSizes | None = None, solve: Callable[..., Any] = flank_compliance
-) -> Cycle:
-    model = flexible_pair(thesis_pair(), Material(), body=body, sizes=sizes, solve=solve)
-    return run_cycle(model, TORQUE, positions)
+) -> PlaneCycle:
+    model = plane_pair(thesis_pair(), Material(), body=body, sizes=sizes, solve=solve)
+    return PlaneCycle.run(model, TORQUE, positions)
 
 
 class Figures(NamedTuple):
@@ -52,7 +54,7 @@ class Figures(NamedTuple):
     error: float
 
 
-def figures(of: Cycle) -> Figures:
+def figures(of: PlaneCycle) -> Figures:
     tension = [max(position.tension[gear].stress for position in of.positions) for gear in (0, 1)]
     compression = [min(position.compression[gear].stress for position in of.positions) for gear in (0, 1)]
     return Figures(
@@ -68,7 +70,7 @@ def brute_sizes(flank: float) -> MeshSizes:
     return replace(MeshSizes(), flank=flank, corner=min(flank, MeshSizes().corner))
 
 
-def assert_agree(hybrid: Cycle, brute: Cycle, *, stiffness: float, root: float, error: float) -> None:
+def assert_agree(hybrid: PlaneCycle, brute: PlaneCycle, *, stiffness: float, root: float, error: float) -> None:
     """Mean stiffness, root stress of both gears on both sides, and the transmission error's range."""
     one, other = figures(hybrid), figures(brute)
     assert one.stiffness == pytest.approx(other.stiffness, rel=stiffness)
@@ -164,7 +166,7 @@ def test_order_of_a_compliance() -> None:
 
 def test_cells_of_contact(monkeypatch: pytest.MonkeyPatch) -> None:
     """The approach where no corner touches: half the width leaves about a quarter of the error, 0.006 % with the default."""
-    model = flexible_pair(thesis_pair(), Material(), body=THREE_TEETH)
+    model = plane_pair(thesis_pair(), Material(), body=THREE_TEETH)
     approaches = []
     for cells in (33, 66, 132, 264):
         monkeypatch.setattr(flexible_pairs, "_CELLS", cells)

@@ -12,10 +12,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
-from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.chain import Cuts
 from gearcad.errors import GearcadError
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.per_gear import PerGear
 from gearcad.stiffness import CLOSED_FORMS, METHODS, PlaneStrainContact, PotentialEnergy, StrainEnergy, WeberBanaschek
 from tests.support.stiffness import THESIS_LOAD, thesis_pair
 from tests.support.strategies import build_pair, pair_inputs
@@ -125,7 +126,7 @@ def test_a_spur_pair_is_the_limit_of_helical_ones() -> None:
 
 def test_the_nearer_a_body_is_held_the_stiffer() -> None:
     for method, bores in ((PotentialEnergy, (60.0, 160.0, 200.0)), (StrainEnergy, (200.0, 229.0, 235.0))):
-        bodies = [BodyModel(inner_diameters=(12.0, bore)) for bore in bores]
+        bodies = [BodyModel(inner_diameters=PerGear(12.0, bore)) for bore in bores]
         means = [method(pair=thesis_pair(), body=body)(THESIS_LOAD).mean for body in bodies]
         assert means == sorted(means)
         assert means[-1] > 1.05 * means[0]

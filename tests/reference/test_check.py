@@ -14,10 +14,12 @@ import pytest
 
 from gearcad import BasicRack, Body, Gear, GearPair, Material
 from gearcad.check.plane.summary import PlaneSummary, summarise_plane
-from gearcad.contact.plane.cycle import Cycle, run_cycle
+from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.elasticity import Plane
-from gearcad.contact.plane.pair import BodyModel, flexible_pair
+from gearcad.contact.plane.pair import plane_pair
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.chain import Cuts
+from gearcad.per_gear import PerGear
 
 TORQUE = 12.7
 TRIAL = 0.015
@@ -44,15 +46,15 @@ def thesis_pair() -> GearPair:
 def clamped(pair: GearPair, depth: float) -> BodyModel:
     """Full rings held `depth` modules below the root."""
     inner = [gear.root_diameter - 2 * depth * gear.normal_module for gear in (pair.pinion, pair.wheel)]
-    return BodyModel(inner_diameters=(inner[0], inner[1]))
+    return BodyModel(inner_diameters=PerGear(inner[0], inner[1]))
 
 
 @cache
-def cycle(body: BodyModel | None = None, plane: Plane = Plane.STRAIN, positions: int = 24) -> Cycle:
-    return run_cycle(flexible_pair(thesis_pair(), Material(), plane=plane, body=body), TORQUE, positions)
+def cycle(body: BodyModel | None = None, plane: Plane = Plane.STRAIN, positions: int = 24) -> PlaneCycle:
+    return PlaneCycle.run(plane_pair(thesis_pair(), Material(), plane=plane, body=body), TORQUE, positions)
 
 
-def summary(of: Cycle) -> PlaneSummary:
+def summary(of: PlaneCycle) -> PlaneSummary:
     return summarise_plane(of, 0.0)
 
 
@@ -105,8 +107,8 @@ def small_pair(**changes: Any) -> GearPair:
 
 def figures(pair: GearPair, torque: float, material: Material | None = None, sense: int = 1) -> Any:
     """Stiffness, root stresses, pressure and half width at the pitch point: what must not depend on who is who."""
-    model = flexible_pair(pair, material or Material(), body=BodyModel(teeth=5))
-    found = summary(run_cycle(model, torque, 12))
+    model = plane_pair(pair, material or Material(), body=BodyModel(teeth=5))
+    found = summary(PlaneCycle.run(model, torque, 12))
     return np.array(
         [
             found.mesh_stiffness_mean,
@@ -148,7 +150,7 @@ def test_twice_the_modulus_under_twice_the_torque() -> None:
 
 def test_stiffness_grows_with_the_torque_by_hertz_logarithm_only() -> None:
     """Inside the single pair's stretch: the approach over the force falls by (2/(pi E*)) ln sqrt(2) per doubling."""
-    model = flexible_pair(small_pair(), Material(), body=BodyModel(teeth=5))
+    model = plane_pair(small_pair(), Material(), body=BodyModel(teeth=5))
     path = model.pair.path_of_contact
     angle = float(np.degrees(((path.B + path.D) / 2 - path.C) / model.base_radius))
     flexibility = [model.solve(angle, torque, single=True).approach / model.force(torque) for torque in (50.0, 100.0, 200.0)]
@@ -184,8 +186,8 @@ def test_any_pair_carries_its_torque(changes: dict[str, Any]) -> None:
     if helix := changes.get("helix_angle"):
         pair = GearPair(pinion=replace(pair.pinion, helix_angle=helix), wheel=replace(pair.wheel, helix_angle=-helix))
     torque = 100.0 * (pair.pinion.normal_module / 2) ** 2 * pair.pinion.face_width / 10
-    model = flexible_pair(pair, Material())
-    for gear, body in enumerate((model.pinion, model.wheel)):
-        for position in run_cycle(model, torque, 6).positions:
-            reaction = sum(body.hub_torque(contact.centre(gear)) * contact.force for contact in position.contacts)
+    model = plane_pair(pair, Material())
+    for role, body in model.bodies.items():
+        for position in PlaneCycle.run(model, torque, 6).positions:
+            reaction = sum(body.hub_torque(contact.centre(role)) * contact.force for contact in position.contacts)
             assert reaction == pytest.approx(model.force(torque) * body.flank.base_radius, rel=1e-3)

@@ -10,13 +10,15 @@ import pytest
 from support.hertz import hertz_ellipse
 
 from gearcad import FlankModification, Gear, GearPair, Material, Mounting
-from gearcad.contact.plane.cycle import run_cycle
+from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.elasticity import Plane
-from gearcad.contact.plane.pair import BodyModel, flexible_pair
+from gearcad.contact.plane.pair import plane_pair
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.chain import Cuts
-from gearcad.contact.solid.cycle import run_solid_cycle
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.meshing import MeshSizes
+from gearcad.per_gear import Role
 
 STEEL = Material()
 SECTORS = BodyModel(teeth=3, cuts=Cuts.FIXED)
@@ -53,16 +55,16 @@ def helical() -> SolidPair:
 
 def test_spur_gear_lies_between_the_plane_states(spur: SolidPair) -> None:
     """Thin gears are in plane stress, wide ones in plane strain. Root stress is the same in both, but varies over the face."""
-    solid = run_solid_cycle(spur, FZG_TORQUE, POSITIONS)
+    solid = SolidCycle.run(spur, FZG_TORQUE, POSITIONS)
     stress, strain = (
-        run_cycle(flexible_pair(FZG, STEEL, body=SECTORS, plane=plane), FZG_TORQUE, POSITIONS)
+        PlaneCycle.run(plane_pair(FZG, STEEL, body=SECTORS, plane=plane), FZG_TORQUE, POSITIONS)
         for plane in (Plane.STRESS, Plane.STRAIN)
     )
     soft, stiff = (cycle.values("stiffness").mean() for cycle in (stress, strain))
     assert soft < solid.values("stiffness").mean() < stiff
-    for gear in (0, 1):
-        plane = max(position.tension[gear].stress for position in strain.positions)
-        heights, along = solid.root_along_face(gear)
+    for role in Role:
+        plane = max(position.tension.pick(role).stress for position in strain.positions)
+        heights, along = solid.root_along_face(role)
         across = np.linspace(0, 20, 401)
         assert np.interp(across, heights, along).mean() == pytest.approx(plane, rel=0.04)
         assert along.max() == pytest.approx(plane, rel=0.12)
@@ -72,7 +74,7 @@ def test_reactions_are_the_torques(spur: SolidPair, helical: SolidPair) -> None:
     """On both hubs at every position: 0.5 % is asked."""
     for model, torque in ((spur, FZG_TORQUE), (helical, HELICAL_TORQUE)):
         ratio = model.pair.wheel.teeth / model.pair.pinion.teeth
-        for position in run_solid_cycle(model, torque, POSITIONS).positions:
+        for position in SolidCycle.run(model, torque, POSITIONS).positions:
             assert position.torques == pytest.approx((torque, torque * ratio), rel=0.003)
 
 
@@ -81,7 +83,7 @@ def test_small_helix_angles_are_continuous(spur: SolidPair) -> None:
         FZG, pinion=replace(FZG.pinion, helix_angle=0.02), wheel=replace(FZG.wheel, helix_angle=-0.02), centre_distance=None
     )
     tilted = solid_pair(pair, STEEL, body=SECTORS, sizes=QUICK)
-    one, other = (run_solid_cycle(model, FZG_TORQUE, POSITIONS) for model in (spur, tilted))
+    one, other = (SolidCycle.run(model, FZG_TORQUE, POSITIONS) for model in (spur, tilted))
     assert other.values("stiffness") == pytest.approx(one.values("stiffness"), rel=5e-3)
     assert other.values("stiffness").mean() == pytest.approx(one.values("stiffness").mean(), rel=5e-4)
     for gear in (0, 1):
@@ -98,12 +100,12 @@ def test_hand_does_not_matter(helical: SolidPair) -> None:
         axial_offset=-1.0,
     )
     mirrored = solid_pair(pair, STEEL, body=SECTORS, sizes=QUICK)
-    one, other = (run_solid_cycle(model, HELICAL_TORQUE, 3) for model in (helical, mirrored))
+    one, other = (SolidCycle.run(model, HELICAL_TORQUE, 3) for model in (helical, mirrored))
     for name in ("stiffness", "transmission_error", "approach_parts", "torques"):
         assert other.values(name) == pytest.approx(one.values(name), rel=1e-6)
     assert other.load_along_face[1] == pytest.approx(one.load_along_face[1][::-1], rel=1e-4)
-    for gear in (0, 1):
-        assert other.root_along_face(gear)[1] == pytest.approx(one.root_along_face(gear)[1][::-1], rel=1e-5)
+    for role in Role:
+        assert other.root_along_face(role)[1] == pytest.approx(one.root_along_face(role)[1][::-1], rel=1e-5)
 
 
 def test_driver_and_wheel_may_be_exchanged(helical: SolidPair) -> None:
@@ -144,7 +146,7 @@ def test_misalignment_moves_the_load_and_the_helix_brings_it_back(helical: Solid
 
     def tilt(model: SolidPair) -> float:
         """How much more is carried at large z, over all."""
-        across, load = run_solid_cycle(model, HELICAL_TORQUE, 4).load_along_face
+        across, load = SolidCycle.run(model, HELICAL_TORQUE, 4).load_along_face
         return float((load * np.sign(across)).sum() / load.sum())
 
     mounting = Mounting(misalignment=30.0)
@@ -160,5 +162,5 @@ def test_misalignment_moves_the_load_and_the_helix_brings_it_back(helical: Solid
 
 def test_linear_in_the_load_but_for_the_contact(spur: SolidPair) -> None:
     """Teeth bend in proportion; the contact is a little stiffer under more load, as Hertz's is."""
-    few, many = (run_solid_cycle(spur, torque, 4).values("stiffness").mean() for torque in (60.0, 300.0))
+    few, many = (SolidCycle.run(spur, torque, 4).values("stiffness").mean() for torque in (60.0, 300.0))
     assert 1.0 < many / few < 1.12

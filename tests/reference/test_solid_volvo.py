@@ -12,12 +12,13 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from gearcad import Material
-from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.chain import Cuts
-from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle, solid_single_stiffness
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
 from gearcad.designs import read_spec
 from gearcad.designs.starters import starter_text
+from gearcad.per_gear import PerGear
 from gearcad.rating import rate
 
 pytestmark = pytest.mark.long
@@ -35,7 +36,7 @@ def pair(tmp_path_factory: pytest.TempPathFactory):  # type: ignore[no-untyped-d
 
 def cycle_of(pair, body: BodyModel, sizes: SolidSizes | None = None) -> SolidCycle:  # type: ignore[no-untyped-def]
     with threadpool_limits(1):
-        return run_solid_cycle(solid_pair(pair, STEEL, body=body, sizes=sizes), TORQUE, 24)
+        return SolidCycle.run(solid_pair(pair, STEEL, body=body, sizes=sizes), TORQUE, 24)
 
 
 @pytest.fixture(scope="module")
@@ -55,13 +56,13 @@ def test_figures_beside_iso_6336(pair, whole: SolidCycle) -> None:  # type: igno
     rating = rate(pair.pair, STEEL, pair.load)
     stiffness = whole.values("stiffness")
     assert stiffness.mean() == pytest.approx(0.755 * rating.stiffness.mesh_alpha, rel=0.03)
-    assert solid_single_stiffness(whole.model, TORQUE) == pytest.approx(0.785 * rating.stiffness.single, rel=0.03)
+    assert whole.model.single_stiffness(TORQUE) == pytest.approx(0.785 * rating.stiffness.single, rel=0.03)
     on_common_width = [
         stress * width / whole.model.width for stress, width in zip(rating.root_stresses, (18.3, 15.1), strict=True)
     ]
-    for gear in (0, 1):
-        stress = max(position.tension[gear].stress for position in whole.positions)
-        assert stress == pytest.approx(on_common_width[gear] * whole.root_face_load_factor(gear), rel=0.08)
+    for role, nominal in PerGear(*on_common_width).items():
+        stress = max(position.tension.pick(role).stress for position in whole.positions)
+        assert stress == pytest.approx(nominal * whole.root_face_load_factor(role), rel=0.08)
     pitch = next(contact for contact in whole.positions[12].contacts if contact.tooth == 0)
     middle = int(np.argmin(np.abs(pitch.line.across)))
     assert pitch.pressures[middle] == pytest.approx(1930, rel=0.02)
@@ -72,17 +73,15 @@ def test_rings_of_four_modules(pair) -> None:  # type: ignore[no-untyped-def]
 
     The trials of the method had 14.64 N/(mm um) there, with neither finer meshes nor tip edges that touch.
     """
-    gears = (pair.pair.pinion, pair.pair.wheel)
-    inner = tuple(gear.root_diameter - 8 * gear.normal_module for gear in gears)
-    found = cycle_of(pair.pair, BodyModel(inner_diameters=inner)).values("stiffness").mean()  # type: ignore[arg-type]
+    inner = pair.pair.gears.map(lambda gear: gear.root_diameter - 8 * gear.normal_module)
+    found = cycle_of(pair.pair, BodyModel(inner_diameters=inner)).values("stiffness").mean()
     assert found == pytest.approx(14.35, rel=0.12)
 
 
 def test_meshes_of_twice_the_dofs(pair) -> None:  # type: ignore[no-untyped-def]
     """c_gamma changes by under 0.5 %, root stress by under 2 %, on three-tooth sectors."""
-    gears = (pair.pair.pinion, pair.pair.wheel)
-    inner = tuple(gear.root_diameter - 4 * gear.normal_module for gear in gears)
-    body = BodyModel(teeth=3, cuts=Cuts.FREE, inner_diameters=inner)  # type: ignore[arg-type]
+    inner = pair.pair.gears.map(lambda gear: gear.root_diameter - 4 * gear.normal_module)
+    body = BodyModel(teeth=3, cuts=Cuts.FREE, inner_diameters=inner)
     one, other = (cycle_of(pair.pair, body, SolidSizes().refined(factor)) for factor in (1.0, 1.26))
     assert other.values("stiffness").mean() == pytest.approx(one.values("stiffness").mean(), rel=0.005)
     for gear in (0, 1):

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
-from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.shared.bodies import BodyModel
+from gearcad.per_gear import PerGear
 from gearcad.rating.iso6336_1 import mesh_stiffness_alpha, mesh_stiffness_beta
 from gearcad.stiffness import MethodB, PotentialEnergy, WeberBanaschek
 from tests.support.stiffness import THESIS_LOAD, stiffness_case, thesis_pair
@@ -92,7 +93,7 @@ def test_another_programs_teeth(teeth: int) -> None:
     # Its tool's tip is round for the whole of the clearance.
     rack = BasicRack(root_radius=0.25 / (1 - math.sin(math.radians(20))))
     gear = Gear(teeth=teeth, normal_module=2.0, face_width=20.0, rack=rack)
-    method = PotentialEnergy(pair=GearPair(pinion=gear, wheel=gear), body=BodyModel(inner_diameters=(20.0, 20.0)))
+    method = PotentialEnergy(pair=GearPair(pinion=gear, wheel=gear), body=BodyModel(inner_diameters=PerGear(20.0, 20.0)))
     load = method.teeth[0].load_at(np.array([gear.base_diameter / 2 * math.tan(math.radians(20))]))
     parts = method.tooth_parts(0, load)
     found = [20 / (1000 * parts[name][0]) for name in ("bending", "shear", "axial")]

@@ -32,11 +32,13 @@ import pytest
 
 from gearcad import Load, Material
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
-from gearcad.contact.plane.flank import FlankCompliance
-from gearcad.contact.plane.mesh_positions import mesh_line
-from gearcad.contact.plane.pair import BodyModel, FlexiblePair, flank_body
-from gearcad.contact.plane.ring import Cuts
+from gearcad.contact.plane.flank import PlaneCompliance
+from gearcad.contact.plane.pair import PlanePair, flank_body
+from gearcad.contact.shared.bodies import BodyModel
+from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.per_gear import PerGear
 from gearcad.stiffness import METHODS, PlaneStrainContact, PlaneStressContact, SolidContact, StrainEnergy
 from gearcad.stiffness.contact import PlaneContact
 from gearcad.stiffness.slices import SinglePair
@@ -70,7 +72,7 @@ def three_teeth(pinion_depth: float = 4.0, wheel_depth: float = 4.0) -> BodyMode
         gear.root_diameter - 2 * depth * gear.normal_module
         for gear, depth in ((PAIR.pinion, pinion_depth), (PAIR.wheel, wheel_depth))
     )
-    return BodyModel(teeth=3, cuts=Cuts.FIXED, inner_diameters=(pinion, wheel))
+    return BodyModel(teeth=3, cuts=Cuts.FIXED, inner_diameters=PerGear(pinion, wheel))
 
 
 THREE, WHOLE = three_teeth(), BodyModel()
@@ -78,13 +80,13 @@ AS_WIDE, COMMON, WIDEST = (15.0, 10.0), (10.0, 10.0), (15.0, 15.0)
 
 
 @cache
-def bodies(plane: Plane, body: BodyModel, widths: tuple[float, float]) -> tuple[FlankCompliance, FlankCompliance]:
+def bodies(plane: Plane, body: BodyModel, widths: tuple[float, float]) -> PerGear[PlaneCompliance]:
     """Plane bodies of pinion and wheel, `widths` (mm) thick: on 10 mm in contact, that is a modulus so much greater."""
     pinion, wheel = (
         flank_body(gear, radius, PlaneElasticity(replace(STEEL, youngs_modulus=20600.0 * width), plane), body, 1)
         for gear, radius, width in zip((PAIR.pinion, PAIR.wheel), body.inner_radii(PAIR), widths, strict=True)
     )
-    return pinion, wheel
+    return PerGear(pinion, wheel)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,7 +96,7 @@ class OfWidths(StrainEnergy):
     widths: tuple[float, float] = COMMON
 
     @cached_property
-    def bodies(self) -> tuple[list[tuple[float, FlankCompliance]], list[tuple[float, FlankCompliance]]]:
+    def bodies(self) -> tuple[list[tuple[float, PlaneCompliance]], list[tuple[float, PlaneCompliance]]]:
         pinion, wheel = bodies(self.plane, self.body, self.widths)
         return [(1.0, pinion)], [(1.0, wheel)]
 
@@ -119,7 +121,7 @@ def cycle(method: str, body: BodyModel = THREE, widths: tuple[float, float] = AS
         energy = EvenPressure(pair=PAIR, material=STEEL, body=body, widths=widths)
         return energy(THESIS_LOAD)
     kind = PlaneStressContact if method == "plane-stress" else PlaneStrainContact
-    model = FlexiblePair(PAIR, mesh_line(PAIR, 0.0), *bodies(kind.plane, body, widths))
+    model = PlanePair(PAIR, line_of_action(PAIR, 0.0), bodies(kind.plane, body, widths))
     contact = kind(pair=PAIR, material=STEEL, body=body, bodies=model, positions=POSITIONS)
     return contact(THESIS_LOAD)
 
@@ -168,7 +170,7 @@ def test_contact_of_one_pair_is_its_strain_energy_and_the_gaps_that_close(roll_a
     the flank's curvature changes within the contact, 0.03 % are left.
     """
     pinion, wheel = bodies(Plane.STRAIN, THREE, COMMON)
-    model = FlexiblePair(PAIR, mesh_line(PAIR, 0.0), pinion, wheel)
+    model = PlanePair(PAIR, line_of_action(PAIR, 0.0), pinion, wheel)
     pressed = model.solve(roll_angle, THESIS_LOAD.torque, single=True).approach / model.force(THESIS_LOAD.torque)
     energy = OfWidths(pair=PAIR, material=STEEL, body=THREE)
     stored = 1 / energy.single(np.array([model.roll_length(roll_angle)]), THESIS_LOAD).stiffness[0] / 1000
@@ -197,14 +199,14 @@ def test_what_each_condition_is_worth(method: str) -> None:
 @pytest.mark.parametrize(("bore", "mean"), [(60.0, 145.5), (200.0, 203.2)])
 def test_bore_of_the_wheel(bore: float, mean: float) -> None:
     """Not in the thesis, and worth more than the choice among the better methods."""
-    found = cycle("plane-strain", BodyModel(inner_diameters=(12.0, bore)), COMMON)
+    found = cycle("plane-strain", BodyModel(inner_diameters=PerGear(12.0, bore)), COMMON)
     assert found.mean == pytest.approx(mean, rel=RECORDED)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("body", "within"),
-    [(three_teeth(3.5, 3.5), 0.017), (BodyModel(teeth=3, cuts=Cuts.FIXED, inner_diameters=(12.0, 120.0)), 0.028)],
+    [(three_teeth(3.5, 3.5), 0.017), (BodyModel(teeth=3, cuts=Cuts.FIXED, inner_diameters=PerGear(12.0, 120.0)), 0.028)],
     ids=["3.5 m_n", "bores"],
 )
 @pytest.mark.parametrize("method", PRINTED)
@@ -218,7 +220,7 @@ def test_depth_of_the_bodies(method: str, body: BodyModel, within: float) -> Non
 )
 def test_least_stiffness_2_degrees_apart(kind: type[PlaneContact], between: tuple[float, float]) -> None:
     """It depends on where one starts; the printed figure is one of those."""
-    model = FlexiblePair(PAIR, mesh_line(PAIR, 0.0), *bodies(kind.plane, THREE, AS_WIDE))
+    model = PlanePair(PAIR, line_of_action(PAIR, 0.0), *bodies(kind.plane, THREE, AS_WIDE))
     fine = kind(pair=PAIR, material=STEEL, body=THREE, bodies=model, positions=120)(THESIS_LOAD).mesh_stiffness[:-1]
     least = [float(fine[start::12].min()) for start in range(12)]
     assert (min(least), max(least)) == pytest.approx(between, rel=RECORDED)

@@ -17,9 +17,9 @@ from gearcad.check.solid.result import SolidCheck
 from gearcad.check.solid.summary import summarise_solid
 from gearcad.check.sweep import SweepPoint
 from gearcad.check.task import CheckTask
-from gearcad.contact.plane.cycle import run_cycle, single_stiffness
-from gearcad.contact.plane.pair import flexible_pair
-from gearcad.contact.solid.cycle import run_solid_cycle, solid_single_stiffness
+from gearcad.contact.plane.cycle import PlaneCycle
+from gearcad.contact.plane.pair import plane_pair
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.geometry import FlankModification
 from gearcad.per_gear import PerGear
 from support.coarse import coarse_model
@@ -42,9 +42,9 @@ def small_check() -> PlaneCheck:
     pair = GearPair(pinion=pinion, wheel=wheel)
     material, load = Material(name=NASTY_NAME, contact_limit=1500.0, root_limit=(430.0, 500.0)), Load(torque=302.0)
     options = CheckOptions(positions=_POSITIONS)
-    model = flexible_pair(pair, material)
-    cycle = run_cycle(model, load.torque, _POSITIONS).searched(PLANE)
-    summary = summarise_plane(cycle, single_stiffness(model, load.torque, 5))
+    model = plane_pair(pair, material)
+    cycle = PlaneCycle.run(model, load.torque, _POSITIONS).searched(PLANE)
+    summary = summarise_plane(cycle, model.single_stiffness(load.torque, 5))
     convergence = (
         Convergence("mean mesh stiffness", (15.4, 15.3, 15.2), (0.5, 1.0, 2.0), None, 0.006),
         Convergence("root tension, pinion", (380.0, 374.0, 372.0), (0.5, 1.0, 2.0), 1.58, 0.0081),
@@ -76,8 +76,8 @@ def small_solid_check() -> SolidCheck:
     options = CheckOptions(model="3d", positions=12, body_teeth=3, refinement=0.7)
     task = CheckTask(pair=pair, material=material, load=Load(torque=torque), mounting=mounting, options=options)
     model = plain.remade(pair, mounting)
-    cycle = run_solid_cycle(model, torque, 12).searched(SOLID)
-    summary = summarise_solid(cycle, solid_single_stiffness(model, torque, 5))
+    cycle = SolidCycle.run(model, torque, 12).searched(SOLID)
+    summary = summarise_solid(cycle, model.single_stiffness(torque, 5))
     convergence = (
         Convergence("mean mesh stiffness", (12.3, 12.1, 12.0), (0.8, 1.0, 1.25), 3.1, 0.02),
         Convergence("root tension, pinion", (303.0, 305.0, 304.0), (0.8, 1.0, 1.25), None, 0.008),

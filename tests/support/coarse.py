@@ -8,7 +8,7 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 
 from gearcad import Body, Gear, GearPair, Material
-from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.designs import read_spec
 

@@ -8,6 +8,7 @@ from support.checks import small_check
 
 from gearcad.contact.plane.field import contact_frame, tooth_field
 from gearcad.meshing.outline import Side
+from gearcad.per_gear import PerGear, Role
 from gearcad.plots.check import (
     plot_contact_pressure,
     plot_load_share,
@@ -71,9 +72,9 @@ def test_given_axes_are_used_and_axes_say_their_unit(draw):
 def test_pressure_is_drawn_inside_the_flanks_only():
     axes = plot_contact_pressure(small_check())
     places, pressures = line(axes, "finite elements")
-    inside = {contact.pair.pinion: contact for _, contact in small_check().cycle.interior_contacts}
+    inside = {contact.place: contact for _, contact in small_check().cycle.interior_contacts}
     assert set(inside) <= set(places[~np.isnan(pressures)])
-    every = {c.pair.pinion: c for position in small_check().cycle.every for c in position.contacts}
+    every = {c.place: c for position in small_check().cycle.every for c in position.contacts}
     assert list(places) == sorted(every)
     for place, pressure, hertz in zip(places, pressures, line(axes, "Hertz")[1], strict=True):
         contact = every[place]
@@ -87,7 +88,7 @@ def test_pressure_is_drawn_inside_the_flanks_only():
 
 def test_share_of_every_contact():
     places, shares = line(plot_load_share(small_check()), "finite elements")
-    every = {c.pair.pinion: c.share for position in small_check().cycle.every for c in position.contacts}
+    every = {c.place: c.share for position in small_check().cycle.every for c in position.contacts}
     assert dict(zip(places, shares, strict=True)) == every
 
 
@@ -183,19 +184,19 @@ def test_convergence_is_told_from_the_finest_mesh():
 # ---------------------------------------------------------------------- the field
 
 
-@pytest.mark.parametrize("gear", [0, 1])
-def test_field_has_the_stress_of_the_fillets(gear):
+@pytest.mark.parametrize("role", Role)
+def test_field_has_the_stress_of_the_fillets(role):
     cycle = small_check().cycle
-    position = cycle.worst_position(gear)
-    body, tooth = (cycle.model.pinion, cycle.model.wheel)[gear], max(position.contacts, key=lambda each: each.force).pair.tooth
-    field = tooth_field(cycle, position, gear, tooth)
+    position = cycle.worst_position(role)
+    body, tooth = cycle.model.bodies.pick(role), max(position.contacts, key=lambda each: each.force).tooth
+    field = tooth_field(cycle, position, role, tooth)
     stresses = {tuple(point): stress for point, stress in zip(field.points.round(9), field.von_mises, strict=True)}
     mesh, start = body.ring.sector.mesh, 0
     for side, nodes in mesh.sides.items():
         part = field.outline[start : start + len(nodes)]
         if side in (Side.LEFT_FILLET, Side.RIGHT_FILLET):
             found = max(stresses[tuple(point)] for point in part.round(9))
-            wanted = (position.tension if side is Side.LEFT_FILLET else position.compression)[gear].stress
+            wanted = (position.tension if side is Side.LEFT_FILLET else position.compression).pick(role).stress
             assert found == pytest.approx(_UNIAXIAL * abs(wanted), rel=_FILLET)
         start += len(nodes)
 
@@ -205,8 +206,8 @@ def test_flanks_touch_where_the_contact_is():
     position, contact = cycle.worst_contact
     centre, frame = contact_frame(cycle, contact)
     assert frame.T @ frame == pytest.approx(np.eye(2), abs=1e-12)
-    for gear, side in ((0, -1), (1, 1)):
-        field = tooth_field(cycle, position, gear, contact.pair.tooth)
+    for role, side in PerGear(-1, 1).items():
+        field = tooth_field(cycle, position, role, contact.tooth)
         away = (field.points - centre) @ frame
         close = np.abs(away[:, 0]) < contact.hertz_half_width
         # Both bodies end at the tangent, but for the curvature over a half width, and lie on their own side of it.

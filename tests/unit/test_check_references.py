@@ -15,7 +15,7 @@ from gearcad.check.options import CheckOptions
 from gearcad.check.solid.judge import compare_solid
 from gearcad.check.solid.summary import summarise_solid
 from gearcad.check.task import CheckTask
-from gearcad.contact.solid.cycle import run_solid_cycle
+from gearcad.contact.solid.cycle import SolidCycle
 
 _UNEVEN = 0.05
 """How uneven exact flanks of aligned spur gears carry along the face, away from its ends; 46 % against the mean length."""
@@ -43,7 +43,7 @@ def test_the_greatest_line_load_is_held_against_the_shortest_lines() -> None:
     """Spur gears carry all of the load on one line of the common width: what is above that is unevenness along it alone."""
     model, load = coarse_model("FZG C"), Load(torque=302.0)
     task = CheckTask(pair=model.pair, material=Material(), load=load, mounting=Mounting(), options=CheckOptions(model="3d"))
-    cycle = run_solid_cycle(model, load.torque, 12)
+    cycle = SolidCycle.run(model, load.torque, 12)
     found = {each.quantity: each for each in compare_solid(task, cycle, summarise_solid(cycle, 12.0), ())}
     line = found["greatest line load"]
     assert line.reference == pytest.approx(302e3 / (model.pair.pinion.base_diameter / 2) / 14.0, rel=1e-9)

@@ -12,9 +12,10 @@ from gearcad.check.comparison import Subject
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult
 from gearcad.check.run import check_pair
-from gearcad.contact.plane.pair import BodyModel
-from gearcad.contact.plane.support import Hold
+from gearcad.contact.shared.bodies import BodyModel
+from gearcad.contact.shared.holding import Hold
 from gearcad.errors import ParameterError
+from gearcad.per_gear import PerGear
 
 LIMIT = 300.0
 """MPa: above the greatest root tension of the thin rim at half the load, below its compression."""
@@ -69,9 +70,9 @@ def test_solid_bodies_know_no_shaft_and_no_key() -> None:
     keyed = Gear(teeth=16, normal_module=4.5, face_width=14, body=Body(bore=45, keyway_width=10, keyway_depth=2))
     pair = GearPair(pinion=keyed, wheel=replace(keyed, teeth=24))
     assert [each.hold for each in BodyModel().supports(pair)] == [Hold.KEY, Hold.RIGID]
-    assert [each.hold for each in BodyModel().of_solids().supports(pair)] == [Hold.FREE, Hold.RIGID]
+    assert [each.hold for each in BodyModel().for_solids().supports(pair)] == [Hold.FREE, Hold.RIGID]
     with pytest.raises(ParameterError, match=r'pinion_support.*must be "rigid" or "free" for solid bodies'):
-        BodyModel(holds=(Hold.SHAFT, Hold.AUTO)).of_solids().supports(pair)
+        BodyModel(holds=PerGear(Hold.SHAFT, Hold.AUTO)).for_solids().supports(pair)
 
 
 @pytest.mark.long

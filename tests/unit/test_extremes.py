@@ -13,11 +13,13 @@ from support.coarse import coarse_model, coarse_pair
 
 from gearcad import FlankModification, Material, Mounting
 from gearcad.check.extremes import PLANE, SOLID, STRESSES
-from gearcad.contact.plane.cycle import Cycle, run_cycle
-from gearcad.contact.plane.pair import BodyModel, FlexiblePair, flexible_pair
+from gearcad.contact.plane.cycle import PlaneCycle
+from gearcad.contact.plane.pair import PlanePair, plane_pair
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.extremes import Extreme, Quantity, Span, add_positions, extreme
-from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.geometry import ReliefShape
+from gearcad.per_gear import Role
 
 _EXACT = 0.002
 """What the greatest over the mesh may be off, of itself (or of its swing)."""
@@ -122,14 +124,14 @@ def test_a_least_value_and_a_swing() -> None:
 
 
 @cache
-def plane(relief: float = 0.0) -> FlexiblePair:
+def plane(relief: float = 0.0) -> PlanePair:
     """FZG C, three teeth of each gear."""
     pair, changes = coarse_pair("FZG C"), FlankModification(tip_relief=relief, tip_relief_length=1.5 if relief else 0)
     gears = {name: replace(getattr(pair, name), modification=changes) for name in ("pinion", "wheel")}
-    return flexible_pair(replace(pair, **gears), Material(), body=BodyModel(teeth=3))
+    return plane_pair(replace(pair, **gears), Material(), body=BodyModel(teeth=3))
 
 
-def missed(cycle: Cycle | SolidCycle, dense: Cycle | SolidCycle, quantity: Quantity) -> float:  # type: ignore[type-arg]
+def missed(cycle: PlaneCycle | SolidCycle, dense: PlaneCycle | SolidCycle, quantity: Quantity) -> float:  # type: ignore[type-arg]
     """How far a cycle's extreme is below that of another with many positions, of itself or of its swing."""
     values = quantity.sign * np.array([quantity.of(position) for position in dense.positions])
     values = values[~np.isnan(values)]
@@ -142,9 +144,9 @@ def missed(cycle: Cycle | SolidCycle, dense: Cycle | SolidCycle, quantity: Quant
 def test_a_plane_cycle_is_exact_whatever_its_positions(torque: float, relief: float) -> None:
     """12 even positions miss 2 to 5 % of some of these, 60 still 0.6 %."""
     model = plane(relief)
-    dense, even = run_cycle(model, torque, 100), run_cycle(model, torque, 12)
+    dense, even = PlaneCycle.run(model, torque, 100), PlaneCycle.run(model, torque, 12)
     assert max(missed(even, dense, quantity) for quantity in STRESSES) > 2 * _EXACT
-    for cycle in (even.searched(PLANE), run_cycle(model, torque, 17).searched(PLANE)):
+    for cycle in (even.searched(PLANE), PlaneCycle.run(model, torque, 17).searched(PLANE)):
         for quantity in PLANE:
             found = cycle.extreme(quantity)
             if found is None:
@@ -152,7 +154,7 @@ def test_a_plane_cycle_is_exact_whatever_its_positions(torque: float, relief: fl
                 continue
             assert missed(cycle, dense, quantity) < min(_EXACT, found.error + _ESTIMATE), quantity.name
         assert [position.roll_angle for position in cycle.every] == sorted(position.roll_angle for position in cycle.every)
-    assert cycle.worst_position(0).tension[0].stress == cycle.extreme(STRESSES[0]).value  # type: ignore[union-attr]
+    assert cycle.worst_position(Role.PINION).tension.pinion.stress == cycle.extreme(STRESSES[0]).value  # type: ignore[union-attr]
     mean, off = cycle.mean("stiffness")
     assert abs(mean - dense.values("stiffness").mean()) < min(float(off), 0.002 * mean)
     assert len(cycle.positions) == 17 and cycle.values("stiffness").shape == (17,)
@@ -162,7 +164,7 @@ def test_a_plane_cycle_is_exact_whatever_its_positions(torque: float, relief: fl
 def test_a_solid_cycle_is_exact_too(name: str, torque: float) -> None:
     """Of the lightly loaded helical pair 24 even positions miss 7 % of the pressure and 15 % of the line load."""
     model = coarse_model(name)
-    dense, cycle = run_solid_cycle(model, torque, 48), run_solid_cycle(model, torque, 12).searched(SOLID)
+    dense, cycle = SolidCycle.run(model, torque, 48), SolidCycle.run(model, torque, 12).searched(SOLID)
     for quantity in SOLID:
         found = cycle.extreme(quantity)
         if found is None:
@@ -173,7 +175,7 @@ def test_a_solid_cycle_is_exact_too(name: str, torque: float) -> None:
 
 def test_a_pressure_along_a_line_does_not_depend_on_which_cell_is_inside() -> None:
     """Where the reach of an edge ends between two cells, the pressure is that between them: no saw teeth as gears roll."""
-    cycle = run_solid_cycle(coarse_model("helical"), 60.0, 2)
+    cycle = SolidCycle.run(coarse_model("helical"), 60.0, 2)
     angles = np.linspace(4.0, 4.4, 9)
     pressures = [cycle.solve(float(angle)).contact_pressure for angle in angles]
     steps = np.diff(pressures)
@@ -186,6 +188,6 @@ def test_relieved_tips_roll_smoothly(shape: ReliefShape) -> None:
     plain = coarse_model("helical")
     changes = FlankModification(tip_relief=12.0, tip_relief_length=1.0, tip_relief_shape=shape)
     gears = {name: replace(getattr(plain.pair, name), modification=changes) for name in ("pinion", "wheel")}
-    cycle = run_solid_cycle(plain.remade(replace(plain.pair, **gears), Mounting()), 60.0, 2)
+    cycle = SolidCycle.run(plain.remade(replace(plain.pair, **gears), Mounting()), 60.0, 2)
     errors = [cycle.solve(float(angle)).transmission_error for angle in np.linspace(-2.0, -1.6, 9)]
     assert np.abs(np.diff(errors, 2)).max() < 0.005 * errors[0]  # 40 % where a parabola seemed to end before the tip

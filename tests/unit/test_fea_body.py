@@ -11,7 +11,8 @@ import scipy.sparse.linalg
 
 from gearcad import Gear, Material
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity, stiffness_matrix
-from gearcad.contact.plane.ring import Chain, Cuts, assemble, chain_of, make_sector
+from gearcad.contact.plane.ring import assemble, chain_of, make_sector
+from gearcad.contact.shared.chain import Chain, Cuts
 from gearcad.meshing import MeshSizes, SectorMesh, mesh_sector
 from gearcad.meshing.outline import Side
 

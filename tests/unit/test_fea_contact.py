@@ -12,13 +12,17 @@ import pytest
 from scipy.optimize import nnls
 
 from gearcad import BasicRack, FlankModification, Gear, GearPair, Material, ReliefShape
-from gearcad.contact.plane.contact import Cells, ContactPair, complementary, compliance_matrix, solve_contact
-from gearcad.contact.plane.cycle import run_cycle, single_stiffness
+from gearcad.contact.plane.contact import ContactCells, ContactPair, compliance_matrix, solve_contact
+from gearcad.contact.plane.contact_pairs import contact_pairs
+from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
-from gearcad.contact.plane.mesh_positions import MeshLine, contact_pairs, mesh_line, rigid_approach
-from gearcad.contact.plane.pair import BodyModel, FlexiblePair, flexible_pair
+from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.contact.plane.subsurface import greatest_von_mises, strip_stresses
+from gearcad.contact.shared.bodies import BodyModel
+from gearcad.contact.shared.complementarity import complementary
+from gearcad.contact.shared.line_of_action import LineOfAction, line_of_action, rigid_approach
 from gearcad.errors import GeometryError, ParameterError
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating import LineContact, reduced_modulus
 
 STEEL = Material()
@@ -43,8 +47,9 @@ def cylinders(radius: float, half_width: float, count: int, *, shift: float = 0.
     """Two cylinders of reduced radius `radius` (mm) under cells over three half widths; `shift` (mm) off the middle."""
     width = 6 * half_width / count
     place = (np.arange(count) - (count - 1) / 2) * width + shift
-    cells = Cells(place, width, 2 * radius + place, 2 * radius - place, place**2 / 2 / radius + width**2 / 24 / radius)
-    return ContactPair(tooth, 2 * radius, 2 * radius, cells)
+    lengths = PerGear(2 * radius + place, 2 * radius - place)
+    cells = ContactCells(place, width, lengths, place**2 / 2 / radius + width**2 / 24 / radius)
+    return ContactPair(tooth, PerGear(2 * radius, 2 * radius), cells)
 
 
 def hertz(force: float, radius: float, bodies: tuple[HalfPlane, HalfPlane]) -> LineContact:
@@ -55,7 +60,7 @@ def hertz(force: float, radius: float, bodies: tuple[HalfPlane, HalfPlane]) -> L
     return LineContact(load_per_width=force, radius=radius, modulus=modulus)
 
 
-TWO_BODIES = (
+TWO_BODIES = PerGear(
     HalfPlane(PlaneElasticity(STEEL)),
     HalfPlane(PlaneElasticity(Material(youngs_modulus=70e3, poisson_ratio=0.34))),
 )
@@ -67,7 +72,7 @@ def test_two_cylinders(force: float, radius: float, shift: float) -> None:
     """Pressure everywhere, its peak, and where it ends; steel on aluminium, the window centred or not."""
     expected = hertz(force, radius, TWO_BODIES)
     pair = cylinders(radius, expected.half_width, 66, shift=shift * expected.half_width)
-    solution = solve_contact((pair,), *TWO_BODIES, force)
+    solution = solve_contact((pair,), TWO_BODIES, force)
     (pressure,), cells = solution.pressures, pair.cells
     assert pressure.sum() * cells.width == pytest.approx(force, rel=1e-12)
     assert pressure.max() == pytest.approx(expected.peak_pressure, rel=HERTZ)
@@ -85,7 +90,7 @@ def test_cylinders_converge_with_the_cells() -> None:
     errors = []
     for count in (33, 99, 297):
         pair = cylinders(5.0, expected.half_width, count)
-        (pressure,) = solve_contact((pair,), *TWO_BODIES, 100.0).pressures
+        (pressure,) = solve_contact((pair,), TWO_BODIES, 100.0).pressures
         inside = np.abs(pair.cells.place) < 0.8 * expected.half_width
         errors.append(np.abs(pressure - expected.pressure(pair.cells.place))[inside].max() / expected.peak_pressure)
     orders = -np.diff(np.log(errors)) / math.log(3)
@@ -101,7 +106,7 @@ def test_approach_of_cylinders() -> None:
     force, radius = 100.0, 5.0
     expected = hertz(force, radius, TWO_BODIES)
     pair = cylinders(radius, expected.half_width, 132)
-    solution = solve_contact((pair,), *TWO_BODIES, force)
+    solution = solve_contact((pair,), TWO_BODIES, force)
     constants = sum((1 + body.elasticity.ratio) / (math.pi * body.elasticity.modulus) for body in TWO_BODIES)
     by_hertz = force * ((2 * math.log(2 / expected.half_width) + 1) / (math.pi * expected.modulus) - constants)
     assert solution.approach == pytest.approx(by_hertz, rel=1e-3)
@@ -110,7 +115,7 @@ def test_approach_of_cylinders() -> None:
 def test_shares_of_the_approach_follow_the_moduli() -> None:
     soft = HalfPlane(PlaneElasticity(Material(youngs_modulus=70e3)))
     hard = HalfPlane(PlaneElasticity(Material(youngs_modulus=210e3)))
-    first, second = solve_contact((cylinders(5.0, 0.05, 66),), soft, hard, 60.0).parts
+    first, second = solve_contact((cylinders(5.0, 0.05, 66),), PerGear(soft, hard), 60.0).parts
     assert first / second == pytest.approx(3, rel=1e-9)
 
 
@@ -118,22 +123,20 @@ def test_two_pairs_of_teeth_that_do_not_feel_each_other_share_alike() -> None:
     force, radius = 100.0, 5.0
     half = hertz(force / 2, radius, TWO_BODIES)
     pairs = tuple(cylinders(radius, half.half_width, 66, tooth=tooth) for tooth in (0, 1))
-    solution = solve_contact(pairs, *TWO_BODIES, force)
+    solution = solve_contact(pairs, TWO_BODIES, force)
     assert solution.forces == pytest.approx([50, 50], rel=1e-9)
     assert [pressure.max() for pressure in solution.pressures] == pytest.approx([half.peak_pressure] * 2, rel=HERTZ)
 
 
 def test_a_tooth_that_is_far_away_carries_nothing() -> None:
     one, other = cylinders(5.0, 0.05, 66), cylinders(5.0, 0.05, 66, tooth=1)
-    far = ContactPair(
-        1, 10, 10, Cells(other.cells.place, other.cells.width, other.cells.pinion, other.cells.wheel, other.cells.gap + 1)
-    )
-    assert solve_contact((one, far), *TWO_BODIES, 50.0).forces == pytest.approx([50, 0], abs=1e-12)
+    far = replace(other, cells=replace(other.cells, gap=other.cells.gap + 1))
+    assert solve_contact((one, far), TWO_BODIES, 50.0).forces == pytest.approx([50, 0], abs=1e-12)
 
 
 def test_teeth_beyond_the_neighbours_do_not_feel_each_other() -> None:
     pairs = tuple(cylinders(5.0, 0.05, 8, tooth=tooth) for tooth in (-1, 1))
-    matrix = compliance_matrix(pairs, TWO_BODIES[0], 0)  # type: ignore[arg-type]
+    matrix = compliance_matrix(pairs, TWO_BODIES.pinion, Role.PINION)  # type: ignore[arg-type]
     assert np.all(matrix[:8, 8:] == 0)
 
 
@@ -206,13 +209,13 @@ def involute(base: float, start: float, lengths: Any) -> Any:
 @pytest.mark.parametrize("part", [0.0, 0.3, 0.8, 1.0])
 def test_gap_is_the_distance_of_two_involutes(part: float) -> None:
     """Both flanks drawn in a plane whose x axis is the line of action; what lies between them at each place on the tangent."""
-    line, path = mesh_line(PAIR), PAIR.path_of_contact
+    line, path = line_of_action(PAIR), PAIR.path_of_contact
     length = path.A + 0.02 + part * (path.E - path.A - 0.04)
     (pair,) = [found for found in contact_pairs(line, length, lambda _tooth, _radius: 0.3, 60, 0.01) if found.tooth == 0]
     gaps = np.zeros(len(pair.cells.place))
     for gear, contact, lengths, sense in (
-        (PAIR.pinion, length, pair.cells.pinion, 1),
-        (PAIR.wheel, line.whole - length, pair.cells.wheel, -1),
+        (PAIR.pinion, length, pair.cells.lengths.pinion, 1),
+        (PAIR.wheel, line.whole - length, pair.cells.lengths.wheel, -1),
     ):
         base = gear.base_diameter / 2
         # Base circle about the origin, unrolled so that the contact's normal is the vertical x = base.
@@ -226,7 +229,7 @@ def test_gap_is_the_distance_of_two_involutes(part: float) -> None:
 def test_radius_is_that_of_euler_and_savary() -> None:
     (pair,) = [
         found
-        for found in contact_pairs(mesh_line(PAIR), PAIR.path_of_contact.C, lambda _tooth, _radius: 0.1, 66, 0.01)
+        for found in contact_pairs(line_of_action(PAIR), PAIR.path_of_contact.C, lambda _tooth, _radius: 0.1, 66, 0.01)
         if found.tooth == 0
     ]
     first, second = (
@@ -237,23 +240,23 @@ def test_radius_is_that_of_euler_and_savary() -> None:
 
 
 def test_pairs_follow_each_other_by_the_base_pitch_and_end_with_the_path() -> None:
-    line, path = mesh_line(PAIR), PAIR.path_of_contact
+    line, path = line_of_action(PAIR), PAIR.path_of_contact
     for length in np.linspace(path.A - 4 * line.pitch, path.E + 4.1 * line.pitch, 97) + 0.001:
         found = contact_pairs(line, float(length), lambda _tooth, _radius: 0.05, 66, 0.0)
         expected = [tooth for tooth in range(-9, 10) if path.A < length + tooth * line.pitch < path.E]
         assert [pair.tooth for pair in found] == expected
         for pair in found:
-            assert pair.pinion == pytest.approx(length + pair.tooth * line.pitch)
-            assert pair.pinion + pair.wheel == pytest.approx(line.whole)
+            assert pair.lengths.pinion == pytest.approx(length + pair.tooth * line.pitch)
+            assert sum(pair.lengths) == pytest.approx(line.whole)
 
 
 def test_corners_beyond_the_path_count_up_to_the_gap() -> None:
     """Beyond A and E the corner lies off the line of action, where two flanks are s^2/(2 rho) apart, to first order."""
-    line, path = mesh_line(PAIR), PAIR.path_of_contact
+    line, path = line_of_action(PAIR), PAIR.path_of_contact
     beyond = 0.1
-    for length, tip in ((path.E + beyond, line.pinion), (path.A - beyond, line.wheel)):
+    for length, (role, tip) in zip((path.E + beyond, path.A - beyond), line.flanks.items(), strict=True):
         (pair,) = [each for each in contact_pairs(line, length, lambda *_: 0.05, 66, 0.05) if each.tooth == 0]
-        contact = pair.pinion if tip is line.pinion else pair.wheel
+        contact = pair.lengths.pick(role)
         back = -tip.along_tangent(contact, tip.last)
         assert back == pytest.approx(beyond * contact / tip.base_radius, rel=0.1)
         assert np.abs(pair.cells.place).min() == pytest.approx(back, abs=pair.cells.width)
@@ -263,7 +266,7 @@ def test_corners_beyond_the_path_count_up_to_the_gap() -> None:
 
 
 def test_cells_are_not_narrower_than_asked() -> None:
-    line, length = mesh_line(PAIR), PAIR.path_of_contact.C
+    line, length = line_of_action(PAIR), PAIR.path_of_contact.C
     (fine,) = [each for each in contact_pairs(line, length, lambda *_: 0.3, 60, 0.01) if each.tooth == 0]
     (coarse,) = [each for each in contact_pairs(line, length, lambda *_: 0.3, 60, 0.01, 0.03) if each.tooth == 0]
     assert (fine.cells.width, coarse.cells.width) == pytest.approx((0.01, 0.03))
@@ -312,7 +315,7 @@ def test_plane_stress_has_no_stress_along_the_tooth() -> None:
 # The pair
 
 
-def teeth_in_contact(model: FlexiblePair, torque: float) -> set[int]:
+def teeth_in_contact(model: PlanePair, torque: float) -> set[int]:
     return {sum(model.solve(float(angle), torque).forces > 0) for angle in model.roll_angles(24)}
 
 
@@ -321,7 +324,7 @@ def test_a_contact_ratio_above_two_loads_three_pairs() -> None:
     gear = Gear(teeth=60, normal_module=1.0, face_width=10, rack=rack)
     pair = GearPair(pinion=gear, wheel=gear)
     assert 2.2 < pair.transverse_contact_ratio < 2.5
-    model = flexible_pair(pair, STEEL, body=BodyModel(teeth=7))
+    model = plane_pair(pair, STEEL, body=BodyModel(teeth=7))
     assert model.pinion.neighbours == 2
     assert teeth_in_contact(model, 50.0) == {2, 3}
 
@@ -330,9 +333,9 @@ def test_bodies_must_be_odd_and_hold_on_below_the_root() -> None:
     for teeth in (2, 4, 1):
         with pytest.raises(ParameterError, match="teeth"):
             BodyModel(teeth=teeth)
-    body = BodyModel(teeth=3, inner_diameters=(None, PAIR.wheel.root_diameter))
+    body = BodyModel(teeth=3, inner_diameters=PerGear(None, PAIR.wheel.root_diameter))
     with pytest.raises(GeometryError, match=r"wheel\.inner_diameter"):
-        flexible_pair(PAIR, STEEL, body=body)
+        plane_pair(PAIR, STEEL, body=body)
 
 
 # Modified flanks
@@ -348,7 +351,7 @@ def modified(pinion: FlankModification | None = None, wheel: FlankModification |
     )
 
 
-def middle(line: MeshLine, length: float, reach: float = 0.1) -> ContactPair:
+def middle(line: LineOfAction, length: float, reach: float = 0.1) -> ContactPair:
     """The middle pair of flanks, in contact at a roll length of the pinion."""
     (found,) = [each for each in contact_pairs(line, length, lambda *_: reach, 40, 0.05) if each.tooth == 0]
     return found
@@ -362,28 +365,29 @@ def test_tip_relief_is_added_to_the_gap() -> None:
 
     Of what has been taken back 20 um, the point that now lies at a place comes from 20 um of roll nearer to the root.
     """
-    line = mesh_line(modified(RELIEF))
-    assert line.pinion.even == pytest.approx((line.pinion.first, line.pinion.last - 1.2))
-    lengths = np.array([line.pinion.last - 2.0, line.pinion.last - 1.2, line.pinion.last - 0.6, line.pinion.last])
-    assert line.pinion.form.depth(lengths, 5.0) == pytest.approx([0, 0, 0.010, 0.020], abs=1e-12)
+    line = line_of_action(modified(RELIEF))
+    pinion, wheel = line.flanks
+    assert pinion.even == pytest.approx((pinion.first, pinion.last - 1.2))
+    lengths = np.array([pinion.last - 2.0, pinion.last - 1.2, pinion.last - 0.6, pinion.last])
+    assert pinion.form.depth(lengths, 5.0) == pytest.approx([0, 0, 0.010, 0.020], abs=1e-12)
     slope = 0.020 / 1.2
-    assert line.pinion.depth(lengths) == pytest.approx([0, 0, 0.010 - slope * 0.010, 0.020 - slope * 0.020], abs=1e-12)
-    assert not line.wheel.depth(lengths).any()
+    assert pinion.depth(lengths) == pytest.approx([0, 0, 0.010 - slope * 0.010, 0.020 - slope * 0.020], abs=1e-12)
+    assert not wheel.depth(lengths).any()
     near = middle(line, PAIR.path_of_contact.E - 0.1)
-    bare = near.cells.gap - slope * (1 - slope) * (near.cells.pinion - (line.pinion.last - 1.2))
+    bare = near.cells.gap - slope * (1 - slope) * (near.cells.lengths.pinion - (pinion.last - 1.2))
     # The same places on exact flanks: s^2/(2 rho) and its next term, from the flanks themselves.
-    behind = line.pinion.facing(near.pinion, near.cells.place)[1] + line.wheel.facing(near.wheel, -near.cells.place)[1]
-    radius = near.pinion * near.wheel / (near.pinion + near.wheel)
+    behind = pinion.facing(near.lengths.pinion, near.cells.place)[1] + wheel.facing(near.lengths.wheel, -near.cells.place)[1]
+    radius = near.lengths.pinion * near.lengths.wheel / (near.lengths.pinion + near.lengths.wheel)
     assert bare == pytest.approx(behind + near.cells.width**2 / 24 / radius, abs=1e-12)
-    assert not line.pinion.depth(middle(line, PAIR.path_of_contact.C).cells.pinion).any()
+    assert not pinion.depth(middle(line, PAIR.path_of_contact.C).cells.lengths.pinion).any()
 
 
 def test_window_follows_the_place_where_relieved_flanks_come_nearest() -> None:
     """On a relief that grows by c per mm of place, two flanks of reduced radius rho come nearest at -c rho."""
-    line = mesh_line(modified(RELIEF))
+    line = line_of_action(modified(RELIEF))
     found = middle(line, PAIR.path_of_contact.E - 0.3, 0.05)
-    slope = 0.020 / 1.2 * line.pinion.base_radius / found.pinion
-    radius = found.pinion * found.wheel / (found.pinion + found.wheel)
+    slope = 0.020 / 1.2 * line.flanks.pinion.base_radius / found.lengths.pinion
+    radius = found.lengths.pinion * found.lengths.wheel / (found.lengths.pinion + found.lengths.wheel)
     assert found.cells.place.mean() == pytest.approx(-slope * radius, rel=0.05)
     assert 0 < found.cells.gap.argmin() < len(found.cells.gap) - 1
 
@@ -391,14 +395,14 @@ def test_window_follows_the_place_where_relieved_flanks_come_nearest() -> None:
 def test_the_gap_is_that_of_the_middle_of_the_common_face_width() -> None:
     """Crowning of a wheel moved along the axis: its own height counts."""
     crowned = replace(modified(wheel=FlankModification(lead_crowning=16.0)), axial_offset=2.5)
-    line = mesh_line(crowned)
+    line = line_of_action(crowned)
     # The common width is 7.5 mm, its middle 6.25 mm from the pinion's end at z = 0 and 3.75 mm from the wheel's.
-    assert (line.pinion.height, line.wheel.height) == (6.25, 3.75)
-    assert line.wheel.depth(np.array([3.0])) == pytest.approx(0.016 * 0.25**2)
+    assert (line.flanks.pinion.height, line.flanks.wheel.height) == (6.25, 3.75)
+    assert line.flanks.wheel.depth(np.array([3.0])) == pytest.approx(0.016 * 0.25**2)
 
 
 def test_pitch_error_moves_the_middle_pair_only() -> None:
-    line, plain = mesh_line(PAIR, 8.0), mesh_line(PAIR)
+    line, plain = line_of_action(PAIR, 8.0), line_of_action(PAIR)
     length = PAIR.path_of_contact.B - 0.02
     for tooth, added in ((0, -0.008), (1, 0.0)):
         gaps = [
@@ -421,19 +425,19 @@ def test_rigid_gears_approach_until_the_first_flanks_touch(
     modification: FlankModification, error: float, expected: float
 ) -> None:
     """Where two pairs are in contact, the better of the two decides; crowning leaves the middle of the face as it is."""
-    line = mesh_line(modified(modification), error)
+    line = line_of_action(modified(modification), error)
     assert rigid_approach(line, PAIR.path_of_contact.A + 0.2) == pytest.approx(expected, abs=2e-6)
 
 
 def test_rigid_gears_with_another_pressure_angle_run_ahead_evenly() -> None:
     """One pair alone: what is taken off there, less what the contact gains by moving along the slope."""
-    line, path = mesh_line(modified(FlankModification(pressure_angle_modification=30.0))), PAIR.path_of_contact
-    whole = line.pinion.last - line.pinion.first
+    line, path = line_of_action(modified(FlankModification(pressure_angle_modification=30.0))), PAIR.path_of_contact
+    whole = line.flanks.pinion.last - line.flanks.pinion.first
     for length in (path.B + 0.1, path.C, path.D - 0.1):
         share = 0.030 / whole
-        slope = share * line.pinion.base_radius / length
+        slope = share * line.flanks.pinion.base_radius / length
         radius = length * (line.whole - length) / line.whole
-        expected = share * (1 - share) * (length - line.pinion.first) - slope**2 * radius / 2
+        expected = share * (1 - share) * (length - line.flanks.pinion.first) - slope**2 * radius / 2
         assert rigid_approach(line, length, single=True) == pytest.approx(expected, abs=2e-5)
         # The tips of the pair before and the pair behind have less taken off, or more.
         assert rigid_approach(line, length) <= rigid_approach(line, length, single=True)
@@ -455,7 +459,7 @@ SMALL = BodyModel(teeth=3)
 )
 def test_modified_flanks_press_as_cylinders_of_their_own_curvature(modification: FlankModification) -> None:
     """Crowning makes the flanks rounder by per cents; Hertz's pressure at the nearest place is still found within 1 %."""
-    cycle = run_cycle(flexible_pair(modified(modification), STEEL, body=SMALL), 30.0, 12)
+    cycle = PlaneCycle.run(plane_pair(modified(modification), STEEL, body=SMALL), 30.0, 12)
     contacts = [contact for _, contact in cycle.interior_contacts]
     assert len(contacts) >= 6
     for contact in contacts:
@@ -463,7 +467,7 @@ def test_modified_flanks_press_as_cylinders_of_their_own_curvature(modification:
 
 
 def test_flanks_too_hollow_to_touch_inside_have_no_reduced_radius() -> None:
-    pair = ContactPair(0, 5.0, 20.0, middle(mesh_line(PAIR), PAIR.path_of_contact.C).cells, added_curvature=-0.3)
+    pair = ContactPair(0, PerGear(5.0, 20.0), middle(line_of_action(PAIR), PAIR.path_of_contact.C).cells, added_curvature=-0.3)
     assert pair.radius == math.inf
     assert replace(pair, added_curvature=-0.2).radius == pytest.approx(20.0)
 
@@ -471,10 +475,10 @@ def test_flanks_too_hollow_to_touch_inside_have_no_reduced_radius() -> None:
 def test_a_gap_that_all_flanks_have_costs_no_stiffness() -> None:
     """Lead crowning in a plane model, seen off its middle: the same teeth, 4 um later."""
     plain, late = (
-        flexible_pair(replace(modified(wheel=of), axial_offset=2.5), STEEL, body=SMALL)
+        plane_pair(replace(modified(wheel=of), axial_offset=2.5), STEEL, body=SMALL)
         for of in (FlankModification(), FlankModification(lead_crowning=64.0))
     )
-    one, other = run_cycle(plain, 30.0, 4), run_cycle(late, 30.0, 4)
+    one, other = PlaneCycle.run(plain, 30.0, 4), PlaneCycle.run(late, 30.0, 4)
     assert other.values("stiffness") == pytest.approx(one.values("stiffness"), rel=2e-4)
     assert other.values("transmission_error") == pytest.approx(one.values("transmission_error") + 4.0, rel=1e-3)
-    assert single_stiffness(late, 30.0, 3) == pytest.approx(single_stiffness(plain, 30.0, 3), rel=2e-4)
+    assert late.single_stiffness(30.0, 3) == pytest.approx(plain.single_stiffness(30.0, 3), rel=2e-4)

@@ -8,14 +8,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.brute import nodal_compliance
 
 from gearcad import Gear, Material
-from gearcad.contact.plane.brute import nodal_compliance
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
 from gearcad.contact.plane.flamant import edge_displacement, flamant_displacement, flamant_traction
-from gearcad.contact.plane.flank import FlankCompliance, flank_compliance, involute_point
-from gearcad.contact.plane.ring import Cuts, assemble
+from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
+from gearcad.contact.plane.ring import assemble
 from gearcad.contact.plane.root import Fillets
+from gearcad.contact.shared.chain import Cuts
 from gearcad.meshing import MeshSizes, mesh_sector
 from gearcad.meshing.outline import Side
 
@@ -32,7 +33,7 @@ GEARS = {
 }
 
 
-def body(gear: Gear, *, sizes: MeshSizes | None = None, plane: Plane = Plane.STRAIN, nodal: bool = False) -> FlankCompliance:
+def body(gear: Gear, *, sizes: MeshSizes | None = None, plane: Plane = Plane.STRAIN, nodal: bool = False) -> PlaneCompliance:
     """A full ring with four modules of rim."""
     sizes = sizes or MeshSizes()
     radius = max(gear.root_diameter / 2 - 4 * gear.normal_module, 0.3 * gear.root_diameter / 2)
@@ -43,7 +44,7 @@ def body(gear: Gear, *, sizes: MeshSizes | None = None, plane: Plane = Plane.STR
 
 
 @pytest.fixture(scope="module", params=GEARS)
-def solved(request: Any) -> FlankCompliance:
+def solved(request: Any) -> PlaneCompliance:
     return body(GEARS[request.param])
 
 
@@ -112,10 +113,10 @@ def test_plane_strain_constants() -> None:
 # The flank
 
 
-def test_roll_lengths_and_normals_are_the_involutes(solved: FlankCompliance) -> None:
+def test_roll_lengths_and_normals_are_the_involutes(solved: PlaneCompliance) -> None:
     flank = solved.flank
     points = solved.ring.sector.mesh.points[flank.nodes]
-    found = np.array([involute_point(flank.gear, float(length)) for length in flank.lengths])
+    found = np.array([flank.points(float(length)) for length in flank.lengths])
     assert np.abs(found - points).max() < 1e-9 * flank.gear.normal_module
     # The line of a normal touches the base circle at the roll length: its moment about the axis is -r_b.
     inward = flank.inward(flank.lengths)
@@ -123,14 +124,14 @@ def test_roll_lengths_and_normals_are_the_involutes(solved: FlankCompliance) -> 
     assert moment == pytest.approx(-flank.base_radius, rel=1e-9)
 
 
-def test_a_unit_load_turns_the_hub_by_the_base_radius(solved: FlankCompliance) -> None:
+def test_a_unit_load_turns_the_hub_by_the_base_radius(solved: PlaneCompliance) -> None:
     """Far inside the half per cent that the check permits; near the tip Flamant's tractions are hard to integrate."""
     assert solved.torques == pytest.approx(-solved.flank.base_radius, rel=2e-4)
     middle = solved.loads[len(solved.loads) // 2]
     assert solved.hub_torque(float(middle)) == pytest.approx(solved.flank.base_radius, rel=2e-4)
 
 
-def test_response_is_symmetric(solved: FlankCompliance) -> None:
+def test_response_is_symmetric(solved: PlaneCompliance) -> None:
     """Maxwell and Betti: u at x by a load at y is u at y by one at x - also between two teeth."""
     lengths = np.linspace(solved.loads[0], solved.loads[-1], 30)[1:-2]
     own = solved.response(0)(lengths, lengths)
@@ -177,7 +178,7 @@ def test_another_constant_of_the_logarithm_changes_nothing() -> None:
 # The root
 
 
-def test_tension_below_the_load_and_compression_behind(solved: FlankCompliance) -> None:
+def test_tension_below_the_load_and_compression_behind(solved: PlaneCompliance) -> None:
     """A load near the tip bends the tooth: the fillet below it is stretched, the other one pressed a little more."""
     fillets = Fillets(solved)
     load = [(0, float(solved.loads[-4]), 100.0)]
@@ -188,7 +189,7 @@ def test_tension_below_the_load_and_compression_behind(solved: FlankCompliance) 
     assert gear.root_diameter / 2 <= tension.radius < gear.form_diameter / 2
 
 
-def test_loads_on_two_teeth_superpose(solved: FlankCompliance) -> None:
+def test_loads_on_two_teeth_superpose(solved: PlaneCompliance) -> None:
     fillets = Fillets(solved)
     loads = [(0, float(solved.loads[3]), 60.0), (1, float(solved.loads[-6]), 40.0)]
     both = fillets.stresses(Side.LEFT_FILLET, loads)
@@ -198,7 +199,7 @@ def test_loads_on_two_teeth_superpose(solved: FlankCompliance) -> None:
     assert 0.05 < np.abs(far).max() / np.abs(own).max() < 0.5
 
 
-def test_fillet_angles_run_from_the_flank_to_the_root(solved: FlankCompliance) -> None:
+def test_fillet_angles_run_from_the_flank_to_the_root(solved: PlaneCompliance) -> None:
     for side in (Side.LEFT_FILLET, Side.RIGHT_FILLET):
         radii, angles = Fillets(solved).places(side)
         inwards = np.argsort(-radii)

@@ -13,15 +13,19 @@ import scipy.sparse.linalg
 
 from gearcad import Body, Gear, GearPair, Material
 from gearcad.contact.plane.elasticity import PlaneElasticity, stiffness_matrix
-from gearcad.contact.plane.flank import FlankCompliance, flank_compliance
-from gearcad.contact.plane.pair import BodyModel, flank_body
+from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
+from gearcad.contact.plane.pair import flank_body
 from gearcad.contact.plane.rim import far_responses
-from gearcad.contact.plane.ring import Cuts, Ring, assemble
+from gearcad.contact.plane.ring import Ring, assemble
 from gearcad.contact.plane.root import Fillets
-from gearcad.contact.plane.support import Hold, Support, rim_ratio, support_of
+from gearcad.contact.plane.support import hub_tractions, key_load, with_support
+from gearcad.contact.shared.bodies import BodyModel
+from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.shared.holding import Hold, Support, rim_ratio, support_of
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.meshing import MeshSizes, SectorMesh, mesh_sector
 from gearcad.meshing.outline import Side
+from gearcad.per_gear import PerGear
 from gearcad.rating.editions import Edition
 from gearcad.rating.iso6336_3 import rim_thickness_factor
 
@@ -145,12 +149,12 @@ def test_a_free_bore_is_that_of_the_ring_in_full(mesh: SectorMesh, in_full: InFu
 def test_a_shaft_is_that_of_the_ring_in_full(mesh: SectorMesh) -> None:
     """A hollow shaft of another modulus, its section led by the torque in the mean."""
     support = support_of(GEAR, INNER, Hold.SHAFT, Material(youngs_modulus=70000.0), 8.0)
-    whole = support.whole(mesh)
+    whole = with_support(mesh, support)
     assert np.hypot(*whole.points[whole.sides[Side.INNER]].T) == pytest.approx(4.0)
     gear, shaft = np.arange(len(mesh.triangles)), np.arange(len(mesh.triangles), len(whole.triangles))
     soft = PlaneElasticity(Material(youngs_modulus=70000.0))
     stiffness = stiffness_matrix(whole, ELASTIC, gear) + stiffness_matrix(whole, soft, shaft)
-    weights = support.tractions(mesh, whole)
+    weights = hub_tractions(mesh, whole, support)
     # The whole section, by what is known of an annulus: its area, and its polar moment.
     x, y = whole.points.T
     turn, shift = np.stack([-y, x], -1).ravel(), np.tile([1.0, 0.0], len(x))
@@ -238,7 +242,7 @@ LOAD = (0, 18.0, 680.0)
 """About point D of the FZG pinion, with the whole load of stage 9."""
 
 
-def _body(bore: float, hold: Hold, refined: float = 1.0, **body: float) -> FlankCompliance:
+def _body(bore: float, hold: Hold, refined: float = 1.0, **body: float) -> PlaneCompliance:
     gear = replace(FZG, body=Body(bore=bore, **body))
     support = support_of(gear, bore / 2, hold)
     return flank_body(gear, bore / 2, ELASTIC, BodyModel(), 1, MeshSizes().refined(refined), flank_compliance, support)
@@ -269,7 +273,7 @@ def test_a_key_adds_what_the_ring_in_full_has(mesh: SectorMesh, in_full: InFull)
 
     Strains of the ring in full are those of whole edges.
     """
-    key = support_of(GEAR, INNER, Hold.KEY).key_load(mesh)
+    key = key_load(mesh, support_of(GEAR, INNER, Hold.KEY))
     loaded = np.flatnonzero(np.abs(key[::2, 0]) + np.abs(key[1::2, 0]))
     x, y = mesh.points.T
     assert key[:, 0] @ np.stack([-y, x], -1).ravel() == pytest.approx(1.0)
@@ -312,8 +316,8 @@ def test_a_keyway_takes_from_the_rim() -> None:
 def test_what_cannot_hold_a_body_is_refused() -> None:
     pair = GearPair(pinion=FZG, wheel=replace(FZG, teeth=24))
     with pytest.raises(GeometryError, match=r"pinion.*keyway_width"):
-        BodyModel(holds=(Hold.KEY, Hold.AUTO)).supports(pair)
+        BodyModel(holds=PerGear(Hold.KEY, Hold.AUTO)).supports(pair)
     with pytest.raises(GeometryError, match=r"shaft_bore.*at most 29\.4 mm"):
-        BodyModel(holds=(Hold.SHAFT, Hold.AUTO), shaft_bores=(29.9, 0.0)).supports(pair)
+        BodyModel(holds=PerGear(Hold.SHAFT, Hold.AUTO), shaft_bores=PerGear(29.9, 0.0)).supports(pair)
     with pytest.raises(ParameterError, match=r"wheel_support.*rigid"):
-        BodyModel(teeth=5, holds=(Hold.AUTO, Hold.FREE)).supports(pair)
+        BodyModel(teeth=5, holds=PerGear(Hold.AUTO, Hold.FREE)).supports(pair)

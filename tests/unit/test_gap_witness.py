@@ -10,7 +10,8 @@ import pytest
 from support.gap import distance_in_space, gap_along_action, middle_height, pinion_points, taken_back, wheel_points
 
 from gearcad import FlankModification, Gear, GearPair, Mounting, ReliefShape
-from gearcad.contact.plane.mesh_positions import contact_pairs, mesh_line
+from gearcad.contact.plane.contact_pairs import contact_pairs
+from gearcad.contact.shared.line_of_action import line_of_action
 
 ALL = FlankModification(
     tip_relief=18.0,
@@ -45,7 +46,7 @@ def test_exact_flanks_touch_along_the_line_of_contact(helix: float) -> None:
     length, lean = made.path_of_contact.C, math.tan(math.radians(made.pinion.base_helix_angle))
     gap = gap_along_action(made, Mounting(), length, 0, heights, np.array([0.0, 0.05, -0.05]))
     assert gap[:, 0] == pytest.approx([0, 0, 0], abs=1e-8)
-    whole = mesh_line(made).whole
+    whole = line_of_action(made).whole
     for row, z in enumerate(heights):
         contact = length + (z - middle_height(made)) * lean
         assert gap[row, 1:].mean() == pytest.approx(0.05**2 * whole / 2 / contact / (whole - contact), rel=2e-3)
@@ -58,7 +59,7 @@ def test_points_turn_with_the_hand_of_the_gear(helix: float) -> None:
     heights = np.array([0.0, 9.0, 18.0])
     for gear, sense, points in ((made.pinion, 1, pinion_points), (made.wheel, -1, wheel_points)):
         found = points(made, Mounting(), made.path_of_contact.C, 0, np.full(3, 9.0), heights)
-        axis = np.array([0.0, 0.0]) if sense == 1 else np.array([sum(_bases(made)), mesh_line(made).whole])
+        axis = np.array([0.0, 0.0]) if sense == 1 else np.array([sum(_bases(made)), line_of_action(made).whole])
         angle = np.unwrap(np.arctan2(*(found[:, :2] - axis).T[::-1]))
         turn = 2 * math.pi * heights / gear.lead * math.copysign(1, gear.helix_angle)
         assert angle - angle[0] == pytest.approx(turn, abs=1e-9)
@@ -102,7 +103,7 @@ def test_across_moves_the_parabola_of_the_gap() -> None:
     places, length = np.linspace(-0.2, 0.2, 401), made.path_of_contact.C
     gap = gap_along_action(made, Mounting(misalignment_across=80.0), length, 0, top, places)[0]
     # Curvatures 1/L1 of the pinion at 0 and 1/L2 of the wheel at 0.04 mm: in between by their weights.
-    whole = mesh_line(made).whole
+    whole = line_of_action(made).whole
     assert places[gap.argmin()] == pytest.approx(0.04 * length / whole, abs=2e-3)
 
 
@@ -113,11 +114,11 @@ def test_the_plane_gap_agrees(part: float) -> None:
     path = made.path_of_contact
     length = path.A + part * (path.E - path.A)
     mounting = Mounting(misalignment=15.0)
-    found = contact_pairs(mesh_line(made), length, lambda *_: 0.15, 40, 0.1)
+    found = contact_pairs(line_of_action(made), length, lambda *_: 0.15, 40, 0.1)
     (middle,) = [each for each in found if each.tooth == 0]
     cells = middle.cells
     witness = gap_along_action(made, mounting, length, 0, np.array([middle_height(made)]), cells.place)[0]
-    mean = cells.width**2 / 24 * (1 / middle.pinion + 1 / middle.wheel)
+    mean = cells.width**2 / 24 * (1 / middle.lengths.pinion + 1 / middle.lengths.wheel)
     assert cells.gap - mean == pytest.approx(witness, abs=1e-5)
 
 

@@ -12,12 +12,13 @@ from support.gap import gap_along_action, middle_height
 from support.hertz import hertz_ellipse
 
 from gearcad import FlankModification, Gear, GearPair, Material, Mounting, ReliefShape
-from gearcad.contact.plane.mesh_positions import mesh_line
+from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.contact.solid.boussinesq import half_space_displacement, half_space_traction, surface_displacement
 from gearcad.contact.solid.contact_lines import ContactLine, Gaps, contact_lines, gaps
 from gearcad.contact.solid.flank import SolidFlank
 from gearcad.contact.solid.hexahedra import lame
 from gearcad.contact.solid.line_contact import Responses, solve_lines
+from gearcad.per_gear import PerGear
 
 Floats = NDArray[np.float64]
 
@@ -111,7 +112,7 @@ NEAR_EDGE = 4e-4
 def lines_of(pair: GearPair, roll_length: float, cells: int = 24) -> tuple[ContactLine, ...]:
     gear = pair.pinion
     rate = math.tan(math.radians(gear.helix_angle)) / (gear.reference_diameter / 2)
-    return contact_lines(pair, mesh_line(pair), SolidFlank(gear, rate), roll_length, cells, 0.05)
+    return contact_lines(pair, line_of_action(pair), SolidFlank(gear, rate), roll_length, cells, 0.05)
 
 
 @pytest.mark.parametrize("mounting", MOUNTINGS, ids=["drawing", "in plane", "across", "pitch and centre"])
@@ -135,7 +136,7 @@ def test_gaps_are_those_of_the_flanks_in_space(mounting: Mounting, modified: boo
             here = found[start : start + len(line.across)] / math.cos(helix)
             start += len(line.across)
             turn = mounting.misalignment / 1000 / pair.common_width.width
-            here = here + turn * line.wheel[0] * math.tan(helix)
+            here = here + turn * line.places.wheel[0] * math.tan(helix)
             heights = line.across + middle_height(pair)
             for row in range(0, len(heights), 5):
                 places = line.aside[row] + 1e-3 * np.arange(-400, 401)
@@ -170,16 +171,16 @@ def half_spaces(width: float, cells: int) -> Responses:
         tooth=0,
         across=across,
         nominal=zero,
-        pinion=(one, across),
-        wheel=(one, across),
+        places=PerGear((one, across), (one, across)),
         lengths=one * width / cells,
         aside=zero,
         gap=zero,
         points=np.stack([zero, zero, across], -1),
         edge_distance=one,
+        slope=0.0,
     )
     modulus = STEEL.youngs_modulus / (1 - STEEL.poisson_ratio**2) / 2
-    return Responses((line,), np.zeros((2, cells, cells)), np.abs(across[:, None] - across), line.lengths, modulus)
+    return Responses((line,), PerGear(*np.zeros((2, cells, cells))), np.abs(across[:, None] - across), line.lengths, modulus)
 
 
 @pytest.mark.parametrize(("along", "tolerance"), [(2000.0, 0.005), (500.0, 0.007), (120.0, 0.02)])

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from gearcad import Gear, GearPair, Mounting, ParameterError
-from gearcad.contact.plane.mesh_positions import mesh_line
+from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.errors import GeometryError
 
 PAIR = GearPair(
@@ -30,7 +30,7 @@ def test_base_circles_stay_and_the_line_of_action_follows(change: float) -> None
     distance = PAIR.centre_distance + change
     whole = math.sqrt(distance**2 - sum(radii) ** 2)
     assert (pair.pinion, pair.wheel) == (PAIR.pinion, PAIR.wheel)
-    assert mesh_line(pair).whole == pytest.approx(whole, rel=1e-12)
+    assert line_of_action(pair).whole == pytest.approx(whole, rel=1e-12)
     assert pair.path_of_contact.C == pytest.approx(whole * 18 / 59, rel=1e-12)
 
 

@@ -25,8 +25,8 @@ from gearcad.check.solid.summary import SolidSummary, summarise_solid
 from gearcad.check.summary import Summary
 from gearcad.check.sweep import sweep_point
 from gearcad.check.warnings import general_warnings
-from gearcad.contact.plane.cycle import PairContact, run_cycle
-from gearcad.contact.solid.cycle import run_solid_cycle
+from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.output import json_text
 from gearcad.report import report_html
 from gearcad.report.check import report as write
@@ -39,8 +39,8 @@ LIMITS = Material(name="tin", contact_limit=1e6, root_limit=1e6, yield_strength=
 def overloaded_plane() -> PlaneCheck:
     """FZG C at 3e5 N·m: contacts are wider than the flanks."""
     result, load = small_check(), Load(torque=3e5)
-    cycle = run_cycle(result.cycle.model, load.torque, 12)
-    summary, sweep = summarise_plane(cycle, 12.0), (sweep_point(cycle), sweep_point(run_cycle(result.cycle.model, 3e4, 4)))
+    cycle = PlaneCycle.run(result.cycle.model, load.torque, 12)
+    summary, sweep = summarise_plane(cycle, 12.0), (sweep_point(cycle), sweep_point(PlaneCycle.run(result.cycle.model, 3e4, 4)))
     task = replace(result.task, load=load, material=LIMITS)
     changed = replace(result, task=task, cycle=cycle, summary=summary, sweep=sweep)
     return replace(changed, comparisons=compare_plane(task, cycle, summary, result.convergence))
@@ -50,7 +50,7 @@ def overloaded_plane() -> PlaneCheck:
 def overloaded_solid() -> SolidCheck:
     """A narrow helical pair at 2e4 N·m."""
     result, load = small_solid_check(), Load(torque=2e4)
-    cycle = run_solid_cycle(coarse_model("helical"), load.torque, 6)
+    cycle = SolidCycle.run(coarse_model("helical"), load.torque, 6)
     summary, sweep = summarise_solid(cycle, 12.0), (sweep_point(cycle), *result.sweep)
     task = replace(result.task, load=load, material=LIMITS)
     changed = replace(result, task=task, cycle=cycle, summary=summary, sweep=sweep)
@@ -107,8 +107,8 @@ def test_the_report_says_what_is_not_there(overloaded: object, monkeypatch: pyte
 def summary_of(model: str, count: int) -> Summary:
     """That of a mesh cycle of very few positions."""
     if model == "2d":
-        return summarise_plane(run_cycle(small_check().cycle.model, 302.0, count), 12.0)
-    return summarise_solid(run_solid_cycle(coarse_model("FZG C"), 302.0, count), 12.0)
+        return summarise_plane(PlaneCycle.run(small_check().cycle.model, 302.0, count), 12.0)
+    return summarise_solid(SolidCycle.run(coarse_model("FZG C"), 302.0, count), 12.0)
 
 
 @pytest.mark.parametrize("model", ["2d", "3d"])
@@ -126,7 +126,7 @@ def test_a_tooth_that_stands_back_does_not_touch_at_the_pitch_point() -> None:
     """Then its neighbours carry; there is no pressure to tell, and its share of the load is none."""
     model = small_check().cycle.model
     back = replace(model, line=replace(model.line, proud=-2.0))
-    summary = summarise_plane(run_cycle(back, 30.0, 4), 12.0)
+    summary = summarise_plane(PlaneCycle.run(back, 30.0, 4), 12.0)
     assert (summary.contact_pressure_pitch_point, summary.half_width_pitch_point) == (None, None)
     assert summary.share_pitch_point == 0.0
     assert "does not touch" in summary.missing["contact_pressure_pitch_point"]
@@ -138,8 +138,8 @@ def test_a_width_that_pressures_do_not_have_fails_its_gate(monkeypatch: pytest.M
     hollow = np.linspace(-1, 1, len(contact.pressures)) ** 2 + 1
     for pressures in (np.where(hollow == hollow[3], 1.0, 0.0), hollow):
         assert math.isnan(replace(contact, pressures=pressures).half_width)
-    monkeypatch.setattr(PairContact, "half_width", property(lambda _contact: math.nan))
-    found = {each.quantity: each for each in compare_plane(result, result.cycle, result.summary, ())}
+    monkeypatch.setattr(PlanePairContact, "half_width", property(lambda _contact: math.nan))
+    found = {each.quantity: each for each in compare_plane(result.task, result.cycle, result.summary, ())}
     assert found["peak contact pressure"].passed
     silent = found["half width of contact"]
     assert (silent.passed, silent.evaluated) == (False, False)

@@ -12,10 +12,10 @@ from gearcad.check.judge import standards
 from gearcad.check.plane.run import plane_warnings
 from gearcad.check.summary import Figures, figures
 from gearcad.check.task import CheckTask
-from gearcad.contact.plane.cycle import run_cycle
+from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
-from gearcad.contact.plane.pair import flexible_pair
-from gearcad.contact.solid.cycle import run_solid_cycle
+from gearcad.contact.plane.pair import plane_pair
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
 from gearcad.rating import Edition, RatingOptions
 from gearcad.stiffness import PlaneStrainContact, PlaneStressContact, StrainEnergy
@@ -73,9 +73,9 @@ def test_solid_bodies_show_what_is_told() -> None:
     """A thin pair is almost as soft as in plane stress; a pinion that stands over has less stress at its root."""
 
     def solid(pair: GearPair, torque: float) -> Figures:
-        return figures(run_solid_cycle(solid_pair(pair, Material(), sizes=SolidSizes().refined(0.8)), torque, 12))
+        return figures(SolidCycle.run(solid_pair(pair, Material(), sizes=SolidSizes().refined(0.8)), torque, 12))
 
-    strain, stress = (figures(run_cycle(flexible_pair(fzg(1.5, 1.5), Material(), plane=plane), 32.4, 12)) for plane in Plane)
+    strain, stress = (figures(PlaneCycle.run(plane_pair(fzg(1.5, 1.5), Material(), plane=plane), 32.4, 12)) for plane in Plane)
     thin = solid(fzg(1.5, 1.5), 32.4)
     assert thin.mesh_stiffness - stress.mesh_stiffness < 0.2 * (strain.mesh_stiffness - stress.mesh_stiffness)
     # 4.5 mm on both sides, one module: ISO has 14/23 = 0.61 of the stress.

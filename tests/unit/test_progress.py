@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 from gearcad import Load, Material
 from gearcad.cli import main
 from gearcad.cli import progress as shown
-from gearcad.contact.plane.pair import BodyModel
+from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, expected_bodies, solid_pair
 from gearcad.progress import Agenda, Expected, Share
 from gearcad.stiffness import contact

@@ -13,7 +13,7 @@ from threadpoolctl import threadpool_limits
 from gearcad import Mounting
 from gearcad.contact.optimum.search import Found, Search, start_search
 from gearcad.contact.optimum.variants import Condition, with_amounts
-from gearcad.contact.solid.cycle import run_solid_cycle
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import loaded_left
 from gearcad.geometry import ReliefShape
 from gearcad.jobs.modify import _best, unmirrored
@@ -59,7 +59,7 @@ def test_tip_relief_halves_the_transmission_error_as_the_rules_of_the_field_say(
     found = best(search, _GENEROUS)
     model = coarse_model("FZG C")
     proposed = model.remade(with_amounts(model.pair, found.amounts, ReliefShape.LINEAR), Mounting())
-    before, after = (run_solid_cycle(each, TORQUE, 240) for each in (model, proposed))
+    before, after = (SolidCycle.run(each, TORQUE, 240) for each in (model, proposed))
     errors = [float(np.ptp(cycle.values("transmission_error"))) for cycle in (before, after)]
     # Solved in full on finer lines, at five times as many positions, it is what the search saw, and far less than before.
     assert errors[1] == pytest.approx(found.peak_to_peak, abs=BETWEEN)

@@ -13,6 +13,7 @@ from gearcad.check.face import face_factors
 from gearcad.check.solid.summary import middle_contacts
 from gearcad.contact.solid.field import nodal_stress, worst_field
 from gearcad.meshing.outline import Side
+from gearcad.per_gear import Role
 from gearcad.plots.check import plot_mesh_stiffness, plot_root_stress, plot_transmission_error
 from gearcad.plots.lines import (
     loaded_cells,
@@ -28,8 +29,8 @@ from gearcad.plots.tooth import plot_tooth, tooth_surface, viewed
 
 _ALL = (
     plot_line_loads,
-    lambda result, ax: plot_contact_pattern(result, 0, ax),
-    lambda result, ax: plot_contact_pattern(result, 1, ax),
+    lambda result, ax: plot_contact_pattern(result, Role.PINION, ax),
+    lambda result, ax: plot_contact_pattern(result, Role.WHEEL, ax),
     plot_lines_share,
     plot_harmonics,
     plot_load_along_face,
@@ -37,7 +38,7 @@ _ALL = (
     plot_mesh_stiffness,
     plot_transmission_error,
     plot_root_stress,
-    lambda result, ax: plot_tooth(tooth_surface(result, 0), ax),
+    lambda result, ax: plot_tooth(tooth_surface(result, Role.PINION), ax),
 )
 
 _FILLET = 0.06
@@ -58,8 +59,8 @@ def test_given_axes_are_used(draw):
 
 def test_pattern_lies_inside_the_outline_and_ends_at_the_greatest_pressure():
     result = small_solid_check()
-    for gear, own in enumerate((result.pair.pinion, result.pair.wheel)):
-        axes = plot_contact_pattern(result, gear)
+    for role, own in result.pair.gears.items():
+        axes = plot_contact_pattern(result, role)
         (colours,) = [each for each in axes.collections if each.get_array() is not None]
         assert colours.norm.vmax == result.summary.contact_pressure
         z, roll = line(axes, "flank")
@@ -67,7 +68,8 @@ def test_pattern_lies_inside_the_outline_and_ends_at_the_greatest_pressure():
         assert (z.min(), z.max(), roll.min(), roll.max()) == (0, own.face_width, form.first, form.last)
         cells = loaded_cells(result)
         inside = ~cells.on_edge
-        assert (cells.rolls[gear][inside] > form.first - 1e-9).all() and (cells.rolls[gear][inside] < form.last + 1e-9).all()
+        rolls = cells.rolls.pick(role)[inside]
+        assert (rolls > form.first - 1e-9).all() and (rolls < form.last + 1e-9).all()
         assert colours.get_array().max() == cells.pressure[inside].max()
 
 
@@ -138,28 +140,28 @@ def test_an_even_strain_is_hooke_s_law_at_every_node():
     assert stress == pytest.approx(np.tile([80.0, 16.0, 64.0, 24.0, 32.0, 4.0], (len(stress), 1)), abs=1e-6)
 
 
-@pytest.mark.parametrize("gear", [0, 1])
-def test_field_has_the_stress_of_the_fillet(gear):
+@pytest.mark.parametrize("role", Role)
+def test_field_has_the_stress_of_the_fillet(role):
     result = small_solid_check()
-    field = worst_field(result.cycle, gear)
-    mesh = (result.cycle.model.pinion, result.cycle.model.wheel)[gear].body.sector.mesh
+    field = worst_field(result.cycle, role)
+    mesh = result.cycle.model.bodies.pick(role).body.sector.mesh
     xx, yy, zz, xy, yz, zx = field.stress[mesh.over(mesh.side(Side.LEFT_FILLET))].T
     tensors = np.moveaxis(np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]), -1, 0)
     root = mesh.in_section[mesh.over(mesh.side(Side.LEFT_FILLET))]
-    peak = result.cycle.worst_position(gear).tension[gear]
+    peak = result.cycle.worst_position(role).tension.pick(role)
     near = np.abs(np.hypot(*root.T) - peak.radius) < 0.3
     assert np.linalg.eigvalsh(tensors[near])[:, 2].max() == pytest.approx(peak.stress, rel=_FILLET)
 
 
-@pytest.mark.parametrize("gear", [0, 1])
-def test_surface_is_closed_and_looks_outward(gear):
+@pytest.mark.parametrize("role", Role)
+def test_surface_is_closed_and_looks_outward(role):
     result = small_solid_check()
-    surface = tooth_surface(result, gear)
+    surface = tooth_surface(result, role)
     edges = np.sort(surface.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     assert set(np.unique(edges, axis=0, return_counts=True)[1]) == {2}
     corners = surface.points[surface.triangles]
     volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
-    own = (result.pair.pinion, result.pair.wheel)[gear]
+    own = result.pair.gears.pick(role)
     # One tooth over what is left of the sector below: about a tooth's share of the ring between there and the tip, half full.
     ring = math.pi / 4 * (own.tip_diameter**2 - (own.root_diameter - 4 * own.normal_module) ** 2) * own.face_width / own.teeth
     assert 0.5 < volume / ring < 0.9

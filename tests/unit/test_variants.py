@@ -12,6 +12,7 @@ from gearcad import FlankModification, Mounting
 from gearcad.contact.optimum.variants import Condition, Variants, with_amounts
 from gearcad.contact.solid.contact_lines import gaps
 from gearcad.contact.solid.line_contact import LineSolution, solve_lines
+from gearcad.contact.solid.pair import KnownResponses
 from gearcad.geometry import ReliefShape
 from tests.support.coarse import PAIRS, TORQUES, coarse_model
 
@@ -29,7 +30,7 @@ def variants(name: str, shape: ReliefShape, mounting: Mounting, count: int = 5) 
     model = coarse_model(name)
     given = FlankModification(root_relief=6, root_relief_length=1.0, profile_crowning=3, twist=4)
     pair = replace(model.pair, wheel=replace(model.pair.wheel, modification=given))
-    roomy = replace(model.remade(with_amounts(pair, HIGH, shape), mounting), cells=18, known={})
+    roomy = replace(model.remade(with_amounts(pair, HIGH, shape), mounting), cells=18, known=KnownResponses())
     return Variants(roomy, shape, count, TORQUES[name])
 
 

@@ -11,8 +11,7 @@ from gearcad.check.judge import farness, material_limits, mesh_errors, reactions
 from gearcad.check.plane.summary import PlaneSummary
 from gearcad.check.rim import bending_limits, rim_gates
 from gearcad.check.task import CheckTask
-from gearcad.contact.plane.cycle import Cycle, PairContact
-from gearcad.per_gear import PerGear
+from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact
 
 __all__ = ["compare_plane"]
 
@@ -21,12 +20,12 @@ _DISCRETISATION = 0.01
 
 
 def compare_plane(
-    task: CheckTask, cycle: Cycle, summary: PlaneSummary, convergence: tuple[Convergence, ...]
+    task: CheckTask, cycle: PlaneCycle, summary: PlaneSummary, convergence: tuple[Convergence, ...]
 ) -> tuple[Comparison, ...]:
     """All comparisons, gates first."""
     return (
         *_hertz(cycle, summary),
-        *reactions(_hub_torques(cycle), cycle, "equilibrium: the torque that is applied through the teeth"),
+        *reactions(cycle, "equilibrium: the torque that is applied through the teeth"),
         *mesh_errors(convergence, 3 * (_DISCRETISATION,), summary),
         *sampling(summary),
         *rim_gates(task),
@@ -36,12 +35,12 @@ def compare_plane(
     )
 
 
-def _hertz(cycle: Cycle, summary: PlaneSummary) -> Iterator[Comparison]:
+def _hertz(cycle: PlaneCycle, summary: PlaneSummary) -> Iterator[Comparison]:
     """Peak pressure and half width against two cylinders under the load carried, where they are furthest apart."""
     contacts = list(cycle.interior_contacts)
     source = "Hertz: two cylinders of the flanks' curvature under the load that this pair of teeth carries"
 
-    def deviation(of: tuple[object, PairContact], name: str, reference: str) -> float:
+    def deviation(of: tuple[object, PlanePairContact], name: str, reference: str) -> float:
         computed, expected = float(getattr(of[1], name)), float(getattr(of[1], reference))
         return farness(computed, expected)
 
@@ -57,16 +56,3 @@ def _hertz(cycle: Cycle, summary: PlaneSummary) -> Iterator[Comparison]:
         note = f"the worst of {len(contacts)} interior contacts, at roll angle {position.roll_angle:.2f} deg"
         reason = "its pressures have no width to tell" if math.isnan(getattr(contact, name)) else ""
         yield against(words, getattr(contact, name), getattr(contact, reference), _HERTZ, unit, source, Role.GATE, note, reason)
-
-
-def _hub_torques(cycle: Cycle) -> Iterator[PerGear[float]]:
-    """Of every position (N·m)."""
-    model = cycle.model
-    bodies = PerGear((0, model.pinion), (1, model.wheel))
-    for position in cycle.every:
-        yield PerGear(
-            *(
-                sum(body.hub_torque(contact.centre(gear)) * contact.force for contact in position.contacts) * model.width / 1000
-                for gear, body in bodies
-            )
-        )

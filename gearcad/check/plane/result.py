@@ -8,7 +8,7 @@ from typing import ClassVar
 from gearcad.check.options import Model
 from gearcad.check.plane.summary import PlaneSummary
 from gearcad.check.result import CheckResult
-from gearcad.contact.plane.cycle import Cycle
+from gearcad.contact.plane.cycle import PlaneCycle
 
 __all__ = ["PlaneCheck"]
 
@@ -17,7 +17,7 @@ __all__ = ["PlaneCheck"]
 class PlaneCheck(CheckResult):
     """A check in the transverse section through the middle of the common face width."""
 
-    cycle: Cycle
+    cycle: PlaneCycle
     summary: PlaneSummary
 
     model: ClassVar[Model] = Model.PLANE

@@ -14,10 +14,10 @@ from gearcad.check.rim import rim_warnings
 from gearcad.check.sweep import sweep_point
 from gearcad.check.task import CheckTask
 from gearcad.check.warnings import corner_warnings, general_warnings
-from gearcad.contact.plane.cycle import Cycle, run_cycle, single_stiffness
+from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.elasticity import PlaneElasticity
 from gearcad.contact.plane.limits import plane_pressure, thin_faces
-from gearcad.contact.plane.pair import FlexiblePair, flexible_pair
+from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.meshing import MeshSizes
 from gearcad.progress import Agenda
 
@@ -37,12 +37,12 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     """Check in the transverse section through the middle of the common face width. Raises what `check_pair` does."""
     tell("mesh cycle")
     model = _model(task, 1.0)
-    cycle = run_cycle(model, task.torque, task.options.positions_of(Model.PLANE)).searched(PLANE)
-    summary = summarise_plane(cycle, single_stiffness(model, task.torque))
+    cycle = PlaneCycle.run(model, task.torque, task.options.positions_of(Model.PLANE)).searched(PLANE)
+    summary = summarise_plane(cycle, model.single_stiffness(task.torque))
     tell("convergence")
     convergence = three_meshes(_refined(task, model)) if task.options.refines else ()
     tell("torque sweep")
-    sweep = tuple(sweep_point(run_cycle(model, torque, FEW_POSITIONS).searched(STRESSES)) for torque in task.torques)
+    sweep = tuple(sweep_point(PlaneCycle.run(model, torque, FEW_POSITIONS).searched(STRESSES)) for torque in task.torques)
     tell("rating")
     comparisons = compare_plane(task, cycle, summary, convergence)
     warnings = (
@@ -62,17 +62,17 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     )
 
 
-def _model(task: CheckTask, factor: float) -> FlexiblePair:
+def _model(task: CheckTask, factor: float) -> PlanePair:
     options = task.options
     sizes = MeshSizes().refined(factor * options.refinement)
     error = task.mounting.pitch_error
-    return flexible_pair(task.pair, task.material, plane=options.plane_state, body=task.body, sizes=sizes, pitch_error=error)
+    return plane_pair(task.pair, task.material, plane=options.plane_state, body=task.body, sizes=sizes, pitch_error=error)
 
 
-def _refined(task: CheckTask, middle: FlexiblePair) -> Iterator[Cycle]:
+def _refined(task: CheckTask, middle: PlanePair) -> Iterator[PlaneCycle]:
     for factor in FACTORS:
         model = middle if factor == 1 else _model(task, factor)
-        yield run_cycle(model, task.torque, FEW_POSITIONS).searched(ROOTS)
+        yield PlaneCycle.run(model, task.torque, FEW_POSITIONS).searched(ROOTS)
 
 
 def plane_warnings(task: CheckTask, elasticity: PlaneElasticity) -> Iterator[str]:

@@ -9,9 +9,11 @@ import numpy as np
 
 from gearcad.check.extremes import PLANE
 from gearcad.check.summary import Summary, common_figures
-from gearcad.contact.plane.cycle import INTERIOR, Cycle, PairContact, Position, pitch_point_contact
+from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact, PlanePosition
 from gearcad.contact.plane.field import contact_frame, tooth_field
 from gearcad.contact.plane.subsurface import greatest_von_mises
+from gearcad.contact.shared.loaded import INTERIOR
+from gearcad.per_gear import PerGear, Role
 
 __all__ = ["PlaneSummary", "summarise_plane"]
 
@@ -31,10 +33,10 @@ class PlaneSummary(Summary):
     von_mises_half_plane: float | None
 
 
-def summarise_plane(cycle: Cycle, single: float) -> PlaneSummary:
+def summarise_plane(cycle: PlaneCycle, single: float) -> PlaneSummary:
     """Summarise a plane cycle; `single` is the stiffness of one pair of teeth alone."""
-    contact, worst = pitch_point_contact(cycle.model, cycle.torque), cycle.worst_contact
-    below = [each for gear in (0, 1) if (each := _below(cycle, *worst, gear)) is not None] if worst else []
+    contact, worst = cycle.pitch_point_contact, cycle.worst_contact
+    below = [each for role in Role if (each := _below(cycle, *worst, role)) is not None] if worst else []
     mises, depth = max(below, default=(None, None))
     pressure, width, reason = _at_pitch(contact)
     extremes = {quantity.name: cycle.extreme(quantity) for quantity in PLANE}
@@ -46,12 +48,12 @@ def summarise_plane(cycle: Cycle, single: float) -> PlaneSummary:
         von_mises=mises,
         von_mises_depth=depth,
         von_mises_half_plane=_half_plane(cycle, worst[1]) if worst else None,
-        corner_positions=sum(any(contact.edge_distance < 0 for contact in position.contacts) for position in cycle.positions),
+        corner_positions=cycle.edge_positions,
         missing=(dict.fromkeys(_AT_PITCH, reason) if reason else {}) | _missing(cycle, bool(worst), bool(below)),
     )
 
 
-def _missing(cycle: Cycle, inside: bool, below: bool) -> dict[str, str]:
+def _missing(cycle: PlaneCycle, inside: bool, below: bool) -> dict[str, str]:
     """Why the figures of the worst contact are not told."""
     if not inside:
         reason = (
@@ -62,7 +64,7 @@ def _missing(cycle: Cycle, inside: bool, below: bool) -> dict[str, str]:
     return {} if below else dict.fromkeys(_PRESSURES[1:3], "no point of the elements lies near enough to the contact")
 
 
-def _at_pitch(contact: PairContact | None) -> tuple[float | None, float | None, str]:
+def _at_pitch(contact: PlanePairContact | None) -> tuple[float | None, float | None, str]:
     """Pressure and half width at the pitch point, or why there are none."""
     if contact is None:
         return None, None, "the pair of teeth at the pitch point does not touch"
@@ -73,19 +75,19 @@ def _at_pitch(contact: PairContact | None) -> tuple[float | None, float | None, 
     return contact.peak_pressure, contact.half_width, ""
 
 
-def _below(cycle: Cycle, position: Position, contact: PairContact, gear: int) -> tuple[float, float] | None:
+def _below(cycle: PlaneCycle, position: PlanePosition, contact: PlanePairContact, role: Role) -> tuple[float, float] | None:
     """Greatest von Mises stress (MPa) of a gear near a contact, and its depth (mm); None if no point of the field is near."""
-    field = tooth_field(cycle, position, gear, contact.pair.tooth)
+    field = tooth_field(cycle, position, role, contact.tooth)
     centre, frame = contact_frame(cycle, contact)
     across, into_wheel = ((field.points - centre) @ frame).T
     near = np.hypot(across, into_wheel) < _NEAR * contact.hertz_half_width
     if not near.any():
         return None
     at = int(np.argmax(np.where(near, field.von_mises, 0.0)))
-    return float(field.von_mises[at]), float(into_wheel[at] * (-1, 1)[gear])
+    return float(field.von_mises[at]), float(into_wheel[at] * PerGear(-1, 1).pick(role))
 
 
-def _half_plane(cycle: Cycle, contact: PairContact) -> float:
+def _half_plane(cycle: PlaneCycle, contact: PlanePairContact) -> float:
     cells = contact.pair.cells
     stress, _ = greatest_von_mises(
         cells.place, cells.width, contact.pressures, contact.hertz_half_width, cycle.model.pinion.elasticity

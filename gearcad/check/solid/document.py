@@ -4,22 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from gearcad.contact.solid.contact import SolidContact
+from gearcad.contact.solid.contact import SolidPairContact
 from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.contact.solid.flank import SolidCompliance
+from gearcad.per_gear import Role
 
-__all__ = ["load_distribution", "over_face", "solid_mesh"]
-
-
-def solid_mesh(body: SolidCompliance) -> dict[str, Any]:
-    """Size of the mesh of the loaded tooth's sector."""
-    mesh = body.body.sector.mesh
-    return {
-        "nodes": mesh.nodes,
-        "hexahedra": mesh.layers * len(mesh.section.quads),
-        "layers": mesh.layers,
-        "unit_loads": len(body.torques),
-    }
+__all__ = ["load_distribution", "over_face"]
 
 
 def load_distribution(cycle: SolidCycle) -> list[list[dict[str, Any]]]:
@@ -27,14 +16,14 @@ def load_distribution(cycle: SolidCycle) -> list[list[dict[str, Any]]]:
     return [[_line(contact) for contact in position.contacts] for position in cycle.positions]
 
 
-def _line(contact: SolidContact) -> dict[str, Any]:
+def _line(contact: SolidPairContact) -> dict[str, Any]:
     """`across` (mm) from the middle of the common face width, lengths in mm, loads in N/mm, pressures in MPa."""
     line = contact.line
     return {
         "tooth": contact.tooth,
         "across": line.across.tolist(),
-        "pinion_roll_length": line.pinion[0].tolist(),
-        "wheel_roll_length": line.wheel[0].tolist(),
+        "pinion_roll_length": line.places.pinion[0].tolist(),
+        "wheel_roll_length": line.places.wheel[0].tolist(),
         "length": line.lengths.tolist(),
         "line_load": contact.line_loads.tolist(),
         "pressure": contact.pressures.tolist(),
@@ -48,7 +37,7 @@ def over_face(cycle: SolidCycle) -> dict[str, Any]:
     """Load per width (N/mm, transverse), mean of all positions, over the common face width; each gear's root tension over z."""
     across, load = cycle.load_along_face
     face: dict[str, Any] = {"across": across.tolist(), "load": load.tolist()}
-    for gear, name in enumerate(("pinion", "wheel")):
-        heights, stress = cycle.root_along_face(gear)
-        face[name] = {"height": heights.tolist(), "root_tension": stress.tolist()}
+    for role in Role:
+        heights, stress = cycle.root_along_face(role)
+        face[role.value] = {"height": heights.tolist(), "root_tension": stress.tolist()}
     return face

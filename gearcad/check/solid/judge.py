@@ -14,7 +14,6 @@ from gearcad.check.solid.summary import SolidSummary
 from gearcad.check.task import CheckTask
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.geometry.path import contact_line_lengths
-from gearcad.per_gear import PerGear
 
 __all__ = ["compare_solid"]
 
@@ -32,7 +31,7 @@ def compare_solid(
     """All comparisons, gates first."""
     source = f"equilibrium: the torque that is applied through the teeth, at the worst of {len(cycle.every)} positions"
     return (
-        *reactions((PerGear(*position.torques) for position in cycle.every), cycle, source),
+        *reactions(cycle, source),
         *mesh_errors(convergence, _ERRORS, summary),
         *sampling(summary, _FLICKER),
         *rim_gates(task),

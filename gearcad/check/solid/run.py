@@ -16,7 +16,7 @@ from gearcad.check.solid.summary import SolidSummary, summarise_solid
 from gearcad.check.sweep import sweep_point
 from gearcad.check.task import CheckTask
 from gearcad.check.warnings import corner_warnings, general_warnings
-from gearcad.contact.solid.cycle import SolidCycle, run_solid_cycle, solid_single_stiffness
+from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, loaded_left, solid_pair
 from gearcad.progress import Agenda, Share
 
@@ -35,10 +35,10 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     """
     model = _model(task, 1.0, agenda.within(BODIES))
     positions = task.options.positions_of(Model.SOLID)
-    cycle = run_solid_cycle(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
-    summary = summarise_solid(cycle, solid_single_stiffness(model, task.torque))
+    cycle = SolidCycle.run(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
+    summary = summarise_solid(cycle, model.single_stiffness(task.torque))
     agenda(SWEEP)
-    sweep = tuple(sweep_point(run_solid_cycle(model, torque, FEW_POSITIONS).searched(STRESSES)) for torque in task.torques)
+    sweep = tuple(sweep_point(SolidCycle.run(model, torque, FEW_POSITIONS).searched(STRESSES)) for torque in task.torques)
     convergence = three_solid_meshes(_refined(task, model, agenda)) if task.options.refines else ()
     agenda(RATING)
     comparisons = compare_solid(task, cycle, summary, convergence)
@@ -74,7 +74,7 @@ def _refined(task: CheckTask, middle: SolidPair, agenda: Agenda) -> Iterator[Sol
 
 
 def _few(model: SolidPair, task: CheckTask) -> SolidCycle:
-    return run_solid_cycle(model, task.torque, FEW_POSITIONS).searched(ROOTS)
+    return SolidCycle.run(model, task.torque, FEW_POSITIONS).searched(ROOTS)
 
 
 def _edge_warnings(cycle: SolidCycle, summary: SolidSummary) -> list[str]:

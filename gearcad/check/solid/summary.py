@@ -11,9 +11,10 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.check.extremes import SOLID
 from gearcad.check.summary import Summary, common_figures
-from gearcad.contact.solid.contact import INTERIOR, SolidContact
-from gearcad.contact.solid.cycle import SolidCycle, SolidPosition, solid_pitch_point_contact
-from gearcad.per_gear import PerGear
+from gearcad.contact.shared.loaded import INTERIOR
+from gearcad.contact.solid.contact import SolidPairContact
+from gearcad.contact.solid.cycle import SolidCycle, SolidPosition
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating import LineContact
 
 __all__ = ["MiddleContact", "SolidSummary", "WorstPlace", "middle_contacts", "summarise_solid", "worst_place"]
@@ -47,12 +48,12 @@ class WorstPlace(NamedTuple):
     """Where the greatest pressure away from the edges of the flanks is: `place` in cells of the line."""
 
     position: SolidPosition
-    contact: SolidContact
+    contact: SolidPairContact
     place: float
 
     def of(self, values: Floats) -> float:
         """What values (n,) of the line's cells are there."""
-        return float(self.contact.at(values, self.place))
+        return float(self.contact.between(values, self.place))
 
 
 class MiddleContact(NamedTuple):
@@ -69,7 +70,7 @@ def worst_place(cycle: SolidCycle) -> WorstPlace | None:
     if (worst := cycle.worst_contact) is None:
         return None
     position, contact = worst
-    return WorstPlace(position, contact, float(contact.inside[contact.at(contact.pressures, contact.inside).argmax()]))
+    return WorstPlace(position, contact, float(contact.inside[contact.between(contact.pressures, contact.inside).argmax()]))
 
 
 def middle_contacts(cycle: SolidCycle) -> list[MiddleContact]:
@@ -78,16 +79,15 @@ def middle_contacts(cycle: SolidCycle) -> list[MiddleContact]:
     for position in cycle.every:
         for contact in position.contacts:
             across = contact.line.across
-            place = float(contact.line.nominal[0] - across[0] * math.tan(cycle.model.helix))
             pressure, width = (float(np.interp(0, across, of, 0, 0)) for of in (contact.pressures, contact.half_widths))
-            found.append(MiddleContact(place, contact.share, pressure, width))
+            found.append(MiddleContact(contact.place, contact.share, pressure, width))
     return sorted(found)
 
 
 def summarise_solid(cycle: SolidCycle, single: float) -> SolidSummary:
     """Summarise a cycle; `single` is the stiffness of one pair of teeth alone."""
-    peaks = [cycle.worst_position(gear).tension[gear] for gear in (0, 1)]
-    worst, at_pitch = worst_place(cycle), solid_pitch_point_contact(cycle.model, cycle.torque)
+    peaks = [cycle.worst_position(role).tension.pick(role) for role in Role]
+    worst, at_pitch = worst_place(cycle), cycle.pitch_point_contact
     pressure, width, reason = _at_pitch(at_pitch)
     below = _below(cycle, worst) if worst is not None else _Below(None, None, None, PerGear(None, None))
     extremes = {quantity.name: cycle.extreme(quantity) for quantity in SOLID}
@@ -108,7 +108,7 @@ def summarise_solid(cycle: SolidCycle, single: float) -> SolidSummary:
         contact_length_mean=float(np.mean([_loaded_length(position) for position in cycle.positions])),
         line_load_max=line_load.value if line_load is not None else None,
         face_load_factor=cycle.face_load_factor,
-        root_face_load_factor=PerGear(*(cycle.root_face_load_factor(gear) for gear in (0, 1))),
+        root_face_load_factor=PerGear.each(cycle.root_face_load_factor),
         missing=(dict.fromkeys(_AT_PITCH, reason) if reason else {}) | ({} if worst else _nothing_inside(cycle)),
     )
 
@@ -139,11 +139,11 @@ class _Below(NamedTuple):
 def _below(cycle: SolidCycle, worst: WorstPlace) -> _Below:
     line, stress = worst.contact.line, line_contact(cycle, worst).greatest_von_mises
     bases = (cycle.model.pinion.flank.base_radius, cycle.model.wheel.flank.base_radius)
-    lengths = (worst.of(line.pinion[0]), worst.of(line.wheel[0]))
+    lengths = line.places.map(lambda places: worst.of(places[0]))
     return _Below(stress.value, stress.depth, worst.of(line.across), PerGear(*map(math.hypot, bases, lengths)))
 
 
-def _at_pitch(contact: SolidContact | None) -> tuple[float | None, float | None, str]:
+def _at_pitch(contact: SolidPairContact | None) -> tuple[float | None, float | None, str]:
     """Pressure and half width at the pitch point in the middle of the common face width, or why there are none."""
     if contact is None:
         return None, None, "the pair of teeth at the pitch point does not touch"
@@ -151,9 +151,9 @@ def _at_pitch(contact: SolidContact | None) -> tuple[float | None, float | None,
     place = float(np.interp(0, across, np.arange(len(across)), math.nan, math.nan))
     if math.isnan(place) or not min(contact.forces[[math.floor(place), math.ceil(place)]]) > 0:
         return None, None, "nothing is carried at the pitch point in the middle of the common face width"
-    if not float(contact.at(contact.margin, place)) > 0:
+    if not float(contact.between(contact.margin, place)) > 0:
         return None, None, f"the pitch point lies within {INTERIOR:g} half widths of an edge"
-    return float(contact.at(contact.pressures, place)), float(contact.at(contact.half_widths, place)), ""
+    return float(contact.between(contact.pressures, place)), float(contact.between(contact.half_widths, place)), ""
 
 
 def line_contact(cycle: SolidCycle, worst: WorstPlace) -> LineContact:

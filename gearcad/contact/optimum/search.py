@@ -15,7 +15,7 @@ from gearcad.contact.optimum.lattice import Goal, Lattice, Remembered
 from gearcad.contact.optimum.variants import AMOUNTS, Condition, Outcomes, Variants, with_amounts
 from gearcad.contact.solid.contact_lines import gaps
 from gearcad.contact.solid.line_contact import solve_lines
-from gearcad.contact.solid.pair import SolidPair
+from gearcad.contact.solid.pair import KnownResponses, SolidPair
 from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair, ReliefShape
 
@@ -264,7 +264,9 @@ def start_search(model: SolidPair, torque: float, shape: ReliefShape) -> Search:
     """
     nothing = np.zeros(len(AMOUNTS))
     sampling = _HELICAL if model.helix else _SPUR
-    bare = replace(model.remade(with_amounts(model.pair, nothing, shape), model.mounting), cells=sampling.cells, known={})
+    bare = replace(
+        model.remade(with_amounts(model.pair, nothing, shape), model.mounting), cells=sampling.cells, known=KnownResponses()
+    )
     start = np.array([0.0, 0.0, 0.0, 0.0, 0.0, _aligning(bare)])
     plain = Variants(bare, shape, sampling.positions, torque, sampling.at_ends).outcomes(start[None], Condition(torque))
     low, high = _bounds(bare, shape, float(plain.transmission_errors.max()))
@@ -283,7 +285,7 @@ def _bounds(model: SolidPair, shape: ReliefShape, deflection: float) -> tuple[Fl
     """The least and the greatest amounts (6,)."""
     path, pair = model.pair.path_of_contact, model.pair
     reach = path.E - path.A
-    longest = [min(_LONGEST * reach, gear.flank_form.last - gear.flank_form.first) for gear in (pair.pinion, pair.wheel)]
+    longest = [min(_LONGEST * reach, gear.flank_form.last - gear.flank_form.first) for gear in pair.gears]
     helix = _MOST_HELIX * abs(_aligning(model))
     low = np.array([0.0, _SHORTEST * reach, 0.0, _SHORTEST * reach, 0.0, -helix])
     relief, crowning = np.ceil(_MOST_RELIEF * deflection), np.ceil(_MOST_CROWNING * deflection)

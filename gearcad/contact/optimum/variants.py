@@ -13,12 +13,14 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.optimum.side_by_side import press
-from gearcad.contact.solid.contact import INTERIOR
+from gearcad.contact.shared.loaded import INTERIOR
 from gearcad.contact.solid.contact_lines import BEND, line_gap, places_beside
 from gearcad.contact.solid.line_contact import Responses, half_widths
 from gearcad.contact.solid.pair import SolidPair
 from gearcad.geometry import FlankForm, GearPair, ReliefShape
 from gearcad.mounting import Mounting
+from gearcad.per_gear import PerGear
+from gearcad.rating.hertz import peak_pressure
 
 __all__ = ["AMOUNTS", "Condition", "Outcomes", "Variants", "with_amounts"]
 
@@ -189,7 +191,7 @@ class Variants:
             even = force * given.lengths / given.lengths.sum()
             radii = np.concatenate([1 / line.curvature for line in given.lines]) / math.cos(self.roomy.helix)
             kernel = given.half_space(half_widths(given, radii, even))
-            found.append(given.smooth.sum(axis=0) + kernel - np.diag(np.diag(kernel)))
+            found.append(given.both + kernel - np.diag(np.diag(kernel)))
         return tuple(found)
 
     def force(self, torque: float) -> float:
@@ -233,9 +235,11 @@ class Variants:
             return radii
         columns = amounts.T[..., None]
         bend = np.zeros_like(radii)
-        for gear, form in enumerate((self.plain.pinion.flank_form, self.plain.wheel.flank_form)):
-            lengths = np.concatenate([(each.pinion, each.wheel)[gear][0] for each in given.lines])
-            relief, length = columns[2 * gear], np.maximum(columns[2 * gear + 1], _SHORT)
+        reliefs = PerGear((columns[0], columns[1]), (columns[2], columns[3]))
+        for role, (relief, length) in reliefs.items():
+            form = self.plain.gears.pick(role).flank_form
+            lengths = np.concatenate([each.places.pick(role)[0] for each in given.lines])
+            length = np.maximum(length, _SHORT)
             inside = np.abs(form.last - length - lengths) < near
             bend = np.maximum(bend, np.where(inside, relief / 1000 / length * form.base_radius / lengths, 0.0))
         exact = np.concatenate([each.curvature for each in given.lines])
@@ -245,7 +249,7 @@ class Variants:
     def _judged(self, given: Responses, forces: Floats, radii: Floats, force: float) -> tuple[Floats, Floats]:
         """The greatest interior pressure (v,) in MPa of a position, and the share (v,) of the load on the edges of tips."""
         widths = half_widths(given, radii, forces)
-        pressures = np.sqrt(forces / given.lengths * given.modulus / (math.pi * radii))
+        pressures = peak_pressure(forces / given.lengths, radii, given.modulus)
         to_edge, across, on_edge = (
             np.concatenate(parts)
             for parts in zip(*((line.edge_distance, line.across, line.on_edge) for line in given.lines), strict=True)

@@ -10,49 +10,45 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearcad.arrays import Bools, Floats
-from gearcad.contact.plane.flank import FlankCompliance
-from gearcad.errors import SolverError
+from gearcad.arrays import Floats
+from gearcad.contact.plane.flank import PlaneCompliance
+from gearcad.contact.shared.complementarity import complementary
+from gearcad.contact.shared.engaged import TOOTH_ORDER
+from gearcad.per_gear import PerGear, Role
 
-__all__ = ["Cells", "ContactPair", "ContactSolution", "solve_contact"]
-
-
-_ROUNDS = 100
-_FREE_ROUNDS = 30
-"""Rounds after which the active set changes one cell at a time, which cannot cycle."""
+__all__ = ["ContactCells", "ContactPair", "ContactSolution", "compliance_matrix", "solve_contact"]
 
 
 @dataclass(frozen=True)
-class Cells:
-    """Cells of constant pressure on one pair of flanks, `place` (mm) along the common tangent from the line of action.
+class ContactCells:
+    """Cells of constant pressure on one pair of flanks, `place` (n,) in mm along the common tangent from the line of action.
 
-    `pinion` and `wheel` are the roll lengths (mm) that face each other there, `gap` their distance (mm) before loading.
+    `lengths` are the roll lengths (n,) in mm that face each other there, `gap` (n,) their distance (mm) before loading.
     """
 
     place: Floats
     width: float
-    pinion: Floats
-    wheel: Floats
+    lengths: PerGear[Floats]
     gap: Floats
 
 
 @dataclass(frozen=True)
 class ContactPair:
-    """A pair of flanks: tooth `tooth` of the pinion (0 is the middle one), its contact at roll length `pinion` (mm).
+    """A pair of flanks: tooth `tooth` of the pinion (0 is the middle one), in contact at roll `lengths` (mm).
 
     `added_curvature` (1/mm) is what modified flanks have more than the two involutes, where they come nearest.
     """
 
     tooth: int
-    pinion: float
-    wheel: float
-    cells: Cells
+    lengths: PerGear[float]
+    cells: ContactCells
     added_curvature: float = 0.0
 
     @property
     def radius(self) -> float:
         """Reduced radius of curvature (mm); infinite where one flank is hollower than the other is round."""
-        curvature = (self.pinion + self.wheel) / (self.pinion * self.wheel) + self.added_curvature
+        pinion, wheel = self.lengths
+        curvature = (pinion + wheel) / (pinion * wheel) + self.added_curvature
         return 1 / curvature if curvature > 0 else math.inf
 
 
@@ -66,7 +62,7 @@ class ContactSolution:
     pairs: tuple[ContactPair, ...]
     pressures: tuple[Floats, ...]
     approach: float
-    parts: tuple[float, float]
+    parts: PerGear[float]
 
     @property
     def forces(self) -> Floats:
@@ -74,40 +70,37 @@ class ContactSolution:
         return np.array([pressure.sum() * pair.cells.width for pair, pressure in zip(self.pairs, self.pressures, strict=True)])
 
 
-def solve_contact(
-    pairs: tuple[ContactPair, ...], pinion: FlankCompliance, wheel: FlankCompliance, force: float
-) -> ContactSolution:
+def solve_contact(pairs: tuple[ContactPair, ...], bodies: PerGear[PlaneCompliance], force: float) -> ContactSolution:
     """Press the gears together with the normal force `force` (N per mm of width)."""
     sizes = [len(pair.cells.place) for pair in pairs]
     width = np.concatenate([np.full(size, pair.cells.width) for size, pair in zip(sizes, pairs, strict=True)])
     gap = np.concatenate([pair.cells.gap for pair in pairs])
-    matrices = [compliance_matrix(pairs, body, gear) for gear, body in enumerate((pinion, wheel))]
-    pressure, approach = complementary(matrices[0] + matrices[1], gap * width, width, force)
-    first, second = (float(pressure @ matrix @ pressure) / force for matrix in matrices)
-    return ContactSolution(pairs, tuple(np.split(pressure, np.cumsum(sizes)[:-1])), approach, (first, second))
+    matrices = PerGear.each(lambda role: compliance_matrix(pairs, bodies.pick(role), role))
+    pressure, approach = complementary(matrices.pinion + matrices.wheel, gap * width, width, force)
+    parts = matrices.map(lambda matrix: float(pressure @ matrix @ pressure) / force)
+    return ContactSolution(pairs, tuple(np.split(pressure, np.cumsum(sizes)[:-1])), approach, parts)
 
 
-def compliance_matrix(pairs: tuple[ContactPair, ...], body: FlankCompliance, gear: int) -> Floats:
-    """Displacement of the flank of the pinion (0) or wheel (1) over cell i, times its width, by the pressure on cell j.
+def compliance_matrix(pairs: tuple[ContactPair, ...], body: PlaneCompliance, role: Role) -> Floats:
+    """Displacement of a gear's flank over cell i, times its width, by the pressure on cell j.
 
     (n, n) in mm^2/MPa.
     """
-    matrix = np.block([[_block(moved, loaded, body, gear) for loaded in pairs] for moved in pairs])
+    matrix = np.block([[_block(moved, loaded, body, role) for loaded in pairs] for moved in pairs])
     result: Floats = (matrix + matrix.T) / 2
     return result
 
 
-def _block(moved: ContactPair, loaded: ContactPair, body: FlankCompliance, gear: int) -> Floats:
-    # Seen from the wheel the teeth follow each other the other way round.
-    apart = (moved.tooth - loaded.tooth) * (1, -1)[gear]
+def _block(moved: ContactPair, loaded: ContactPair, body: PlaneCompliance, role: Role) -> Floats:
+    apart = (moved.tooth - loaded.tooth) * TOOTH_ORDER.pick(role)
     if abs(apart) > body.neighbours:
         return np.zeros((len(moved.cells.place), len(loaded.cells.place)))
-    places, loads = ((pair.cells.pinion, pair.cells.wheel)[gear] for pair in (moved, loaded))
+    places, loads = (pair.cells.lengths.pick(role) for pair in (moved, loaded))
     block = body.response(apart)(places, loads) * (moved.cells.width * loaded.cells.width)
     return block + _edge_block(moved.cells, body) if body.edge_taken_off and not apart else block
 
 
-def _edge_block(cells: Cells, body: FlankCompliance) -> Floats:
+def _edge_block(cells: ContactCells, body: PlaneCompliance) -> Floats:
     """The straight edge's part: k(d) integrated over both cells in closed form."""
     log = -2 / (np.pi * body.elasticity.modulus)
     constant = -(1 + body.elasticity.ratio) / (np.pi * body.elasticity.modulus)
@@ -121,34 +114,3 @@ def _second(x: Floats) -> Floats:
     size = np.abs(x)
     result: Floats = np.where(size > 0, x * x / 2 * (np.log(np.where(size > 0, size, 1.0)) - 1.5), 0.0)
     return result
-
-
-def complementary(matrix: Floats, gap: Floats, width: Floats, force: float) -> tuple[Floats, float]:
-    """p >= 0, C p + g - delta w >= 0, complementary, w.p = F, by a primal-dual active set. Raises SolverError."""
-    active = np.ones(len(width), bool)
-    for count in range(_ROUNDS):
-        pressure, approach = _equations(matrix, gap, width, force, active)
-        opening = (matrix @ pressure + gap) / width - approach
-        wrong = np.where(active, pressure <= 0, opening < -1e-12)
-        if not wrong.any():
-            return pressure, approach
-        if count < _FREE_ROUNDS:
-            active = active ^ wrong
-        else:
-            worst = np.argmin(np.where(active, pressure, np.inf)) if wrong[active].any() else np.argmin(opening)
-            active[worst] = not active[worst]
-        if not active.any():
-            active[np.argmin(gap / width)] = True
-    raise SolverError(f"the contact did not settle within {_ROUNDS} rounds")
-
-
-def _equations(matrix: Floats, gap: Floats, width: Floats, force: float, active: Bools) -> tuple[Floats, float]:
-    rows = np.flatnonzero(active)
-    count = len(rows)
-    system = np.zeros((count + 1, count + 1))
-    system[:count, :count] = matrix[np.ix_(rows, rows)]
-    system[:count, count] = system[count, :count] = -width[rows]
-    solved = np.linalg.solve(system, np.r_[-gap[rows], -force])
-    pressure = np.zeros(len(width))
-    pressure[rows] = solved[:count]
-    return pressure, float(solved[count])

@@ -1,44 +1,29 @@
-"""One mesh cycle: the contact at positions over a base pitch, and what an engineer reads from it."""
+"""One mesh cycle of the plane model: the contact at positions over a base pitch, and what an engineer reads from it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.plane.contact import ContactPair, ContactSolution
-from gearcad.contact.plane.loaded import LoadedCycle, LoadedPosition
-from gearcad.contact.plane.pair import FlexiblePair
-from gearcad.contact.plane.root import FilletStress, ToothLoad, seen_from
-from gearcad.geometry.path import usable_path
+from gearcad.contact.plane.pair import PlanePair
+from gearcad.contact.plane.root import ToothLoad, seen_from
+from gearcad.contact.shared.engaged import TOOTH_ORDER
+from gearcad.contact.shared.loaded import FAIR, INTERIOR, LoadedCycle, LoadedPosition, PairContact, RootStress
 from gearcad.meshing.outline import Side
+from gearcad.per_gear import PerGear, Role
+from gearcad.rating.hertz import half_width_by_curvature
 
-__all__ = [
-    "FAIR",
-    "INTERIOR",
-    "Cycle",
-    "PairContact",
-    "Position",
-    "pitch_point_contact",
-    "root_loads",
-    "run_cycle",
-    "single_stiffness",
-]
-
-
-INTERIOR = 3.0
-"""Half widths from the ends of both involutes beyond which a contact is that of two cylinders."""
-
-FAIR = 0.1
-"""Share of the load below which a contact is coming in or leaving, and its pressure is not that of the load."""
+__all__ = ["PlaneCycle", "PlanePairContact", "PlanePosition", "root_loads"]
 
 
 @dataclass(frozen=True)
-class PairContact:
+class PlanePairContact(PairContact):
     """One pair of flanks in contact: what it carries, and the comparison with two cylinders under the same load.
 
     Pressures in MPa, half widths in mm, `force` in N per mm. `interior` is False where the edge of a flank is near. `bent`
@@ -60,6 +45,16 @@ class PairContact:
         return self.pair.tooth
 
     @property
+    def place(self) -> float:
+        """Roll length (mm) of the pinion's flank: where the pair touches on the line of action, from T1."""
+        return self.pair.lengths.pinion
+
+    @property
+    def edge(self) -> bool:
+        """True if the edge of a tip touches, beyond the end of an involute."""
+        return self.edge_distance < 0
+
+    @property
     def peak_pressure(self) -> float:
         """Greatest cell pressure."""
         return float(self.pressures.max())
@@ -67,7 +62,7 @@ class PairContact:
     @property
     def hertz_half_width(self) -> float:
         """a = sqrt(4 F rho/(pi E*))."""
-        return _half_width(self.force, 1 / self.pair.radius + self.bent, self.modulus)
+        return half_width_by_curvature(self.force, 1 / self.pair.radius + self.bent, self.modulus)
 
     @property
     def hertz_pressure(self) -> float:
@@ -78,6 +73,11 @@ class PairContact:
     def interior(self) -> bool:
         """True where the ends of both flanks, and their tip and root reliefs, are some half widths away."""
         return self.even_distance > INTERIOR * self.hertz_half_width
+
+    @property
+    def interior_pressure(self) -> float | None:
+        """The greatest cell pressure; None near an edge of a flank."""
+        return self.peak_pressure if self.interior else None
 
     @cached_property
     def half_width(self) -> float:
@@ -94,127 +94,73 @@ class PairContact:
         inside = one**2 - 4 * two * zero
         return float(scale * math.sqrt(inside) / (2 * abs(two))) if two < 0 < inside else math.nan
 
-    def centre(self, gear: int) -> float:
-        """Roll length (mm) at the centre of pressure on the pinion (0) or the wheel (1)."""
-        lengths = (self.pair.cells.pinion, self.pair.cells.wheel)[gear]
-        return float((lengths * self.pressures).sum() / self.pressures.sum())
+    def centre(self, role: Role) -> float:
+        """Roll length (mm) at the centre of pressure on a gear's flank."""
+        return float((self.pair.cells.lengths.pick(role) * self.pressures).sum() / self.pressures.sum())
 
 
 @dataclass(frozen=True)
-class Position(LoadedPosition):
-    """A position of the plane model: its contacts, and the root stresses of both gears.
-
-    `bore_tension` (MPa) is the greatest on the surface of a bore that nothing keeps round.
-    """
-
-    contacts: tuple[PairContact, ...]
-    tension: tuple[FilletStress, FilletStress]
-    compression: tuple[FilletStress, FilletStress]
-    bore_tension: tuple[float | None, float | None]
+class PlanePosition(LoadedPosition[PlanePairContact]):
+    """A position of the plane model."""
 
     @property
-    def interior_contacts(self) -> tuple[PairContact, ...]:
+    def interior_contacts(self) -> tuple[PlanePairContact, ...]:
         """Contacts away from the ends of the flanks that carry a fair share."""
         return tuple(contact for contact in self.contacts if contact.interior and contact.share > FAIR)
 
-    @property
-    def contact_pressure(self) -> float:
-        """The greatest pressure (MPa) of them; NaN if there are none."""
-        return max((contact.peak_pressure for contact in self.interior_contacts), default=math.nan)
-
 
 @dataclass(frozen=True)
-class Cycle(LoadedCycle[FlexiblePair, Position]):
+class PlaneCycle(LoadedCycle[PlanePair, PlanePosition, PlanePairContact]):
     """That of the plane model."""
 
-    @property
-    def interior_contacts(self) -> Iterator[tuple[Position, PairContact]]:
-        """Contacts away from the ends of the flanks that carry a fair share."""
-        for position in self.every:
-            for contact in position.interior_contacts:
-                yield position, contact
+    default_positions: ClassVar[int] = 60
 
-    @property
-    def worst_contact(self) -> tuple[Position, PairContact] | None:
-        """The contact of the greatest pressure away from the ends of the flanks; None if all are near them."""
-        return max(self.interior_contacts, key=lambda of: of[1].peak_pressure, default=None)
-
-    @property
-    def heaviest_contact(self) -> tuple[Position, PairContact]:
-        """The contact of the greatest load, wherever it is."""
-        every = [(position, contact) for position in self.every for contact in position.contacts]
-        return max(every, key=lambda of: of[1].force)
-
-    def worst_position(self, gear: int) -> Position:
-        """The position of the greatest root tension of the pinion (0) or the wheel (1)."""
-        return max(self.every, key=lambda position: position.tension[gear].stress)
-
-    def solve(self, angle: float) -> Position:
+    def solve(self, angle: float) -> PlanePosition:
         """The position at a roll angle (deg). Raises SolverError."""
-        return _position(self.model, angle, self.torque)
+        model, solution = self.model, self.model.solve(angle, self.torque)
+        contacts = _contacts(model, solution)
+        loads = PerGear.each(lambda role: tooth_loads(contacts, role))
+
+        def extreme(side: Side) -> PerGear[RootStress]:
+            return PerGear.each(lambda role: model.fillets.pick(role).extreme(side, loads.pick(role)))
+
+        return PlanePosition(
+            roll_angle=angle,
+            approach=solution.approach,
+            approach_parts=solution.parts,
+            rigid_approach=model.rigid_approach(angle),
+            force=model.force(self.torque),
+            contacts=contacts,
+            tension=extreme(Side.LEFT_FILLET),
+            compression=extreme(Side.RIGHT_FILLET),
+            bore_tension=PerGear.each(lambda role: model.fillets.pick(role).bore_tension(loads.pick(role))),
+            torques=PerGear.each(lambda role: _hub_torque(model, contacts, role)),
+        )
+
+    def contacts_at(self, angle: float) -> tuple[PlanePairContact, ...]:
+        """The contacts alone at a roll angle (deg). Raises SolverError."""
+        return _contacts(self.model, self.model.solve(angle, self.torque))
 
 
-def run_cycle(model: FlexiblePair, torque: float, count: int = 60) -> Cycle:
-    """Solve `count` positions over one base pitch. Raises SolverError."""
-    positions = tuple(_position(model, angle, torque) for angle in model.roll_angles(count).tolist())
-    return Cycle(model, torque, positions)
+def tooth_loads(contacts: tuple[PlanePairContact, ...], role: Role) -> list[ToothLoad]:
+    """Loads on the teeth of a gear, counted as its own teeth follow each other."""
+    sense = TOOTH_ORDER.pick(role)
+    return [(sense * contact.tooth, contact.centre(role), contact.force) for contact in contacts]
 
 
-def pitch_point_contact(model: FlexiblePair, torque: float) -> PairContact | None:
-    """The contact of the middle pair at the pitch point; None if that pair does not touch there."""
-    contacts = _contacts(model, model.solve(0.0, torque))
-    return next((contact for contact in contacts if contact.pair.tooth == 0), None)
-
-
-def single_stiffness(model: FlexiblePair, torque: float, count: int = 25) -> float:
-    """Greatest stiffness (N/(mm um)) of one pair of teeth alone, over its path of contact."""
-    lengths = np.linspace(*usable_path(model.pair), count + 2)[1:-1]
-    angles = np.degrees((lengths - model.pair.path_of_contact.C) / model.base_radius)
-    approaches = [
-        model.solve(angle, torque, single=True).approach - model.rigid_approach(angle, single=True) for angle in angles.tolist()
-    ]
-    return model.force(torque) / (min(approaches) * 1000)
-
-
-def _position(model: FlexiblePair, angle: float, torque: float) -> Position:
-    solution = model.solve(angle, torque)
-    contacts = _contacts(model, solution)
-    loads = [tooth_loads(contacts, gear) for gear in (0, 1)]
-    tension, compression = (
-        tuple(root.extreme(side, seen) for root, seen in zip(model.fillets, loads, strict=True))
-        for side in (Side.LEFT_FILLET, Side.RIGHT_FILLET)
-    )
-    bore = tuple(root.bore_tension(seen) for root, seen in zip(model.fillets, loads, strict=True))
-    return Position(
-        angle,
-        solution.approach,
-        solution.parts,
-        model.rigid_approach(angle),
-        model.force(torque),
-        contacts,
-        tension,  # type: ignore[arg-type]
-        compression,  # type: ignore[arg-type]
-        bore,  # type: ignore[arg-type]
-    )
-
-
-def tooth_loads(contacts: tuple[PairContact, ...], gear: int) -> list[ToothLoad]:
-    """Loads on the teeth of the pinion (0) or the wheel (1); on the wheel the teeth follow each other the other way round."""
-    sense = (1, -1)[gear]
-    return [(sense * contact.pair.tooth, contact.centre(gear), contact.force) for contact in contacts]
-
-
-def root_loads(contacts: tuple[PairContact, ...], gear: int) -> list[list[ToothLoad]]:
+def root_loads(contacts: tuple[PlanePairContact, ...], role: Role) -> list[list[ToothLoad]]:
     """For each tooth in contact the loads as that tooth sees them."""
-    loads = tooth_loads(contacts, gear)
+    loads = tooth_loads(contacts, role)
     return [seen_from(own, loads) for own, *_ in loads]
 
 
-def _half_width(force: float, curvature: float, modulus: float) -> float:
-    return math.sqrt(4 * force / (math.pi * modulus * curvature)) if curvature > 0 else math.inf
+def _hub_torque(model: PlanePair, contacts: tuple[PlanePairContact, ...], role: Role) -> float:
+    """Torque (N m) that the loads put on a gear's hub."""
+    body = model.bodies.pick(role)
+    return sum(body.hub_torque(contact.centre(role)) * contact.force for contact in contacts) * model.width / 1000
 
 
-def _contacts(model: FlexiblePair, solution: ContactSolution) -> tuple[PairContact, ...]:
+def _contacts(model: PlanePair, solution: ContactSolution) -> tuple[PlanePairContact, ...]:
     loaded = [
         (pair, pressures, float(force))
         for pair, pressures, force in zip(solution.pairs, solution.pressures, solution.forces, strict=True)
@@ -222,7 +168,7 @@ def _contacts(model: FlexiblePair, solution: ContactSolution) -> tuple[PairConta
     ]
     total = float(solution.forces.sum())
     return tuple(
-        PairContact(
+        PlanePairContact(
             pair,
             pressures,
             force,
@@ -236,31 +182,31 @@ def _contacts(model: FlexiblePair, solution: ContactSolution) -> tuple[PairConta
     )
 
 
-def _bent(model: FlexiblePair, loaded: list[tuple[ContactPair, Floats, float]], which: int) -> float:
+def _bent(model: PlanePair, loaded: list[tuple[ContactPair, Floats, float]], which: int) -> float:
     """Curvature (1/mm) of the gap of one pair of flanks by the smooth response of the bodies to the loads of all."""
     pair, pressures, force = loaded[which]
-    half = _half_width(force, 1 / pair.radius, model.modulus)
+    half = half_width_by_curvature(force, 1 / pair.radius, model.modulus)
     if not math.isfinite(half):
         return 0.0
     order = np.argsort(pair.cells.place)
     middle = float((pair.cells.place * pressures).sum() / pressures.sum())
     total = 0.0
-    for gear, body in enumerate((model.pinion, model.wheel)):
-        lengths = (pair.cells.pinion, pair.cells.wheel)[gear]
-        at = np.interp(middle + half * np.array([-1.0, 0.0, 1.0]), pair.cells.place[order], lengths[order])
+    for role, body in model.bodies.items():
+        lengths = pair.cells.lengths.pick(role)
+        around = np.interp(middle + half * np.array([-1.0, 0.0, 1.0]), pair.cells.place[order], lengths[order])
         for other, carried, load in loaded:
-            apart = (1, -1)[gear] * (pair.tooth - other.tooth)
+            apart = TOOTH_ORDER.pick(role) * (pair.tooth - other.tooth)
             if abs(apart) <= body.neighbours:
-                centre = (other.cells.pinion, other.cells.wheel)[gear] @ carried / carried.sum()
-                moved = body.response(apart)(at, np.array([centre]))[:, 0]
+                centre = other.cells.lengths.pick(role) @ carried / carried.sum()
+                moved = body.response(apart)(around, np.array([centre]))[:, 0]
                 total += load * float(moved[0] - 2 * moved[1] + moved[2]) / half**2
     return total
 
 
-def _distance(model: FlexiblePair, pair: ContactPair, *, even: bool) -> float:
+def _distance(model: PlanePair, pair: ContactPair, *, even: bool) -> float:
     """How far (mm along the tangent) the nearest end of an involute - or of its even part - is; negative beyond it."""
     distances: list[float] = []
-    for flank, contact in ((model.line.pinion, pair.pinion), (model.line.wheel, pair.wheel)):
+    for flank, length in zip(model.line.flanks, pair.lengths, strict=True):
         first, last = flank.even if even else (flank.first, flank.last)
-        distances += (flank.along_tangent(contact, last), -flank.along_tangent(contact, first))
+        distances += (flank.along_tangent(length, last), -flank.along_tangent(length, first))
     return min(distances)

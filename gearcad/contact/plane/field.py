@@ -12,11 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.contact.plane.cycle import Cycle, PairContact, Position
+from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact, PlanePosition
 from gearcad.contact.plane.elasticity import Plane
-from gearcad.contact.plane.flank import FlankCompliance, involute_point, near_elements
+from gearcad.contact.plane.flank import PlaneCompliance, near_elements
 from gearcad.contact.plane.subsurface import strip_stresses
+from gearcad.contact.shared.engaged import TOOTH_ORDER
 from gearcad.meshing.outline import Side
+from gearcad.per_gear import Role
 
 __all__ = ["ToothField", "contact_frame", "tooth_field"]
 
@@ -48,27 +50,27 @@ class ToothField:
     outline: Floats
 
 
-def contact_frame(cycle: Cycle, contact: PairContact) -> tuple[Floats, Floats]:
+def contact_frame(cycle: PlaneCycle, contact: PlanePairContact) -> tuple[Floats, Floats]:
     """Centre of a contact (mm) in the frame of the field; directions to the pinion's tip and into the wheel, as columns."""
     model = cycle.model
     angle = np.radians(model.pair.working_transverse_pressure_angle)
     beside, along = np.array([np.cos(angle), -np.sin(angle)]), np.array([np.sin(angle), np.cos(angle)])
     cells = contact.pair.cells
     place = float((cells.place * contact.pressures).sum() / contact.pressures.sum())
-    centre: Floats = (model.base_radius + place) * beside + contact.pair.pinion * along
+    centre: Floats = (model.base_radius + place) * beside + contact.place * along
     return centre, np.stack([beside, along], -1)
 
 
-def tooth_field(cycle: Cycle, position: Position, gear: int, tooth: int) -> ToothField:
-    """The field in a tooth of the pinion (0) or wheel (1), counted like the pairs of teeth in contact.
+def tooth_field(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: int) -> ToothField:
+    """The field in a tooth of a gear, counted like the pairs of teeth in contact.
 
     Loads on teeth further away than the model's neighbours are left out.
     """
-    body = (cycle.model.pinion, cycle.model.wheel)[gear]
+    body = cycle.model.bodies.pick(role)
     mesh = body.ring.sector.mesh
-    own = next((contact for contact in position.contacts if contact.pair.tooth == tooth), None)
-    smooth = _smooth_stresses(body, position, gear, tooth, own)
-    finely = np.zeros(len(mesh.triangles), bool) if own is None else _near_contact(body, own, gear)
+    own = next((contact for contact in position.contacts if contact.tooth == tooth), None)
+    smooth = _smooth_stresses(body, position, role, tooth, own)
+    finely = np.zeros(len(mesh.triangles), bool) if own is None else _near_contact(body, own, role)
     points, stresses, triangles, count = [], [], [], 0
     for elements, parts in ((mesh.triangles[~finely], _COARSE), (mesh.triangles[finely], _FINE)):
         local, split = _lattice(parts)
@@ -79,35 +81,36 @@ def tooth_field(cycle: Cycle, position: Position, gear: int, tooth: int) -> Toot
         count += len(points[-1])
     where, stress = np.concatenate(points), np.concatenate(stresses)
     if own is not None:
-        stress = stress + _strips(body, own, gear, where)
-    turn, axis = _pose(cycle, position, gear, tooth)
+        stress = stress + _strips(body, own, role, where)
+    turn, axis = _pose(cycle, position, role, tooth)
     profile = np.concatenate([nodes for side, nodes in mesh.sides.items() if side not in _INSIDE])
     outline = mesh.points[profile] @ turn.T + axis
     return ToothField(where @ turn.T + axis, np.concatenate(triangles), _von_mises(stress, body), outline)
 
 
-def _pose(cycle: Cycle, position: Position, gear: int, tooth: int) -> tuple[Floats, Floats]:
+def _pose(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: int) -> tuple[Floats, Floats]:
     """Turn (2, 2) and axis (2,) of a tooth: its flank touches on the line of action, where its normal lies along that line."""
     model = cycle.model
-    flank = (model.pinion, model.wheel)[gear].flank
-    from_pinion = model.roll_length(position.roll_angle) + tooth * model.line.pitch
-    length = (from_pinion, model.line.whole - from_pinion)[gear]
-    heading = np.radians(flank.gear.profile.base_half_angle) - length / flank.base_radius
-    angle = np.pi * gear - np.radians(model.pair.working_transverse_pressure_angle) - heading
+    lengths = model.line.lengths(model.roll_length(position.roll_angle) + tooth * model.line.pitch)
+    heading = model.bodies.pick(role).flank.heading(np.asarray(lengths.pick(role)))
+    opposite, away = (0.0, 0.0) if role is Role.PINION else (np.pi, model.pair.centre_distance)
+    angle = opposite - np.radians(model.pair.working_transverse_pressure_angle) - heading
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    return turn, np.array([model.pair.centre_distance * gear, 0.0])
+    return turn, np.array([away, 0.0])
 
 
-def _smooth_stresses(body: FlankCompliance, position: Position, gear: int, tooth: int, own: PairContact | None) -> Floats:
+def _smooth_stresses(
+    body: PlaneCompliance, position: PlanePosition, role: Role, tooth: int, own: PlanePairContact | None
+) -> Floats:
     """Stresses (n, 3) - xx, yy, xy - at the nodes of a tooth in its frame, less those of the strips."""
-    mesh, sense = body.ring.sector.mesh, (1, -1)[gear]
+    mesh = body.ring.sector.mesh
     smooth, singular = np.zeros((2, 2 * len(mesh.points)))
     for contact in position.contacts:
-        apart = sense * (tooth - contact.pair.tooth)
+        apart = TOOTH_ORDER.pick(role) * (tooth - contact.tooth)
         if abs(apart) <= body.neighbours:
-            smooth += _at_length(body, body.displacements[body.neighbours + apart], contact.centre(gear)) * contact.force
+            smooth += _at_length(body, body.displacements[body.neighbours + apart], contact.centre(role)) * contact.force
         if apart == 0:
-            singular += _at_length(body, body.singular, contact.centre(gear)) * contact.force
+            singular += _at_length(body, body.singular, contact.centre(role)) * contact.force
     near = np.zeros(len(mesh.triangles), bool)
     near[near_elements(body.flank.gear, mesh)] = True
     stress = np.empty((len(mesh.triangles), 6, 3))
@@ -115,7 +118,7 @@ def _smooth_stresses(body: FlankCompliance, position: Position, gear: int, tooth
     # Beyond, Flamant's field was not taken off: there the strips are, so that both can be averaged where they meet.
     stress[~near] = _element_stresses(body, mesh.triangles[~near], smooth + singular)
     if own is not None:
-        stress[~near] -= _strips(body, own, gear, mesh.points)[mesh.triangles[~near]]
+        stress[~near] -= _strips(body, own, role, mesh.points)[mesh.triangles[~near]]
     total, times = np.zeros((len(mesh.points), 3)), np.zeros(len(mesh.points))
     np.add.at(total, mesh.triangles, stress)
     np.add.at(times, mesh.triangles, 1.0)
@@ -123,7 +126,7 @@ def _smooth_stresses(body: FlankCompliance, position: Position, gear: int, tooth
     return result
 
 
-def _at_length(body: FlankCompliance, columns: Floats, length: float) -> Floats:
+def _at_length(body: PlaneCompliance, columns: Floats, length: float) -> Floats:
     """Responses to the unit loads, interpolated to a roll length (mm), no nearer to the tip corner than the last of them."""
     from scipy.interpolate import CubicSpline
 
@@ -131,7 +134,7 @@ def _at_length(body: FlankCompliance, columns: Floats, length: float) -> Floats:
     return found
 
 
-def _element_stresses(body: FlankCompliance, triangles: Wholes, moved: Floats) -> Floats:
+def _element_stresses(body: PlaneCompliance, triangles: Wholes, moved: Floats) -> Floats:
     """Stresses (m, 6, 3) at the nodes of the elements by displacements of all nodes."""
     corners = body.ring.sector.mesh.points[triangles]
     slopes = _slopes(_CORNERS)
@@ -143,14 +146,14 @@ def _element_stresses(body: FlankCompliance, triangles: Wholes, moved: Floats) -
     return np.stack([across, up, shear * (gradient[..., 0, 1] + gradient[..., 1, 0])], -1)
 
 
-def _strips(body: FlankCompliance, contact: PairContact, gear: int, points: Floats) -> Floats:
+def _strips(body: PlaneCompliance, contact: PlanePairContact, role: Role, points: Floats) -> Floats:
     """Stresses (..., 3) - xx, yy, xy - at points of the tooth's frame (mm) by the pressures of its contact."""
     cells = contact.pair.cells
-    touch = (contact.pair.pinion, contact.pair.wheel)[gear]
+    touch = contact.pair.lengths.pick(role)
     inward = body.flank.inward(np.array(touch))
     up = np.array([-inward[1], inward[0]])  # along the flank, towards the tip
-    away = points - involute_point(body.flank.gear, touch)
-    places = (1, -1)[gear] * cells.place
+    away = points - body.flank.points(touch)
+    places = TOOTH_ORDER.pick(role) * cells.place  # the tangent points to the other tip
     across, down, shear = strip_stresses(away @ up, away @ inward, places, cells.width, contact.pressures)
     frame = np.stack([up, inward], -1)
     local = np.stack([np.stack([across, shear], -1), np.stack([shear, down], -1)], -1)
@@ -158,20 +161,20 @@ def _strips(body: FlankCompliance, contact: PairContact, gear: int, points: Floa
     return np.stack([turned[..., 0, 0], turned[..., 1, 1], turned[..., 0, 1]], -1)
 
 
-def _von_mises(stress: Floats, body: FlankCompliance) -> Floats:
+def _von_mises(stress: Floats, body: PlaneCompliance) -> Floats:
     x, y, shear = np.moveaxis(stress, -1, 0)
     along = body.elasticity.material.poisson_ratio * (x + y) if body.elasticity.plane is Plane.STRAIN else np.zeros_like(x)
     result: Floats = np.sqrt(((x - y) ** 2 + (y - along) ** 2 + (along - x) ** 2) / 2 + 3 * shear**2)
     return result
 
 
-def _near_contact(body: FlankCompliance, contact: PairContact, gear: int) -> NDArray[np.bool_]:
+def _near_contact(body: PlaneCompliance, contact: PlanePairContact, role: Role) -> NDArray[np.bool_]:
     """Elements that a circle around the contact reaches: their own circles meet it."""
     mesh = body.ring.sector.mesh
     corners = mesh.points[mesh.triangles[:, :3]]
     middle = corners.mean(axis=1)
     size = np.hypot(*np.moveaxis(corners - middle[:, None], -1, 0)).max(axis=1)
-    centre = involute_point(body.flank.gear, contact.centre(gear))
+    centre = body.flank.points(contact.centre(role))
     near: NDArray[np.bool_] = np.hypot(*(middle - centre).T) < size + _NEAR * contact.hertz_half_width
     return near
 

@@ -7,9 +7,9 @@ exactly, so the elements carry only the smooth rest (singularity subtraction).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -17,11 +17,13 @@ from gearcad.arrays import Floats, Wholes
 from gearcad.contact.plane.elasticity import PlaneElasticity, stiffness_matrix
 from gearcad.contact.plane.flamant import edge_displacement, flamant_displacement, flamant_traction
 from gearcad.contact.plane.ring import Ring
+from gearcad.contact.shared.engaged import FlankCompliance, LoadedFlank, roll_lengths
 from gearcad.geometry import Gear
 from gearcad.meshing import SectorMesh
 from gearcad.meshing.outline import Side
+from gearcad.meshing.quality import mesh_quality
 
-__all__ = ["FlankCompliance", "flank_compliance"]
+__all__ = ["Compliance", "PlaneCompliance", "PlaneFlank", "flank_compliance", "flank_of", "near_elements"]
 
 
 _GAUSS = 8
@@ -32,17 +34,11 @@ Compliance = Callable[[Floats, Floats], Floats]
 
 
 @dataclass(frozen=True)
-class Flank:
-    """The loaded flank of tooth 0: nodes from root to tip, their roll lengths (mm from the base tangent point)."""
+class PlaneFlank(LoadedFlank):
+    """The loaded flank of a section: its nodes from root to tip, and their roll lengths (mm)."""
 
-    gear: Gear
     nodes: Wholes
     lengths: Floats
-
-    @property
-    def base_radius(self) -> float:
-        """r_b (mm)."""
-        return self.gear.base_diameter / 2
 
     def arc(self, lengths: Floats) -> Floats:
         """Arc length along the involute from the base circle (mm): rho^2/(2 r_b)."""
@@ -50,20 +46,24 @@ class Flank:
 
     def inward(self, lengths: Floats) -> Floats:
         """Unit normals (..., 2) into the tooth."""
-        heading = np.radians(self.gear.profile.base_half_angle) - np.asarray(lengths) / self.base_radius
+        heading = self.heading(lengths)
         return np.stack([np.sin(heading), -np.cos(heading)], -1)
 
+    def points(self, lengths: Floats | float) -> Floats:
+        """Points (..., 2) at roll lengths (mm)."""
+        radius, angle = self.polar(np.asarray(lengths, float))
+        result: Floats = radius[..., None] * np.stack([np.cos(angle), np.sin(angle)], -1)
+        return result
 
-def flank_of(gear: Gear, mesh: SectorMesh) -> Flank:
+
+def flank_of(gear: Gear, mesh: SectorMesh) -> PlaneFlank:
     """The loaded flank of a sector mesh."""
     nodes = mesh.sides[Side.LEFT_FLANK][::-1]
-    radius = np.hypot(*mesh.points[nodes].T)
-    base = gear.base_diameter / 2
-    return Flank(gear, nodes, np.sqrt(np.maximum((radius - base) * (radius + base), 0)))
+    return PlaneFlank(gear, nodes, roll_lengths(np.hypot(*mesh.points[nodes].T), gear.base_diameter / 2))
 
 
 @dataclass(frozen=True)
-class FlankCompliance:
+class PlaneCompliance(FlankCompliance):
     """Responses of a body to unit normal loads at `loads` (roll lengths, mm), one column each.
 
     `displacements` (sectors, 2 n, m) in mm in each sector's frame, without the part of tooth 0 that is Flamant's:
@@ -71,7 +71,7 @@ class FlankCompliance:
     `hub_forces` (3, m) are the dofs of a hub that follows the bore.
     """
 
-    flank: Flank
+    flank: PlaneFlank
     ring: Ring
     elasticity: PlaneElasticity
     loads: Floats
@@ -100,7 +100,7 @@ class FlankCompliance:
         points = self.ring.sector.mesh.points[flank.nodes]
         inward = flank.inward(flank.lengths)
         for column, load in enumerate(self.loads):
-            at = involute_point(flank.gear, load)
+            at = flank.points(load)
             distance = np.abs(flank.arc(flank.lengths) - flank.arc(load))
             apart = distance > 1e-9
             singular = (flamant_displacement(points, at, flank.inward(load), self.elasticity) * inward).sum(-1)
@@ -114,6 +114,17 @@ class FlankCompliance:
         mesh = self.ring.sector.mesh
         return float(np.hypot(*mesh.points[mesh.sides[Side.INNER][0]]))
 
+    @property
+    def nodes(self) -> int:
+        """Of the mesh of one tooth sector."""
+        return len(self.ring.sector.mesh.points)
+
+    @property
+    def mesh_document(self) -> dict[str, Any]:
+        """Size and quality of the mesh of one tooth sector, as documents have it."""
+        mesh = self.ring.sector.mesh
+        return {"nodes": self.nodes, **asdict(mesh_quality(mesh.points, mesh.triangles))}
+
     def hub_torque(self, length: float) -> float:
         """Torque on the hub (N mm per mm of width) by a load of 1 N per mm at a roll length (mm)."""
         return -float(np.interp(length, self.loads, self.torques))
@@ -123,14 +134,13 @@ class FlankCompliance:
 
         Teeth are counted counter-clockwise.
         """
-        if tooth not in self._responses:
-            moved = self._regular() if tooth == 0 else self._normal(tooth)
-            self._responses[tooth] = self._interpolated(moved)
-        return self._responses[tooth]
+        return self._responses[tooth + self.neighbours]
 
     @cached_property
-    def _responses(self) -> dict[int, Compliance]:
-        return {}
+    def _responses(self) -> tuple[Compliance, ...]:
+        """Of the teeth in full, in order."""
+        teeth = range(-self.neighbours, self.neighbours + 1)
+        return tuple(self._interpolated(self._normal(tooth) if tooth else self._regular()) for tooth in teeth)
 
     def _normal(self, tooth: int) -> Floats:
         nodes, inward = self.flank.nodes, self.flank.inward(self.flank.lengths)
@@ -171,16 +181,7 @@ def _sense(values: Floats) -> int:
     return -1 if values[0] > values[-1] else 1
 
 
-def involute_point(gear: Gear, length: float) -> Floats:
-    """Point (2,) of the left flank of tooth 0 at a roll length (mm)."""
-    base = gear.base_diameter / 2
-    roll = length / base
-    angle = np.radians(gear.profile.base_half_angle) - (roll - np.arctan(roll))
-    point: Floats = np.hypot(base, length) * np.array([np.cos(angle), np.sin(angle)])
-    return point
-
-
-def flank_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> FlankCompliance:
+def flank_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> PlaneCompliance:
     """Solve the body for unit loads at about 24 places of the flank, graded towards the tip."""
     mesh = ring.sector.mesh
     flank = flank_of(gear, mesh)
@@ -191,7 +192,7 @@ def flank_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> Fla
     forces = np.zeros_like(singular)
     edges = _boundary_edges(mesh.triangles[near])
     for column, load in enumerate(loads):
-        at, inward = involute_point(gear, load), flank.inward(load)
+        at, inward = flank.points(load), flank.inward(load)
         moved = flamant_displacement(mesh.points[nodes], at, inward, elasticity)
         singular[2 * nodes, column], singular[2 * nodes + 1, column] = moved.T
         forces[:, column] = -_traction_forces(mesh, edges, at, inward)
@@ -199,10 +200,10 @@ def flank_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> Fla
     displacements, torques = ring.solve(forces)
     displacements[len(displacements) // 2] -= singular
     hub_forces = ring.hub_forces(forces) if ring.support.floats else None
-    return FlankCompliance(flank, ring, elasticity, loads, displacements, singular, torques, hub_forces)
+    return PlaneCompliance(flank, ring, elasticity, loads, displacements, singular, torques, hub_forces)
 
 
-def _load_places(flank: Flank) -> Floats:
+def _load_places(flank: PlaneFlank) -> Floats:
     """Roll lengths of vertices of the flank: 3 % of its length apart, closer by and by towards the tip corner.
 
     An undercut flank ends in a corner at the root as well, where no load can be taken off as one on a straight edge.

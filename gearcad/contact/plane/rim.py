@@ -8,6 +8,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.plane.ring import Ring, factorise
+from gearcad.contact.plane.support import hub_seen_by
 
 __all__ = ["far_responses"]
 
@@ -31,11 +32,11 @@ def far_responses(ring: Ring, rows: Any, displacements: Floats, forces: Floats) 
     found = []
     for tooth in range(count // 2 + 1, teeth - count // 2):
         left = teeth - count // 2 - 1 - tooth
-        hub, after = ring.support.seen_by(tooth) @ forces, end
+        hub, after = hub_seen_by(tooth, ring.support) @ forces, end
         if left:
             onward = beyond[left - 1].matrix
             known = chain.matrix[n : 2 * n] @ np.r_[near, 0 * near, hub]
-            known += onward[:n] @ np.r_[0 * near, end, ring.support.seen_by(tooth + 1) @ forces]
+            known += onward[:n] @ np.r_[0 * near, end, hub_seen_by(tooth + 1, ring.support) @ forces]
             after = -np.linalg.solve(chain.matrix[n : 2 * n, n : 2 * n] + onward[:n, :n], known)
         found.append(across @ np.r_[near, after, hub])
         near = after

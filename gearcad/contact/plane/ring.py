@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.contact.plane.elasticity import PlaneElasticity, stiffness_matrix
-from gearcad.contact.plane.support import Support, rigid_motions
+from gearcad.contact.plane.support import held_nodes, hub_seen_by, hub_tractions, rigid_motions, with_support
 from gearcad.contact.shared.chain import Chain, Cuts
+from gearcad.contact.shared.holding import Support
 from gearcad.errors import SolverError
 from gearcad.meshing import SectorMesh
 
-__all__ = ["Cuts", "Ring", "assemble", "factorise"]
+__all__ = ["Ring", "Sector", "assemble", "chain_of", "factorise", "make_sector"]
 
 
 @dataclass(frozen=True)
@@ -68,18 +69,18 @@ class Sector:
 def make_sector(mesh: SectorMesh, elasticity: PlaneElasticity, support: Support | None = None) -> Sector:
     """Stiffness of a sector with polar dofs on its cuts."""
     support = support or Support()
-    whole = support.whole(mesh)
+    whole = with_support(mesh, support)
     polar = _cut_turn(whole)
     stiffness = stiffness_matrix(whole, elasticity, np.arange(len(mesh.triangles)))
     if len(whole.triangles) > len(mesh.triangles):
         shaft = PlaneElasticity(support.shaft, elasticity.plane)
         stiffness = stiffness + stiffness_matrix(whole, shaft, np.arange(len(mesh.triangles), len(whole.triangles)))
     matrix = (polar.T @ stiffness @ polar).tocsr()
-    held, turn = _dofs(support.held(mesh)), np.zeros(2 * len(whole.points))
+    held, turn = _dofs(held_nodes(mesh, support)), np.zeros(2 * len(whole.points))
     turn[held] = rigid_motions(whole.points)[..., 0].ravel()[held]
     turn = polar.T @ turn
     if support.floats:
-        return Sector(mesh, whole, matrix, held, turn, polar.T @ support.tractions(mesh, whole), np.zeros((3, 3)))
+        return Sector(mesh, whole, matrix, held, turn, polar.T @ hub_tractions(mesh, whole, support), np.zeros((3, 3)))
     hub = (matrix @ turn)[:, None]
     return Sector(mesh, whole, matrix, held, turn, hub, turn[None] @ hub)
 
@@ -215,9 +216,9 @@ def assemble(
     blocks = [(row[entries.row], row[entries.col], entries.data) for row in numbers]
     hub, hub_matrix = np.zeros((count + 1, sector.hub.shape[1])), np.zeros_like(sector.hub_matrix)
     for row, turn, tooth in zip(numbers, motions.turn, offsets, strict=True):
-        forces = sector.hub @ support.seen_by(tooth) if support.floats else (sector.matrix @ turn)[:, None]
+        forces = sector.hub @ hub_seen_by(tooth, support) if support.floats else (sector.matrix @ turn)[:, None]
         np.add.at(hub, row, forces)  # the last row collects what acts on the hub itself
-    chain = chain_of(make_sector(coarse, elasticity, support), support.seen_by(1)) if rest else None
+    chain = chain_of(make_sector(coarse, elasticity, support), hub_seen_by(1, support)) if rest else None
     for dofs, matrix in _joints(sector, chain, support, numbers, rest, held is None, cuts):
         n = len(dofs)
         blocks.append((np.repeat(dofs, n), np.tile(dofs, n), matrix[:n, :n].ravel()))
@@ -238,7 +239,7 @@ def _joints(
         return []
     behind, ahead = numbers[0][sector.behind], numbers[-1][sector.ahead]
     if closed:
-        return [(np.r_[ahead, behind], chain.repeated(rest).seen(support.seen_by(len(numbers) // 2 + 1)))]
+        return [(np.r_[ahead, behind], chain.repeated(rest).seen(hub_seen_by(len(numbers) // 2 + 1, support)))]
     side, radii = chain.repeated(rest // 2), np.hypot(*sector.whole.points[sector.ahead[::2] // 2].T)
     return [(ahead, side.ended(cuts, radii, ahead=True)), (behind, side.ended(cuts, radii, ahead=False))]
 
@@ -248,7 +249,7 @@ def _rigid(sector: Sector, numbers: Wholes, support: Support, count: int) -> Flo
     found = np.zeros((count, 3))
     own = sector.cut_turn.T @ rigid_motions(sector.whole.points).reshape(-1, 3)
     for place, row in enumerate(numbers):
-        found[row] = own @ support.seen_by(place - len(numbers) // 2)
+        found[row] = own @ hub_seen_by(place - len(numbers) // 2, support)
     return found
 
 

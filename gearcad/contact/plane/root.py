@@ -11,12 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
-from gearcad.contact.plane.flank import FlankCompliance
+from gearcad.contact.plane.flank import PlaneCompliance
 from gearcad.contact.plane.rim import far_responses
-from gearcad.contact.plane.support import Hold
+from gearcad.contact.plane.support import key_load
+from gearcad.contact.shared.holding import Hold
+from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, RootStress
 from gearcad.meshing.outline import Side
 
-__all__ = ["FilletStress", "Fillets", "ToothLoad", "seen_from"]
+__all__ = ["Fillets", "ToothLoad", "seen_from"]
 
 
 ToothLoad = tuple[int, float, float]
@@ -26,22 +28,6 @@ _GAUSS = 1 / np.sqrt(3)
 """Place of the two points of an edge at which strains of quadratic elements are most accurate."""
 
 
-_LEAST_ANGLE = 12.0
-"""Tangent angle (deg) from which on the fillet counts as the root; it is negative where undercut draws the tooth in."""
-
-
-@dataclass(frozen=True)
-class FilletStress:
-    """The greatest tangential stress of a fillet (MPa), its radius (mm), and its angle to the middle of the tooth (deg).
-
-    ISO 6336-3 looks where that angle is 30.
-    """
-
-    stress: float
-    radius: float
-    tangent_angle: float
-
-
 @dataclass(frozen=True)
 class Fillets:
     """The fillet under the loaded flank (tension) and the one behind it (compression), as responses of one body.
@@ -49,7 +35,7 @@ class Fillets:
     Of a rim that bends, the roots of all teeth and the bore too.
     """
 
-    body: FlankCompliance
+    body: PlaneCompliance
 
     def stresses(self, side: Side, loads: list[ToothLoad]) -> Floats:
         """Stress (MPa) at the points of a side of tooth 0."""
@@ -60,11 +46,11 @@ class Fillets:
                 total += seen(length) * force
         return total
 
-    def greatest(self, side: Side, loads: list[ToothLoad]) -> FilletStress:
+    def greatest(self, side: Side, loads: list[ToothLoad]) -> RootStress:
         """The largest tension on the left fillet, or compression on the right one, of tooth 0."""
         return self._at_root(side, self.stresses(side, loads), 1 if side is Side.LEFT_FILLET else -1)
 
-    def extreme(self, side: Side, loads: list[ToothLoad]) -> FilletStress:
+    def extreme(self, side: Side, loads: list[ToothLoad]) -> RootStress:
         """The largest tension (left fillet) or compression (right one) of the loaded teeth.
 
         Of a rim that bends: of the roots of all teeth, on both sides.
@@ -89,12 +75,11 @@ class Fillets:
         for own in range(self.body.ring.support.teeth):
             yield self.stresses(side, seen_from(own, loads)) + by_key
 
-    def _at_root(self, side: Side, stresses: Floats, sign: int) -> FilletStress:
+    def _at_root(self, side: Side, stresses: Floats, sign: int) -> RootStress:
         radii, angles = self.places(side)
-        # Above, a contact near the start of the flank presses on the fillet: that is no bending.
-        root = np.flatnonzero(angles >= _LEAST_ANGLE)
+        root = np.flatnonzero(angles >= LEAST_TANGENT_ANGLE)
         at = root[np.argmax(sign * stresses[root])]
-        return FilletStress(float(stresses[at]), float(radii[at]), float(angles[at]))
+        return RootStress(float(stresses[at]), float(radii[at]), float(angles[at]))
 
     def places(self, side: Side) -> tuple[Floats, Floats]:
         """Radius (mm) and tangent angle (deg) of each point."""
@@ -133,17 +118,15 @@ class Fillets:
         """Stress on a side of a tooth by 1 N per mm on tooth 0, as a function of the load's roll length; None if unknown."""
         support = self.body.ring.support
         place = (tooth + self.body.neighbours) % support.teeth if support.bends else tooth + self.body.neighbours
-        if not 0 <= place < len(self._responses[side]):
-            return None
-        if (side, place) not in self._splines:
-            from scipy.interpolate import CubicSpline
-
-            self._splines[side, place] = CubicSpline(self.body.loads, self._responses[side][place], axis=1)
-        return self._splines[side, place]
+        return self._splines[side][place] if 0 <= place < len(self._splines[side]) else None
 
     @cached_property
-    def _splines(self) -> dict[tuple[Side, int], Callable[[float], Floats]]:
-        return {}
+    def _splines(self) -> dict[Side, tuple[Callable[[float], Floats], ...]]:
+        """Stresses (points,) of each side by the roll length of the load, from tooth -neighbours on."""
+        from scipy.interpolate import CubicSpline
+
+        loads = self.body.loads
+        return {side: tuple(CubicSpline(loads, each, axis=1) for each in teeth) for side, teeth in self._responses.items()}
 
     @cached_property
     def _responses(self) -> dict[Side, Floats]:
@@ -162,7 +145,7 @@ class Fillets:
     @cached_property
     def _keyed(self) -> dict[Side, Floats]:
         ring = self.body.ring
-        load = ring.support.key_load(ring.sector.mesh)
+        load = key_load(ring.sector.mesh, ring.support)
         return self._stresses(ring.solve(load)[0], ring.hub_forces(load))
 
     def _stresses(self, moved: Floats, hub_forces: Floats | None) -> dict[Side, Floats]:

@@ -9,18 +9,15 @@ from functools import cached_property
 import numpy as np
 
 from gearcad.arrays import Bools, Floats
+from gearcad.contact.shared.loaded import PairContact
 from gearcad.contact.solid.contact_lines import ContactLine
 
-__all__ = ["INTERIOR", "SolidContact"]
-
-
-INTERIOR = 3.0
-"""Half widths from the edges of both flanks beyond which a contact is that of two cylinders."""
+__all__ = ["SolidPairContact"]
 
 
 @dataclass(frozen=True)
-class SolidContact:
-    """One pair of teeth in contact: per cell of its line (n,) forces in N, half widths in mm, peak pressures in MPa.
+class SolidPairContact(PairContact):
+    """One pair of teeth in contact, `force` (N): per cell of its line (n,) forces in N, half widths in mm, pressures in MPa.
 
     `margin` (n,) in mm is by how much a cell is further than INTERIOR half widths from all edges of both flanks: where it is
     not positive the pressure depends on the edge.
@@ -32,6 +29,7 @@ class SolidContact:
     pressures: Floats
     radii: Floats
     margin: Floats
+    force: float
     share: float
 
     @property
@@ -40,9 +38,9 @@ class SolidContact:
         return self.line.tooth
 
     @property
-    def force(self) -> float:
-        """Normal force (N)."""
-        return float(self.forces.sum())
+    def place(self) -> float:
+        """Where the line crosses the middle of the common face width (mm from T1)."""
+        return self.line.middle
 
     @property
     def line_loads(self) -> Floats:
@@ -73,16 +71,21 @@ class SolidContact:
         here, there = self.margin[ends], self.margin[ends + 1]
         return np.sort(np.r_[np.flatnonzero(self.interior), ends + here / (here - there)])
 
-    def at(self, values: Floats, place: float | Floats) -> Floats:
+    def between(self, values: Floats, place: float | Floats) -> Floats:
         """Values (n,) of the cells at places between them."""
         return np.asarray(np.interp(place, np.arange(len(values)), values))
 
     @property
     def peak_pressure(self) -> float:
         """Greatest pressure (MPa) away from all edges, NaN if no place is."""
-        return float(self.at(self.pressures, self.inside).max()) if len(self.inside) else math.nan
+        return float(self.between(self.pressures, self.inside).max()) if len(self.inside) else math.nan
+
+    @property
+    def interior_pressure(self) -> float | None:
+        """Greatest pressure (MPa) away from all edges; None if no place is."""
+        return self.peak_pressure if len(self.inside) else None
 
     @property
     def peak_line_load(self) -> float:
         """Greatest line load (N/mm) away from all edges, NaN if no place is."""
-        return float(self.at(self.line_loads, self.inside).max()) if len(self.inside) else math.nan
+        return float(self.between(self.line_loads, self.inside).max()) if len(self.inside) else math.nan

@@ -14,16 +14,14 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.arrays import Bools, Floats
-from gearcad.contact.plane.mesh_positions import MeshLine
-from gearcad.contact.solid.flank import Places, SolidFlank
+from gearcad.contact.shared.line_of_action import LEAST_LENGTH, LineOfAction
+from gearcad.contact.solid.places import Places, SolidFlank
 from gearcad.geometry import Gear, GearPair
 from gearcad.mounting import Mounting
+from gearcad.per_gear import PerGear
 
 __all__ = ["ContactLine", "Gaps", "contact_lines", "gaps", "line_gap", "places_beside"]
 
-
-_LEAST_LENGTH = 0.01
-"""Least roll length (mm per mm of normal module) at which a flank still has a curvature to speak of."""
 
 BEND = 0.05
 """Distance (mm per mm of normal module) over which slope and curvature of a modification are taken."""
@@ -37,21 +35,26 @@ class ContactLine:
     """One pair of flanks: tooth `tooth` of the pinion (0 is the middle one), cell by cell along the face width.
 
     `across` (n,) in mm from the middle of the common face width, `nominal` (n,) where the line of contact crosses the line
-    of action (mm from T1), `pinion` and `wheel` places on both flanks, `lengths` (n,) of the cells in mm, `aside` (n,) in mm
-    how far beside the line of action the flanks are nearest (0 on the line of contact, else an edge touches), `gap` (n,) the
-    transverse gap of the exact involutes in mm, `points` (n, 3) on the pinion's flank.
+    of action (mm from T1), `places` on both flanks, `lengths` (n,) of the cells in mm, `aside` (n,) in mm how far beside the
+    line of action the flanks are nearest (0 on the line of contact, else an edge touches), `gap` (n,) the transverse gap of the
+    exact involutes in mm, `points` (n, 3) on the pinion's flank, `slope` (mm per mm) that of `nominal` over `across`.
     """
 
     tooth: int
     across: Floats
     nominal: Floats
-    pinion: Places
-    wheel: Places
+    places: PerGear[Places]
     lengths: Floats
     aside: Floats
     gap: Floats
     points: Floats
     edge_distance: Floats
+    slope: float
+
+    @property
+    def middle(self) -> float:
+        """Where the line crosses the middle of the common face width (mm from T1)."""
+        return float(self.nominal[0] - self.across[0] * self.slope)
 
     @property
     def on_edge(self) -> Bools:
@@ -62,11 +65,12 @@ class ContactLine:
     @property
     def curvature(self) -> Floats:
         """Curvature (n,) of the gap between the exact flanks in the transverse section (1/mm)."""
-        return 1 / self.pinion[0] + 1 / self.wheel[0]
+        (pinion, _), (wheel, _) = self.places
+        return 1 / pinion + 1 / wheel
 
 
 def contact_lines(
-    pair: GearPair, line: MeshLine, flank: SolidFlank, pinion_length: float, cells: int, farthest_gap: float
+    pair: GearPair, line: LineOfAction, flank: SolidFlank, pinion_length: float, cells: int, farthest_gap: float
 ) -> tuple[ContactLine, ...]:
     """The lines when the middle pair of teeth touches at `pinion_length` (mm from T1) in the middle of the common face width.
 
@@ -75,46 +79,46 @@ def contact_lines(
     common, width = pair.common_width, pair.common_width.width
     edges = np.linspace(-width / 2, width / 2, cells + 1)
     slope = math.tan(flank.helix)
-    reach = math.ceil((line.pinion.last + line.wheel.last + width * abs(slope)) / line.pitch)
+    reach = math.ceil((sum(each.last for each in line.flanks) + width * abs(slope)) / line.pitch)
     pinion_start = pair.pinion.face_width / 2 + common.offset
     wheel_start = pair.wheel.face_width / 2 + common.offset - pair.axial_offset
     found = []
     for tooth in range(-reach, reach + 1):
         nominal = pinion_length + tooth * line.pitch + edges * slope
-        usable, places = _facing(line, nominal)
-        ends = flank.points((places[0], edges + pinion_start))
+        usable, (one, *_) = _facing(line, nominal)
+        ends = flank.points((one, edges + pinion_start))
         middle = (edges[1:] + edges[:-1]) / 2
         nominal = pinion_length + tooth * line.pitch + middle * slope
         usable, (one, other, aside, gap, distance) = _facing(line, nominal)
         here = usable & (gap < farthest_gap)
         if not here.any():
             continue
-        pinion, wheel = (one[here], middle[here] + pinion_start), (other[here], middle[here] + wheel_start)
+        places = PerGear((one[here], middle[here] + pinion_start), (other[here], middle[here] + wheel_start))
         lengths = np.linalg.norm(np.diff(ends, axis=0), axis=1)[here]
         found.append(
             ContactLine(
                 tooth,
                 middle[here],
                 nominal[here],
-                pinion,
-                wheel,
+                places,
                 lengths,
                 aside[here],
                 gap[here],
-                flank.points(pinion),
+                flank.points(places.pinion),
                 distance[here],
+                slope,
             )
         )
     return tuple(found)
 
 
-def _facing(line: MeshLine, nominal: Floats) -> tuple[Bools, tuple[Floats, Floats, Floats, Floats, Floats]]:
+def _facing(line: LineOfAction, nominal: Floats) -> tuple[Bools, tuple[Floats, Floats, Floats, Floats, Floats]]:
     """Where flanks are usable, and their roll lengths where they are nearest, how far aside that is, and the gap (mm).
 
     Last, how far inside the ends of both flanks that is.
     """
-    one, other = line.pinion, line.wheel
-    least = _LEAST_LENGTH * line.module
+    one, other = line.flanks
+    least = LEAST_LENGTH * line.module
     usable = (nominal > least) & (line.whole - nominal > least)
     first, second = np.clip(nominal, least, line.whole - least), np.clip(line.whole - nominal, least, line.whole - least)
     high = np.minimum(one.along_tangent(first, one.last), -other.along_tangent(second, other.first))
@@ -162,11 +166,11 @@ def line_gap(
     if line.tooth == 0:
         transverse = transverse - mounting.pitch_error / 1000
     turn = mounting.misalignment / 1000 / pair.common_width.width
-    turned = turn * (line.across * math.cos(helix) - line.wheel[0] * math.sin(helix))
+    turned = turn * (line.across * math.cos(helix) - line.places.wheel[0] * math.sin(helix))
     return transverse * math.cos(helix) + turned, 1 / (curvature * math.cos(helix))
 
 
-def places_beside(line: ContactLine, pair: GearPair, mounting: Mounting) -> list[tuple[Places, Places]]:
+def places_beside(line: ContactLine, pair: GearPair, mounting: Mounting) -> list[PerGear[Places]]:
     """Places on the pinion's and the wheel's flank on the line, and three along the tangent, towards the pinion's tip, which
     are what it takes to tell slope and curvature: a little before the line, on it and after it, or at the ends of the flanks
     as near to it as they all lie on them.
@@ -180,14 +184,15 @@ def places_beside(line: ContactLine, pair: GearPair, mounting: Mounting) -> list
             (np.sqrt(np.maximum(lengths**2 + gear.base_diameter * (sense * place + moved), 0.0)), heights)
             for gear, (lengths, heights), sense, moved in _sides(line, pair, mounting)
         )
-        found.append((pinion, wheel))
+        found.append(PerGear(pinion, wheel))
     return found
 
 
-def _sides(line: ContactLine, pair: GearPair, mounting: Mounting) -> tuple[tuple[Gear, Places, int, Floats], ...]:
+def _sides(line: ContactLine, pair: GearPair, mounting: Mounting) -> PerGear[tuple[Gear, Places, int, Floats]]:
     """Both gears with their places, the sense of the tangent towards their tips, and how far (n,) in mm they slid along it."""
     slid = mounting.misalignment_across / 1000 / pair.common_width.width * line.across
-    return (pair.pinion, line.pinion, 1, np.zeros_like(slid)), (pair.wheel, line.wheel, -1, slid)
+    pinion, wheel = line.places
+    return PerGear((pair.pinion, pinion, 1, np.zeros_like(slid)), (pair.wheel, wheel, -1, slid))
 
 
 def _aside(line: ContactLine, pair: GearPair, mounting: Mounting) -> Floats:
@@ -214,10 +219,10 @@ def _aside(line: ContactLine, pair: GearPair, mounting: Mounting) -> Floats:
     return result
 
 
-def _taken_back(pair: GearPair, places: tuple[Places, Places]) -> Floats:
+def _taken_back(pair: GearPair, places: PerGear[Places]) -> Floats:
     """How far (n,) both flanks are taken back (mm) at places on them."""
     depths = []
-    for gear, (lengths, heights) in zip((pair.pinion, pair.wheel), places, strict=True):
+    for gear, (lengths, heights) in zip(pair.gears, places, strict=True):
         form = gear.flank_form
         # The point that stands there now comes from further down the flank, by what it was taken back.
         depths.append(form.depth(lengths - form.depth(lengths, heights), heights))

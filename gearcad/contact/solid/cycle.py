@@ -3,61 +3,42 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.contact.plane.cycle import FAIR
-from gearcad.contact.plane.loaded import LoadedCycle, LoadedPosition
-from gearcad.contact.solid.contact import INTERIOR, SolidContact
+from gearcad.contact.shared.engaged import TOOTH_ORDER
+from gearcad.contact.shared.loaded import FAIR, INTERIOR, LoadedCycle, LoadedPosition, RootStress
+from gearcad.contact.solid.contact import SolidPairContact
+from gearcad.contact.solid.flank import SolidCompliance
 from gearcad.contact.solid.line_contact import LineSolution
 from gearcad.contact.solid.pair import SolidPair
-from gearcad.contact.solid.root import FilletState, SolidFillet
-from gearcad.geometry.path import usable_path
+from gearcad.contact.solid.root import FilletState, SolidFillet, ToothForces
+from gearcad.per_gear import PerGear, Role
 
-__all__ = [
-    "RootPeak",
-    "SolidCycle",
-    "SolidPosition",
-    "run_solid_cycle",
-    "solid_pitch_point_contact",
-    "solid_single_stiffness",
-    "tooth_loads",
-]
+__all__ = ["SolidCycle", "SolidPosition", "SolidRootStress", "tooth_loads"]
 
 
 @dataclass(frozen=True)
-class RootPeak:
-    """The greatest stress of a fillet (MPa): at radius and height (mm), its angle to the middle of the tooth (deg).
+class SolidRootStress(RootStress):
+    """Also at which height (mm), and the greatest along the profile (n,) at each of the fillet's `heights_between` (MPa)."""
 
-    `along_face` (n,) is the greatest along the profile at each of the fillet's `heights_between` (MPa).
-    """
-
-    stress: float
-    radius: float
     height: float
-    tangent_angle: float
     along_face: Floats
 
 
 @dataclass(frozen=True)
-class SolidPosition(LoadedPosition):
-    """A position of solid gears: its contacts, the root stresses of both gears, and the torques (N m) on their hubs.
+class SolidPosition(LoadedPosition[SolidPairContact]):
+    """A position of solid gears; the tension of a bore that is free is that below loaded teeth."""
 
-    `bore_tension` (MPa) is the greatest below loaded teeth on a bore that is free.
-    """
-
-    contacts: tuple[SolidContact, ...]
-    tension: tuple[RootPeak, RootPeak]
-    compression: tuple[RootPeak, RootPeak]
-    torques: tuple[float, float]
-    bore_tension: tuple[float | None, float | None]
+    tension: PerGear[SolidRootStress]
+    compression: PerGear[SolidRootStress]
 
     @property
-    def interior_contacts(self) -> tuple[SolidContact, ...]:
+    def interior_contacts(self) -> tuple[SolidPairContact, ...]:
         """Contacts with places away from all edges, if these places together carry a fair share of the load."""
         inside = sum(float(contact.forces[contact.interior].sum()) for contact in self.contacts)
         if inside <= FAIR * sum(contact.force for contact in self.contacts):
@@ -65,23 +46,38 @@ class SolidPosition(LoadedPosition):
         return tuple(contact for contact in self.contacts if len(contact.inside))
 
     @property
-    def contact_pressure(self) -> float:
-        """Greatest pressure (MPa) of them away from all edges, NaN if there are none."""
-        return max((contact.peak_pressure for contact in self.interior_contacts), default=math.nan)
-
-    @property
     def line_load(self) -> float:
-        """Greatest line load (N/mm) of them away from all edges, NaN if there are none."""
+        """Greatest line load (N/mm) of the interior contacts away from all edges, NaN if there are none."""
         return max((contact.peak_line_load for contact in self.interior_contacts), default=math.nan)
 
 
 @dataclass(frozen=True)
-class SolidCycle(LoadedCycle[SolidPair, SolidPosition]):
+class SolidCycle(LoadedCycle[SolidPair, SolidPosition, SolidPairContact]):
     """That of solid gears."""
+
+    default_positions: ClassVar[int] = 24
 
     def solve(self, angle: float) -> SolidPosition:
         """The position at a roll angle (deg). Raises SolverError."""
-        return _position(self.model, angle, self.torque)
+        model, solution = self.model, self.model.solve(angle, self.torque)
+        contacts, flat = _contacts(model, solution), math.cos(model.helix)
+        loads = PerGear.each(lambda role: tooth_loads(model, contacts, role))
+        return SolidPosition(
+            roll_angle=angle,
+            approach=solution.approach / flat,
+            approach_parts=solution.parts.map(lambda part: part / flat),
+            rigid_approach=solution.rigid / flat,
+            force=model.force(self.torque),
+            contacts=contacts,
+            tension=PerGear.each(lambda role: _tension(model.fillets.pick(role).loaded, loads.pick(role))),
+            compression=PerGear.each(lambda role: _compression(model.fillets.pick(role).behind, loads.pick(role))),
+            bore_tension=PerGear.each(lambda role: _bore_tension(model.fillets.pick(role).bore, loads.pick(role))),
+            torques=PerGear.each(lambda role: _hub_torque(model.bodies.pick(role), loads.pick(role))),
+        )
+
+    def contacts_at(self, angle: float) -> tuple[SolidPairContact, ...]:
+        """The contacts alone at a roll angle (deg). Raises SolverError."""
+        return _contacts(self.model, self.model.solve(angle, self.torque))
 
     @property
     def harmonics(self) -> Floats:
@@ -90,22 +86,6 @@ class SolidCycle(LoadedCycle[SolidPair, SolidPosition]):
         spectrum = np.fft.rfft(error) / len(error)
         result: Floats = 2 * np.abs(spectrum[1 : (len(error) - 1) // 2 + 1])
         return result
-
-    @property
-    def worst_contact(self) -> tuple[SolidPosition, SolidContact] | None:
-        """The contact of the greatest pressure away from all edges; None if there is none."""
-        every = ((position, contact) for position in self.every for contact in position.interior_contacts)
-        return max(every, key=lambda of: of[1].peak_pressure, default=None)
-
-    @property
-    def heaviest_contact(self) -> tuple[SolidPosition, SolidContact]:
-        """The contact of the greatest load, wherever it is."""
-        every = [(position, contact) for position in self.every for contact in position.contacts]
-        return max(every, key=lambda of: of[1].force)
-
-    def worst_position(self, gear: int) -> SolidPosition:
-        """The position of the greatest root tension of the pinion (0) or the wheel (1)."""
-        return max(self.every, key=lambda position: position.tension[gear].stress)
 
     @cached_property
     def load_along_face(self) -> tuple[Floats, Floats]:
@@ -134,101 +114,60 @@ class SolidCycle(LoadedCycle[SolidPair, SolidPosition]):
         inside = np.abs(across) < self.model.width / 2 - min(INTERIOR * float(widest), self.model.width / 4)
         return float(load[inside].max() / load.mean())
 
-    def root_along_face(self, gear: int) -> tuple[Floats, Floats]:
-        """Heights (n,) in mm of the gear, and the greatest root tension of the cycle there (n,) in MPa."""
-        fillet = self.model.fillets[gear][0]
-        stresses: Floats = np.array([position.tension[gear].along_face for position in self.every])
+    def root_along_face(self, role: Role) -> tuple[Floats, Floats]:
+        """Heights (n,) in mm of a gear, and the greatest root tension of the cycle there (n,) in MPa."""
+        fillet = self.model.fillets.pick(role).loaded
+        stresses: Floats = np.array([position.tension.pick(role).along_face for position in self.every])
         return fillet.heights_between, stresses.max(axis=0)
 
-    def root_face_load_factor(self, gear: int) -> float:
+    def root_face_load_factor(self, role: Role) -> float:
         """K_F_beta: the greatest root tension over its mean along the common face width."""
-        heights, stress = self.root_along_face(gear)
-        low, high = self.model.common_heights(gear)
+        heights, stress = self.root_along_face(role)
+        low, high = self.model.common_heights(role)
         across = np.linspace(low, high, 201)
         within = np.interp(across, heights, stress)
         return float(within.max() / within.mean())
 
 
-def run_solid_cycle(
-    model: SolidPair, torque: float, count: int = 24, progress: Callable[[int, int], None] = lambda _done, _all: None
-) -> SolidCycle:
-    """Solve `count` positions over one base pitch. Raises SolverError."""
-    positions = []
-    for done, angle in enumerate(model.roll_angles(count).tolist()):
-        progress(done, count)
-        positions.append(_position(model, angle, torque))
-    return SolidCycle(model, torque, tuple(positions))
-
-
-def solid_pitch_point_contact(model: SolidPair, torque: float) -> SolidContact | None:
-    """The contact of the pair whose line crosses the pitch point in the middle of the face; None if it does not touch."""
-    contacts = _contacts(model, model.solve(0.0, torque))
-    return next((contact for contact in contacts if contact.tooth == 0), None)
-
-
-def solid_single_stiffness(model: SolidPair, torque: float, count: int = 15) -> float:
-    """Greatest stiffness (N/(mm um)) of one pair of teeth alone, while its line of contact crosses the flanks."""
-    (first, last), reach = usable_path(model.pair), model.width * abs(math.tan(model.helix)) / 2
-    lengths = np.linspace(first - reach, last + reach, count + 2)[1:-1]
-    angles = np.degrees((lengths - model.pair.path_of_contact.C) / model.base_radius).tolist()
-    solved = (model.solve(angle, torque, single=True) for angle in angles)
-    # Transverse: F cos(beta_b) over the approach delta/cos(beta_b), per mm of width.
-    factor = math.cos(model.helix) / 1000
-    return max(model.force(torque) * factor / (each.approach - each.rigid) for each in solved)
-
-
-def _position(model: SolidPair, angle: float, torque: float) -> SolidPosition:
-    solution = model.solve(angle, torque)
-    contacts = _contacts(model, solution)
-    tension, compression, torques, bores = [], [], [], []
-    for gear, body in enumerate((model.pinion, model.wheel)):
-        loads = tooth_loads(model, contacts, gear)
-        pulled, pushed = (_states(fillet, loads) for fillet in model.fillets[gear])
-        tension.append(_peak(model.fillets[gear][0], [state.greater for state in pulled], 1))
-        compression.append(_peak(model.fillets[gear][1], [state.lesser for state in pushed], -1))
-        bores.append(_bore_tension(model.bores[gear], loads))
-        torques.append(float(sum(force @ -body.torques for _, force in loads)) / 1000)
-    flat = math.cos(model.helix)
-    return SolidPosition(
-        roll_angle=angle,
-        approach=solution.approach / flat,
-        approach_parts=(solution.parts[0] / flat, solution.parts[1] / flat),
-        rigid_approach=solution.rigid / flat,
-        force=model.force(torque),
-        contacts=contacts,
-        tension=(tension[0], tension[1]),
-        compression=(compression[0], compression[1]),
-        torques=(torques[0], torques[1]),
-        bore_tension=(bores[0], bores[1]),
-    )
-
-
-def tooth_loads(model: SolidPair, contacts: tuple[SolidContact, ...], gear: int) -> list[tuple[int, Floats]]:
-    """For each tooth in contact: its number on the pinion (0) or the wheel (1), and the force (N) at each unit load's place."""
-    body = (model.pinion, model.wheel)[gear]
-    # On the wheel the teeth follow each other the other way round.
+def tooth_loads(model: SolidPair, contacts: tuple[SolidPairContact, ...], role: Role) -> list[ToothForces]:
+    """For each tooth of a gear in contact: its number, as the gear's own teeth follow each other, and the force (N) at each
+    unit load's place.
+    """
+    body, sense = model.bodies.pick(role), TOOTH_ORDER.pick(role)
     return [
-        ((1, -1)[gear] * contact.tooth, body.by((contact.line.pinion, contact.line.wheel)[gear]).T @ contact.forces)
-        for contact in contacts
+        (sense * contact.tooth, body.load_weights(contact.line.places.pick(role)).T @ contact.forces) for contact in contacts
     ]
 
 
-def _states(fillet: SolidFillet, loads: list[tuple[int, Floats]]) -> list[FilletState]:
+def _hub_torque(body: SolidCompliance, loads: list[ToothForces]) -> float:
+    """Torque (N m) that the loads put on the hub."""
+    return float(sum(force @ -body.torques for _, force in loads)) / 1000
+
+
+def _tension(fillet: SolidFillet, loads: list[ToothForces]) -> SolidRootStress:
+    return _greatest(fillet, [state.greater for state in _states(fillet, loads)], 1)
+
+
+def _compression(fillet: SolidFillet, loads: list[ToothForces]) -> SolidRootStress:
+    return _greatest(fillet, [state.lesser for state in _states(fillet, loads)], -1)
+
+
+def _states(fillet: SolidFillet, loads: list[ToothForces]) -> list[FilletState]:
     """The fillet of each tooth in contact."""
     return [fillet.state([(tooth - own, force) for tooth, force in loads]) for own, _ in loads]
 
 
-def _bore_tension(bore: SolidFillet | None, loads: list[tuple[int, Floats]]) -> float | None:
+def _bore_tension(bore: SolidFillet | None, loads: list[ToothForces]) -> float | None:
     return None if bore is None else max(float(state.greater.max()) for state in _states(bore, loads))
 
 
-def _peak(fillet: SolidFillet, stresses: list[Floats], sign: int) -> RootPeak:
+def _greatest(fillet: SolidFillet, stresses: list[Floats], sign: int) -> SolidRootStress:
     """The most stressed place of the root of the most stressed tooth."""
     root, along, across = np.flatnonzero(fillet.is_root), fillet.along_root, fillet.along_face
     every = [sign * across @ stress[:, root] @ along.T for stress in stresses]
     worst = max(every, key=np.max)
     row, column = np.unravel_index(int(np.argmax(worst)), worst.shape)
-    return RootPeak(
+    return SolidRootStress(
         stress=sign * float(worst[row, column]),
         radius=float(along[column] @ fillet.radii[root]),
         height=float(fillet.heights_between[row]),
@@ -237,7 +176,7 @@ def _peak(fillet: SolidFillet, stresses: list[Floats], sign: int) -> RootPeak:
     )
 
 
-def _contacts(model: SolidPair, solution: LineSolution) -> tuple[SolidContact, ...]:
+def _contacts(model: SolidPair, solution: LineSolution) -> tuple[SolidPairContact, ...]:
     given = solution.given
     total = solution.forces.sum()
     parts = (solution.forces, solution.half_widths, solution.pressures, solution.gaps.radii)
@@ -246,5 +185,6 @@ def _contacts(model: SolidPair, solution: LineSolution) -> tuple[SolidContact, .
         if forces.sum() > 0:
             to_end = model.width / 2 - np.abs(line.across)
             margin = np.minimum(line.edge_distance, to_end) - INTERIOR * widths
-            found.append(SolidContact(line, forces, widths, pressures, radii, margin, float(forces.sum() / total)))
+            force, share = float(forces.sum()), float(forces.sum() / total)
+            found.append(SolidPairContact(line, forces, widths, pressures, radii, margin, force, share))
     return tuple(found)

@@ -15,6 +15,7 @@ from gearcad.arrays import Floats, Wholes
 from gearcad.contact.solid.cycle import SolidCycle, SolidPosition, tooth_loads
 from gearcad.contact.solid.hexahedra import PLACES, lame, slopes_at
 from gearcad.material import Material
+from gearcad.per_gear import Role
 
 __all__ = ["SolidField", "nodal_stress", "shown_stress", "solid_field", "worst_field", "write_vtu"]
 
@@ -81,27 +82,27 @@ class SolidField:
         return result
 
 
-def worst_field(cycle: SolidCycle, gear: int) -> SolidField:
-    """The field of the most stressed tooth of the pinion (0) or the wheel (1) where its root tension is greatest."""
-    position = cycle.worst_position(gear)
-    fillet, loads = cycle.model.fillets[gear][0], tooth_loads(cycle.model, position.contacts, gear)
+def worst_field(cycle: SolidCycle, role: Role) -> SolidField:
+    """The field of the most stressed tooth of a gear where its root tension is greatest."""
+    position = cycle.worst_position(role)
+    fillet, loads = cycle.model.fillets.pick(role).loaded, tooth_loads(cycle.model, position.contacts, role)
 
     def tension(own: int) -> float:
         state = fillet.state([(tooth - own, force) for tooth, force in loads])
         return float(state.greater[:, fillet.is_root].max())
 
-    return solid_field(cycle, position, gear, max((own for own, _ in loads), key=tension))
+    return solid_field(cycle, position, role, max((own for own, _ in loads), key=tension))
 
 
-def solid_field(cycle: SolidCycle, position: SolidPosition, gear: int, tooth: int = 0) -> SolidField:
-    """The field of a tooth of the pinion (0) or the wheel (1), counted as its own gear's teeth follow each other.
+def solid_field(cycle: SolidCycle, position: SolidPosition, role: Role, tooth: int = 0) -> SolidField:
+    """The field of a tooth of a gear, counted as its own gear's teeth follow each other.
 
     Loads on teeth further away than the model's neighbours are left out.
     """
-    body = (cycle.model.pinion, cycle.model.wheel)[gear]
+    body = cycle.model.bodies.pick(role)
     mesh = body.body.sector.mesh
     moved = np.zeros(body.body.sector.dofs)
-    for loaded, force in tooth_loads(cycle.model, position.contacts, gear):
+    for loaded, force in tooth_loads(cycle.model, position.contacts, role):
         # A load on another tooth is seen from this one as this one sees a load on tooth 0.
         if abs(tooth - loaded) <= body.neighbours:
             moved += body.displacements[body.neighbours + tooth - loaded] @ force
@@ -112,15 +113,16 @@ def solid_field(cycle: SolidCycle, position: SolidPosition, gear: int, tooth: in
     return SolidField(mesh.points, hexahedra, displacement, nodal_stress(mesh.points, hexahedra, displacement, body.material))
 
 
-def shown_stress(cycle: SolidCycle, gear: int, field: SolidField) -> float:
+def shown_stress(cycle: SolidCycle, role: Role, field: SolidField) -> float:
     """Where the colours of a picture should end (MPa): a tenth above the greatest von Mises stress of both fillets' roots.
 
     The contact, which elements do not resolve, lies above.
     """
-    mesh = (cycle.model.pinion, cycle.model.wheel)[gear].body.sector.mesh
+    mesh = cycle.model.bodies.pick(role).body.sector.mesh
     radius, stress = np.hypot(*mesh.in_section.T), field.von_mises
     found = []
-    for fillet in cycle.model.fillets[gear]:
+    fillets = cycle.model.fillets.pick(role)
+    for fillet in (fillets.loaded, fillets.behind):
         nodes = mesh.over(mesh.side(fillet.side))
         found.append(stress[nodes[radius[nodes] <= fillet.radii[fillet.is_root].max()]].max())
     return _OVER * float(max(found))

@@ -13,13 +13,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.contact.plane.contact import complementary
+from gearcad.contact.shared.complementarity import complementary
+from gearcad.contact.shared.engaged import TOOTH_ORDER
 from gearcad.contact.solid.contact_lines import ContactLine, Gaps
 from gearcad.contact.solid.flank import SolidCompliance
 from gearcad.errors import SolverError
-from gearcad.material import Material
+from gearcad.per_gear import PerGear, Role
+from gearcad.rating.hertz import half_width, peak_pressure
 
-__all__ = ["LineSolution", "Responses", "reduced_modulus", "responses", "solve_lines"]
+__all__ = ["LineSolution", "Responses", "half_widths", "responses", "solve_lines"]
 
 
 OWN_DISTANCE = math.exp(-0.5) / 2
@@ -35,17 +37,22 @@ _SETTLED = 1e-5
 
 @dataclass(frozen=True)
 class Responses:
-    """What one position needs of both bodies: `smooth` (2, n, n) normal displacements (mm/N) without the half-space's part.
+    """What one position needs of both bodies: `smooth` (n, n) normal displacements (mm/N) without the half-space's part.
 
     `apart` (n, n) are the distances (mm) of cells on the same flank, infinite on different ones; `lengths` (n,) of the cells
     (mm); `modulus` E_r (MPa), 1/E_r = sum (1 - nu^2)/E.
     """
 
     lines: tuple[ContactLine, ...]
-    smooth: Floats
+    smooth: PerGear[Floats]
     apart: Floats
     lengths: Floats
     modulus: float
+
+    @property
+    def both(self) -> Floats:
+        """`smooth` of both bodies together (n, n)."""
+        return self.smooth.pinion + self.smooth.wheel
 
     @property
     def cells(self) -> int:
@@ -65,9 +72,9 @@ class Responses:
         return result
 
 
-def responses(lines: tuple[ContactLine, ...], pinion: SolidCompliance, wheel: SolidCompliance) -> Responses:
+def responses(lines: tuple[ContactLine, ...], bodies: PerGear[SolidCompliance], modulus: float) -> Responses:
     """The responses of both bodies to loads on all cells of a position."""
-    smooth = np.stack([_smooth(lines, body, gear) for gear, body in enumerate((pinion, wheel))])
+    smooth = PerGear.each(lambda role: _smooth(lines, bodies.pick(role), role))
     sizes = [len(line.across) for line in lines]
     apart = np.full((sum(sizes), sum(sizes)), np.inf)
     start = 0
@@ -75,28 +82,19 @@ def responses(lines: tuple[ContactLine, ...], pinion: SolidCompliance, wheel: So
         here = slice(start, start + size)
         apart[here, here] = np.linalg.norm(line.points[:, None] - line.points, axis=-1)
         start += size
-    return Responses(
-        lines, smooth, apart, np.concatenate([line.lengths for line in lines]), reduced_modulus(pinion.material, wheel.material)
-    )
+    return Responses(lines, smooth, apart, np.concatenate([line.lengths for line in lines]), modulus)
 
 
-def reduced_modulus(pinion: Material, wheel: Material) -> float:
-    """E_r (MPa): 1/E_r = sum (1 - nu^2)/E."""
-    return 1 / sum((1 - of.poisson_ratio**2) / of.youngs_modulus for of in (pinion, wheel))
-
-
-def _smooth(lines: tuple[ContactLine, ...], body: SolidCompliance, gear: int) -> Floats:
-    places = [(line.pinion, line.wheel)[gear] for line in lines]
-    at, by = [body.at(place) for place in places], [body.by(place) for place in places]
+def _smooth(lines: tuple[ContactLine, ...], body: SolidCompliance, role: Role) -> Floats:
+    places = [line.places.pick(role) for line in lines]
+    rows, columns = [body.moved_weights(each) for each in places], [body.load_weights(each) for each in places]
     blocks: list[list[Floats]] = []
-    for moved, row in zip(lines, at, strict=True):
+    for moved, place, row in zip(lines, places, rows, strict=True):
         blocks.append([])
-        for loaded, column in zip(lines, by, strict=True):
-            # Seen from the wheel the teeth follow each other the other way round.
-            response = body.moved.get((moved.tooth - loaded.tooth) * (1, -1)[gear])
+        for loaded, column in zip(lines, columns, strict=True):
+            response = body.moved.get((moved.tooth - loaded.tooth) * TOOTH_ORDER.pick(role))
             block = np.zeros((len(row), len(column))) if response is None else row @ response @ column.T
             if moved is loaded:
-                place = (moved.pinion, moved.wheel)[gear]
                 block += body.images.normal(place, place)
             blocks[-1].append(block)
     matrix = np.block(blocks)
@@ -116,7 +114,7 @@ class LineSolution:
     forces: Floats
     approach: float
     rigid: float
-    parts: tuple[float, float]
+    parts: PerGear[float]
 
     @property
     def half_widths(self) -> Floats:
@@ -125,21 +123,19 @@ class LineSolution:
 
     @property
     def pressures(self) -> Floats:
-        """Greatest pressure (n,) in MPa across each cell: p_0 = sqrt(F' E_r/(pi R))."""
-        result: Floats = np.sqrt(self.forces / self.given.lengths * self.given.modulus / (math.pi * self.gaps.radii))
-        return result
+        """Greatest pressure (n,) in MPa across each cell, Hertz's."""
+        return peak_pressure(self.forces / self.given.lengths, self.gaps.radii, self.given.modulus)
 
 
 def half_widths(given: Responses, radii: Floats, forces: Floats) -> Floats:
-    """Hertz half widths (n,) in mm: a = sqrt(4 F' R/(pi E_r))."""
-    result: Floats = np.sqrt(4 * forces / given.lengths * radii / (math.pi * given.modulus))
-    return result
+    """Hertz half widths (n,) in mm of cells that carry `forces` (n,) in N."""
+    return half_width(forces / given.lengths, radii, given.modulus)
 
 
 def solve_lines(given: Responses, gap: Gaps, force: float) -> LineSolution:
     """Press the gears together with the normal force `force` (N). Raises SolverError."""
     even = force * given.lengths / given.lengths.sum()
-    smooth, forces, ones = given.smooth.sum(axis=0), even, np.ones(given.cells)
+    smooth, forces, ones = given.both, even, np.ones(given.cells)
     widths = half_widths(given, gap.radii, even)
     spread = _spread(given, widths)
     for count in range(_ROUNDS):
@@ -155,8 +151,8 @@ def solve_lines(given: Responses, gap: Gaps, force: float) -> LineSolution:
     else:
         raise SolverError(f"the widths of the contact did not settle within {_ROUNDS} rounds")
     contact = float(forces @ kernel @ forces)
-    first, second = (float(forces @ matrix @ forces + contact / 2) / force for matrix in given.smooth)
-    return LineSolution(given, gap, forces, approach, float(gap.normal.min()), (first, second))
+    parts = given.smooth.map(lambda matrix: float(forces @ matrix @ forces + contact / 2) / force)
+    return LineSolution(given, gap, forces, approach, float(gap.normal.min()), parts)
 
 
 def _spread(given: Responses, widths: Floats) -> Floats:

@@ -7,27 +7,29 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from typing import Any
 
 import numpy as np
 
-from gearcad.contact.plane.mesh_positions import MeshLine, mesh_line
-from gearcad.contact.plane.pair import BodyModel, PairInMesh
+from gearcad.contact.shared.bodies import BodyModel
+from gearcad.contact.shared.engaged import FlexiblePair
+from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.contact.solid.body import assemble_body
 from gearcad.contact.solid.contact_lines import contact_lines, gaps
 from gearcad.contact.solid.cost import BodyCost, body_cost
 from gearcad.contact.solid.flank import SolidCompliance, solid_compliance
-from gearcad.contact.solid.line_contact import LineSolution, Responses, reduced_modulus, responses, solve_lines
-from gearcad.contact.solid.root import SolidFillet
+from gearcad.contact.solid.line_contact import LineSolution, Responses, responses, solve_lines
+from gearcad.contact.solid.root import SolidFillets, solid_fillets
 from gearcad.contact.solid.swept import SweptMesh, sweep
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.path import usable_path
 from gearcad.material import Material
 from gearcad.meshing import MeshSizes
-from gearcad.meshing.outline import Side
 from gearcad.meshing.quads import mesh_quads
 from gearcad.mounting import Mounting
+from gearcad.per_gear import PerGear, Role
 from gearcad.progress import Expected, Share, unheard
+from gearcad.rating.hertz import reduced_modulus
 
 __all__ = ["SolidPair", "SolidSizes", "expected_bodies", "loaded_left", "solid_pair"]
 
@@ -38,6 +40,9 @@ _SOFT = 8000.0
 _STEP = 0.05
 """Step (mm) of that bound, so that loads and modifications that differ little share their responses."""
 
+
+_SINGLE = 15
+"""Positions of one pair of teeth along its path of contact, among which it is stiffest."""
 
 SIDE_BY_SIDE = 0.75
 """Time of both gears, solved side by side, over the sum of their times."""
@@ -70,28 +75,30 @@ class SolidSizes:
         )
 
 
-@dataclass(frozen=True)
-class SolidPair(PairInMesh):
-    """The bodies of pinion and wheel, factorised and solved for loads on the flank.
+class KnownResponses(dict[tuple[float, float, bool], Responses]):
+    """Responses by roll angle (deg), farthest gap (mm) and whether the middle pair is alone; grows as positions are solved.
 
-    `fillets` are, for pinion and wheel, the one under the loaded flank and the one behind it; `bores` are those that are free.
+    Pairs of the same bodies at the same centre distance share it.
+    """
+
+
+@dataclass(frozen=True)
+class SolidPair(FlexiblePair[SolidCompliance]):
+    """Both bodies over their face widths, in contact along lines of `cells` over the common one.
+
     Modifications and mounting may be changed by `remade`: the bodies are those of the exact gears. Left flanks carry.
     """
 
     mounting: Mounting
-    line: MeshLine
-    pinion: SolidCompliance
-    wheel: SolidCompliance
     cells: int
-    fillets: tuple[tuple[SolidFillet, SolidFillet], tuple[SolidFillet, SolidFillet]] = field(repr=False)
-    bores: tuple[SolidFillet | None, SolidFillet | None] = field(repr=False)
-    known: dict[Any, Responses] = field(default_factory=dict, repr=False)
+    fillets: PerGear[SolidFillets] = field(repr=False)
+    known: KnownResponses = field(default_factory=KnownResponses, repr=False)
 
     def remade(self, pair: GearPair, mounting: Mounting) -> SolidPair:
         """The same bodies with other modifications of the flanks, or another mounting, of an otherwise equal pair."""
         mounted = mounting.mounted(pair)
-        known = self.known if mounted.centre_distance == self.pair.centre_distance else {}
-        return replace(self, pair=mounted, mounting=mounting, line=mesh_line(mounted), known=known)
+        known = self.known if mounted.centre_distance == self.pair.centre_distance else KnownResponses()
+        return replace(self, pair=mounted, mounting=mounting, line=line_of_action(mounted), known=known)
 
     @property
     def repeats(self) -> bool:
@@ -103,17 +110,23 @@ class SolidPair(PairInMesh):
         """Base helix angle of the pinion (rad), signed."""
         return self.pinion.flank.helix
 
-    def common_heights(self, gear: int) -> tuple[float, float]:
-        """Where the common face width begins and ends on the pinion (0) or the wheel (1): z in mm."""
-        own = (self.pair.pinion, self.pair.wheel)[gear]
-        middle = own.face_width / 2 + self.pair.common_width.offset - (0.0, self.pair.axial_offset)[gear]
+    @cached_property
+    def modulus(self) -> float:
+        """Reduced modulus of the contact (MPa): 1/E_r = sum (1 - nu^2)/E."""
+        pinion, wheel = (body.material for body in self.bodies)
+        return reduced_modulus((pinion.youngs_modulus, wheel.youngs_modulus), (pinion.poisson_ratio, wheel.poisson_ratio))
+
+    def common_heights(self, role: Role) -> tuple[float, float]:
+        """Where the common face width begins and ends on a gear: z in mm."""
+        aside = PerGear(0.0, self.pair.axial_offset).pick(role)
+        middle = self.pair.gears.pick(role).face_width / 2 + self.pair.common_width.offset - aside
         return middle - self.width / 2, middle + self.width / 2
 
     @cached_property
     def _deviation(self) -> float:
         """How far (mm) modifications and mounting can move a contact, at the most."""
         depths = []
-        for gear in (self.pair.pinion, self.pair.wheel):
+        for gear in self.pair.gears:
             form = gear.flank_form
             depths.append(np.ptp(form.depth(np.linspace(form.first, form.last, 25), np.linspace(0, form.width, 25)[:, None])))
         return sum(depths) + (abs(self.mounting.misalignment) + abs(self.mounting.pitch_error)) / 1000
@@ -124,21 +137,21 @@ class SolidPair(PairInMesh):
         Raises GeometryError where nothing can touch.
         """
         key = (round(roll_angle, 9), farthest, single)
-        if key not in self.known:
+        if (found := self.known.get(key)) is None:
             lines = contact_lines(self.pair, self.line, self.pinion.flank, self.roll_length(roll_angle), self.cells, farthest)
             if single:
                 lines = tuple(line for line in lines if line.tooth == 0)
             if not lines:
                 raise GeometryError("roll_angle", roll_angle, "must be one at which teeth can touch", "deg")
-            self.known[key] = responses(lines, self.pinion, self.wheel)
-        return self.known[key]
+            found = self.known[key] = responses(lines, self.bodies, self.modulus)
+        return found
 
     def solve(self, roll_angle: float, torque: float, *, single: bool = False) -> LineSolution:
         """The contact at a roll angle (deg) and torque (N m); `single` lets no other pair of teeth touch.
 
         Raises SolverError, and GeometryError where nothing can touch.
         """
-        self.require_narrow_contact(torque, reduced_modulus(self.pinion.material, self.wheel.material))
+        self.require_narrow_contact(torque, self.modulus)
         force, farthest = self.force(torque), self.farthest(torque)
         while True:
             given = self.responses(roll_angle, farthest, single=single)
@@ -151,6 +164,15 @@ class SolidPair(PairInMesh):
     def farthest(self, torque: float) -> float:
         """Gap of the exact flanks (mm) beyond which nothing is taken to touch at a torque (N m) but for very soft bodies."""
         return math.ceil((self.force(torque) / _SOFT + self._deviation) / _STEP) * _STEP
+
+    def single_stiffness(self, torque: float, count: int = _SINGLE) -> float:
+        """Greatest stiffness (N/(mm um)) of one pair of teeth alone, at `count` places while its line crosses the flanks."""
+        (first, last), reach = usable_path(self.pair), self.width * abs(math.tan(self.helix)) / 2
+        lengths = np.linspace(first - reach, last + reach, count + 2)[1:-1]
+        solved = (self.solve(angle, torque, single=True) for angle in self.roll_angle(lengths).tolist())
+        # Transverse: F cos(beta_b) over the approach delta/cos(beta_b), per mm of width.
+        factor = math.cos(self.helix) / 1000
+        return max(self.force(torque) * factor / (each.approach - each.rigid) for each in solved)
 
 
 def solid_pair(
@@ -167,29 +189,26 @@ def solid_pair(
 
     `tell` hears how much is done, from the thread that called. Raises SolverError, ParameterError and GeometryError.
     """
-    body, sizes, mounting = (body or BodyModel()).of_solids(), sizes or SolidSizes(), mounting or Mounting()
-    gears, neighbours = (pair.pinion, pair.wheel), _neighbours(pair)
-    starts = (pair.path_of_contact.A, mesh_line(pair).whole - pair.path_of_contact.E)
+    body, sizes, mounting = (body or BodyModel()).for_solids(), sizes or SolidSizes(), mounting or Mounting()
+    neighbours = _neighbours(pair)
+    starts = PerGear(pair.path_of_contact.A, line_of_action(pair).whole - pair.path_of_contact.E)
     jobs = []
-    for gear, mesh, support, start in zip(gears, _meshes(pair, body, sizes), body.supports(pair), starts, strict=True):
-        held = body.teeth if body.teeth is not None and body.teeth < gear.teeth else None
+    for gear, mesh, support, start in zip(pair.gears, _meshes(pair, body, sizes), body.supports(pair), starts, strict=True):
+        held = body.teeth_held(gear)
         heard = _Heard(body_cost(mesh, held or gear.teeth, neighbours))
         solid = assemble_body(
             mesh, gear.teeth, neighbours, material, held, body.cuts, free=support.bends, tell=heard.condensation
         )
         jobs.append((heard, partial(solid_compliance, gear, solid, material, start, heard.fields)))
-    solved = _side_by_side(jobs, tell)
-    mounted = mounting.mounted(pair)
-    pinion, wheel = ((SolidFillet(each, Side.LEFT_FILLET), SolidFillet(each, Side.RIGHT_FILLET)) for each in solved)
-    first, second = (SolidFillet(each, Side.INNER) if each.body.sector.free else None for each in solved)
-    return SolidPair(mounted, mounting, mesh_line(mounted), solved[0], solved[1], cells, (pinion, wheel), (first, second))
+    bodies, mounted = PerGear(*_side_by_side(jobs, tell)), mounting.mounted(pair)
+    return SolidPair(mounted, line_of_action(mounted), bodies, mounting, cells, bodies.map(solid_fillets))
 
 
 def expected_bodies(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> Expected:
     """What `solid_pair` is expected to take. Raises what it does for bodies that cannot be meshed."""
-    body, gears = body.of_solids(), (pair.pinion, pair.wheel)
-    meshes = zip(gears, _meshes(pair, body, sizes), strict=True)
-    costs = [body_cost(mesh, min(body.teeth or gear.teeth, gear.teeth), _neighbours(pair)) for gear, mesh in meshes]
+    body = body.for_solids()
+    meshes = zip(pair.gears, _meshes(pair, body, sizes), strict=True)
+    costs = [body_cost(mesh, body.teeth_held(gear) or gear.teeth, _neighbours(pair)) for gear, mesh in meshes]
     return Expected(SIDE_BY_SIDE * sum(cost.seconds for cost in costs), sum(cost.memory for cost in costs))
 
 
@@ -199,7 +218,7 @@ def _neighbours(pair: GearPair) -> int:
 
 
 def _meshes(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> list[SweptMesh]:
-    gears = zip((pair.pinion, pair.wheel), body.inner_radii(pair), strict=True)
+    gears = zip(pair.gears, body.inner_radii(pair), strict=True)
     return [sweep(gear, mesh_quads(gear, radius, sizes.section), sizes.layers(gear)) for gear, radius in gears]
 
 

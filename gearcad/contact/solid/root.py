@@ -10,20 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats, Wholes
+from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE
 from gearcad.contact.solid.flank import SolidCompliance
 from gearcad.meshing.outline import Side
 
-__all__ = ["FilletState", "SolidFillet"]
+__all__ = ["FilletState", "SolidFillet", "SolidFillets", "ToothForces", "solid_fillets"]
 
 
 _GAUSS = 0.5 / np.sqrt(3)
 """Places along the axis, from the middle of a face, at which strains of quadratic elements are most accurate."""
 
-_LEAST_ANGLE = 12.0
-"""Tangent angle (deg) from which on the fillet counts as the root, as in the plane model."""
-
 _STEPS = 4
 """Steps from one point to the next in which the greatest stress is looked for."""
+
+
+ToothForces = tuple[int, Floats]
+"""Tooth, and the force (N) at each unit load's place (see SolidCompliance.load_weights)."""
 
 
 class FilletState(NamedTuple):
@@ -60,8 +62,8 @@ class SolidFillet:
 
     @property
     def is_root(self) -> NDArray[np.bool_]:
-        """Which points (m,) along the profile are the root: above, a contact near the start of the flank presses on them."""
-        return self.tangent_angles >= _LEAST_ANGLE
+        """Which points (m,) along the profile are the root."""
+        return self.tangent_angles >= LEAST_TANGENT_ANGLE
 
     @cached_property
     def along_root(self) -> Floats:
@@ -82,8 +84,8 @@ class SolidFillet:
         result: Floats = self.along_face @ self.heights
         return result
 
-    def state(self, loads: list[tuple[int, Floats]]) -> FilletState:
-        """Stresses on tooth 0 by loads: tooth, and force (N) at each unit load's place (see SolidCompliance.by)."""
+    def state(self, loads: list[ToothForces]) -> FilletState:
+        """Stresses on tooth 0 by loads on it and its neighbours."""
         along, axial, shear = sum(
             (self._responses[-tooth] @ forces for tooth, forces in loads if -tooth in self._responses),
             start=np.zeros((3, len(self.heights), len(self.radii))),
@@ -182,6 +184,20 @@ class SolidFillet:
         plane = e / (1 - nu**2)
         stresses = (plane * (along + nu * axial), plane * (axial + nu * along), e / (2 * (1 + nu)) * shear)
         return np.stack([self._at_points(stress) for stress in stresses])
+
+
+class SolidFillets(NamedTuple):
+    """Of one gear: the fillet under the loaded flank, the one behind it, and the bore, where it is free."""
+
+    loaded: SolidFillet
+    behind: SolidFillet
+    bore: SolidFillet | None
+
+
+def solid_fillets(body: SolidCompliance) -> SolidFillets:
+    """Those of a body."""
+    bore = SolidFillet(body, Side.INNER) if body.body.sector.free else None
+    return SolidFillets(SolidFillet(body, Side.LEFT_FILLET), SolidFillet(body, Side.RIGHT_FILLET), bore)
 
 
 def _between(places: Floats) -> Floats:

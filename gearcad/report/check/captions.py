@@ -6,6 +6,7 @@ import math
 
 from gearcad.check.result import CheckResult
 from gearcad.geometry import GearPair
+from gearcad.per_gear import Role
 from gearcad.plots.paper import short
 
 __all__ = ["mesh_stiffness", "number", "pair", "root_stress", "sweep_pressure", "sweep_stiffness", "transmission_error"]
@@ -52,11 +53,11 @@ def transmission_error(result: CheckResult) -> str:
 def root_stress(result: CheckResult) -> str:
     """Caption of the root stresses."""
     texts = []
-    for gear, name in enumerate(("pinion", "wheel")):
-        tension, compression = result.summary.root_tension[gear], result.summary.root_compression[gear]
+    for role in Role:
+        tension, compression = result.summary.root_tension.pick(role), result.summary.root_compression.pick(role)
         texts.append(
-            f"The {name} reaches {short(tension)} MPa in tension at roll angle "
-            f"{result.cycle.worst_position(gear).roll_angle:.2f}° "
+            f"The {role.value} reaches {short(tension)} MPa in tension at roll angle "
+            f"{result.cycle.worst_position(role).roll_angle:.2f}° "
             f"and {short(compression)} MPa in compression, {100 * (abs(compression) / tension - 1):+.0f} % in size."
         )
     return (

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from gearcad.check.plane.result import PlaneCheck
-from gearcad.contact.plane.cycle import PairContact
+from gearcad.contact.plane.cycle import PlanePairContact
 from gearcad.contact.plane.field import ToothField
+from gearcad.per_gear import Role
 from gearcad.plots.paper import short
 from gearcad.plots.stresses import hertz_contact, shown_contact
 from gearcad.report.check.captions import number
@@ -42,7 +43,7 @@ def stress_field(result: PlaneCheck) -> str:
     )
 
 
-def contact_zone(result: PlaneCheck, contact: PairContact, fields: list[ToothField]) -> str:
+def contact_zone(result: PlaneCheck, contact: PlanePairContact, fields: list[ToothField]) -> str:
     """Caption of the zone of contact."""
     most = max(float(field.von_mises.max()) for field in fields)
     alone = result.summary.von_mises_half_plane
@@ -81,7 +82,7 @@ def contact_pressure(result: PlaneCheck) -> str:
     return text
 
 
-def depth_profile(result: PlaneCheck, contact: PairContact) -> str:
+def depth_profile(result: PlaneCheck, contact: PlanePairContact) -> str:
     """Caption of the depth profiles."""
     hertz = hertz_contact(result, contact)
     peak, shear = hertz.greatest_von_mises, hertz.greatest_shear
@@ -113,7 +114,7 @@ def load_share(result: PlaneCheck) -> str:
 
 def fillets(result: PlaneCheck) -> str:
     """Caption of the fillets."""
-    angles = [result.cycle.worst_position(gear).tension[gear].tangent_angle for gear in (0, 1)]
+    angles = [result.cycle.worst_position(role).tension.pick(role).tangent_angle for role in Role]
     return (
         "Stress along the surface of both fillets, each gear where its tension is greatest. The tangent's angle grows from "
         "the flank "
@@ -134,6 +135,6 @@ def convergence(result: PlaneCheck) -> str:
 
 def share_at(result: PlaneCheck, length: float) -> float:
     """Load share of a pair of teeth at a place on the line of action (mm from T1), between the positions solved."""
-    contacts = sorted((contact.pair.pinion, contact.share) for position in result.cycle.every for contact in position.contacts)
+    contacts = sorted((contact.place, contact.share) for position in result.cycle.every for contact in position.contacts)
     places, shares = zip(*contacts, strict=True)
     return float(np.interp(length, places, shares))

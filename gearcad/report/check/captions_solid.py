@@ -7,6 +7,7 @@ import numpy as np
 from gearcad.check.convergence import SOLID_ORDER
 from gearcad.check.solid.result import SolidCheck
 from gearcad.check.solid.summary import middle_contacts
+from gearcad.per_gear import Role
 from gearcad.plots.paper import short
 from gearcad.report.check.captions import number
 
@@ -40,15 +41,15 @@ def line_loads(result: SolidCheck) -> str:
     )
 
 
-def contact_pattern(result: SolidCheck, gear: int) -> str:
+def contact_pattern(result: SolidCheck, role: Role) -> str:
     """Caption of the pressure on a flank."""
-    summary, name = result.summary, ("pinion", "wheel")[gear]
+    summary, name = result.summary, role.value
     return (
         f"Greatest pressure at each place of the {name}'s flank while it goes through the mesh: the contact pattern, as "
         "marking "
         f"compound would show it. The greatest away from the edges is {number(summary.contact_pressure)} MPa at radius "
-        f"{number(summary.contact_pressure_radius[gear])} mm, {number(summary.contact_pressure_across)} mm from the middle "
-        "of the "
+        f"{number(summary.contact_pressure_radius.pick(role))} mm, {number(summary.contact_pressure_across)} mm from the "
+        "middle of the "
         "common width; brighter places beside edges are Hertz's formula with the load of that place, which no edge fits. Edges "
         "of tips are left out."
     )
@@ -119,13 +120,13 @@ def convergence(result: SolidCheck) -> str:
     )
 
 
-def tooth_view(result: SolidCheck, gear: int) -> str:
+def tooth_view(result: SolidCheck, role: Role) -> str:
     """Caption of a tooth in three dimensions."""
-    position, name = result.cycle.worst_position(gear), ("pinion", "wheel")[gear]
+    position, name = result.cycle.worst_position(role), role.value
     return (
         f"Von Mises stress on the surface of the {name}'s most stressed tooth at roll angle {position.roll_angle:.2f}°, "
         "where its "
-        f"root tension is greatest ({short(position.tension[gear].stress)} MPa). The colours end a tenth above the greatest of "
-        "the fillets: the contact, which elements of this size do not resolve, lies above. The cut faces and all of the field "
-        f"are in stress_{name}.vtu, for ParaView, whose colours end there too."
+        f"root tension is greatest ({short(position.tension.pick(role).stress)} MPa). The colours end a tenth above the "
+        "greatest of the fillets: the contact, which elements of this size do not resolve, lies above. The cut faces and "
+        f"all of the field are in stress_{name}.vtu, for ParaView, whose colours end there too."
     )

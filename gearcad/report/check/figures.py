@@ -12,6 +12,7 @@ from gearcad.check.plane.result import PlaneCheck
 from gearcad.check.result import CheckResult
 from gearcad.check.solid.result import SolidCheck
 from gearcad.geometry import GearPair
+from gearcad.per_gear import Role
 from gearcad.plots.check import (
     plot_contact_pressure,
     plot_load_share,
@@ -95,8 +96,18 @@ def _solid_drawings(of: SolidCheck) -> list[_Drawing]:
     words = captions_solid
     return [
         _Drawing("Load over the plane of action", partial(plot_line_loads, of), words.line_loads(of), "png"),
-        _Drawing("Contact pattern, pinion", partial(plot_contact_pattern, of, 0), words.contact_pattern(of, 0), "png"),
-        _Drawing("Contact pattern, wheel", partial(plot_contact_pattern, of, 1), words.contact_pattern(of, 1), "png"),
+        _Drawing(
+            "Contact pattern, pinion",
+            partial(plot_contact_pattern, of, Role.PINION),
+            words.contact_pattern(of, Role.PINION),
+            "png",
+        ),
+        _Drawing(
+            "Contact pattern, wheel",
+            partial(plot_contact_pattern, of, Role.WHEEL),
+            words.contact_pattern(of, Role.WHEEL),
+            "png",
+        ),
         _Drawing("Load along the face width", partial(plot_load_along_face, of), words.load_along_face(of)),
         _Drawing("Root stress along the face width", partial(plot_root_along_face, of), words.root_along_face(of)),
         _Drawing("Load share", partial(plot_lines_share, of), words.lines_share(of)),

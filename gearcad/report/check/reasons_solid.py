@@ -8,6 +8,7 @@ from gearcad.check.face import face_factors
 from gearcad.check.solid.result import SolidCheck
 from gearcad.check.solid.summary import WorstPlace, worst_place
 from gearcad.geometry.path import contact_line_lengths
+from gearcad.per_gear import Role
 from gearcad.plots.paper import short
 
 __all__ = ["face_reasons", "solid_root_reasons"]
@@ -15,12 +16,13 @@ __all__ = ["face_reasons", "solid_root_reasons"]
 
 def solid_root_reasons(result: SolidCheck) -> list[str]:
     """A sentence or more for each gear: width, unevenness along the face, and what remains."""
-    return [_root_reason(result, gear, name) for gear, name in enumerate(("pinion", "wheel"))]
+    return [_root_reason(result, role) for role in Role]
 
 
-def _root_reason(result: SolidCheck, gear: int, name: str) -> str:
-    rating, summary = result.rating.roots[gear], result.summary
-    found, standard, uneven = summary.root_tension[gear], result.rating.root_stresses[gear], summary.root_face_load_factor[gear]
+def _root_reason(result: SolidCheck, role: Role) -> str:
+    rating, summary, name = result.rating.roots.pick(role), result.summary, role.value
+    found, standard = summary.root_tension.pick(role), result.rating.root_stresses.pick(role)
+    uneven = summary.root_face_load_factor.pick(role)
     width = result.cycle.model.width
     same_width = standard * rating.width / width
     text = (
@@ -32,7 +34,7 @@ def _root_reason(result: SolidCheck, gear: int, name: str) -> str:
             f"Width: ISO spreads the load over b = {short(rating.width)} mm of the {name}, the finite elements over the common "
             f"width of {short(width)} mm: on that width ISO would have {short(same_width)} MPa. "
         )
-    peak = result.cycle.worst_position(gear).tension[gear]
+    peak = result.cycle.worst_position(role).tension.pick(role)
     mean = found / uneven
     return text + (
         f"Along the face: the greatest tension stands at z = {short(peak.height)} mm and is K_Fβ = {uneven:.3f} times the mean "

@@ -10,6 +10,7 @@ import numpy as np
 
 from gearcad.check.result import CheckResult
 from gearcad.check.solid.result import SolidCheck
+from gearcad.per_gear import Role
 from gearcad.plots.paper import short
 from gearcad.plots.tooth import COLOUR_MAP, PITCH, YAW, ToothSurface, plot_tooth, tooth_surface
 from gearcad.report.check import captions_solid
@@ -35,18 +36,18 @@ class ToothView(NamedTuple):
 
 def tooth_views(result: CheckResult) -> list[ToothView]:
     """One of each gear, for solid bodies; none in the plane."""
-    return [_view(result, gear) for gear in (0, 1)] if isinstance(result, SolidCheck) else []
+    return [_view(result, role) for role in Role] if isinstance(result, SolidCheck) else []
 
 
-def _view(result: SolidCheck, gear: int) -> ToothView:
-    surface, name = tooth_surface(result, gear), ("pinion", "wheel")[gear]
+def _view(result: SolidCheck, role: Role) -> ToothView:
+    surface = tooth_surface(result, role)
     return ToothView(
-        title=f"Stress in a tooth of the {name}",
+        title=f"Stress in a tooth of the {role.value}",
         address=picture_address(partial(plot_tooth, surface), "png"),
         data=_data(surface),
         colours=[f"rgb({red}, {green}, {blue})" for red, green, blue in _colours(_STOPS)],
         legend=[short(round(part * surface.most)) for part in (0.0, 0.25, 0.5, 0.75, 1.0)],
-        caption=captions_solid.tooth_view(result, gear),
+        caption=captions_solid.tooth_view(result, role),
     )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.plane.elasticity import PlaneElasticity
-from gearcad.contact.plane.flank import Compliance, FlankCompliance, flank_of
+from gearcad.contact.plane.flank import Compliance, PlaneCompliance, flank_of
 from gearcad.contact.plane.ring import Ring
 from gearcad.geometry import Gear
 
@@ -20,7 +20,7 @@ __all__ = ["NodalCompliance", "nodal_compliance"]
 
 
 @dataclass(frozen=True)
-class NodalCompliance(FlankCompliance):
+class NodalCompliance(PlaneCompliance):
     """Responses to unit loads that fall off linearly from each vertex of the flank to the next: `weights` (nodes, vertices).
 
     What moves is averaged with the same weights, so the responses are symmetric (Galerkin).

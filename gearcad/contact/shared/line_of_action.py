@@ -1,9 +1,11 @@
-"""Which flanks can touch at a position of the mesh, and the gap between them."""
+"""The line of action and the flanks that meet on it, in the transverse section: where they face each other, and the gap.
+
+A position of the mesh is where the middle pair of teeth touches: its roll length on the pinion, in mm from T1.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -11,27 +13,31 @@ from typing import Any
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.contact.plane.contact import Cells, ContactPair
 from gearcad.geometry import FlankForm, GearPair
+from gearcad.per_gear import PerGear
 
-__all__ = ["MeshLine", "contact_pairs", "mesh_line", "rigid_approach"]
+__all__ = [
+    "LEAST_LENGTH",
+    "LineOfAction",
+    "TransverseFlank",
+    "facing_gap",
+    "facing_teeth",
+    "line_of_action",
+    "nearest",
+    "overlap",
+    "rigid_approach",
+]
 
 
-_LEAST_LENGTH = 0.01
+LEAST_LENGTH = 0.01
 """Least roll length (mm per mm of normal module) at which a flank still has a curvature to speak of."""
-
-_FEWEST = 6
-"""Cells of a pair of flanks, however narrow its window."""
 
 _SAMPLES = 1201
 """Places on a pair of flanks among which the nearest is sought: 5 um apart on teeth of module 2, 0.001 um of the gap."""
 
-_BEND = 0.01
-"""Distance (mm per mm of normal module) over which the curvature of a gap is taken."""
-
 
 @dataclass(frozen=True)
-class _Flank:
+class TransverseFlank:
     """A flank in the transverse section at the height `height` (mm) of its gear; places on it are roll lengths (mm)."""
 
     form: FlankForm
@@ -55,10 +61,10 @@ class _Flank:
     @property
     def even(self) -> tuple[float, float]:
         """Where the root relief ends and the tip relief begins."""
-        of = self.form.modification
+        relieved = self.form.modification
         return (
-            self.first + of.root_relief_length if of.root_relief else self.first,
-            self.last - of.tip_relief_length if of.tip_relief else self.last,
+            self.first + relieved.root_relief_length if relieved.root_relief else self.first,
+            self.last - relieved.tip_relief_length if relieved.tip_relief else self.last,
         )
 
     def depth(self, lengths: Floats) -> Floats:
@@ -88,7 +94,7 @@ class _Flank:
 
 
 @dataclass(frozen=True)
-class MeshLine:
+class LineOfAction:
     """The line of action of a pair: its length T1T2 and the base pitch (mm), and both flanks.
 
     `proud` (mm) is how much further than the others the flanks of the middle pair stand out.
@@ -96,35 +102,40 @@ class MeshLine:
 
     whole: float
     pitch: float
-    pinion: _Flank
-    wheel: _Flank
+    flanks: PerGear[TransverseFlank]
     module: float
     proud: float = 0.0
 
     @property
     def exact(self) -> bool:
         """True if all flanks are exact involutes in their places."""
-        return not (self.proud or self.pinion.form.modification.present or self.wheel.form.modification.present)
+        return not (self.proud or any(flank.form.modification.present for flank in self.flanks))
 
-    def taken_back(self, tooth: int, pinion_lengths: Floats, wheel_lengths: Floats) -> Floats:
-        """What modifications and pitch errors add to the gap (mm) between the flanks of a pair of teeth."""
-        depth = self.pinion.depth(pinion_lengths) + self.wheel.depth(wheel_lengths)
+    def lengths(self, pinion_length: float) -> PerGear[float]:
+        """Roll lengths of both flanks (mm) that touch at `pinion_length` (mm from T1)."""
+        return PerGear(pinion_length, self.whole - pinion_length)
+
+    def taken_back(self, tooth: int, lengths: PerGear[Floats]) -> Floats:
+        """What modifications and pitch errors add to the gap (mm) between the flanks of a pair of teeth at roll lengths."""
+        pinion, wheel = (flank.depth(each) for flank, each in zip(self.flanks, lengths, strict=True))
+        depth = pinion + wheel
         return depth - self.proud if tooth == 0 else depth
 
 
-def mesh_line(pair: GearPair, pitch_error: float = 0.0) -> MeshLine:
+def line_of_action(pair: GearPair, pitch_error: float = 0.0) -> LineOfAction:
     """The line of action of a pair in the transverse section through the middle of its common face width.
 
     `pitch_error` (um) is how far the flanks of the middle pair of teeth stand proud, both together.
     """
     whole = pair.centre_distance * math.sin(math.radians(pair.working_transverse_pressure_angle))
     middle = pair.common_width.offset
-    pinion = _Flank(pair.pinion.flank_form, pair.pinion.face_width / 2 + middle)
-    wheel = _Flank(pair.wheel.flank_form, pair.wheel.face_width / 2 + middle - pair.axial_offset)
-    return MeshLine(whole, pair.pinion.transverse_base_pitch, pinion, wheel, pair.pinion.normal_module, pitch_error / 1000)
+    pinion = TransverseFlank(pair.pinion.flank_form, pair.pinion.face_width / 2 + middle)
+    wheel = TransverseFlank(pair.wheel.flank_form, pair.wheel.face_width / 2 + middle - pair.axial_offset)
+    pitch, module = pair.pinion.transverse_base_pitch, pair.pinion.normal_module
+    return LineOfAction(whole, pitch, PerGear(pinion, wheel), module, pitch_error / 1000)
 
 
-def rigid_approach(line: MeshLine, pinion_length: float, *, single: bool = False) -> float:
+def rigid_approach(line: LineOfAction, pinion_length: float, *, single: bool = False) -> float:
     """How far (mm) rigid gears approach along the line of action, from where exact involutes touch, until the first pair does.
 
     The middle pair touches at `pinion_length` (mm from T1); `single` lets no other pair touch. The transmission error of an
@@ -132,23 +143,23 @@ def rigid_approach(line: MeshLine, pinion_length: float, *, single: bool = False
     """
     if line.exact:
         return 0.0
-    teeth = (0,) if single else _teeth(line)
-    found = (_nearest(line, tooth, pinion_length + tooth * line.pitch) for tooth in teeth)
+    teeth = (0,) if single else facing_teeth(line)
+    found = (nearest(line, tooth, pinion_length + tooth * line.pitch) for tooth in teeth)
     return min((gap for gap, _ in filter(None, found)), default=0.0)
 
 
-def _teeth(line: MeshLine) -> range:
+def facing_teeth(line: LineOfAction) -> range:
     """Every pair of teeth whose flanks can face each other."""
-    reach = math.ceil((line.pinion.last + line.wheel.last) / line.pitch)
+    reach = math.ceil(sum(flank.last for flank in line.flanks) / line.pitch)
     return range(-reach, reach + 1)
 
 
-def _overlap(line: MeshLine, pinion_length: float) -> tuple[float, float]:
+def overlap(line: LineOfAction, pinion_length: float) -> tuple[float, float]:
     """Between which places along the tangent (mm) two flanks face each other; nothing is left if the first is not below."""
-    wheel_length, least = line.whole - pinion_length, _LEAST_LENGTH * line.module
-    if min(pinion_length, wheel_length) <= least:
+    _, wheel_length = line.lengths(pinion_length)
+    if min(pinion_length, wheel_length) <= LEAST_LENGTH * line.module:
         return 0.0, 0.0
-    one, other = line.pinion, line.wheel
+    one, other = line.flanks
     return (
         max(one.along_tangent(pinion_length, one.first), -other.along_tangent(wheel_length, other.last)),
         min(one.along_tangent(pinion_length, one.last), -other.along_tangent(wheel_length, other.first)),
@@ -156,19 +167,19 @@ def _overlap(line: MeshLine, pinion_length: float) -> tuple[float, float]:
 
 
 @lru_cache(1024)
-def _nearest(line: MeshLine, tooth: int, pinion_length: float) -> tuple[float, float] | None:
+def nearest(line: LineOfAction, tooth: int, pinion_length: float) -> tuple[float, float] | None:
     """The least gap (mm) between the flanks of a pair of teeth, and its place along the tangent; None if they do not face.
 
     Known for the last positions: every torque and every step of its solution asks for it again.
     """
-    low, high = _overlap(line, pinion_length)
+    low, high = overlap(line, pinion_length)
     if low >= high:
         return None
     if line.exact:
         place = min(max(0.0, low), high)
         return place**2 * line.whole / 2 / pinion_length / (line.whole - pinion_length), place
     places = np.linspace(low, high, _SAMPLES)
-    gap = _gap(line, tooth, pinion_length, places)[2]
+    _, gap = facing_gap(line, tooth, pinion_length, places)
     # The top of a parabola between the samples: else contact would jump from one to the next as gears roll.
     least = min(max(int(gap.argmin()), 1), _SAMPLES - 2)
     before, at, after = gap[least - 1 : least + 2]
@@ -179,64 +190,11 @@ def _nearest(line: MeshLine, tooth: int, pinion_length: float) -> tuple[float, f
     )
 
 
-def _gap(line: MeshLine, tooth: int, pinion_length: float, place: Floats) -> tuple[Floats, Floats, Floats]:
-    """Roll lengths of both flanks that face each other at places along the tangent, and the gap between them (mm)."""
-    lengths, behind = line.pinion.facing(pinion_length, place)
-    wheel_lengths, wheel_behind = line.wheel.facing(line.whole - pinion_length, -place)
-    return lengths, wheel_lengths, behind + wheel_behind + line.taken_back(tooth, lengths, wheel_lengths)
-
-
-def contact_pairs(
-    line: MeshLine,
-    pinion_length: float,
-    span: Callable[[int, float], float],
-    cells: int,
-    farthest_gap: float,
-    least_width: float = 0.0,
-) -> tuple[ContactPair, ...]:
-    """Pairs of flanks when the middle pair touches at `pinion_length` (mm from T1).
-
-    Each has `cells` within `span(tooth, reduced radius)` (mm) on both sides of its contact, or fewer that are not narrower
-    than `least_width` (mm). Beyond the path of contact the corner of a tip can touch while teeth bend: such pairs count up
-    to `farthest_gap` (mm) from where exact involutes would touch.
-    """
-    found = (
-        _contact_pair(line, tooth, pinion_length + tooth * line.pitch, span, cells, farthest_gap, least_width)
-        for tooth in _teeth(line)
+def facing_gap(line: LineOfAction, tooth: int, pinion_length: float, place: Floats) -> tuple[PerGear[Floats], Floats]:
+    """Roll lengths (n,) of both flanks that face each other at places along the tangent, and the gap between them (mm)."""
+    touching = line.lengths(pinion_length)
+    (lengths, behind), (wheel_lengths, wheel_behind) = (
+        flank.facing(length, sense * place) for flank, length, sense in zip(line.flanks, touching, (1, -1), strict=True)
     )
-    return tuple(pair for pair in found if pair is not None)
-
-
-def _contact_pair(
-    line: MeshLine,
-    tooth: int,
-    pinion_length: float,
-    span: Callable[[int, float], float],
-    cells: int,
-    farthest_gap: float,
-    least_width: float,
-) -> ContactPair | None:
-    found = _nearest(line, tooth, pinion_length)
-    if found is None or found[0] > farthest_gap:
-        return None
-    (low, high), nearest = _overlap(line, pinion_length), found[1]
-    wheel_length = line.whole - pinion_length
-    radius = pinion_length * wheel_length / line.whole
-    reach = span(tooth, radius)
-    first, last = max(low, nearest - reach), min(high, nearest + reach)
-    finest = max(2 * reach / cells, least_width)
-    count = max(round((last - first) / finest), _FEWEST)
-    width = (last - first) / count
-    place = np.linspace(first + width / 2, last - width / 2, count)
-    lengths, wheel_lengths, gap = _gap(line, tooth, pinion_length, place)
-    # The mean gap over a cell is that of its middle and what the curvature adds.
-    gap = gap + width**2 / 24 / radius
-    added = 0.0 if line.exact else _curvature(line, tooth, pinion_length, nearest) - 1 / radius
-    return ContactPair(tooth, pinion_length, wheel_length, Cells(place, width, lengths, wheel_lengths, gap), added)
-
-
-def _curvature(line: MeshLine, tooth: int, pinion_length: float, place: float) -> float:
-    """Relative curvature (1/mm) of two flanks at a place along the tangent: second difference of their gap."""
-    step = _BEND * line.module
-    before, at, after = _gap(line, tooth, pinion_length, place + step * np.array([-1.0, 0.0, 1.0]))[2]
-    return float(before - 2 * at + after) / step**2
+    facing = PerGear(lengths, wheel_lengths)
+    return facing, behind + wheel_behind + line.taken_back(tooth, facing)

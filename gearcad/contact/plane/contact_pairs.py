@@ -1,0 +1,75 @@
+"""The pairs of flanks that can touch at a position of the mesh, each divided into cells."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from gearcad.contact.plane.contact import ContactCells, ContactPair
+from gearcad.contact.shared.line_of_action import LineOfAction, facing_gap, facing_teeth, nearest, overlap
+
+__all__ = ["contact_pairs"]
+
+
+_FEWEST = 6
+"""Cells of a pair of flanks, however narrow its window."""
+
+_BEND = 0.01
+"""Distance (mm per mm of normal module) over which the curvature of a gap is taken."""
+
+
+def contact_pairs(
+    line: LineOfAction,
+    pinion_length: float,
+    span: Callable[[int, float], float],
+    cells: int,
+    farthest_gap: float,
+    least_width: float = 0.0,
+) -> tuple[ContactPair, ...]:
+    """Pairs of flanks when the middle pair touches at `pinion_length` (mm from T1).
+
+    Each has `cells` within `span(tooth, reduced radius)` (mm) on both sides of its contact, or fewer that are not narrower
+    than `least_width` (mm). Beyond the path of contact the corner of a tip can touch while teeth bend: such pairs count up
+    to `farthest_gap` (mm) from where exact involutes would touch.
+    """
+    found = (
+        _contact_pair(line, tooth, pinion_length + tooth * line.pitch, span, cells, farthest_gap, least_width)
+        for tooth in facing_teeth(line)
+    )
+    return tuple(pair for pair in found if pair is not None)
+
+
+def _contact_pair(
+    line: LineOfAction,
+    tooth: int,
+    pinion_length: float,
+    span: Callable[[int, float], float],
+    cells: int,
+    farthest_gap: float,
+    least_width: float,
+) -> ContactPair | None:
+    found = nearest(line, tooth, pinion_length)
+    if found is None or found[0] > farthest_gap:
+        return None
+    (low, high), middle = overlap(line, pinion_length), found[1]
+    touching = line.lengths(pinion_length)
+    radius = touching.pinion * touching.wheel / line.whole
+    reach = span(tooth, radius)
+    first, last = max(low, middle - reach), min(high, middle + reach)
+    finest = max(2 * reach / cells, least_width)
+    count = max(round((last - first) / finest), _FEWEST)
+    width = (last - first) / count
+    place = np.linspace(first + width / 2, last - width / 2, count)
+    facing, gap = facing_gap(line, tooth, pinion_length, place)
+    # The mean gap over a cell is that of its middle and what the curvature adds.
+    gap = gap + width**2 / 24 / radius
+    added = 0.0 if line.exact else _curvature(line, tooth, pinion_length, middle) - 1 / radius
+    return ContactPair(tooth, touching, ContactCells(place, width, facing, gap), added)
+
+
+def _curvature(line: LineOfAction, tooth: int, pinion_length: float, place: float) -> float:
+    """Relative curvature (1/mm) of two flanks at a place along the tangent: second difference of their gap."""
+    step = _BEND * line.module
+    _, (before, here, after) = facing_gap(line, tooth, pinion_length, place + step * np.array([-1.0, 0.0, 1.0]))
+    return float(before - 2 * here + after) / step**2
