@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from gearcad.geometry.gear import Gear
-from gearcad.solids.exact.kernel import Kernel
+from gearcad.solids.exact.kernel import Edges, Kernel, backward
+from gearcad.solids.keyway import keyway_half_angle
 
 __all__ = ["add_blank"]
-
-Edges = list[tuple[Any, bool]]
 
 
 @dataclass(frozen=True)
@@ -23,9 +22,8 @@ class _Contour:
     starts: list[Any]
 
     def loop(self, *, along: bool) -> Edges:
-        if along:
-            return [(edge, True) for edge in self.edges]
-        return [(edge, False) for edge in reversed(self.edges)]
+        loop = [(edge, True) for edge in self.edges]
+        return loop if along else backward(loop)
 
 
 def add_blank(gear: Gear, kernel: Kernel, lower: Edges, upper: Edges) -> None:
@@ -72,7 +70,7 @@ def _opening(gear: Gear, kernel: Kernel, z: float) -> _Contour:
         return _circle(kernel, radius, z)
     corners = _keyway_corners(gear)
     starts = [kernel.vertex((x, y, z)) for x, y in corners]
-    angle = math.asin(gear.body.keyway_width / gear.body.bore)
+    angle = keyway_half_angle(gear.body)
     edges = [kernel.edge(kernel.circle(radius, z), starts[0], starts[1], angle, 2 * math.pi - angle)]
     for k in (1, 2, 3):
         after = (k + 1) % 4
@@ -100,7 +98,7 @@ def _add_opening(gear: Gear, kernel: Kernel, low: _Contour, high: _Contour, heig
         _add_tube(kernel, radius, low, high, heights, outward=False)
         return
     corners = _keyway_corners(gear)
-    angle = math.asin(gear.body.keyway_width / gear.body.bore)
+    angle = keyway_half_angle(gear.body)
     lines = [kernel.line((*corner, heights[0]), (*corner, heights[1])) for corner in corners]
     uprights = [kernel.edge(line, low.starts[k], high.starts[k], 0.0, length) for k, (line, length) in enumerate(lines)]
     cylinder = kernel.cylinder(radius)

@@ -11,11 +11,11 @@ import numpy as np
 
 from gearcad.arrays import Floats
 
-__all__ = ["Kernel", "Loop", "bezier_curve", "bezier_curve_2d", "bezier_surface"]
+__all__ = ["Edges", "Kernel", "backward", "bezier_curve", "bezier_curve_2d", "bezier_surface"]
 
 
-Loop = Sequence[tuple[Any, bool]]
-"""Edges of a wire in order, each with True if it is run along its own direction."""
+Edges = list[tuple[Any, bool]]
+"""Edges of a chain in order, each with True if it is run along its own direction."""
 
 PRECISION = 1e-7
 """OpenCASCADE's own smallest distance (mm)."""
@@ -70,6 +70,11 @@ def bezier_surface(poles: Floats, low: float, high: float) -> Any:
             array.SetValue(i, j, gp_Pnt(*point))
     along, across = _knots(rows - 1, 0.0, 1.0), _knots(columns - 1, low, high)
     return Geom_BSplineSurface(array, along[0], across[0], along[1], across[1], rows - 1, columns - 1)
+
+
+def backward(chain: Edges) -> Edges:
+    """A chain of edges run the other way."""
+    return [(edge, not along) for edge, along in reversed(chain)]
 
 
 class Kernel:
@@ -183,7 +188,7 @@ class Kernel:
         """Give an edge its curve in the parameters of a surface; two curves make it the seam of a closed one."""
         self._builder.UpdateEdge(edge, *curves, surface, place or self.here, self.tolerance)
 
-    def wire(self, loop: Loop) -> Any:
+    def wire(self, loop: Edges) -> Any:
         wire = self._wire()
         self._builder.MakeWire(wire)
         for edge, along in loop:
@@ -191,7 +196,7 @@ class Kernel:
         wire.Closed(True)
         return wire
 
-    def face(self, surface: Any, loops: Iterable[Loop], *, outward: bool = True, place: Any = None) -> None:
+    def face(self, surface: Any, loops: Iterable[Edges], *, outward: bool = True, place: Any = None) -> None:
         """Add a face to the shell; its loops run counter-clockwise (holes clockwise) about the surface's own normal."""
         face = self._face()
         self._builder.MakeFace(face, surface, place or self.here, PRECISION)

@@ -11,13 +11,11 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.geometry.gear import Gear
 from gearcad.solids.exact.ends import End
-from gearcad.solids.exact.kernel import Kernel, bezier_curve, bezier_surface
+from gearcad.solids.exact.kernel import Edges, Kernel, backward, bezier_curve, bezier_surface
 from gearcad.solids.exact.layout import ToothLayout
 from gearcad.solids.exact.outline import FlankSpan, LandArc
 
 __all__ = ["add_teeth"]
-
-Edges = list[tuple[Any, bool]]
 
 
 def add_teeth(gear: Gear, kernel: Kernel) -> tuple[Edges, Edges]:
@@ -128,7 +126,7 @@ class _ToothRing:
                 kernel.lay(edge, surface, curve, place=place)
             lower, upper = (self._lay_end(which, i, k, surface) for which in (0, 1))
             up, down = [(edge, True) for edge in right], [(edge, True) for edge in left]
-            kernel.face(surface, [[*lower, *up, *_backward(upper), *_backward(down)]], place=place)
+            kernel.face(surface, [[*lower, *up, *backward(upper), *backward(down)]], place=place)
 
     def _add_flank(self, k: int, piece: FlankSpan) -> None:
         """One face per tooth and stretch of the face width."""
@@ -157,7 +155,7 @@ class _ToothRing:
                     ends = self._vertex(i, k, n + 1), self._vertex(follows, after, n + 1)
                     above = [(kernel.edge(crossings[n + 1], *ends, 0.0, 1.0, place), True)]
                     kernel.lay(above[0][0], surface, kernel.line_2d(0, heights[n + 1], 1, 0), place=place)
-                kernel.face(surface, [[*below, *right, *_backward(above), *_backward(left)]], place=place)
+                kernel.face(surface, [[*below, *right, *backward(above), *backward(left)]], place=place)
                 below = above
 
     def _lay_end(self, which: int, i: int, k: int, surface: Any) -> Edges:
@@ -240,10 +238,5 @@ class _ToothRing:
         `sides`: generators at the start and the end of the rim, pointing to it, where it does not close on the foot.
         """
         before, after = ([(edge, True)] for edge in sides) if sides else ([], [])
-        around = [*before, *rim, *_backward(after), (foot, False)]
-        self.kernel.face(cone, [_backward(around) if end.inward > 0 else around], place=self.places[i])
-
-
-def _backward(loop: Edges) -> Edges:
-    """A chain of edges run the other way."""
-    return [(edge, not along) for edge, along in reversed(loop)]
+        around = [*before, *rim, *backward(after), (foot, False)]
+        self.kernel.face(cone, [backward(around) if end.inward > 0 else around], place=self.places[i])

@@ -94,31 +94,14 @@ class ToothGrid:
 
 def tooth_grid(gear: Gear, chord_error: float) -> ToothGrid:
     """Grid of one tooth within `chord_error` (mm) of the surface everywhere."""
-    near = least_distance(gear, chord_error)
-    layers = Layers.of(gear, chord_error)
-    pieces = flank_curves(gear)
-    curves = [piece.curve for piece in pieces]
-    ends = [gear.root_diameter / 2, *(float(curve.polar(1.0)[0]) for curve in curves)]
-    cone = EndCone.of(gear).snapped(ends, near)
+    layers, pieces = Layers.of(gear, chord_error), flank_curves(gear)
+    ends = [gear.root_diameter / 2, *(float(piece.curve.polar(1.0)[0]) for piece in pieces)]
+    cone = EndCone.of(gear).snapped(ends, least_distance(gear, chord_error))
     samples = [_samples(gear, piece, layers, cone, chord_error) for piece in pieces]
-
-    polar = [curve.polar(s) for curve, s in zip(curves, samples, strict=True)]
-    radius = np.concatenate([polar[0][0][:1], *(r[1:] for r, _ in polar)])
-    angle = np.concatenate([polar[0][1][:1], *(a[1:] for _, a in polar)])
-    radius[0], radius[-1] = gear.root_diameter / 2, gear.tip_diameter / 2
-    face_level = len(radius) - 1
-    if cone.present:
-        face_level = int(np.argmin(np.abs(radius - cone.face_radius)))
-        if cone.face_radius >= radius[0]:
-            radius[face_level] = cone.face_radius
+    radius, angle, face_level = _profile(gear, pieces, samples, cone)
     setback = cone.setback(radius)
-    right, left = turns = _turns(gear, pieces, samples, layers.heights(setback))
-    root_half = math.pi / gear.teeth - angle[0] + (right[:, 0] - left[:, 0]).max() / 2
-    tip_half = angle[-1] + (left[:, -1] - right[:, -1]).max() / 2
-    # Ends that turn stay apart, however near they are.
-    root_near, tip_near = (0.0 if np.any([right[:, k], left[:, k]]) else near for k in (0, -1))
-    root_steps = _land_steps(root_half, radius[0], chord_error, root_near)
-    tip_steps = _land_steps(tip_half, radius[-1], chord_error, tip_near)
+    turns = _turns(gear, pieces, samples, layers.heights(setback))
+    root_steps, tip_steps = _lands(gear, radius, angle, turns, chord_error)
     if not root_steps:
         angle[0] = math.pi / gear.teeth
     if not tip_steps:
@@ -138,6 +121,32 @@ def tooth_grid(gear: Gear, chord_error: float) -> ToothGrid:
         layers=layers,
         teeth=gear.teeth,
     )
+
+
+def _profile(gear: Gear, pieces: list[FlankCurve], samples: list[Floats], cone: EndCone) -> tuple[Floats, Floats, int]:
+    """Radius (mm) and half angle (rad) of the profile points, and the index of the one where the cone begins."""
+    polar = [piece.curve.polar(s) for piece, s in zip(pieces, samples, strict=True)]
+    radius = np.concatenate([polar[0][0][:1], *(r[1:] for r, _ in polar)])
+    angle = np.concatenate([polar[0][1][:1], *(a[1:] for _, a in polar)])
+    radius[0], radius[-1] = gear.root_diameter / 2, gear.tip_diameter / 2
+    if not cone.present:
+        return radius, angle, len(radius) - 1
+    face_level = int(np.argmin(np.abs(radius - cone.face_radius)))
+    if cone.face_radius >= radius[0]:
+        radius[face_level] = cone.face_radius
+    return radius, angle, face_level
+
+
+def _lands(gear: Gear, radius: Floats, angle: Floats, turns: tuple[Floats, Floats], chord_error: float) -> tuple[int, int]:
+    """Chords of a whole root land and tip land, where they are widest."""
+    right, left = turns
+    root_half = math.pi / gear.teeth - angle[0] + (right[:, 0] - left[:, 0]).max() / 2
+    tip_half = angle[-1] + (left[:, -1] - right[:, -1]).max() / 2
+    # Ends that turn stay apart, however near they are.
+    least = least_distance(gear, chord_error)
+    root_near, tip_near = (0.0 if np.any([right[:, k], left[:, k]]) else least for k in (0, -1))
+    root_steps = _land_steps(root_half, radius[0], chord_error, root_near)
+    return root_steps, _land_steps(tip_half, radius[-1], chord_error, tip_near)
 
 
 def _samples(gear: Gear, piece: FlankCurve, layers: Layers, cone: EndCone, chord_error: float) -> Floats:

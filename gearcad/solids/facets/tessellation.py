@@ -9,12 +9,13 @@ import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import ParameterError, require_number
-from gearcad.geometry import Gear
+from gearcad.geometry import Body, Gear
 from gearcad.geometry.limits import at_least
 from gearcad.solids.facets.caps import GearEnd, cap_teeth
 from gearcad.solids.facets.sampling import ToothGrid, tooth_grid
 from gearcad.solids.facets.tolerance import arc_step
 from gearcad.solids.facets.zipper import keyway_order, middles, zip_rings
+from gearcad.solids.keyway import keyway_half_angle
 
 __all__ = ["Facets", "tessellate"]
 
@@ -106,7 +107,7 @@ class _Builder:
             return None
         loop = self._circle(body.bore / 2)
         if body.keyway_width:
-            loop = _keyed_bore(body.bore / 2, body.keyway_width / 2, body.keyway_depth, 2 * np.pi / len(loop))
+            loop = _keyed_bore(body, 2 * np.pi / len(loop))
         low, high = (self.add(np.column_stack([loop, np.full(len(loop), z)])) for z in (bottom, top))
         self.faces.append(_wall(low, high)[:, ::-1])
         return np.arctan2(loop[:, 1], loop[:, 0]), low, high
@@ -150,7 +151,7 @@ class _Builder:
         around, low, high = self.opening
         order, body = middles(around), self.gear.body
         if body.keyway_width:
-            order = keyway_order(order, math.asin(body.keyway_width / body.bore), (len(order) - 3) // 2, angle)
+            order = keyway_order(order, keyway_half_angle(body), (len(order) - 3) // 2, angle)
         return zip_rings(high if top else low, order, ring, middles(angle))
 
 
@@ -160,10 +161,10 @@ def _wall(low: Wholes, high: Wholes) -> Wholes:
     return np.concatenate([np.stack([low, following, above], -1), np.stack([low, above, high], -1)])
 
 
-def _keyed_bore(radius: float, half_width: float, depth: float, step: float) -> Floats:
+def _keyed_bore(body: Body, step: float) -> Floats:
     """Outline (2 h + 3, 2) of a bore with keyway, from the far side: h chords, wall, floor, wall, h chords."""
-    ends = math.asin(half_width / radius)
+    radius, half_width, ends = body.bore / 2, body.keyway_width / 2, keyway_half_angle(body)
     angle = np.linspace(ends, np.pi, math.ceil((np.pi - ends) / step) + 1)
     upper = radius * np.column_stack([np.cos(angle), np.sin(angle)])
-    floor = [[radius + depth, -half_width], [radius + depth, half_width]]
+    floor = [[radius + body.keyway_depth, -half_width], [radius + body.keyway_depth, half_width]]
     return np.concatenate([(upper * [1, -1])[::-1], floor, upper[:-1]])

@@ -14,6 +14,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.geometry import Body, Gear
 from gearcad.solids.files.contour import extent_of, gear_contour
+from gearcad.solids.keyway import keyway_half_angle
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -95,7 +96,7 @@ def _draw_bore(space: Modelspace, body: Body) -> None:
     if not half_width:
         space.add_circle((0, 0), radius, dxfattribs={"layer": "BORE"})
         return
-    end = math.asin(half_width / radius)
+    end = keyway_half_angle(body)
     corner, floor = radius * math.cos(end), radius + body.keyway_depth
     # The arc goes the long way round, from the keyway's upper to its lower wall.
     points = [

@@ -35,7 +35,7 @@ class GearProduct:
         return tessellate(self.gear, self.options.chord_error)
 
     def solid(self) -> cadquery.Solid:
-        """The exact solid."""
+        """The gear as a boundary representation: see `gear_solid`."""
         return gear_solid(self.gear)
 
     def scene(self) -> list[Part]:
@@ -66,7 +66,7 @@ class PairProduct:
         return PerGear.each(product)
 
     def solid(self) -> cadquery.Assembly:
-        """The assembly of exact solids."""
+        """Both exact solids posed in mesh: see `pair_assembly`."""
         return pair_assembly(self.pair, bracket=self.options.bracket)
 
     def scene(self) -> list[Part]:
