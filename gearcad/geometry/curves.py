@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
+from gearcad.geometry.involute import involute_at_roll
 from gearcad.geometry.trochoid import ToolTip
 
 __all__ = ["Chamfer", "Curve", "CurveKind", "Fillet", "Involute", "Land", "parameters_within"]
@@ -114,7 +115,7 @@ class Involute(_Cartesian):
 
     def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
         roll = self.roll(s)
-        return self.base_radius * np.hypot(1.0, roll), self.base_half_angle - (roll - np.arctan(roll))
+        return self.base_radius * np.hypot(1.0, roll), self.base_half_angle - involute_at_roll(roll)
 
     def direction(self, s: ArrayLike) -> Floats:
         return self.base_half_angle - self.roll(s)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearcad.errors import ParameterError, SolverError
 
-__all__ = ["inverse_involute", "involute"]
+__all__ = ["inverse_involute", "involute", "involute_at_roll"]
 
 _MAX_NEWTON_STEPS = 60
 
@@ -28,6 +28,12 @@ def involute(angle: ArrayLike) -> Any:
     return float(result) if result.ndim == 0 else result
 
 
+def involute_at_roll(roll: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The involute where the roll angle is `roll` (rad): that is tan(alpha), so inv(alpha) = roll - atan(roll)."""
+    result: NDArray[np.float64] = roll - np.arctan(roll)
+    return result
+
+
 @overload
 def inverse_involute(value: float) -> float: ...
 @overload
@@ -44,7 +50,7 @@ def inverse_involute(value: ArrayLike) -> Any:
     tangent = np.minimum(target + np.pi / 2, np.cbrt(3 * target) * (1 + 0.4 * np.cbrt(3 * target)))
     for _ in range(_MAX_NEWTON_STEPS):
         slope = np.where(tangent > 0, tangent**2 / (1 + tangent**2), 1.0)
-        step = (tangent - np.arctan(tangent) - target) / slope
+        step = (involute_at_roll(tangent) - target) / slope
         tangent = tangent - step
         if np.all(np.abs(step) <= 4e-16 * np.abs(tangent) + 1e-16 / slope):
             break

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from gearcad.arrays import Floats
 from gearcad.errors import GeometryError, ParameterError, require_number
 from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Fillet, Involute, Land, parameters_within
-from gearcad.geometry.involute import inverse_involute, involute
+from gearcad.geometry.involute import inverse_involute, involute, involute_at_roll
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.trochoid import ToolTip
 
@@ -291,7 +291,7 @@ class ToothProfile:
         base = self.base_diameter / 2
         radius = np.asarray(radius, float)
         tangent = np.sqrt((radius - base) * (radius + base)) / base
-        return math.radians(self.base_half_angle) - (tangent - np.arctan(tangent))
+        return math.radians(self.base_half_angle) - involute_at_roll(tangent)
 
 
 def base_half_angle(teeth: float, normal_thickness: float, normal_module: float, transverse_pressure_angle: float) -> float:

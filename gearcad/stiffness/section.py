@@ -18,6 +18,7 @@ from numpy.polynomial import Chebyshev
 from gearcad.arrays import Floats
 from gearcad.geometry import Gear, ToothProfile
 from gearcad.geometry.curves import Curve, Fillet, Involute
+from gearcad.geometry.involute import involute_at_roll
 from gearcad.geometry.profile import base_half_angle
 from gearcad.geometry.trochoid import ToolTip
 
@@ -99,7 +100,7 @@ class BeamTooth:
         At the tip circle a helical flank has a radius of curvature up to 1 % larger than that of its virtual gear.
         """
         roll = np.minimum(curvature / self.base_radius, self.flank.last)
-        half = self.base_half_angle - (roll - np.arctan(roll))
+        half = self.base_half_angle - involute_at_roll(roll)
         radius = self.base_radius * np.hypot(1.0, roll)
         return BeamLoad(radius * np.cos(half), radius * np.sin(half), np.arctan(roll) - half)
 

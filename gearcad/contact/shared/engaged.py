@@ -13,6 +13,7 @@ from gearcad.arrays import Floats
 from gearcad.contact.shared.line_of_action import LineOfAction, line_of_action
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.involute import involute_at_roll
 from gearcad.per_gear import PerGear
 from gearcad.rating.hertz import half_width, reduced_radius
 
@@ -42,7 +43,7 @@ class LoadedFlank:
     def polar(self, lengths: Floats) -> tuple[Floats, Floats]:
         """Radii (mm) and angles (rad) of places in the transverse section."""
         roll = lengths / self.base_radius
-        angle: Floats = math.radians(self.gear.profile.base_half_angle) - (roll - np.arctan(roll))
+        angle: Floats = math.radians(self.gear.profile.base_half_angle) - involute_at_roll(roll)
         return np.hypot(self.base_radius, lengths), angle
 
     def heading(self, lengths: Floats) -> Floats:
