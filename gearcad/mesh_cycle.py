@@ -13,20 +13,9 @@ from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
 from gearcad.errors import SolverError, require_whole
+from gearcad.notice import Notice, texts
 
-__all__ = ["METHOD_NAMES", "FourierSeries", "MeshCycle"]
-
-
-METHOD_NAMES = (
-    "potential-energy",
-    "weber-banaschek",
-    "iso6336",
-    "strain-energy",
-    "plane-stress",
-    "plane-strain",
-    "3d",
-)
-"""What makes mesh cycles, the quick ones first: the methods of `gearcad.stiffness`."""
+__all__ = ["FourierSeries", "MeshCycle"]
 
 
 class FourierSeries(NamedTuple):
@@ -61,7 +50,8 @@ class MeshCycle:
     `load_share` (n, m) is that of each of `pairs`, counted by the pinion's teeth, 0 the middle one. `compliance_parts` (n,) in
     µm/N sum up to 1/mesh_stiffness. `transmission_error` (n,) in µm is the wheel's lag along the line of action, `force` (N)
     what presses it there. `single_stiffness` (N/µm) is the greatest of one pair of teeth alone. `mean_only`: the
-    method knows no course over the mesh, and the arrays hold its mean. `holds` names the compliances that it contains.
+    method knows no course over the mesh, and the arrays hold its mean. `holds` names the compliances that it contains,
+    `notices` what to know before trusting the method with this pair.
     """
 
     method: str
@@ -78,7 +68,7 @@ class MeshCycle:
     compliance_parts: Mapping[str, Floats] = field(default_factory=dict)
     single_stiffness: float | None = None
     mean_only: bool = False
-    notes: tuple[str, ...] = ()
+    notices: tuple[Notice, ...] = ()
 
     def __repr__(self) -> str:
         return f"<MeshCycle by {self.method} at {self.torque:g} N·m: {self.mean:.4g} N/µm, {len(self.roll_angle)} roll angles>"
@@ -90,6 +80,11 @@ class MeshCycle:
             raise SolverError(f"the mesh stiffness by method {self.method} has no positive value at some roll angles")
         for array in arrays:
             array.flags.writeable = False
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
 
     # ------------------------------------------------------------------ figures
 
@@ -204,6 +199,7 @@ class MeshCycle:
             "c_gamma_alpha": self.tangent_per_width,
             "mean_only": self.mean_only,
             "notes": list(self.notes),
+            "notices": [notice.to_dict() for notice in self.notices],
             "mesh_cycle": {
                 "roll_angle": self.roll_angle.tolist(),
                 "mesh_stiffness": self.mesh_stiffness.tolist(),

@@ -46,6 +46,11 @@ class Mounting:
         """How far (µm) the flanks of the middle pair of teeth stand proud, both together."""
         return self.pinion_pitch_error + self.wheel_pitch_error
 
+    @property
+    def tilted(self) -> bool:
+        """True if the wheel's axis is not parallel to the pinion's."""
+        return bool(self.misalignment or self.misalignment_across)
+
     def mounted(self, pair: GearPair) -> GearPair:
         """The pair at the centre distance of this mounting. Raises GeometryError where the gears no longer mesh there."""
         change = self.centre_distance_change

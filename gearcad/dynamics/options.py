@@ -15,7 +15,6 @@ from gearcad.errors import (
     require_whole,
 )
 from gearcad.geometry import GearPair
-from gearcad.mesh_cycle import METHOD_NAMES
 from gearcad.ranges import DAMPING, DURATION, INERTIA, SAMPLING, SPEED, STIFFNESS
 from gearcad.rating.options import RatingOptions
 from gearcad.reprs import concise
@@ -43,8 +42,14 @@ _SWITCH = {"on": True, "off": False}
 
 AUTO = "auto"
 
-_UNRESOLVED = "iso6336"
-"""The one method that knows no course over the mesh."""
+
+def _require_method(name: str) -> None:
+    """Raise ParameterError unless a name is that of a stiffness method that knows the course over the mesh."""
+    from gearcad.stiffness.methods import METHODS  # only here: a spec without such a name is read without the methods
+
+    permitted = (AUTO, *(each for each, method in METHODS.items() if not method.mean_only))
+    if name not in permitted:
+        raise ParameterError("stiffness", name, f"must be one of {', '.join(permitted)}")
 
 
 class PairModel(Enum):
@@ -113,9 +118,8 @@ class DynamicsOptions:
             require_whole("accuracy_grade", self.accuracy_grade, at_least=0, at_most=12)
         require_one_of("tooth_errors", self.tooth_errors, _SWITCH)
         as_choice("model", self.model, PairModel)
-        if self.stiffness not in (AUTO, *METHOD_NAMES) or self.stiffness == _UNRESOLVED:
-            permitted = f"must be one of {', '.join(name for name in (AUTO, *METHOD_NAMES) if name != _UNRESOLVED)}"
-            raise ParameterError("stiffness", self.stiffness, permitted)
+        if self.stiffness != AUTO:
+            _require_method(self.stiffness)
         require_number("damping_ratio", self.damping_ratio, above=0, below=1)
         for name, permitted_range in _RANGES.items():
             if (value := getattr(self, name)) is not None:

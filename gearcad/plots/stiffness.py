@@ -12,7 +12,7 @@ from gearcad.arrays import Floats
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.plots.check import mark_path
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, new_figure, prepared
-from gearcad.stiffness.comparison import LoadPoint, StiffnessComparison
+from gearcad.stiffness.comparison import MeanAtTorque, StiffnessComparison
 from gearcad.stiffness.methods import METHODS
 
 if TYPE_CHECKING:
@@ -241,9 +241,9 @@ def _words(name: str) -> str:
     return f"{name} as a whole" if name in ("pinion", "wheel") else name
 
 
-def _by_method(points: Sequence[LoadPoint]) -> dict[str, list[LoadPoint]]:
+def _by_method(points: Sequence[MeanAtTorque]) -> dict[str, list[MeanAtTorque]]:
     """Points of each method in rising order of torque."""
-    found: dict[str, list[LoadPoint]] = {}
+    found: dict[str, list[MeanAtTorque]] = {}
     for point in sorted(points, key=lambda point: point.torque):
         found.setdefault(point.method, []).append(point)
     return {method: found[method] for method in METHODS if method in found}

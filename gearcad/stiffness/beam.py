@@ -19,6 +19,8 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.load import Load
+from gearcad.notice import Notice
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating.iso6336_3 import RIM_LIMIT
 from gearcad.stiffness.foundation import sainsot_foundation, sainsot_range, weber_foundation
 from gearcad.stiffness.section import BeamLoad, BeamTooth
@@ -28,25 +30,23 @@ from gearcad.stiffness.slices import SinglePair
 __all__ = ["BeamMethod", "PotentialEnergy", "WeberBanaschek"]
 
 
-_OWNERS = ("pinion", "wheel")
-
-
 @dataclass(frozen=True, kw_only=True)
 class BeamMethod(SliceMethod):
     """A method in closed form: compliances of both teeth and of their contact at any place on the line of action."""
 
     @cached_property
-    def teeth(self) -> tuple[BeamTooth, BeamTooth]:
-        """Pinion and wheel."""
-        return BeamTooth.of(self.mounted.pinion), BeamTooth.of(self.mounted.wheel)
+    def teeth(self) -> PerGear[BeamTooth]:
+        """Those of both gears."""
+        return PerGear(*map(BeamTooth.from_gear, self.mounted.gears))
 
     def single(self, lengths: Floats, load: Load) -> SinglePair:
         """One pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
         parts: dict[str, Floats] = {}
-        loads = [tooth.load_at(at) for tooth, at in zip(self.teeth, self.curvatures(lengths), strict=True)]
-        for gear, owner in enumerate(_OWNERS):
-            parts |= {f"{owner} {name}": part for name, part in self.tooth_parts(gear, loads[gear]).items()}
-        parts["contact"] = self.contact(lengths, (loads[0], loads[1]), load)
+        curvatures = self.curvatures(lengths)
+        loads = PerGear.each(lambda role: self.teeth.pick(role).load_at(curvatures.pick(role)))
+        for role, pressed in loads.items():
+            parts |= {f"{role.value} {name}": part for name, part in self.tooth_parts(role, pressed).items()}
+        parts["contact"] = self.contact(lengths, loads, load)
         self._refuse_negative(parts, load)
         factor = self.to_transverse
         return SinglePair(lengths, {name: factor * part for name, part in parts.items()}, factor * self.tangent_less)
@@ -56,17 +56,17 @@ class BeamMethod(SliceMethod):
         if (parts["contact"] <= 0).any():
             permitted = "must be lower: Hertz's contact would be as wide as the teeth are thick"
             raise ParameterError("load.torque", load.torque, permitted, "N·m")
-        for owner, gear in zip(_OWNERS, (self.mounted.pinion, self.mounted.wheel), strict=True):
-            if (parts[f"{owner} foundation"] <= 0).any():
+        for role, gear in self.mounted.gears.items():
+            if (parts[f"{role.value} foundation"] <= 0).any():
                 permitted = "must leave another ring below the teeth: Sainsot's series gives less than nothing for this one"
-                raise GeometryError(f"{owner}.body.bore", gear.body.bore, permitted, "mm")
+                raise GeometryError(f"{role.value}.body.bore", gear.body.bore, permitted, "mm")
 
     @abstractmethod
-    def tooth_parts(self, gear: int, load: BeamLoad) -> dict[str, Floats]:
-        """Compliances (n,) of a tooth of the pinion (0) or wheel (1) in its section, per width (mm²/N)."""
+    def tooth_parts(self, role: Role, load: BeamLoad) -> dict[str, Floats]:
+        """Compliances (n,) of a tooth of a gear in its section, per width (mm²/N)."""
 
     @abstractmethod
-    def contact(self, lengths: Floats, loads: tuple[BeamLoad, BeamLoad], load: Load) -> Floats:
+    def contact(self, lengths: Floats, loads: PerGear[BeamLoad], load: Load) -> Floats:
         """Compliance (n,) of the contact of both flanks, per width (mm²/N)."""
 
     @property
@@ -90,34 +90,30 @@ class PotentialEnergy(BeamMethod):
     load_dependent: ClassVar[bool] = False
 
     @cached_property
-    def rims(self) -> tuple[float, float]:
+    def rims(self) -> PerGear[float]:
         """h_f = r_f/r_i: root radius over that where the body is held."""
-        pair, held = self.mounted, self.body.inner_radii(self.mounted)
-        return pair.pinion.root_diameter / 2 / held[0], pair.wheel.root_diameter / 2 / held[1]
+        gears, held = self.mounted.gears, self.body.inner_radii(self.mounted)
+        return PerGear.each(lambda role: gears.pick(role).root_diameter / 2 / held.pick(role))
 
-    def tooth_parts(self, gear: int, load: BeamLoad) -> dict[str, Floats]:
+    def tooth_parts(self, role: Role, load: BeamLoad) -> dict[str, Floats]:
         e, nu = self.material.youngs_modulus, self.material.poisson_ratio
-        tooth = self.teeth[gear]
+        tooth = self.teeth.pick(role)
         across, along = np.cos(load.angle) ** 2, np.sin(load.angle) ** 2
         cubic, plain = tooth.integrals(load.x, load.crossing)
         return {
             "bending": 1.5 / e * across * cubic,
             "shear": 1.2 * (1 + nu) / e * across * plain,
             "axial": along / (2 * e) * plain,
-            "foundation": sainsot_foundation(tooth, load, self.material, self.rims[gear]),
+            "foundation": sainsot_foundation(tooth, load, self.material, self.rims.pick(role)),
         }
 
-    def contact(self, lengths: Floats, loads: tuple[BeamLoad, BeamLoad], load: Load) -> Floats:
+    def contact(self, lengths: Floats, loads: PerGear[BeamLoad], load: Load) -> Floats:
         return np.full(len(lengths), _hertz(self))
 
-    @property
-    def notes(self) -> tuple[str, ...]:
-        found = [
-            f"{owner}: {text}"
-            for owner, tooth, rim in zip(_OWNERS, self.teeth, self.rims, strict=True)
-            for text in sainsot_range(tooth, rim)
-        ]
-        return (*found, *super().notes)
+    def notices(self, load: Load) -> Iterator[Notice]:
+        for role, tooth in self.teeth.items():
+            yield from (notice.within(role.value) for notice in sainsot_range(tooth, self.rims.pick(role)))
+        yield from super().notices(load)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,9 +129,9 @@ class WeberBanaschek(BeamMethod):
     title = "Weber-Banaschek"
     holds = ("contact under all of the load", "bending", "shear", "axial", "foundation in a half-plane")
 
-    def tooth_parts(self, gear: int, load: BeamLoad) -> dict[str, Floats]:
+    def tooth_parts(self, role: Role, load: BeamLoad) -> dict[str, Floats]:
         e, nu = self.material.youngs_modulus, self.material.poisson_ratio
-        tooth = self.teeth[gear]
+        tooth = self.teeth.pick(role)
         across, along = np.cos(load.angle) ** 2, np.sin(load.angle) ** 2
         cubic, plain = tooth.integrals(load.crossing, load.crossing)
         factor = (1 - nu**2) / e
@@ -146,13 +142,13 @@ class WeberBanaschek(BeamMethod):
             "foundation": weber_foundation(tooth, load, self.material),
         }
 
-    def contact(self, lengths: Floats, loads: tuple[BeamLoad, BeamLoad], load: Load) -> Floats:
+    def contact(self, lengths: Floats, loads: PerGear[BeamLoad], load: Load) -> Floats:
         nu = self.material.poisson_ratio
         first, second = self.curvatures(lengths)
         radius = first * second / (first + second)
         # a^2 = 8 F rho (1 - nu^2)/(pi E b): the load per length of the line is F_bt/b
         half_width = np.sqrt(2 * self.force(load) / self.width * radius * _hertz(self))
-        depth = np.sqrt(loads[0].to_centre_line * loads[1].to_centre_line)
+        depth = np.sqrt(loads.pinion.to_centre_line * loads.wheel.to_centre_line)
         result: Floats = _hertz(self) * (np.log(2 * depth / half_width) - nu / (2 * (1 - nu)))
         return result
 
@@ -161,22 +157,23 @@ class WeberBanaschek(BeamMethod):
         """d(F ln(1/sqrt F))/dF: half of the factor before the logarithm."""
         return _hertz(self) / 2
 
-    @property
-    def notes(self) -> tuple[str, ...]:
-        low = list(self._thin_rims())
-        ends = np.array(self.slices.path)
-        for owner, tooth, at in zip(_OWNERS, self.teeth, self.curvatures(ends), strict=True):
-            if (tooth.load_at(at).crossing < tooth.root_chord[0]).any():
-                low.append(f"{owner}: near the root the force crosses the centre line below the root chord: no beam there")
-        return (*low, *super().notes)
+    def notices(self, load: Load) -> Iterator[Notice]:
+        yield from self._thin_rims()
+        ends = self.curvatures(np.array(self.slices.path))
+        for role, tooth in self.teeth.items():
+            if (tooth.load_at(ends.pick(role)).crossing < tooth.root_chord[0]).any():
+                text = "near the root the force crosses the centre line below the root chord: no beam there"
+                yield Notice("below-root-chord", text, role.value)
+        yield from super().notices(load)
 
-    def _thin_rims(self) -> Iterator[str]:
+    def _thin_rims(self) -> Iterator[Notice]:
         """Bodies that are no half-plane to their teeth."""
-        gears, held = (self.mounted.pinion, self.mounted.wheel), self.body.inner_radii(self.mounted)
-        for owner, gear, radius in zip(_OWNERS, gears, held, strict=True):
+        for role, radius in self.body.inner_radii(self.mounted).items():
+            gear = self.mounted.gears.pick(role)
             height = (gear.root_diameter - 2 * radius) / (gear.tip_diameter - gear.root_diameter)
             if height < RIM_LIMIT:
-                yield f"{owner}: only {height:.3g} tooth heights of body lie under the root, where the method has a half-plane"
+                text = f"only {height:.3g} tooth heights of body lie under the root, where the method has a half-plane"
+                yield Notice("thin-rim", text, role.value)
 
 
 def _hertz(method: BeamMethod) -> float:

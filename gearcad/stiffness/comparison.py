@@ -20,7 +20,7 @@ from gearcad.progress import Agenda, Expected, Progress
 from gearcad.stiffness.method import StiffnessMethod
 from gearcad.stiffness.methods import METHODS
 
-__all__ = ["LoadPoint", "StiffnessComparison", "compare_methods", "expected_methods"]
+__all__ = ["MeanAtTorque", "StiffnessComparison", "compare_methods", "expected_methods"]
 
 
 _PROGRAM = 0.4e9
@@ -30,7 +30,7 @@ _PARTS = (0.1, 0.3, 0.55, 0.77)
 """Of the load, at which the stiffness is wanted beside that at the load."""
 
 
-class LoadPoint(NamedTuple):
+class MeanAtTorque(NamedTuple):
     """Mean secant and tangent stiffness (N/µm) by a method at a torque on the pinion (N·m)."""
 
     method: str
@@ -48,7 +48,7 @@ class StiffnessComparison:
     load: Load
     body: BodyModel
     cycles: tuple[MeshCycle, ...]
-    load_points: tuple[LoadPoint, ...]
+    load_points: tuple[MeanAtTorque, ...]
     left_out: Mapping[str, str]
 
     def __repr__(self) -> str:
@@ -113,7 +113,7 @@ def compare_methods(
     A method that cannot treat the pair is left out with its reason; if none can, the first reason is raised.
     """
     body, mounting = body or BodyModel(), mounting or Mounting()
-    inputs = _Inputs(pair, material, body, mounting, positions)
+    inputs = _MethodInputs(pair, material, body, mounting, positions)
     made = [(_name_of(each), inputs.method(each)) for each in methods]
     agenda = Agenda(progress, {name: _expected(method).seconds for name, method in made})
     cycles, points, left_out, failures = [], [], dict[str, str](), []
@@ -152,12 +152,12 @@ def expected_methods(
     positions: int = 0,
 ) -> Expected:
     """What `compare_methods` is expected to take."""
-    inputs = _Inputs(pair, material, body or BodyModel(), mounting or Mounting(), positions)
+    inputs = _MethodInputs(pair, material, body or BodyModel(), mounting or Mounting(), positions)
     every = [_expected(inputs.method(name)) for name in methods]
     return Expected(sum(each.seconds for each in every), _PROGRAM + max((each.memory for each in every), default=0.0))
 
 
-class _Inputs(NamedTuple):
+class _MethodInputs(NamedTuple):
     """What methods are made of."""
 
     pair: GearPair
@@ -190,8 +190,8 @@ def _expected(method: StiffnessMethod | GearcadError) -> Expected:
         return Expected(0.0, 0.0)
 
 
-def _over_load(method: StiffnessMethod, load: Load, at_load: MeshCycle) -> list[LoadPoint]:
+def _over_load(method: StiffnessMethod, load: Load, at_load: MeshCycle) -> list[MeanAtTorque]:
     """Means at parts of the load, and at the load itself."""
     loads = [replace(load, torque=part * load.torque) for part in _PARTS] if method.load_dependent else []
     cycles = [method(each, method.load_positions) for each in loads]
-    return [LoadPoint(method.name, cycle.torque, cycle.mean, cycle.tangent_mean) for cycle in (*cycles, at_load)]
+    return [MeanAtTorque(method.name, cycle.torque, cycle.mean, cycle.tangent_mean) for cycle in (*cycles, at_load)]

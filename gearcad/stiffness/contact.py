@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import ClassVar, NamedTuple
@@ -21,8 +21,10 @@ from gearcad.contact.solid.pair import SolidPair, SolidSizes, expected_bodies, l
 from gearcad.errors import GeometryError
 from gearcad.load import Load
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.notice import Notice
+from gearcad.per_gear import PerGear
 from gearcad.progress import Expected
-from gearcad.stiffness.method import StiffnessMethod
+from gearcad.stiffness.method import StiffnessMethod, left_out
 
 __all__ = ["ContactMethod", "PlaneStrainContact", "PlaneStressContact", "SolidContact"]
 
@@ -35,12 +37,12 @@ _SOLUTIONS = 2
 """What all loads at a position take, for slopes and load dependence, over what the first takes."""
 
 
-class _Loaded(NamedTuple):
-    """A position under load: approach, its rigid part and the parts of pinion and wheel (mm), forces of the pairs (N)."""
+class _Position(NamedTuple):
+    """One under load: approach, its rigid part and the parts of pinion and wheel (mm), forces of the pairs (N)."""
 
     approach: float
     rigid: float
-    parts: tuple[float, float]
+    parts: PerGear[float]
     forces: Mapping[int, float]
 
 
@@ -51,7 +53,7 @@ class ContactMethod(StiffnessMethod):
     holds = ("contact under each pair's own load", "teeth", "bodies down to where they are held", "neighbouring teeth")
 
     @abstractmethod
-    def _at(self, roll_angle: float, torque: float) -> _Loaded:
+    def _position(self, roll_angle: float, torque: float) -> _Position:
         """The mesh at a roll angle (deg) under a torque on the pinion (N·m), signed."""
 
     @abstractmethod
@@ -61,9 +63,10 @@ class ContactMethod(StiffnessMethod):
     def _cycle(self, load: Load, count: int) -> MeshCycle:
         torque, force = math.copysign(self.torque(load), load.torque), self.force(load)
         angles = EngagedPair(self.mounted).roll_angles(count)
-        found = [self._at(angle, torque) for angle in angles.tolist()]
+        found = [self._position(angle, torque) for angle in angles.tolist()]
         softer, harder = (
-            np.array([self._at(angle, torque * (1 + sign * _STEP)).approach for angle in angles.tolist()]) for sign in (-1, 1)
+            np.array([self._position(angle, torque * (1 + sign * _STEP)).approach for angle in angles.tolist()])
+            for sign in (-1, 1)
         )
         approach, rigid = (np.array([getattr(each, name) for each in found]) for name in ("approach", "rigid"))
         parts = np.array([each.parts for each in found])
@@ -85,13 +88,11 @@ class ContactMethod(StiffnessMethod):
                 "gaps closed": _closed(um * gaps),
             },
             single_stiffness=self._single(torque) * self.width,
-            notes=self.notes,
         )
 
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What to know before trusting the method with this pair."""
-        return ()
+    def notices(self, load: Load) -> Iterator[Notice]:
+        """None: bodies and flanks are taken as they are."""
+        return iter(())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,23 +120,25 @@ class PlaneContact(ContactMethod):
         error = self.mounting.pitch_error
         return plane_pair(self.mounted, self.material, plane=self.plane, body=self.body, pitch_error=error)
 
-    def _at(self, roll_angle: float, torque: float) -> _Loaded:
+    def _position(self, roll_angle: float, torque: float) -> _Position:
         found = self.model.solve(roll_angle, torque)
         forces = {
             pair.tooth: float(force) * self.width for pair, force in zip(found.pairs, found.forces, strict=True) if force > 0
         }
-        return _Loaded(found.approach, self.model.rigid_approach(roll_angle), found.parts, forces)
+        return _Position(found.approach, self.model.rigid_approach(roll_angle), found.parts, forces)
 
     def _single(self, torque: float) -> float:
         return self.model.single_stiffness(torque)
 
-    @property
-    def notes(self) -> tuple[str, ...]:
-        along = self.mounted.pinion.modification.along_face or self.mounted.wheel.modification.along_face
-        tilted = self.mounting.misalignment or self.mounting.misalignment_across
-        found = [*(["modifications along the face width"] if along else []), *(["misalignment"] if tilted else [])]
-        left_out = (f"leaves out {' and '.join(found)}",) if found else ()
-        return (*thin_faces(self.mounted, PlaneElasticity(self.material, self.plane)), *left_out)
+    def notices(self, load: Load) -> Iterator[Notice]:
+        """Of thin gears, and of what a section leaves out."""
+        yield from thin_faces(self.mounted, PlaneElasticity(self.material, self.plane))
+        along = any(gear.modification.along_face for gear in self.mounted.gears)
+        found = [
+            *(["modifications along the face width"] if along else []),
+            *(["misalignment"] if self.mounting.tilted else []),
+        ]
+        yield from left_out(found)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -194,14 +197,14 @@ class SolidContact(ContactMethod):
         positions = self.positions or self.default_positions
         return Expected(self._bodies.seconds + _SOLUTIONS * positions * POSITION_SECONDS, self._bodies.memory)
 
-    def _at(self, roll_angle: float, torque: float) -> _Loaded:
+    def _position(self, roll_angle: float, torque: float) -> _Position:
         model = self.model(torque)
         found = model.solve(roll_angle, torque)
         flat, forces = math.cos(model.helix), dict[int, float]()
         for line, cells in zip(found.given.lines, found.given.split(found.forces), strict=True):
             if cells.sum() > 0:
                 forces[line.tooth] = float(cells.sum()) * flat
-        return _Loaded(found.approach / flat, found.rigid / flat, (found.parts[0] / flat, found.parts[1] / flat), forces)
+        return _Position(found.approach / flat, found.rigid / flat, found.parts.map(lambda part: part / flat), forces)
 
     def _single(self, torque: float) -> float:
         return self.model(torque).single_stiffness(torque)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.material import Material
+from gearcad.notice import Notice
 from gearcad.stiffness.section import BeamLoad, BeamTooth
 
 __all__ = ["sainsot_foundation", "sainsot_range", "weber_foundation"]
@@ -39,13 +41,12 @@ def sainsot_foundation(tooth: BeamTooth, load: BeamLoad, material: Material, rim
     return _polynomial(load, lever, *series) / material.youngs_modulus
 
 
-def sainsot_range(tooth: BeamTooth, rim: float) -> list[str]:
+def sainsot_range(tooth: BeamTooth, rim: float) -> Iterator[Notice]:
     """Where the tooth leaves the range of the series."""
-    found = []
     for name, value, (low, high) in (("theta_f", tooth.root_half_angle, _ANGLES), ("h_f", rim, _RIMS)):
         if not low <= value <= high:
-            found.append(f"{name} = {value:.4g} is outside the {low:g} ... {high:g} of Sainsot's foundation")
-    return found
+            text = f"{name} = {value:.4g} is outside the {low:g} ... {high:g} of Sainsot's foundation"
+            yield Notice("foundation-range", text)
 
 
 def weber_foundation(tooth: BeamTooth, load: BeamLoad, material: Material) -> Floats:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar
@@ -14,9 +15,10 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
+from gearcad.notice import Notice
 from gearcad.progress import Expected, Share, unheard
 
-__all__ = ["StiffnessMethod"]
+__all__ = ["StiffnessMethod", "left_out"]
 
 FEWEST_POSITIONS, MOST_POSITIONS = 12, 5000
 
@@ -42,6 +44,8 @@ class StiffnessMethod(ABC):
     holds: ClassVar[tuple[str, ...]]
     default_positions: ClassVar[int] = 200
     load_dependent: ClassVar[bool] = True
+    mean_only: ClassVar[bool] = False
+    """True of a method that knows no course over the mesh."""
     load_positions: ClassVar[int] = 48
     """Positions, 0 for as many as ever, at which other loads than that of the pair are tried."""
     seconds: ClassVar[float] = 0.2
@@ -99,15 +103,19 @@ class StiffnessMethod(ABC):
             "torque": self.torque(load),
             "force": self.force(load),
             "width": self.width,
+            "mean_only": self.mean_only,
+            "notices": tuple(self.notices(load)),
         }
 
-    @property
-    def left_out(self) -> tuple[str, ...]:
-        """What of this pair a method of nominal teeth does not see."""
-        found = []
-        for owner, gear in (("pinion", self.mounted.pinion), ("wheel", self.mounted.wheel)):
-            if gear.modification.present:
-                found.append(f"the {owner}'s flank modifications")
-        if self.mounting.misalignment or self.mounting.misalignment_across or self.mounting.pitch_error:
-            found.append("misalignment and pitch errors")
-        return (f"leaves out {' and '.join(found)}",) if found else ()
+    def notices(self, load: Load) -> Iterator[Notice]:
+        """What to know before trusting the method with this pair under a load: here what nominal teeth leave out."""
+        gears = self.mounted.gears.items()
+        found = [f"the {role.value}'s flank modifications" for role, gear in gears if gear.modification.present]
+        found += ["misalignment and pitch errors"] if self.mounting.tilted or self.mounting.pitch_error else []
+        yield from left_out(found)
+
+
+def left_out(found: Sequence[str]) -> Iterator[Notice]:
+    """That a method does not see these features of a pair, in words."""
+    if found:
+        yield Notice("left-out", f"leaves out {' and '.join(found)}")

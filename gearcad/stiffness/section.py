@@ -71,7 +71,7 @@ class BeamTooth:
     flank: Involute
 
     @classmethod
-    def of(cls, gear: Gear) -> BeamTooth:
+    def from_gear(cls, gear: Gear) -> BeamTooth:
         """The tooth of a gear. Raises GeometryError where the virtual gear has no tooth."""
         profile = gear.profile if not gear.helix_angle else _virtual_profile(gear)
         fillet = next(curve for curve in profile.curves if isinstance(curve, Fillet))

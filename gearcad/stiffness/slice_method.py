@@ -10,6 +10,7 @@ from functools import cached_property
 from gearcad.arrays import Floats
 from gearcad.load import Load
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.per_gear import PerGear
 from gearcad.stiffness.method import StiffnessMethod
 from gearcad.stiffness.slices import SinglePair, Slices
 
@@ -29,27 +30,21 @@ class SliceMethod(StiffnessMethod):
     def single(self, lengths: Floats, load: Load) -> SinglePair:
         """One pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
 
-    def curvatures(self, lengths: Floats) -> tuple[Floats, Floats]:
+    def curvatures(self, lengths: Floats) -> PerGear[Floats]:
         """Radii of curvature (n,) of both flanks in the section across the line of contact (mm)."""
         whole = self.mounted.centre_distance * math.sin(math.radians(self.mounted.working_transverse_pressure_angle))
         lean = math.cos(math.radians(self.mounted.pinion.base_helix_angle))
-        return lengths / lean, (whole - lengths) / lean
+        return PerGear(lengths / lean, (whole - lengths) / lean)
 
     @property
     def to_transverse(self) -> float:
         """1000/cos beta_b: from mm²/N of the section across the line of contact to mm·µm/N of the transverse one."""
         return 1000 / math.cos(math.radians(self.mounted.pinion.base_helix_angle))
 
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What to know before trusting the method with this pair."""
-        return self.left_out
-
     def _cycle(self, load: Load, count: int) -> MeshCycle:
         curves = self.slices.curves(self.single(self.slices.lengths, load), count)
         return MeshCycle(
             **self.inputs(load),
             transmission_error=self.force(load) / curves.mesh_stiffness,
-            notes=self.notes,
             **curves._asdict(),
         )

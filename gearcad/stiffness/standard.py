@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from gearcad.load import Load
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.notice import Notice
 from gearcad.rating import rate
 from gearcad.stiffness.method import StiffnessMethod
 
@@ -23,20 +25,24 @@ class MethodB(StiffnessMethod):
 
     name = "iso6336"
     title = "ISO 6336-1, Method B"
+    mean_only = True
     holds = ("all that Weber and Banaschek hold, times 0.8 from measurements (C_M)",)
 
     def _cycle(self, load: Load, count: int) -> MeshCycle:
-        rating = rate(self.mounted, self.material, load)
-        of = rating.stiffness
+        found = rate(self.mounted, self.material, load).stiffness
         half = 180 / self.mounted.pinion.teeth
-        secant, tangent = (np.full(2, each * self.width) for each in (of.mesh_beta, of.mesh_alpha))
+        secant, tangent = (np.full(2, each * self.width) for each in (found.mesh_beta, found.mesh_alpha))
         return MeshCycle(
             **self.inputs(load),
             roll_angle=np.array([-half, half]),
             mesh_stiffness=secant,
             tangent_stiffness=tangent,
             transmission_error=self.force(load) / secant,
-            single_stiffness=of.single * self.width,
-            mean_only=True,
-            notes=tuple(text for text in rating.warnings if text.startswith(("c'", "c_gamma", "ISO 6336"))) + self.left_out,
+            single_stiffness=found.single * self.width,
         )
+
+    def notices(self, load: Load) -> Iterator[Notice]:
+        for notice in rate(self.mounted, self.material, load).notices:
+            if notice.code.startswith(("scope-", "stiffness-")):
+                yield notice
+        yield from super().notices(load)

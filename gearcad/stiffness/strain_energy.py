@@ -7,6 +7,7 @@ a spline of unit loads for what is smooth, Flamant's straight edge in closed for
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
@@ -20,6 +21,8 @@ from gearcad.contact.plane.limits import thin_faces
 from gearcad.contact.plane.pair import flank_body
 from gearcad.geometry import Gear
 from gearcad.load import Load
+from gearcad.notice import Notice
+from gearcad.per_gear import PerGear
 from gearcad.stiffness.slice_method import SliceMethod
 from gearcad.stiffness.slices import SinglePair
 
@@ -28,6 +31,9 @@ __all__ = ["StrainEnergy", "weighted_displacement"]
 
 _POINTS = 7
 """Of Gauss's rule for an ellipse, across the width of contact."""
+
+WeightedBody = tuple[float, PlaneCompliance]
+"""How much of a gear's section a body stands for, and the body."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,8 +50,8 @@ class StrainEnergy(SliceMethod):
     plane: ClassVar[Plane] = Plane.STRAIN
 
     @cached_property
-    def bodies(self) -> tuple[list[tuple[float, PlaneCompliance]], list[tuple[float, PlaneCompliance]]]:
-        """For pinion and wheel: bodies of the section, with their weights."""
+    def bodies(self) -> PerGear[list[WeightedBody]]:
+        """Bodies of the section of each gear, with their weights."""
         pair = self.mounted
         held = self.body.inner_radii(pair)
         elasticity = PlaneElasticity(self.material, self.plane)
@@ -54,25 +60,24 @@ class StrainEnergy(SliceMethod):
                 (weight, flank_body(section, radius, elasticity, self.body, 1, support=replace(support, teeth=section.teeth)))
                 for weight, section, radius in _sections(gear, inner)
             ]
-            for gear, inner, support in zip((pair.pinion, pair.wheel), held, self.body.supports(pair), strict=True)
+            for gear, inner, support in zip(pair.gears, held, self.body.supports(pair), strict=True)
         )
-        return pinion, wheel
+        return PerGear(pinion, wheel)
 
-    @property
-    def notes(self) -> tuple[str, ...]:
-        return (*thin_faces(self.mounted, PlaneElasticity(self.material, self.plane)), *super().notes)
+    def notices(self, load: Load) -> Iterator[Notice]:
+        yield from thin_faces(self.mounted, PlaneElasticity(self.material, self.plane))
+        yield from super().notices(load)
 
     def single(self, lengths: Floats, load: Load) -> SinglePair:
         """One pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
-        pair, (first, second) = self.mounted, self.curvatures(lengths)
+        curvatures, gears = self.curvatures(lengths), self.mounted.gears
+        first, second = curvatures
         modulus = PlaneElasticity(self.material, self.plane).modulus / 2
         half_widths = np.sqrt(4 * self.force(load) / self.width * first * second / (first + second) / (math.pi * modulus))
         factor = self.to_transverse
         parts = {
-            owner: factor * _displacements(gear, bodies, curvatures, half_widths)
-            for owner, gear, bodies, curvatures in zip(
-                ("pinion", "wheel"), (pair.pinion, pair.wheel), self.bodies, (first, second), strict=True
-            )
+            role.value: factor * _displacements(gears.pick(role), bodies, curvatures.pick(role), half_widths)
+            for role, bodies in self.bodies.items()
         }
         # U = F^2 c/2 with dc/dF = -1/(pi E* F), so dU/dF = F (c - 1/(2 pi E*)).
         return SinglePair(lengths, parts, factor / (2 * math.pi * modulus))
@@ -93,7 +98,7 @@ def weighted_displacement(body: PlaneCompliance, length: float, half_width: floa
     return float(regular + edge)
 
 
-def _displacements(gear: Gear, bodies: list[tuple[float, PlaneCompliance]], curvatures: Floats, half_widths: Floats) -> Floats:
+def _displacements(gear: Gear, bodies: list[WeightedBody], curvatures: Floats, half_widths: Floats) -> Floats:
     """2 U/F² (n,) in mm²/N where the flank's radius of curvature in the section is `curvatures` (n,) in mm."""
     total = np.zeros(len(curvatures))
     for weight, body in bodies:

@@ -118,9 +118,9 @@ def test_ross_has_the_same_teeth(name: str) -> None:
     mesh, method = _ross_mesh(name), _method(PotentialEnergy, name)
     assert isinstance(method, PotentialEnergy)
     angles = np.radians(ANGLES)
-    for gear, element in enumerate((mesh.driving_gear, mesh.driven_gear)):
-        load = method.teeth[gear].load_at(1e3 * element.base_radius * np.tan(angles))
-        parts = method.tooth_parts(gear, load)
+    for role, element in PerGear(mesh.driving_gear, mesh.driven_gear).items():
+        load = method.teeth.pick(role).load_at(1e3 * element.base_radius * np.tan(angles))
+        parts = method.tooth_parts(role, load)
         for part, formula in (("bending", element._inv_kb), ("shear", element._inv_ks), ("axial", element._inv_ka)):
             theirs = [formula(element._to_tau(angle)) for angle in angles]  # m/N
             np.testing.assert_allclose(1e-3 * parts[part] / _WIDTH, theirs, rtol=SAME_TOOTH)

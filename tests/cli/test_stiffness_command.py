@@ -10,8 +10,6 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad.cli import main
-from gearcad.mesh_cycle import METHOD_NAMES
-from gearcad.stiffness import METHODS
 
 PAIR = """
 [pair]
@@ -65,10 +63,6 @@ def test_table_and_files(here: Path) -> None:
     assert [float(row["mesh_stiffness"]) for row in rows] == energy["mesh_cycle"]["mesh_stiffness"]
     parts = [sum(float(row[key]) for key in row if key.startswith("compliance.") and row[key]) for row in rows]
     assert [1 / part for part in parts] == pytest.approx([float(row["mesh_stiffness"]) for row in rows], rel=1e-6)
-
-
-def test_methods_know_their_names() -> None:
-    assert {name: method.name for name, method in METHODS.items()} == {name: name for name in METHOD_NAMES}
 
 
 def test_json_is_one_document(here: Path) -> None:

@@ -14,6 +14,7 @@ from support.checks import NASTY_NAME, small_check, small_solid_check
 from gearcad import Body, Gear, GearPair, Load, Material
 from gearcad.check.result import CheckResult
 from gearcad.errors import GeometryError
+from gearcad.notice import Notice
 from gearcad.plots.paper import short
 from gearcad.plots.stiffness import divided, plot_load_dependence, plot_parts, plot_parts_of_all, plot_stiffness
 from gearcad.report import stiffness_html, write_stiffness_report
@@ -41,7 +42,7 @@ def compared(teeth: tuple[int, int] = (18, 31), helix: float = 0.0) -> Stiffness
         mesh_stiffness=_SOFTER * energy.mesh_stiffness,
         compliance_parts={"pinion": 0.5 / energy.mesh_stiffness, "wheel": 0.75 / energy.mesh_stiffness},
         single_stiffness=None,
-        notes=("a note with <b>tags</b>",),
+        notices=(Notice("left-out", "a note with <b>tags</b>"),),
     )
     return replace(found, cycles=(*found.cycles, solid), left_out={"plane-stress": _REASON})
 
@@ -180,7 +181,7 @@ def test_a_check_is_a_method_among_the_others(check: object) -> None:
     checked = check()  # type: ignore[operator]
     assert isinstance(checked, CheckResult)
     # The pair of a check is as mounted: whatever the mounting changes must not be changed again.
-    result = replace(checked, mounting=replace(checked.mounting, centre_distance_change=0.1))
+    result = replace(checked, task=replace(checked.task, mounting=replace(checked.mounting, centre_distance_change=0.1)))
     found = stiffness.section_of_check(result)
     assert isinstance(found, stiffness.StiffnessSection)
     solid = result.model.value == "3d"

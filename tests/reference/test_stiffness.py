@@ -10,7 +10,7 @@ import pytest
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
 from gearcad.contact.shared.bodies import BodyModel
-from gearcad.per_gear import PerGear
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating.iso6336_1 import mesh_stiffness_alpha, mesh_stiffness_beta
 from gearcad.stiffness import MethodB, PotentialEnergy, WeberBanaschek
 from tests.support.stiffness import THESIS_LOAD, stiffness_case, thesis_pair
@@ -23,20 +23,20 @@ POSITIONS: list[dict[str, Any]] = stiffness_case("s000_12_components")["verified
 
 
 @pytest.mark.parametrize("place", range(5))
-@pytest.mark.parametrize("gear", [0, 1])
-def test_compliances_of_a_tooth(place: int, gear: int) -> None:
-    expected = POSITIONS[place][f"gear{gear + 1}"]
+@pytest.mark.parametrize(("role", "key"), [(Role.PINION, "gear1"), (Role.WHEEL, "gear2")])
+def test_compliances_of_a_tooth(place: int, role: Role, key: str) -> None:
+    expected = POSITIONS[place][key]
     at = np.array([POSITIONS[place]["s1"]])
     energy, weber = (method(pair=thesis_pair(), material=STEEL) for method in (PotentialEnergy, WeberBanaschek))
-    load = energy.teeth[gear].load_at(energy.curvatures(at)[gear])
+    load = energy.teeth.pick(role).load_at(energy.curvatures(at).pick(role))
     assert load.x[0] == pytest.approx(expected["x_c"], rel=1e-12)
     assert load.h[0] == pytest.approx(expected["h_c"], rel=1e-11)
     assert load.angle[0] == pytest.approx(expected["load_angle_rad"], rel=1e-9)
-    parts = {name: part[0] / 10 for name, part in energy.tooth_parts(gear, load).items()}  # 10 mm wide
+    parts = {name: part[0] / 10 for name, part in energy.tooth_parts(role, load).items()}  # 10 mm wide
     for name, symbol in (("bending", "inv_kb"), ("shear", "inv_ks"), ("axial", "inv_ka")):
         assert parts[name] == pytest.approx(expected["fillet"][symbol], rel=COMPONENT)
     assert parts["foundation"] == pytest.approx(expected["sainsot"]["inv_kf"], rel=COMPONENT)
-    beam = {name: part[0] / 10 for name, part in weber.tooth_parts(gear, load).items()}
+    beam = {name: part[0] / 10 for name, part in weber.tooth_parts(role, load).items()}
     assert beam["bending"] + beam["shear"] + beam["axial"] == pytest.approx(expected["WB_root"]["w_bend_per_N"], rel=COMPONENT)
     assert beam["foundation"] == pytest.approx(expected["WB_root"]["w_found_per_N"], rel=COMPONENT)
 
@@ -94,8 +94,8 @@ def test_another_programs_teeth(teeth: int) -> None:
     rack = BasicRack(root_radius=0.25 / (1 - math.sin(math.radians(20))))
     gear = Gear(teeth=teeth, normal_module=2.0, face_width=20.0, rack=rack)
     method = PotentialEnergy(pair=GearPair(pinion=gear, wheel=gear), body=BodyModel(inner_diameters=PerGear(20.0, 20.0)))
-    load = method.teeth[0].load_at(np.array([gear.base_diameter / 2 * math.tan(math.radians(20))]))
-    parts = method.tooth_parts(0, load)
+    load = method.teeth.pinion.load_at(np.array([gear.base_diameter / 2 * math.tan(math.radians(20))]))
+    parts = method.tooth_parts(Role.PINION, load)
     found = [20 / (1000 * parts[name][0]) for name in ("bending", "shear", "axial")]
     assert found == pytest.approx(ROSS[teeth], rel=2.6e-7)  # half a unit of the last printed digit
 

@@ -17,6 +17,7 @@ from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
+from gearcad.load import Load
 from gearcad.rating import Edition, RatingOptions
 from gearcad.stiffness import PlaneStrainContact, PlaneStressContact, StrainEnergy
 
@@ -48,10 +49,12 @@ def test_a_face_thinner_than_its_teeth_is_told() -> None:
 
 
 def test_methods_in_plane_strain_tell_a_thin_face() -> None:
+    load = Load(torque=10.0)
     for method in (PlaneStrainContact, StrainEnergy):
-        assert "nearer to plane stress" in method(pair=fzg(7.0, 14.0)).notes[0]
-        assert not method(pair=fzg(14.0, 14.0)).notes
-    assert not PlaneStressContact(pair=fzg(7.0, 14.0)).notes
+        (thin,) = method(pair=fzg(7.0, 14.0)).notices(load)
+        assert thin.code == "thin-face" and "nearer to plane stress" in thin.text
+        assert not list(method(pair=fzg(14.0, 14.0)).notices(load))
+    assert not list(PlaneStressContact(pair=fzg(7.0, 14.0)).notices(load))
 
 
 def test_a_wider_root_is_told() -> None:

@@ -19,6 +19,7 @@ from gearcad.contact.plane.elasticity import PlaneElasticity
 from gearcad.contact.plane.limits import plane_pressure, thin_faces
 from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.meshing import MeshSizes
+from gearcad.notice import texts
 from gearcad.progress import Agenda
 
 __all__ = ["PLANE_MEMORY", "PLANE_STEPS", "check_plane", "plane_warnings"]
@@ -77,8 +78,7 @@ def _refined(task: CheckTask, middle: PlanePair) -> Iterator[PlaneCycle]:
 
 def plane_warnings(task: CheckTask, elasticity: PlaneElasticity) -> Iterator[str]:
     """What a plane does not know of these bodies."""
-    yield from thin_faces(task.pair, elasticity)
-    yield from plane_pressure(elasticity)
+    yield from texts((*thin_faces(task.pair, elasticity), *plane_pressure(elasticity)))
     yield from _wider_gears(task)
     yield from _left_out(task)
 
@@ -99,5 +99,5 @@ def _wider_gears(task: CheckTask) -> Iterator[str]:
 def _left_out(task: CheckTask) -> list[str]:
     gears = (("pinion", task.pair.pinion), ("wheel", task.pair.wheel))
     left_out = [f"the {name}'s modifications along the face width" for name, gear in gears if gear.modification.along_face]
-    left_out += ["the misalignment"] if task.mounting.misalignment or task.mounting.misalignment_across else []
+    left_out += ["the misalignment"] if task.mounting.tilted else []
     return [f"the plane model leaves out {' and '.join(left_out)}; --model 3d has them"] if left_out else []
