@@ -25,7 +25,6 @@ from gearcad import Gear
 from gearcad.batch import Step, Wanted, run_table
 from gearcad.batch.study import plan_study, write_study
 from gearcad.designs import read_spec
-from gearcad.geometry import mesh_pose
 from gearcad.plots import plot_contours, save_plot
 from gearcad.plots.table_data import read_points
 from gearcad.solids import tessellate
@@ -120,7 +119,7 @@ def plot_study(path: Path) -> None:
 def main() -> None:
     pair = read_spec(SPEC).pair
     assert pair is not None  # the starter is one
-    pose = mesh_pose(pair)
+    pose = pair.wheel_pose()
     pinion, wheel = actors(pair.pinion, BRASS), actors(pair.wheel, STEEL, pose.rotation, pose.x, pose.z)
     render(pinion + wheel, FOLDER / "pair.png", focus=(62, 0, 6), eye=(-0.3, -1.0, 0.75), scale=50)
     render(pinion + wheel, FOLDER / "mesh.png", focus=(19, 0, 18), eye=(0.0, -0.05, 1.0), scale=9)

@@ -8,6 +8,7 @@ from typing import Any
 
 from gearcad.errors import GeometryError, InputError, ParameterError, format_number
 from gearcad.geometry import Gear, GearPair, ShiftSplit, profile_shift_sum, split_profile_shift, zero_backlash_centre_distance
+from gearcad.per_gear import PerGear
 
 __all__ = ["AUTO", "make_gears", "resolve_profile_shifts", "resolve_tip_alterations"]
 
@@ -119,7 +120,7 @@ def _led_back(
 def _common(pinion: GearInputs, wheel: GearInputs) -> dict[str, Any]:
     return {
         "normal_module": pinion["normal_module"],
-        "teeth": (pinion["teeth"], wheel["teeth"]),
+        "teeth": PerGear(pinion["teeth"], wheel["teeth"]),
         "helix_angle": pinion.get("helix_angle", 0.0),
         "pressure_angle": pinion["rack"].pressure_angle,
     }
@@ -155,11 +156,12 @@ def _shared(
                 permitted = "leaves no equal sliding to find: give the profile shifts, or another profile_shift_split"
                 raise GeometryError(f"{owner}.tip_diameter", gear["tip_diameter"], permitted, "mm")
     altered = resolve_tip_alterations(pinion, wheel, (total, 0.0), centre_distance)
-    first, second = (
+    rises = (
         gear["rack"].addendum + change - gear["body"].tip_chamfer / gear["normal_module"]
         for gear, change in zip((pinion, wheel), altered, strict=True)
     )
-    return split_profile_shift(total, split, **_common(pinion, wheel), centre_distance=centre_distance, addenda=(first, second))
+    addenda = PerGear(*rises)
+    return split_profile_shift(total, split, **_common(pinion, wheel), centre_distance=centre_distance, addenda=addenda)
 
 
 def _clearance_keeping(pinion: GearInputs, wheel: GearInputs, shift_sum: float, centre_distance: float | None) -> float:

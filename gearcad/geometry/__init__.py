@@ -2,12 +2,13 @@
 
 from gearcad.geometry.body import Body, HubSide
 from gearcad.geometry.gear import Gear
-from gearcad.geometry.inspection import chordal_thickness, over_balls, over_pins, span_contact_diameter, span_measurement
+from gearcad.geometry.inspection import Inspection
 from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.geometry.modification import FlankForm, FlankModification, ReliefShape
-from gearcad.geometry.pair import CommonWidth, GearPair
-from gearcad.geometry.path import ContactLineLengths, PathOfContact, contact_line_length
-from gearcad.geometry.pose import MeshPose, mesh_pose
+from gearcad.geometry.pair import GearPair
+from gearcad.geometry.pair_data import CommonWidth
+from gearcad.geometry.path import BaseTangent, ContactLineLengths, ContactZone, PathOfContact
+from gearcad.geometry.pose import Pose
 from gearcad.geometry.profile import ToothProfile
 from gearcad.geometry.rack import ISO53_A, ISO53_B, ISO53_C, ISO53_D, NAMED_RACKS, BasicRack
 from gearcad.geometry.shift import (
@@ -24,30 +25,26 @@ __all__ = [
     "ISO53_C",
     "ISO53_D",
     "NAMED_RACKS",
+    "BaseTangent",
     "BasicRack",
     "Body",
     "CommonWidth",
     "ContactLineLengths",
+    "ContactZone",
     "FlankForm",
     "FlankModification",
     "Gear",
     "GearPair",
     "HubSide",
-    "MeshPose",
+    "Inspection",
     "PathOfContact",
+    "Pose",
     "ReliefShape",
     "ShiftSplit",
     "ToothProfile",
-    "chordal_thickness",
-    "contact_line_length",
     "inverse_involute",
     "involute",
-    "mesh_pose",
-    "over_balls",
-    "over_pins",
     "profile_shift_sum",
-    "span_contact_diameter",
-    "span_measurement",
     "specific_sliding",
     "split_profile_shift",
     "zero_backlash_centre_distance",

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-__all__ = ["Derived"]
+from typing import Any
+
+__all__ = ["NOT_GIVEN", "Derived", "derive", "is_given"]
 
 
 class Derived(float):
@@ -16,3 +18,18 @@ class Derived(float):
     __slots__ = ()
 
     derived = True
+
+
+NOT_GIVEN = Derived("nan")
+"""The default of such a field."""
+
+
+def is_given(value: float | None) -> bool:
+    """Whether a value was given; None asks, as a Derived does, for it to be derived."""
+    return value is not None and not isinstance(value, Derived)
+
+
+def derive(instance: Any, field: str, value: float) -> None:
+    """Let a field of a frozen object be `value`, as Derived, unless it was given."""
+    if not is_given(getattr(instance, field)):
+        object.__setattr__(instance, field, Derived(value))

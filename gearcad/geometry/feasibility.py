@@ -6,19 +6,16 @@ Raises ParameterError or GeometryError, whose limits can be used as they are pri
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from gearcad.errors import GeometryError, ParameterError, require_name, require_number, require_whole
 from gearcad.geometry.body import Body
-from gearcad.geometry.derived import Derived
+from gearcad.geometry.derived import is_given
+from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.rack import BasicRack
 
-if TYPE_CHECKING:
-    from gearcad.geometry.gear import Gear
-
-__all__ = ["check_body", "check_numbers", "check_tool"]
+__all__ = ["check_body", "check_diameters", "check_numbers", "check_tool"]
 
 LEAST_RIM = 0.1
 """Least wall between bore, keyway or hub and the circle they must stay inside, in normal modules."""
@@ -33,7 +30,7 @@ MOST_TWIST = 720.0
 """Largest twist of a tooth over the face width (degrees) that one screw surface spans to the accuracy promised."""
 
 
-def check_numbers(gear: Gear) -> None:
+def check_numbers(gear: GearData) -> None:
     """Each number by itself, and the width against module and lead."""
     require_name("name", gear.name)
     require_whole("teeth", gear.teeth, at_least=3, at_most=2000)
@@ -60,7 +57,14 @@ def check_numbers(gear: Gear) -> None:
         )
 
 
-def check_tool(gear: Gear) -> None:
+def check_diameters(gear: GearData) -> None:
+    """Tip and root circle by themselves, where they are given."""
+    for name, value in (("tip_diameter", gear.tip_diameter), ("root_diameter", gear.root_diameter)):
+        if is_given(value):
+            require_number(name, value, "mm", above=0, at_most=LARGEST_DIAMETER)
+
+
+def check_tool(gear: GearData) -> None:
     """The tool must be able to exist: its tip radius fits between its flanks, and it leaves some tooth."""
     m, angle = gear.normal_module, gear.rack.pressure_angle
     thinning = f"thinning {gear.tooth_thinning:g} mm" if gear.tooth_thinning else "no thinning"
@@ -85,7 +89,7 @@ def check_tool(gear: Gear) -> None:
     full = gear.rack.full_root_radius(gear.dedendum, gear.tooth_thinning / m)
     if full < 0:
         most = (math.pi / 4 + gear.tooth_thinning / m / 2) / math.tan(math.radians(angle))
-        if isinstance(gear.root_diameter, Derived):
+        if not is_given(gear.root_diameter):
             permitted = f"must be at most {at_most(most)}, where the tool's flanks meet"
             raise GeometryError("rack.dedendum", gear.rack.dedendum, permitted)
         least = at_least(gear.reference_diameter - 2 * m * (most - gear.profile_shift))
@@ -98,7 +102,7 @@ def check_tool(gear: Gear) -> None:
         )
 
 
-def check_body(gear: Gear) -> None:
+def check_body(gear: GearData) -> None:
     """Bore, keyway and hub must leave a rim, the end chamfers some end face."""
     if gear.body.rim_diameter is not None:
         raise GeometryError("body.rim_diameter", gear.body.rim_diameter, "must be left out: it is for internal gears", "mm")
@@ -127,7 +131,7 @@ def check_body(gear: Gear) -> None:
         _check_end_chamfer(gear, max(body.opening_diameter, body.hub_diameter) + 2 * wall)
 
 
-def _check_end_chamfer(gear: Gear, least_face: float) -> None:
+def _check_end_chamfer(gear: GearData, least_face: float) -> None:
     length = gear.body.end_chamfer
     slope = math.tan(math.radians(gear.body.end_chamfer_angle))
     most = min(0.49 * gear.face_width, (gear.tip_diameter - least_face) / 2 / slope)

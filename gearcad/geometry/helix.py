@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from gearcad.geometry.gear import Gear
+from gearcad.geometry.gear_data import GearData
 
 __all__ = ["twist"]
 
 
-def twist(gear: Gear, height: float = 1.0) -> float:
+def twist(gear: GearData, height: float = 1.0) -> float:
     """Angle (rad) by which the section at a height z (mm) is turned: z tan(beta)/r, positive for a right-hand helix.
 
     That of 1 mm is the twist rate (rad/mm).

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, overload
 
 import numpy as np
@@ -9,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearcad.errors import ParameterError, SolverError
 
-__all__ = ["inverse_involute", "involute", "involute_at_roll"]
+__all__ = ["inverse_involute", "involute", "involute_at_roll", "tangent_length"]
 
 _MAX_NEWTON_STEPS = 60
 
@@ -32,6 +33,15 @@ def involute_at_roll(roll: NDArray[np.float64]) -> NDArray[np.float64]:
     """The involute where the roll angle is `roll` (rad): that is tan(alpha), so inv(alpha) = roll - atan(roll)."""
     result: NDArray[np.float64] = roll - np.arctan(roll)
     return result
+
+
+def tangent_length(diameter: float, base_diameter: float) -> float:
+    """Length of the base tangent out to a circle, the radius of curvature of the involute there; 0 inside the base circle.
+
+    All in mm, signed like the diameters: negative on an internal gear.
+    """
+    square = max((diameter - base_diameter) * (diameter + base_diameter), 0.0)
+    return math.copysign(math.sqrt(square) / 2, base_diameter)
 
 
 @overload

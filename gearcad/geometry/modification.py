@@ -10,18 +10,17 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from enum import Enum
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
 from gearcad.errors import GeometryError, as_choice, plain_numbers, require_number
+from gearcad.geometry.involute import tangent_length
 from gearcad.geometry.limits import at_most
+from gearcad.geometry.profile import ToothProfile
 from gearcad.reprs import concise
-
-if TYPE_CHECKING:
-    from gearcad.geometry.gear import Gear
 
 __all__ = ["FlankForm", "FlankModification", "ReliefShape", "check_flanks"]
 
@@ -156,15 +155,11 @@ class FlankForm:
     hand: int
 
     @classmethod
-    def of(cls, gear: Gear) -> FlankForm:
-        """That of a gear."""
-
-        def roll(diameter: float) -> float:
-            return float(np.sqrt(max((diameter - gear.base_diameter) * (diameter + gear.base_diameter), 0.0))) / 2
-
-        first, last = roll(gear.form_diameter), roll(gear.tip_form_diameter)
-        hand = -1 if gear.helix_angle < 0 else 1
-        return cls(gear.modification, first, last, gear.face_width, gear.base_diameter / 2, hand)
+    def of(cls, modification: FlankModification, profile: ToothProfile, face_width: float, helix_angle: float) -> FlankForm:
+        """That of teeth of this profile; face width in mm, helix angle in degrees."""
+        base = profile.base_diameter
+        first, last = tangent_length(profile.form_diameter, base), tangent_length(profile.tip_form_diameter, base)
+        return cls(modification, first, last, face_width, base / 2, -1 if helix_angle < 0 else 1)
 
     def depth(self, lengths: ArrayLike, heights: ArrayLike, *, left: bool = True) -> Floats:
         """How far (mm) the left or right flank is taken back at roll lengths and heights z (mm), broadcast together.
@@ -212,20 +207,20 @@ class FlankForm:
         return _inside(found, 0.0, self.width)
 
 
-def check_flanks(gear: Gear) -> None:
-    """Raise GeometryError for modifications that do not fit a gear: lengths beyond its flanks, no tip or no space left."""
-    form, amounts = gear.flank_form, gear.modification
-    amounts.check_lengths(form.last - form.first, gear.face_width)
+def check_flanks(form: FlankForm, profile: ToothProfile) -> None:
+    """Raise GeometryError for modifications that do not fit their teeth: lengths beyond the flanks, no tip or no space left."""
+    amounts = form.modification
+    amounts.check_lengths(form.last - form.first, form.width)
     if not amounts.present:
         return
     largest = max(
         (name for name in amounts.in_use if not name.endswith(("_length", "_shape"))),
         key=lambda name: abs(getattr(amounts, name)),
     )
-    heights = np.unique([*np.linspace(0, gear.face_width, 33), *form.height_breaks])
-    tip, root = gear.tip_diameter / 2, gear.root_diameter / 2
-    land = 2 * tip * np.radians(gear.profile.half_angle(tip))
-    space = 2 * root * (np.pi / gear.teeth - np.radians(gear.profile.half_angle(root)))
+    heights = np.unique([*np.linspace(0, form.width, 33), *form.height_breaks])
+    tip, root = profile.tip_diameter / 2, profile.root_diameter / 2
+    land = 2 * tip * np.radians(profile.half_angle(tip))
+    space = 2 * root * (np.pi / profile.teeth - np.radians(profile.half_angle(root)))
     # What turns one flank towards the other; a change of the helix turns both alike.
     taken_at_tip, taken_at_root = (
         (form.depth(end, heights) + form.depth(end, heights, left=False)) / form.base_radius for end in (form.last, form.first)

@@ -1,32 +1,23 @@
-"""Path and lines of contact of an external pair.
+"""Path and lines of contact of two gears, on plain numbers.
 
-The line of action is measured from T1, where it touches the pinion's base circle (mm, transverse section).
+The line of action is measured from T1, where it touches the pinion's base circle (mm, transverse section). Diameters and
+centre distance are signed: with an internal gear as the wheel its diameters and the centre distance are negative, and T2 lies
+behind T1.
 """
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gearcad.geometry.involute import tangent_length
 from gearcad.per_gear import PerGear
 
-if TYPE_CHECKING:
-    from gearcad.geometry.gear import Gear
-    from gearcad.geometry.pair import GearPair
-
-__all__ = [
-    "ContactLineLengths",
-    "PathOfContact",
-    "active_root_diameters",
-    "contact_line_length",
-    "contact_line_lengths",
-    "farthest_centre_distance",
-    "path_of_contact",
-    "usable_path",
-]
+__all__ = ["BaseTangent", "ContactLineLengths", "ContactZone", "PathOfContact", "farthest_centre_distance"]
 
 
 class PathOfContact(NamedTuple):
@@ -47,86 +38,109 @@ class ContactLineLengths(NamedTuple):
     maximum: float
 
 
-def _base_tangent_distance(pair: GearPair) -> float:
-    """T1T2 = a sin alpha_wt."""
-    return pair.centre_distance * math.sin(math.radians(pair.working_transverse_pressure_angle))
-
-
-def _tangent_length(gear: Gear, diameter: float) -> float:
-    """Length of the base tangent out to `diameter`: the involute's radius of curvature there."""
-    return math.sqrt(max((diameter - gear.base_diameter) * (diameter + gear.base_diameter), 0.0)) / 2
-
-
-def path_of_contact(pair: GearPair) -> PathOfContact:
-    """Characteristic points on the line of action, limited by the tip form circles of both gears."""
-    start = _base_tangent_distance(pair) - _tangent_length(pair.wheel, pair.wheel.tip_form_diameter)
-    end = _tangent_length(pair.pinion, pair.pinion.tip_form_diameter)
-    pitch = pair.pinion.transverse_base_pitch
-    middle = pair.pinion.base_diameter / 2 * math.tan(math.radians(pair.working_transverse_pressure_angle))
-    return PathOfContact(start, end - pitch, middle, start + pitch, end)
-
-
-def farthest_centre_distance(pinion: Gear, wheel: Gear) -> float:
+def farthest_centre_distance(base_diameters: PerGear[float], tip_diameters: PerGear[float]) -> float:
     """Centre distance (mm) at which the path of contact vanishes: both tip form circles meet on the line of action."""
-    tangents = _tangent_length(pinion, pinion.tip_form_diameter) + _tangent_length(wheel, wheel.tip_form_diameter)
-    return math.hypot((pinion.base_diameter + wheel.base_diameter) / 2, tangents)
+    tangents = PerGear.each(lambda role: tangent_length(tip_diameters.pick(role), base_diameters.pick(role)))
+    return math.hypot(sum(base_diameters) / 2, sum(tangents))
 
 
-def usable_path(pair: GearPair) -> tuple[float, float]:
-    """First and last contact (mm from T1) when the root form circles limit the path as well."""
-    path = path_of_contact(pair)
-    first = max(path.A, _tangent_length(pair.pinion, pair.pinion.form_diameter))
-    last = min(path.E, _base_tangent_distance(pair) - _tangent_length(pair.wheel, pair.wheel.form_diameter))
-    return first, last
+@dataclass(frozen=True)
+class BaseTangent:
+    """The common tangent of both base circles, which is the line of action. Lengths in mm.
 
-
-def active_root_diameters(pair: GearPair) -> PerGear[float]:
-    """d_Nf: the lowest points that the mate's tip form circle would touch (mm).
-
-    Where a tip passes beyond the base tangent point, the base circle is the lowest point an involute has.
+    `pressure_angle` is the working transverse one (degrees), `pitch` the transverse base pitch.
     """
-    path, whole = path_of_contact(pair), _base_tangent_distance(pair)
-    pinion = math.hypot(pair.pinion.base_diameter, 2 * max(path.A, 0.0))
-    wheel = math.hypot(pair.wheel.base_diameter, 2 * max(whole - path.E, 0.0))
-    return PerGear(pinion, wheel)
+
+    base_diameters: PerGear[float]
+    centre_distance: float
+    pressure_angle: float
+    pitch: float
+
+    @property
+    def length(self) -> float:
+        """T1T2 = a sin alpha_wt."""
+        return self.centre_distance * math.sin(math.radians(self.pressure_angle))
+
+    def path(self, tip_diameters: PerGear[float]) -> PathOfContact:
+        """Characteristic points, limited by the tip form circles of both gears."""
+        start = self.length - tangent_length(tip_diameters.wheel, self.base_diameters.wheel)
+        end = tangent_length(tip_diameters.pinion, self.base_diameters.pinion)
+        middle = self.base_diameters.pinion / 2 * math.tan(math.radians(self.pressure_angle))
+        return PathOfContact(start, end - self.pitch, middle, start + self.pitch, end)
+
+    def usable(self, path: PathOfContact, form_diameters: PerGear[float]) -> tuple[float, float]:
+        """First and last contact (mm from T1) when the root form circles limit the path as well."""
+        first = max(path.A, tangent_length(form_diameters.pinion, self.base_diameters.pinion))
+        last = min(path.E, self.length - tangent_length(form_diameters.wheel, self.base_diameters.wheel))
+        return first, last
+
+    def active_root_diameters(self, path: PathOfContact) -> PerGear[float]:
+        """d_Nf: the lowest points that the mate's tip form circle would touch (mm).
+
+        Where a tip passes beyond the base tangent point, the base circle is the lowest point an involute has.
+        """
+        lowest = PerGear(path.A, self.length - path.E)
+
+        def circle(base: float, along: float) -> float:
+            side = math.copysign(1.0, base)
+            return side * math.hypot(base, 2 * max(side * along, 0.0))
+
+        return PerGear.each(lambda role: circle(self.base_diameters.pick(role), lowest.pick(role)))
 
 
-def contact_line_length(pair: GearPair, roll_angle: ArrayLike) -> Any:
-    """Total length (mm) of the lines of contact at a roll angle of the pinion (degrees), scalar or array.
+@dataclass(frozen=True)
+class ContactZone:
+    """Where flanks touch in the plane of action: a rectangle, the path of contact times the common face width (mm).
 
-    Roll angle 0 puts contact at the pitch point in the middle plane of the common face width. The zone of contact is
-    a rectangle, path times width; the lines cross it at the base helix angle, one transverse base pitch apart.
+    Lines cross it at the base helix angle (degrees), one transverse base pitch apart; `base_diameter` is the pinion's.
     """
-    path, pitch = path_of_contact(pair), pair.pinion.transverse_base_pitch
-    width, helix = pair.common_width.width, math.radians(abs(pair.pinion.base_helix_angle))
-    travel = path.C + np.radians(np.asarray(roll_angle, float)) * pair.pinion.base_diameter / 2
-    reach = width * math.tan(helix)
-    lines = np.arange(-math.ceil((path.E - path.A + reach) / pitch) - 1, math.ceil((path.E - path.A + reach) / pitch) + 2)
-    middle = path.A + np.mod(travel - path.A, pitch)
-    places = middle[..., None] + lines * pitch
-    if reach < 1e-12 * width:
-        inside = (places >= path.A) & (places <= path.E)
-        total = width * inside.sum(-1).astype(float)
-    else:
-        overlap = np.minimum(places + reach / 2, path.E) - np.maximum(places - reach / 2, path.A)
-        total = np.clip(overlap, 0, None).sum(-1) / math.sin(helix)
-    return float(total) if total.ndim == 0 else total
 
+    path: PathOfContact
+    pitch: float
+    width: float
+    base_helix_angle: float
+    base_diameter: float
 
-def contact_line_lengths(pair: GearPair) -> ContactLineLengths:
-    """Least, mean and greatest total length over the cycle.
+    @property
+    def _helix(self) -> float:
+        """Base helix angle in radians, without its hand."""
+        return math.radians(abs(self.base_helix_angle))
 
-    The total is piecewise linear in the roll angle, so its extremes lie where a line enters or leaves a corner of the
-    zone of contact. Mean = epsilon_alpha b/cos beta_b exactly.
-    """
-    path, pitch = path_of_contact(pair), pair.pinion.transverse_base_pitch
-    helix = math.radians(abs(pair.pinion.base_helix_angle))
-    reach = pair.common_width.width * math.tan(helix)
-    corners = np.array([path.A - reach / 2, path.A + reach / 2, path.E - reach / 2, path.E + reach / 2])
-    inner = np.sort(np.mod(corners - path.A, pitch))
-    between = (inner + np.r_[inner[1:], inner[0] + pitch]) / 2
-    places = np.r_[inner, between] if reach > 0 else between
-    roll = np.degrees((path.A + places - path.C) / (pair.pinion.base_diameter / 2))
-    total = contact_line_length(pair, roll)
-    mean = (path.E - path.A) / pitch * pair.common_width.width / math.cos(helix)
-    return ContactLineLengths(float(total.min()), mean, float(total.max()))
+    @property
+    def _reach(self) -> float:
+        """How far a line reaches along the path over the face width (mm)."""
+        return self.width * math.tan(self._helix)
+
+    def line_length(self, roll_angle: ArrayLike) -> Any:
+        """Total length (mm) of the lines of contact at a roll angle of the pinion (degrees), scalar or array.
+
+        Roll angle 0 puts contact at the pitch point in the middle plane of the common face width.
+        """
+        path, pitch, reach = self.path, self.pitch, self._reach
+        travel = path.C + np.radians(np.asarray(roll_angle, float)) * self.base_diameter / 2
+        most = math.ceil((path.E - path.A + reach) / pitch) + 1
+        middle = path.A + np.mod(travel - path.A, pitch)
+        places = middle[..., None] + np.arange(-most, most + 1) * pitch
+        if reach < 1e-12 * self.width:
+            inside = (places >= path.A) & (places <= path.E)
+            total = self.width * inside.sum(-1).astype(float)
+        else:
+            overlap = np.minimum(places + reach / 2, path.E) - np.maximum(places - reach / 2, path.A)
+            total = np.clip(overlap, 0, None).sum(-1) / math.sin(self._helix)
+        return float(total) if total.ndim == 0 else total
+
+    @property
+    def line_lengths(self) -> ContactLineLengths:
+        """Least, mean and greatest total length over the cycle.
+
+        The total is piecewise linear in the roll angle, so its extremes lie where a line enters or leaves a corner of the
+        zone of contact. Mean = epsilon_alpha b/cos beta_b exactly.
+        """
+        path, pitch, reach = self.path, self.pitch, self._reach
+        corners = np.array([path.A - reach / 2, path.A + reach / 2, path.E - reach / 2, path.E + reach / 2])
+        inner = np.sort(np.mod(corners - path.A, pitch))
+        between = (inner + np.r_[inner[1:], inner[0] + pitch]) / 2
+        places = np.r_[inner, between] if reach > 0 else between
+        total = self.line_length(np.degrees((path.A + places - path.C) / (self.base_diameter / 2)))
+        mean = (path.E - path.A) / pitch * self.width / math.cos(self._helix)
+        return ContactLineLengths(float(total.min()), mean, float(total.max()))

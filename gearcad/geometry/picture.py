@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from html import escape
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 import numpy as np
 
 from gearcad import symbols
 from gearcad.arrays import Floats
+from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.helix import twist
-from gearcad.geometry.pose import MeshPose, mesh_pose
-
-if TYPE_CHECKING:
-    from gearcad.geometry.gear import Gear
-    from gearcad.geometry.pair import GearPair
+from gearcad.geometry.pose import Pose
+from gearcad.geometry.profile import ToothProfile
+from gearcad.per_gear import PerGear, Role
 
 __all__ = ["gear_html", "pair_html"]
 
@@ -28,24 +27,33 @@ _CHORD_ERROR = 0.2
 """Pixels that a polygon may be off the outline."""
 
 _OF_GEAR = "teeth normal_module helix_angle profile_shift face_width reference_diameter tip_diameter root_diameter".split()
-_OF_PAIR = "centre_distance gear_ratio transverse_contact_ratio overlap_ratio circumferential_backlash".split()
 
 _FLAT = 'style="width:auto;border-collapse:collapse"'
 
 
-def gear_html(gear: Gear) -> str:
+def gear_html(gear: GearData, profile: ToothProfile) -> str:
     """A picture of the gear from +z, and a table."""
     rows = ((symbols.GEAR[name], [getattr(gear, name)]) for name in _OF_GEAR)
-    return _html(gear.name, _svg([(gear, MeshPose(0.0, 0.0, 0.0))]), [], rows)
+    return _html(gear.name, _svg([_Placed(gear, profile, Pose(0.0, 0.0, 0.0))]), [], rows)
 
 
-def pair_html(pair: GearPair) -> str:
-    """A picture of the pair in mesh from +z, and a table."""
-    gears = (pair.pinion, pair.wheel)
-    rows = [(symbols.GEAR[name], [getattr(gear, name) for gear in gears]) for name in _OF_GEAR]
-    rows += [(symbols.PAIR[name], [getattr(pair, name)]) for name in _OF_PAIR]
-    picture = _svg([(pair.pinion, MeshPose(0.0, 0.0, 0.0)), (pair.wheel, mesh_pose(pair))])
-    return _html(pair.name, picture, ["pinion", "wheel"], rows)
+def pair_html(
+    name: str, gears: PerGear[GearData], profiles: PerGear[ToothProfile], wheel: Pose, figures: Mapping[str, float]
+) -> str:
+    """A picture of the pair in mesh from +z, the wheel at its pose, and a table with figures of the pair by their names."""
+    rows = [(symbols.GEAR[key], [getattr(gear, key) for gear in gears]) for key in _OF_GEAR]
+    rows += [(symbols.PAIR[key], [value]) for key, value in figures.items()]
+    poses = PerGear(Pose(0.0, 0.0, 0.0), wheel)
+    picture = _svg([_Placed(*each) for each in zip(gears, profiles, poses, strict=True)])
+    return _html(name, picture, [role.value for role in Role], rows)
+
+
+class _Placed(NamedTuple):
+    """A gear where a picture shows it."""
+
+    gear: GearData
+    profile: ToothProfile
+    pose: Pose
 
 
 def _html(name: str, picture: str, headings: list[str], rows: Iterable[tuple[symbols.Symbol, list[float]]]) -> str:
@@ -65,25 +73,26 @@ def _shown(value: float, unit: str) -> str:
     return f"{round(value, 9) + 0.0:.6g}{' ' if unit else ''}{escape(unit)}"
 
 
-def _svg(placed: list[tuple[Gear, MeshPose]]) -> str:
+def _svg(placed: list[_Placed]) -> str:
     """Sections of gears where they stand, the section of the first one at its z = 0, as seen from +z; in mm."""
-    left = min(pose.x - gear.tip_diameter / 2 for gear, pose in placed)
-    right = max(pose.x + gear.tip_diameter / 2 for gear, pose in placed)
-    height = max(gear.tip_diameter for gear, _ in placed)
+    left = min(pose.x - gear.tip_diameter / 2 for gear, _, pose in placed)
+    right = max(pose.x + gear.tip_diameter / 2 for gear, _, pose in placed)
+    height = max(gear.tip_diameter for gear, _, _ in placed)
     scale = _PIXELS / max(right - left, height)
-    shapes = "".join(shape for gear, pose in placed for shape in _shapes(gear, pose, 1 / scale))
+    shapes = "".join(shape for each in placed for shape in _shapes(each, 1 / scale))
     view = f"{left:.6g} {-height / 2:.6g} {right - left:.6g} {height:.6g}"
     size = f'width="{(right - left) * scale:.0f}" height="{height * scale:.0f}"'
     style = f'fill="currentColor" fill-opacity=".15" stroke="currentColor" stroke-width="{1 / scale:.3g}"'
     return f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{view}" overflow="visible"><g {style}>{shapes}</g></svg>'
 
 
-def _shapes(gear: Gear, pose: MeshPose, pixel: float) -> Iterator[str]:
+def _shapes(placed: _Placed, pixel: float) -> Iterator[str]:
     """The outline with its bore, and the reference circle; `pixel` is its size (mm)."""
+    gear, profile, pose = placed
     # Seen at the pinion's z = 0, a helical wheel that begins at another height is turned by then.
     turn = math.radians(pose.rotation) - twist(gear, pose.z)
     cosine, sine = math.cos(turn), math.sin(turn)
-    turned = gear.profile.contour(_CHORD_ERROR * pixel) @ np.array([[cosine, sine], [-sine, cosine]])
+    turned = profile.contour(_CHORD_ERROR * pixel) @ np.array([[cosine, sine], [-sine, cosine]])
     outline = _polygon(turned + np.array([pose.x, 0.0]), pixel)
     yield f'<path fill-rule="evenodd" d="{outline}{_circle(gear.body.bore / 2, pose.x)}"/>'
     yield (

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from gearcad.geometry.helix import twist
+from gearcad.per_gear import PerGear
 
-if TYPE_CHECKING:
-    from gearcad.geometry.pair import GearPair
-
-__all__ = ["MeshPose", "mesh_pose"]
+__all__ = ["Pose", "wheel_pose"]
 
 
-class MeshPose(NamedTuple):
+class Pose(NamedTuple):
     """Place of the wheel beside a pinion that stands unturned at the origin, teeth from z = 0 to its face width.
 
     `rotation` of the wheel about its own axis (degrees, counter-clockwise seen from +z), then its shift along x (the
@@ -25,9 +21,7 @@ class MeshPose(NamedTuple):
     z: float
 
 
-def mesh_pose(pair: GearPair, pinion_rotation: float = 0.0) -> MeshPose:
-    """Pose of the wheel with the middles of the gears in one plane (moved by `axial_offset`), at any pinion rotation (deg)."""
-    z = (pair.pinion.face_width - pair.wheel.face_width) / 2 + pair.axial_offset
-    turn = pinion_rotation + math.degrees(twist(pair.pinion, z))
-    facing = 0.0 if pair.wheel.teeth % 2 else 180 / pair.wheel.teeth
-    return MeshPose(facing - turn / pair.gear_ratio, pair.centre_distance, z)
+def wheel_pose(*, teeth: PerGear[int], centre_distance: float, z: float, turn: float) -> Pose:
+    """Pose of a wheel that begins at height `z` (mm), where the pinion's section is turned by `turn` (degrees)."""
+    facing = 0.0 if teeth.wheel % 2 else 180 / teeth.wheel
+    return Pose(facing - turn / (teeth.wheel / teeth.pinion), centre_distance, z)

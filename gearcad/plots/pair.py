@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.geometry import Gear, GearPair, mesh_pose
+from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.helix import twist
 from gearcad.plots.paper import DARK, GEARS, MARKED, new_figure
 
@@ -44,7 +44,7 @@ def plot_pair(pair: GearPair, ax: Axes | None = None) -> Axes:
 
     axes = new_figure(pair_inches(pair)).subplots() if ax is None else ax
     turn = _helix_turn(pair)
-    gears = ((pair.pinion, 0.0, 0.0), (pair.wheel, pair.centre_distance, mesh_pose(pair, -turn).rotation))
+    gears = ((pair.pinion, 0.0, 0.0), (pair.wheel, pair.centre_distance, pair.wheel_pose(-turn).rotation))
     for (gear, x, rotation), (_, colour, _), pitch in zip(gears, GEARS, pair.working_pitch_diameters, strict=True):
         _fill(axes, gear, x, math.radians(rotation), colour)
         axes.add_patch(Circle((x, 0), pitch / 2, fill=False, edgecolor=DARK, linestyle="-.", linewidth=0.7))
@@ -62,9 +62,8 @@ def plot_pair(pair: GearPair, ax: Axes | None = None) -> Axes:
 
 
 def _helix_turn(pair: GearPair) -> float:
-    """How far (deg) a helical pinion's section at the wheel's lower end is turned: what `mesh_pose` takes into account."""
-    pose = mesh_pose(pair)
-    return math.degrees(twist(pair.pinion, pose.z))
+    """How far (deg) a helical pinion's section at the wheel's lower end is turned: what `wheel_pose` takes into account."""
+    return math.degrees(twist(pair.pinion, pair.wheel_pose().z))
 
 
 def _fill(axes: Axes, gear: Gear, x: float, rotation: float, colour: str) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from gearcad.errors import GeometryError
-from gearcad.geometry import GearPair, contact_line_length
+from gearcad.geometry import GearPair
 from gearcad.geometry.limits import at_most
 from gearcad.material import Material
 from gearcad.rating.hertz import LineContact, reduced_modulus, reduced_radius
@@ -28,7 +28,7 @@ def contact_at(
     None: a line across the common face width, b/cos beta_b). The radii of curvature are those of the normal section,
     distance/cos beta_b and (T1T2 - distance)/cos beta_b. Raises GeometryError for a place that is not between T1 and T2.
     """
-    whole = pair.centre_distance * math.sin(math.radians(pair.working_transverse_pressure_angle))
+    whole = pair.base_tangent.length
     if not 0 < distance < whole:
         permitted = f"must be above 0 and below {at_most(whole)} mm, between the base tangent points T1 and T2"
         raise GeometryError("distance", distance, permitted, "mm")
@@ -54,5 +54,5 @@ def pitch_point_contact(pair: GearPair, material: Material, torque: float) -> Li
         material,
         distance=pair.path_of_contact.C,
         force=base_normal_force(pair, torque),
-        length=contact_line_length(pair, 0.0),
+        length=pair.contact_line_length(0.0),
     )

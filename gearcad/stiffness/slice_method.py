@@ -32,9 +32,8 @@ class SliceMethod(StiffnessMethod):
 
     def curvatures(self, lengths: Floats) -> PerGear[Floats]:
         """Radii of curvature (n,) of both flanks in the section across the line of contact (mm)."""
-        whole = self.mounted.centre_distance * math.sin(math.radians(self.mounted.working_transverse_pressure_angle))
         lean = math.cos(math.radians(self.mounted.pinion.base_helix_angle))
-        return PerGear(lengths / lean, (whole - lengths) / lean)
+        return PerGear(lengths / lean, (self.mounted.base_tangent.length - lengths) / lean)
 
     @property
     def to_transverse(self) -> float:

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
 from gearcad.geometry import GearPair
-from gearcad.geometry.path import usable_path
 
 __all__ = ["MeshCurves", "SinglePair", "Slices"]
 
@@ -72,7 +71,7 @@ class Slices:
     @cached_property
     def path(self) -> tuple[float, float]:
         """First and last contact (mm from T1) on involutes of both gears."""
-        return usable_path(self.pair)
+        return self.pair.usable_path
 
     @property
     def pitch(self) -> float:

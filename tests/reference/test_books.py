@@ -9,7 +9,8 @@ import pytest
 from support.cases import case, diameters, half_unit
 
 from gearcad import BasicRack, Gear, GearPair
-from gearcad.geometry import chordal_thickness, inverse_involute, involute, over_balls, profile_shift_sum, span_measurement
+from gearcad.geometry import inverse_involute, involute, profile_shift_sum
+from gearcad.per_gear import PerGear
 
 VERIFIED = 1e-9
 """mm, degrees or ratios: what the project promises against verified values."""
@@ -117,7 +118,8 @@ def test_span() -> None:
     given, verified = case("book_khk_span_spur")["inputs"], case("book_khk_span_spur")["verified"]
     gear = _single(teeth=given["z"], normal_module=given["mn"], profile_shift=given["x"])
     assert gear.span_teeth == verified["k"]
-    assert span_measurement(gear, gear.span_teeth) == pytest.approx(verified["W_support_function"], abs=VERIFIED, rel=0)
+    found = gear.inspection.span_measurement(gear.span_teeth)
+    assert found == pytest.approx(verified["W_support_function"], abs=VERIFIED, rel=0)
     printed = case("book_khk_span_spur")["expected_printed"]["W"]
     assert gear.span_measurement == pytest.approx(float(printed), abs=half_unit(printed), rel=0)
 
@@ -125,7 +127,7 @@ def test_span() -> None:
 def test_over_pins() -> None:
     given, verified = case("book_khk_pins_spur")["inputs"], case("book_khk_pins_spur")["verified"]
     gear = _single(teeth=given["z"], normal_module=given["m"], profile_shift=given["x"])
-    over = over_balls(gear, given["D"])
+    over = gear.inspection.over_balls(given["D"])
     assert over == pytest.approx(verified["M_ball_numeric"], abs=VERIFIED, rel=0)
     angle = math.degrees(math.acos(gear.base_diameter / (over - given["D"])))
     assert angle == pytest.approx(verified["phi"], abs=VERIFIED, rel=0)
@@ -139,7 +141,7 @@ def test_chordal_thickness() -> None:
     given, verified = case("book_sdp_chord_spur")["inputs"], case("book_sdp_chord_spur")["verified"]
     gear = _single(teeth=given["z"], normal_module=given["m"], profile_shift=given["x"])
     assert (gear.tip_diameter - gear.reference_diameter) / 2 == pytest.approx(given["ha"], abs=VERIFIED, rel=0)
-    thickness, height = chordal_thickness(gear)
+    thickness, height = gear.inspection.chordal_thickness
     theta = math.degrees(gear.normal_tooth_thickness / gear.reference_diameter)
     found = {"s": gear.normal_tooth_thickness, "theta": theta, "sj": thickness, "hj": height}
     assert found == pytest.approx({key: verified[key] for key in found}, abs=VERIFIED, rel=0)
@@ -184,7 +186,7 @@ def test_alm_first_stage_without_backlash() -> None:
     assert pair.circumferential_backlash == pytest.approx(verified["backlash_residual_mm"], abs=VERIFIED, rel=0)
     back = profile_shift_sum(
         normal_module=given["mn"],
-        teeth=(18, 161),
+        teeth=PerGear(18, 161),
         helix_angle=0.0,
         pressure_angle=given["alpha"],
         centre_distance=verified["a_zero_backlash"],

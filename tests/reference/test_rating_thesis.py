@@ -10,7 +10,6 @@ from support.cases import half_unit, volvo_pair
 from support.ratings import pair_of, rating_case, rating_of
 
 from gearcad import Load, Material
-from gearcad.geometry import contact_line_length
 from gearcad.rating import LineContact, contact_at, rate, reduced_modulus, reduced_radius
 from gearcad.rating.iso6336_1 import (
     basic_rack_factor,
@@ -142,7 +141,7 @@ def test_pressure_of_the_volvo_pair_exceeds_the_limit_that_the_thesis_compares_w
     assert contact.radius == pytest.approx(rating_case("s001_hertz_correct")["inputs"]["R_eq_mm"], rel=FORMULA)
     force = 2 * 220e3 / (pair.pinion.base_diameter * math.cos(math.radians(pair.pinion.base_helix_angle)))
     assert force == pytest.approx(VOLVO["verified"]["FN_tot"], rel=FORMULA)
-    assert contact.load_per_width == pytest.approx(force / contact_line_length(pair, 0.0), rel=FORMULA)
+    assert contact.load_per_width == pytest.approx(force / pair.contact_line_length(0.0), rel=FORMULA)
     depth, value = contact.greatest_von_mises
     assert value / contact.peak_pressure == pytest.approx(verified["vonMises_max_over_p0"], rel=FORMULA)
     assert depth / contact.half_width == pytest.approx(verified["depth_over_a"], rel=OPTIMUM)

@@ -10,7 +10,6 @@ import pytest
 from support.cases import case, diameters, half_unit, volvo_pair
 
 from gearcad import BasicRack, Gear, GearPair, GeometryError
-from gearcad.geometry import contact_line_length
 
 DIAMETER = 1e-9
 """mm: what the project promises for diameters, lengths and centre distances."""
@@ -154,7 +153,7 @@ def test_contact_lines(pair: GearPair, shortened: bool) -> None:
     assert lengths.minimum == pytest.approx(expected["min_mm"], abs=DIAMETER, rel=0)
     assert lengths.maximum == pytest.approx(expected["max_mm"], abs=DIAMETER, rel=0)
     assert lengths.mean == pytest.approx(expected["mean_formula_eps_alpha_b_over_cos"], abs=DIAMETER, rel=0)
-    at_phases = contact_line_length(pair, _phases(pair, expected["phase_mm"]))
+    at_phases = pair.contact_line_length(_phases(pair, expected["phase_mm"]))
     assert at_phases == pytest.approx(expected["sum_L_at_phase"], abs=DIAMETER, rel=0)
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.geometry import GearPair, ToothProfile, mesh_pose
+from gearcad.geometry import GearPair, ToothProfile
 
 __all__ = ["turn_to_touch"]
 
@@ -91,7 +91,7 @@ def turn_to_touch(pair: GearPair, pinion_rotation: float, side: int) -> float:
 
     `side` +1 turns it counter-clockwise, -1 clockwise. Minus infinity where a tip is below the other gear's root.
     """
-    pose = mesh_pose(pair, pinion_rotation)
+    pose = pair.wheel_pose(pinion_rotation)
     # The plane is that of the wheel's own z = 0, where the pinion's section has turned by its helix.
     twist = 360 * pose.z / math.copysign(pair.pinion.lead, pair.pinion.helix_angle)
     pinion = Placed(pair.pinion.profile, math.radians(pinion_rotation + twist), 0.0)

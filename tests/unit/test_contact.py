@@ -11,7 +11,8 @@ from support.cases import volvo_pair
 from support.clearance import turn_to_touch
 
 from gearcad import ISO53_A, BasicRack, Body, Gear, GearPair, GeometryError, ShiftSplit
-from gearcad.geometry import contact_line_length, mesh_pose, profile_shift_sum, split_profile_shift
+from gearcad.geometry import profile_shift_sum, split_profile_shift
+from gearcad.per_gear import PerGear
 
 
 def _pair(z: tuple[int, int], *, x: tuple[float, float] = (0.0, 0.0), helix: float = 0.0, **common: float) -> GearPair:
@@ -41,7 +42,7 @@ def test_mean_contact_length_over_the_cycle(pair: GearPair) -> None:
     cycle = 360 / pair.pinion.teeth
     edges = np.linspace(0, cycle, 200_001)
     middles = (edges[1:] + edges[:-1]) / 2
-    total = contact_line_length(pair, middles)
+    total = pair.contact_line_length(middles)
     lengths = pair.contact_line_lengths
     # A spur pair jumps, which the midpoint rule misses by one cell of 200,000 at each jump.
     jump = pair.common_width.width / 200_000 if pair.pinion.helix_angle == 0 else 0.0
@@ -70,9 +71,9 @@ def test_mean_is_contact_ratio_times_width(pair: GearPair) -> None:
 @pairs
 def test_lines_repeat_every_pitch(pair: GearPair) -> None:
     roll = np.linspace(-7, 9, 31)
-    again = contact_line_length(pair, roll + 360 / pair.pinion.teeth)
-    assert again == pytest.approx(contact_line_length(pair, roll), abs=1e-9)
-    assert isinstance(contact_line_length(pair, 0.0), float)
+    again = pair.contact_line_length(roll + 360 / pair.pinion.teeth)
+    assert again == pytest.approx(pair.contact_line_length(roll), abs=1e-9)
+    assert isinstance(pair.contact_line_length(0.0), float)
 
 
 # ---------------------------------------------------------------------- shifts and sliding
@@ -101,7 +102,7 @@ def test_equal_specific_sliding_is_equal(teeth: tuple[int, int], helix: float, t
         total,
         ShiftSplit.EQUAL_SPECIFIC_SLIDING,
         normal_module=2.0,
-        teeth=teeth,
+        teeth=PerGear(*teeth),
         helix_angle=helix,
         pressure_angle=20.0,
         centre_distance=float(plain.centre_distance),
@@ -115,7 +116,13 @@ def test_equal_specific_sliding_is_equal(teeth: tuple[int, int], helix: float, t
 
 
 def test_other_splits() -> None:
-    inputs = {"normal_module": 2.0, "teeth": (20, 30), "helix_angle": 0.0, "pressure_angle": 20.0, "centre_distance": 51.0}
+    inputs = {
+        "normal_module": 2.0,
+        "teeth": PerGear(20, 30),
+        "helix_angle": 0.0,
+        "pressure_angle": 20.0,
+        "centre_distance": 51.0,
+    }
     assert split_profile_shift(0.5, ShiftSplit.EQUAL, **inputs) == (0.25, 0.25)
     assert split_profile_shift(0.5, ShiftSplit.PINION, **inputs) == (0.5, 0.0)
 
@@ -126,7 +133,7 @@ def test_shift_sum_gives_the_centre_distance_back(change: float, helix: float) -
     plain = _pair((20, 35), helix=helix)
     total = profile_shift_sum(
         normal_module=2.0,
-        teeth=(20, 35),
+        teeth=PerGear(20, 35),
         helix_angle=helix,
         pressure_angle=20.0,
         centre_distance=plain.centre_distance + change,
@@ -191,7 +198,7 @@ def test_common_width(offset: float, helix: float) -> None:
 
 @pairs
 def test_pose_turns_with_the_pinion(pair: GearPair) -> None:
-    start, later = mesh_pose(pair), mesh_pose(pair, 11.0)
+    start, later = pair.wheel_pose(), pair.wheel_pose(11.0)
     assert later.rotation - start.rotation == pytest.approx(-11.0 / pair.gear_ratio)
     assert (start.x, start.z) == (pair.centre_distance, (pair.pinion.face_width - pair.wheel.face_width) / 2)
 

@@ -18,8 +18,8 @@ from support.samples import SAMPLES
 
 from gearcad import BasicRack, Body, Gear, GearcadError, GearPair, GeometryError, ParameterError, ToothProfile
 from gearcad.geometry import NAMED_RACKS, split_profile_shift
-from gearcad.geometry.inspection import ball_contact_diameter
 from gearcad.geometry.limits import at_least, at_most
+from gearcad.per_gear import PerGear
 
 
 def _gear(**inputs: Any) -> Gear:
@@ -335,7 +335,13 @@ def test_names_without_control_characters(name: str) -> None:
 
 
 def test_a_split_given_as_text_is_what_it_says() -> None:
-    common = {"normal_module": 2.0, "teeth": (20, 35), "helix_angle": 0.0, "pressure_angle": 20.0, "centre_distance": 56.0}
+    common = {
+        "normal_module": 2.0,
+        "teeth": PerGear(20, 35),
+        "helix_angle": 0.0,
+        "pressure_angle": 20.0,
+        "centre_distance": 56.0,
+    }
     assert split_profile_shift(0.5, "equal", **common) == (0.25, 0.25)
     with pytest.raises(ParameterError, match="'equal', 'pinion', 'equal_specific_sliding'"):
         split_profile_shift(0.5, "fair", **common)
@@ -348,7 +354,7 @@ def test_ball_of_a_steep_gear_with_a_large_pressure_angle() -> None:
         teeth=9, normal_module=137.8, helix_angle=-74.0103, profile_shift=2.780184, face_width=156.0, tip_alteration=-0.9067,
         rack=rack,
     )  # fmt: skip
-    touches = ball_contact_diameter(gear, gear.ball_diameter)
+    touches = gear.inspection.ball_contact_diameter(gear.ball_diameter)
     assert gear.base_diameter < touches < gear.form_diameter  # the ball is made to touch lower, and the data sheet says so
     assert any(warning.startswith("balls: ") for warning in gear.warnings)
     assert gear.over_balls > gear.tip_diameter

@@ -11,9 +11,7 @@ from scipy.optimize import brentq, minimize
 from support.samples import SAMPLES
 
 from gearcad import BasicRack, Gear, GeometryError, ParameterError
-from gearcad.geometry import chordal_thickness, over_balls, over_pins, span_contact_diameter, span_measurement
 from gearcad.geometry.curves import Curve, CurveKind
-from gearcad.geometry.inspection import ball_contact_diameter
 
 LENGTH = 1e-9
 """mm, relative to a module of some mm: the measurements below are minima, found to sqrt(eps) in place, eps in length."""
@@ -72,10 +70,10 @@ def test_span_is_the_distance_of_two_parallel_tangent_planes(gear: Gear, off_cen
     outer = math.pi / gear.teeth * (count - 1)
     near, at = _support(gear, outer + off_centre)
     far, _ = _support(gear, outer - off_centre)
-    assert near + far == pytest.approx(span_measurement(gear, count), abs=LENGTH, rel=0)
+    assert near + far == pytest.approx(gear.inspection.span_measurement(count), abs=LENGTH, rel=0)
     if off_centre == 0 and gear.helix_angle == 0:
         touching = 2 * float(_flank(gear).polar(at)[0])
-        assert touching == pytest.approx(span_contact_diameter(gear, count), abs=1e-4)
+        assert touching == pytest.approx(gear.inspection.span_contact_diameter(count), abs=1e-4)
         assert gear.form_diameter < touching < gear.tip_form_diameter
 
 
@@ -105,20 +103,22 @@ def test_balls_touch_the_exact_flanks(gear: Gear) -> None:
     ball = gear.ball_diameter
     centre, touching = _ball_place(gear, ball)
     between = 2 * centre * (math.cos(math.pi / (2 * gear.teeth)) if gear.teeth % 2 else 1.0)
-    assert over_balls(gear, ball) == pytest.approx(between + ball, abs=2e-8, rel=0)  # Nelder-Mead: 1e-15 mm^2 over ball/2
-    assert ball_contact_diameter(gear, ball) == pytest.approx(touching, abs=1e-5)
+    assert gear.inspection.over_balls(ball) == pytest.approx(
+        between + ball, abs=2e-8, rel=0
+    )  # Nelder-Mead: 1e-15 mm^2 over ball/2
+    assert gear.inspection.ball_contact_diameter(ball) == pytest.approx(touching, abs=1e-5)
     assert gear.form_diameter < touching < gear.tip_form_diameter
     # The ball is that which touches at d + 2 x m_n, rounded up to two digits, so it touches a little further out.
     middle = gear.reference_diameter + 2 * gear.profile_shift * gear.normal_module
     assert middle - 1e-6 <= touching <= middle + 0.4 * gear.normal_module
-    diametric = 2 * centre + ball if gear.helix_angle and gear.teeth % 2 else over_balls(gear, ball)
-    assert over_pins(gear, ball) == pytest.approx(diametric, abs=2e-8, rel=0)
+    diametric = 2 * centre + ball if gear.helix_angle and gear.teeth % 2 else gear.inspection.over_balls(ball)
+    assert gear.inspection.over_pins(ball) == pytest.approx(diametric, abs=2e-8, rel=0)
 
 
 @pytest.mark.parametrize("gear", SPUR.values(), ids=SPUR.keys())
 def test_chord_of_a_spur_tooth(gear: Gear) -> None:
     half = math.radians(gear.profile.half_angle(gear.reference_diameter / 2))
-    thickness, height = chordal_thickness(gear)
+    thickness, height = gear.inspection.chordal_thickness
     assert thickness == pytest.approx(gear.reference_diameter * math.sin(half), abs=LENGTH, rel=0)
     expected = (gear.tip_diameter - gear.reference_diameter * math.cos(half)) / 2
     assert height == pytest.approx(expected, abs=LENGTH, rel=0)
@@ -129,15 +129,15 @@ def test_every_gear_has_inspection_data_that_follow_its_thinning(gear: Gear) -> 
     """Thinner teeth shorten the span by t cos(a_n) and let the same ball sink, whatever the gear."""
     t = 0.02 * gear.normal_module
     thin = replace(gear, tooth_thinning=gear.tooth_thinning + t)
-    shorter = span_measurement(gear, 2) - span_measurement(thin, 2)
+    shorter = gear.inspection.span_measurement(2) - thin.inspection.span_measurement(2)
     assert shorter == pytest.approx(t * math.cos(math.radians(gear.rack.pressure_angle)), rel=1e-9)
-    assert over_balls(thin, gear.ball_diameter) < over_balls(gear, gear.ball_diameter)
+    assert thin.inspection.over_balls(gear.ball_diameter) < gear.inspection.over_balls(gear.ball_diameter)
 
 
 def test_few_teeth_whose_spaces_hold_no_ball_on_the_flank() -> None:
     """z = 3, x = 1: where the flanks' normals meet, they are too far out, so the suggested ball touches lower, and says so."""
     gear = Gear(teeth=3, normal_module=1.0, face_width=5, profile_shift=1.0, rack=BasicRack(addendum=0.4375, dedendum=0.6875))
-    contact = ball_contact_diameter(gear, gear.ball_diameter)
+    contact = gear.inspection.ball_contact_diameter(gear.ball_diameter)
     assert contact < gear.form_diameter
     assert any(f"would touch at diameter {contact:.4f} mm, off the involute" in text for text in gear.warnings)
     assert math.isfinite(gear.over_balls)
@@ -147,8 +147,8 @@ def test_wrong_gauges_are_refused() -> None:
     gear = SPUR["even"]
     for count in (0, 21):
         with pytest.raises(ParameterError, match=f"span_teeth = {count}: must be a whole number from 1 to 20"):
-            span_measurement(gear, count)
+            gear.inspection.span_measurement(count)
     with pytest.raises(GeometryError, match=r"ball_diameter = 0\.1 mm: must be larger"):
-        over_balls(gear, 0.1)
+        gear.inspection.over_balls(0.1)
     with pytest.raises(ParameterError, match="ball_diameter = 0 mm: must be a number above 0 mm"):
-        over_balls(gear, 0.0)
+        gear.inspection.over_balls(0.0)

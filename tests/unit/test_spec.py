@@ -16,6 +16,7 @@ from gearcad.designs.keys import KEYS
 from gearcad.designs.lines import find_lines, nearest_line
 from gearcad.geometry import profile_shift_sum, specific_sliding
 from gearcad.output import json_text
+from gearcad.per_gear import PerGear
 
 EXACT = 1e-12
 """Relative: the same double-precision formula in another order."""
@@ -180,9 +181,9 @@ def test_two_automatic_shifts_balance_the_specific_sliding_of_the_gears_that_are
     ).pair
     assert pair is not None
     sliding = specific_sliding(
-        teeth=(12, 24),
-        base_radii=(pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2),
-        tip_radii=(pair.pinion.tip_form_diameter / 2, pair.wheel.tip_form_diameter / 2),
+        teeth=PerGear(12, 24),
+        base_radii=PerGear(pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2),
+        tip_radii=PerGear(pair.pinion.tip_form_diameter / 2, pair.wheel.tip_form_diameter / 2),
         centre_distance=56.5,
     )
     assert sliding[0] == pytest.approx(sliding[1], rel=1e-9)
@@ -197,7 +198,9 @@ def test_two_automatic_shifts_split_as_asked(split: str, first: float) -> None:
         wheel={"profile_shift": "auto"},
     ).pair
     assert pair is not None
-    total = profile_shift_sum(normal_module=3.0, teeth=(12, 24), helix_angle=0.0, pressure_angle=20.0, centre_distance=55.5)
+    total = profile_shift_sum(
+        normal_module=3.0, teeth=PerGear(12, 24), helix_angle=0.0, pressure_angle=20.0, centre_distance=55.5
+    )
     assert pair.pinion.profile_shift == pytest.approx(first * total, rel=EXACT)
 
 

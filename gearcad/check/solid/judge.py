@@ -13,7 +13,6 @@ from gearcad.check.rim import bending_limits, rim_gates
 from gearcad.check.solid.summary import SolidSummary
 from gearcad.check.task import CheckTask
 from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.geometry.path import contact_line_lengths
 
 __all__ = ["compare_solid"]
 
@@ -56,7 +55,7 @@ def _contact(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
     ):
         value, source, reason = getattr(summary, key), f"{source}, {standard} Method B", summary.missing.get(key, "")
         yield against(words, value, reference, band, "MPa", source, Role.INFORMATION, note, reason)
-    lengths = contact_line_lengths(task.pair)
+    lengths = task.pair.contact_line_lengths
     yield against(
         "mean length of the lines of contact",
         summary.contact_length_mean,

@@ -21,7 +21,6 @@ from gearcad.contact.shared.holding import Support
 from gearcad.contact.shared.line_of_action import line_of_action, rigid_approach
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
-from gearcad.geometry.path import usable_path
 from gearcad.material import Material
 from gearcad.meshing import MeshSizes, mesh_sector
 from gearcad.per_gear import PerGear
@@ -99,7 +98,7 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
 
     def single_stiffness(self, torque: float, count: int = _SINGLE) -> float:
         """Greatest stiffness (N/(mm um)) of one pair of teeth alone, at `count` places of its path of contact."""
-        lengths = np.linspace(*usable_path(self.pair), count + 2)[1:-1]
+        lengths = np.linspace(*self.pair.usable_path, count + 2)[1:-1]
         approaches = [
             self.solve(angle, torque, single=True).approach - self.rigid_approach(angle, single=True)
             for angle in self.roll_angle(lengths).tolist()

@@ -127,12 +127,11 @@ def line_of_action(pair: GearPair, pitch_error: float = 0.0) -> LineOfAction:
 
     `pitch_error` (um) is how far the flanks of the middle pair of teeth stand proud, both together.
     """
-    whole = pair.centre_distance * math.sin(math.radians(pair.working_transverse_pressure_angle))
     middle = pair.common_width.offset
     pinion = TransverseFlank(pair.pinion.flank_form, pair.pinion.face_width / 2 + middle)
     wheel = TransverseFlank(pair.wheel.flank_form, pair.wheel.face_width / 2 + middle - pair.axial_offset)
     pitch, module = pair.pinion.transverse_base_pitch, pair.pinion.normal_module
-    return LineOfAction(whole, pitch, PerGear(pinion, wheel), module, pitch_error / 1000)
+    return LineOfAction(pair.base_tangent.length, pitch, PerGear(pinion, wheel), module, pitch_error / 1000)
 
 
 def rigid_approach(line: LineOfAction, pinion_length: float, *, single: bool = False) -> float:

@@ -22,7 +22,6 @@ from gearcad.contact.solid.root import SolidFillets, solid_fillets
 from gearcad.contact.solid.swept import SweptMesh, sweep
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
-from gearcad.geometry.path import usable_path
 from gearcad.material import Material
 from gearcad.meshing import MeshSizes
 from gearcad.meshing.quads import mesh_quads
@@ -167,7 +166,7 @@ class SolidPair(FlexiblePair[SolidCompliance]):
 
     def single_stiffness(self, torque: float, count: int = _SINGLE) -> float:
         """Greatest stiffness (N/(mm um)) of one pair of teeth alone, at `count` places while its line crosses the flanks."""
-        (first, last), reach = usable_path(self.pair), self.width * abs(math.tan(self.helix)) / 2
+        (first, last), reach = self.pair.usable_path, self.width * abs(math.tan(self.helix)) / 2
         lengths = np.linspace(first - reach, last + reach, count + 2)[1:-1]
         solved = (self.solve(angle, torque, single=True) for angle in self.roll_angle(lengths).tolist())
         # Transverse: F cos(beta_b) over the approach delta/cos(beta_b), per mm of width.

@@ -7,7 +7,6 @@ import numpy as np
 from gearcad.check.face import face_factors
 from gearcad.check.solid.result import SolidCheck
 from gearcad.check.solid.summary import WorstPlace, worst_place
-from gearcad.geometry.path import contact_line_lengths
 from gearcad.per_gear import Role
 from gearcad.plots.paper import short
 
@@ -50,7 +49,7 @@ def _root_reason(result: SolidCheck, role: Role) -> str:
 def face_reasons(result: SolidCheck) -> list[str]:
     """Load along the lines of contact, and along the face width."""
     summary, rating, factors = result.summary, result.rating, face_factors(result.task)
-    length = contact_line_lengths(result.pair).mean
+    length = result.pair.contact_line_lengths.mean
     mean = rating.normal_force * rating.application_factor / length
     worst = worst_place(result.cycle)
     across, load = result.cycle.load_along_face

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from gearcad.errors import GeometryError
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.pair import GearPair
-from gearcad.geometry.pose import mesh_pose
 from gearcad.per_gear import PerGear, Role
 from gearcad.solids.colours import PART_COLOURS
 from gearcad.solids.exact.solid import gear_solid
@@ -55,7 +54,7 @@ def pair_assembly(pair: GearPair, *, bracket: bool = False) -> cadquery.Assembly
     """
     import cadquery
 
-    names, pose, assembly = part_names(pair), mesh_pose(pair), cadquery.Assembly(name=pair.name)
+    names, pose, assembly = part_names(pair), pair.wheel_pose(), cadquery.Assembly(name=pair.name)
     wheel_at = cadquery.Location(cadquery.Vector(pose.x, 0, pose.z), cadquery.Vector(0, 0, 1), pose.rotation)
     places = PerGear(None, wheel_at)
     for role, gear in pair.gears.items():
@@ -71,7 +70,7 @@ def _bracket(pair: GearPair) -> cadquery.Solid:
     import cadquery
 
     gears = pair.gears
-    bores, pose = gears.map(_bore), mesh_pose(pair)
+    bores, pose = gears.map(_bore), pair.wheel_pose()
     axes, heights = PerGear(0.0, pose.x), PerGear(0.0, pose.z)
     low = min(z - gear.body.hub_ends[0] for z, gear in zip(heights, gears, strict=True))
     high = max(z + gear.face_width + gear.body.hub_ends[1] for z, gear in zip(heights, gears, strict=True))

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from gearcad.geometry import Gear, GearPair, mesh_pose
+from gearcad.geometry import Gear, GearPair
 from gearcad.per_gear import PerGear, Role
 from gearcad.solids.colours import PART_COLOURS, STEEL, Colour
 from gearcad.solids.exact.assembly import pair_assembly, part_names
@@ -71,6 +71,6 @@ class PairProduct:
 
     def scene(self) -> list[Part]:
         """Both gears posed in mesh."""
-        pose = mesh_pose(self.pair)
+        pose = self.pair.wheel_pose()
         (pinion,), (wheel,) = self.gears.pinion.scene(), self.gears.wheel.scene()
         return [pinion, replace(wheel, rotation=pose.rotation, offset=(pose.x, 0.0, pose.z))]

@@ -1,0 +1,124 @@
+"""GearData: what one gives of a gear, and the sizes that follow from it by formula (ISO 21771)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from gearcad.geometry.body import Body
+from gearcad.geometry.derived import NOT_GIVEN, is_given
+from gearcad.geometry.modification import FlankModification
+from gearcad.geometry.rack import ISO53_A, BasicRack
+
+__all__ = ["GearData"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearData:
+    """The fields of a `Gear`, unchecked, and sizes that need no outline of a tooth. Lengths in mm, angles in degrees."""
+
+    name: str = "gear"
+    teeth: int
+    normal_module: float
+    face_width: float
+    helix_angle: float = 0.0
+    profile_shift: float = 0.0
+    tip_alteration: float = 0.0
+    tooth_thinning: float = 0.0
+    rack: BasicRack = field(default=ISO53_A)
+    body: Body = field(default=Body())
+    modification: FlankModification = field(default=FlankModification())
+    tip_diameter: float = NOT_GIVEN
+    root_diameter: float = NOT_GIVEN
+
+    @property
+    def standard_tip_diameter(self) -> float:
+        """d_a = d + 2 m_n (h_aP + x + k)."""
+        rise = self.rack.addendum + self.profile_shift + self.tip_alteration
+        return self.reference_diameter + 2 * self.normal_module * rise
+
+    @property
+    def standard_root_diameter(self) -> float:
+        """d_f = d - 2 m_n (h_fP - x)."""
+        return self.reference_diameter - 2 * self.normal_module * (self.rack.dedendum - self.profile_shift)
+
+    @property
+    def dedendum(self) -> float:
+        """Dedendum h_fP of the tool in normal modules: the rack's, or (d - d_f)/(2 m_n) + x for a given root circle."""
+        if not is_given(self.root_diameter):
+            return self.rack.dedendum
+        return (self.reference_diameter - self.root_diameter) / (2 * self.normal_module) + self.profile_shift
+
+    @property
+    def root_radius(self) -> float:
+        """Tip radius of the tool in normal modules, with "full" resolved for this gear."""
+        if self.rack.root_radius == "full":
+            return self.rack.full_root_radius(self.dedendum, self.tooth_thinning / self.normal_module)
+        return float(self.rack.root_radius)
+
+    @cached_property
+    def transverse_module(self) -> float:
+        """m_t = m_n / cos beta."""
+        return self.normal_module / math.cos(math.radians(self.helix_angle))
+
+    @cached_property
+    def transverse_pressure_angle(self) -> float:
+        """tan alpha_t = tan alpha_n / cos beta."""
+        tangent = math.tan(math.radians(self.rack.pressure_angle))
+        return math.degrees(math.atan(tangent / math.cos(math.radians(self.helix_angle))))
+
+    @cached_property
+    def base_helix_angle(self) -> float:
+        """sin beta_b = sin beta cos alpha_n; signed like the helix angle."""
+        sine = math.sin(math.radians(self.helix_angle)) * math.cos(math.radians(self.rack.pressure_angle))
+        return math.degrees(math.asin(sine))
+
+    @cached_property
+    def reference_diameter(self) -> float:
+        """d = z m_t."""
+        return self.teeth * self.transverse_module
+
+    @cached_property
+    def base_diameter(self) -> float:
+        """d_b = d cos alpha_t."""
+        return self.reference_diameter * math.cos(math.radians(self.transverse_pressure_angle))
+
+    @property
+    def normal_tooth_thickness(self) -> float:
+        """s_n = m_n (pi/2 + 2 x tan alpha_n) - thinning, on the reference circle."""
+        tangent = math.tan(math.radians(self.rack.pressure_angle))
+        return self.normal_module * (math.pi / 2 + 2 * self.profile_shift * tangent) - self.tooth_thinning
+
+    @property
+    def transverse_tooth_thickness(self) -> float:
+        """s_t = s_n / cos beta, on the reference circle."""
+        return self.normal_tooth_thickness / math.cos(math.radians(self.helix_angle))
+
+    @property
+    def transverse_pitch(self) -> float:
+        """p_t = pi m_t."""
+        return math.pi * self.transverse_module
+
+    @property
+    def transverse_base_pitch(self) -> float:
+        """p_bt = pi m_t cos alpha_t."""
+        return math.pi * self.base_diameter / self.teeth
+
+    @property
+    def lead(self) -> float:
+        """Lead p_z = pi d / tan |beta|; infinite for a spur gear."""
+        if self.helix_angle == 0:
+            return math.inf
+        return math.pi * self.reference_diameter / math.tan(math.radians(abs(self.helix_angle)))
+
+    @property
+    def twist(self) -> float:
+        """Rotation of the section over the face width in degrees (magnitude): 360 b / p_z."""
+        return 0.0 if self.helix_angle == 0 else 360 * self.face_width / self.lead
+
+    @property
+    def virtual_teeth(self) -> float:
+        """z_n = z / (cos^2 beta_b cos beta)."""
+        base, helix = math.radians(self.base_helix_angle), math.radians(self.helix_angle)
+        return self.teeth / (math.cos(base) ** 2 * math.cos(helix))

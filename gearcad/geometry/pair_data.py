@@ -1,0 +1,134 @@
+"""PairData: what one gives of a pair of gears, and how they then stand to each other by formula (ISO 21771)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+from gearcad.geometry.derived import NOT_GIVEN
+from gearcad.geometry.gear import Gear
+from gearcad.geometry.involute import involute
+from gearcad.geometry.shift import profile_shift_sum, zero_backlash_centre_distance
+from gearcad.per_gear import PerGear
+
+__all__ = ["CommonWidth", "PairData"]
+
+
+class CommonWidth(NamedTuple):
+    """Width (mm) over which the gears face each other, and the offset (mm) of its middle from the pinion's middle."""
+
+    width: float
+    offset: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairData:
+    """The fields of a `GearPair`, unchecked, and what needs no path of contact. Lengths in mm, angles in degrees."""
+
+    pinion: Gear
+    wheel: Gear
+    centre_distance: float = NOT_GIVEN
+    axial_offset: float = 0.0
+    name: str = "pair"
+
+    @property
+    def gears(self) -> PerGear[Gear]:
+        """Pinion and wheel."""
+        return PerGear(self.pinion, self.wheel)
+
+    # ------------------------------------------------------------------ working data
+
+    @property
+    def gear_ratio(self) -> float:
+        """u = z_2/z_1."""
+        return self.wheel.teeth / self.pinion.teeth
+
+    @property
+    def reference_centre_distance(self) -> float:
+        """a_d = (d_1 + d_2)/2."""
+        return (self.pinion.reference_diameter + self.wheel.reference_diameter) / 2
+
+    @property
+    def profile_shift_sum(self) -> float:
+        """x_1 + x_2 of the gears."""
+        return self.pinion.profile_shift + self.wheel.profile_shift
+
+    @property
+    def zero_backlash_shift_sum(self) -> float:
+        """x_1 + x_2 that would mesh without backlash at this centre distance (no thinning)."""
+        return profile_shift_sum(**self._sizes, centre_distance=self.centre_distance)
+
+    @property
+    def _sizes(self) -> dict[str, Any]:
+        """What the formulas of profile shift and centre distance want to know of both gears."""
+        return {
+            "normal_module": self.pinion.normal_module,
+            "teeth": self.gears.map(lambda gear: gear.teeth),
+            "helix_angle": self.pinion.helix_angle,
+            "pressure_angle": self.pinion.rack.pressure_angle,
+        }
+
+    @property
+    def thinning_as_shift(self) -> float:
+        """Change of the shift sum that thins the teeth as much as their tooth thinning does."""
+        thinning = self.pinion.tooth_thinning + self.wheel.tooth_thinning
+        return thinning / (2 * self.pinion.normal_module * math.tan(math.radians(self.pinion.rack.pressure_angle)))
+
+    @cached_property
+    def fitting_shift_sum(self) -> float:
+        """x_1 + x_2 that would mesh without backlash at this centre distance with the thinning there is."""
+        return self.zero_backlash_shift_sum + self.thinning_as_shift
+
+    def centre_distance_for(self, shift_sum: float) -> float:
+        """The one at which these gears would mesh without backlash if x_1 + x_2 were `shift_sum` (no thinning)."""
+        return zero_backlash_centre_distance(**self._sizes, shift_sum=shift_sum)
+
+    @cached_property
+    def working_transverse_pressure_angle(self) -> float:
+        """cos alpha_wt = (d_b1 + d_b2)/(2 a)."""
+        cosine = (self.pinion.base_diameter + self.wheel.base_diameter) / (2 * self.centre_distance)
+        return math.degrees(math.acos(cosine))
+
+    @property
+    def working_pitch_diameters(self) -> PerGear[float]:
+        """d_w1 = 2 a/(1 + u), d_w2 = u d_w1."""
+        pinion = 2 * self.centre_distance / (1 + self.gear_ratio)
+        return PerGear(pinion, self.gear_ratio * pinion)
+
+    @property
+    def tip_alteration(self) -> float:
+        """k that keeps the rack's tip clearance: (a - a_d)/m_n - (x_1 + x_2), never positive ("auto" in a spec)."""
+        change = (self.centre_distance - self.reference_centre_distance) / self.pinion.normal_module
+        return min(change - self.profile_shift_sum, 0.0)
+
+    @property
+    def tip_clearances(self) -> PerGear[float]:
+        """Clearance of each gear's tip in the mate's root."""
+        return PerGear(
+            self.centre_distance - (self.pinion.tip_diameter + self.wheel.root_diameter) / 2,
+            self.centre_distance - (self.wheel.tip_diameter + self.pinion.root_diameter) / 2,
+        )
+
+    @property
+    def circumferential_backlash(self) -> float:
+        """j_wt: working pitch less both tooth thicknesses on the working pitch circles (transverse)."""
+        working = involute(self.working_transverse_pressure_angle)
+        gap = 2 * math.pi / self.pinion.teeth
+        for gear, turn in ((self.pinion, 1.0), (self.wheel, self.gear_ratio)):
+            gap -= 2 * turn * (math.radians(gear.profile.base_half_angle) - working)
+        return gap * self.working_pitch_diameters.pinion / 2
+
+    @property
+    def normal_backlash(self) -> float:
+        """j_bn along the base normal: j_wt cos alpha_wt cos beta_b."""
+        across = math.cos(math.radians(self.working_transverse_pressure_angle))
+        return self.circumferential_backlash * across * math.cos(math.radians(self.pinion.base_helix_angle))
+
+    @cached_property
+    def common_width(self) -> CommonWidth:
+        """Common face width and where its middle lies, seen from the pinion's middle."""
+        own, mate = self.pinion.face_width / 2, self.wheel.face_width / 2
+        low, high = max(-own, self.axial_offset - mate), min(own, self.axial_offset + mate)
+        return CommonWidth(high - low, (high + low) / 2)
