@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gearcad import symbols
+from gearcad.per_gear import Role
 from gearcad.symbols import Symbol
 
 __all__ = ["column_symbol"]
@@ -41,7 +42,7 @@ _TABLES = {
 }
 """By the beginning of the heading."""
 
-_OWNERS = ("pinion", "wheel")
+_OWNERS = tuple(role.value for role in Role)
 
 
 def column_symbol(heading: str) -> tuple[str, Symbol] | None:

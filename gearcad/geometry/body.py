@@ -69,7 +69,7 @@ class Body:
         self._check_keyway()
 
     def _check_both(self, first: str, second: str) -> None:
-        """Neither stands alone."""
+        """Two sizes of one feature: neither stands alone."""
         for one, other in ((first, second), (second, first)):
             if getattr(self, one) and not getattr(self, other):
                 raise GeometryError(other, getattr(self, other), f"must be above 0 mm, as {one} is given", "mm")

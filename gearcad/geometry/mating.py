@@ -23,7 +23,7 @@ _SAME = 1e-9
 
 
 def check_inputs(pair: PairData) -> None:
-    """Each by itself."""
+    """The inputs, each by itself."""
     for role, gear in pair.gears.items():
         if not isinstance(gear, Gear):
             raise ParameterError(role.value, gear, "must be a Gear")

@@ -5,12 +5,12 @@ from gearcad.rating.editions import Edition
 from gearcad.rating.face_load import face_load_factor, root_face_load_factor, width_to_height
 from gearcad.rating.hertz import LineContact, Peak, Stresses, reduced_modulus, reduced_radius
 from gearcad.rating.iso1328 import Accuracy
-from gearcad.rating.iso6336_1 import MeshStiffness, gear_blank_factor, stiffness_notices
+from gearcad.rating.iso6336_1 import MeshStiffness, gear_blank_factor
 from gearcad.rating.iso6336_2 import FlankRating
 from gearcad.rating.iso6336_3 import RootRating, RootSection
 from gearcad.rating.mesh_contact import base_normal_force, contact_at, pitch_point_contact
 from gearcad.rating.options import RatingOptions
-from gearcad.rating.rate import Rating, rate, scope_notices
+from gearcad.rating.rate import Rating, rate
 from gearcad.rating.running_in import RunningIn, running_in_alpha, running_in_beta
 from gearcad.rating.virtual import LoadPoint, VirtualGear
 
@@ -41,7 +41,5 @@ __all__ = [
     "root_face_load_factor",
     "running_in_alpha",
     "running_in_beta",
-    "scope_notices",
-    "stiffness_notices",
     "width_to_height",
 ]

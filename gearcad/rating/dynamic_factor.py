@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from enum import Enum
 from typing import NamedTuple
 
 import numpy as np
@@ -25,7 +24,7 @@ from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import rate
 from gearcad.rating.running_in import RunningIn, running_in_alpha, running_in_relief
 
-__all__ = ["DynamicFactor", "RunningFactors", "SpeedRange", "reduced_mass", "resonance_speed", "running_factors"]
+__all__ = ["DynamicFactor", "RunningFactors", "reduced_mass", "resonance_speed", "running_factors"]
 
 
 _MAIN_END, _SUPERCRITICAL = 1.15, 1.5
@@ -40,15 +39,6 @@ _NO_GROUP = Notice(
     "K_v of ISO 6336-1: the material has no group, so its flanks run in as those of hardened steel, which wear least; "
     '[material] group = "Eh", "V", "GG" ... tells',
 )
-
-
-class SpeedRange(Enum):
-    """Where a speed lies (6.5.3)."""
-
-    SUBCRITICAL = "subcritical"
-    MAIN_RESONANCE = "main resonance"
-    INTERMEDIATE = "intermediate"
-    SUPERCRITICAL = "supercritical"
 
 
 class RunningFactors(NamedTuple):
@@ -204,17 +194,11 @@ class DynamicFactor:
         along = math.pi * self.reference_diameter / 60_000 * rpm
         return deviation - running_in_alpha(deviation, self.running_in, along, self.flank_limit)
 
-    def range_at(self, speed: float) -> SpeedRange:
-        """Of a speed of the pinion in rpm, by its resonance ratio N = n1/n_E1 (9)."""
-        ratio = abs(speed) / self.resonance_speed
-        if ratio <= lower_limit(self.specific_load):
-            return SpeedRange.SUBCRITICAL
-        if ratio <= _MAIN_END:
-            return SpeedRange.MAIN_RESONANCE
-        return SpeedRange.INTERMEDIATE if ratio < _SUPERCRITICAL else SpeedRange.SUPERCRITICAL
-
     def values(self, speed: ArrayLike) -> Floats:
-        """K_v at speeds of the pinion in rpm: (13), (14) below, (20) at, (22) between, (21) above the main resonance."""
+        """K_v at speeds of the pinion in rpm: (13), (14) below, (20) at, (22) between, (21) above the main resonance.
+
+        By the resonance ratio N = n1/n_E1 (9).
+        """
         ratio = np.abs(np.asarray(speed, float)) / self.resonance_speed
         c, (b_p, b_f, b_k) = running_factors(self.total_contact_ratio), self.effects(speed)
         subcritical = ratio * (c.c_v1 * b_p + c.c_v2 * b_f + c.c_v3 * b_k) + 1

@@ -50,10 +50,6 @@ class Stresses:
     largest_shear: Floats
     von_mises: Floats
 
-    def to_dict(self) -> dict[str, list[float]]:
-        """The arrays as lists, for JSON."""
-        return {name: np.ravel(values).tolist() for name, values in vars(self).items()}
-
 
 def reduced_modulus(youngs_moduli: tuple[float, float], poisson_ratios: tuple[float, float]) -> float:
     """E* of two bodies in plane strain (MPa): 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2 (Johnson, before 4.21)."""
@@ -171,13 +167,3 @@ class LineContact:
         values = getattr(found, name)
         best = int(np.argmax(values))
         return Peak(float(found.depth[best]), float(values[best]))
-
-    def to_dict(self) -> dict[str, Any]:
-        """Inputs and results under their names, for JSON."""
-        return {
-            **vars(self),
-            "half_width": self.half_width,
-            "peak_pressure": self.peak_pressure,
-            "greatest_shear": self.greatest_shear._asdict(),
-            "greatest_von_mises": self.greatest_von_mises._asdict(),
-        }

@@ -23,7 +23,7 @@ _MODULES = (0.5, 2, 3.5, 6, 10, 16, 25, 40, 70)
 
 
 class Accuracy(StrEnum):
-    """The editions."""
+    """The editions of the standard, whose grades are not the same."""
 
     ISO_1995 = "ISO 1328-1:1995"
     """Accuracy grades 0 to 12, to which ISO 6336:2006 refers."""

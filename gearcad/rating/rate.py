@@ -21,7 +21,7 @@ from gearcad.rating.iso6336_3 import RootRating, root_notices, root_rating
 from gearcad.rating.mesh_contact import base_normal_force, pitch_point_contact
 from gearcad.rating.options import RatingOptions
 
-__all__ = ["Rating", "rate", "scope_notices"]
+__all__ = ["Rating", "rate"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,7 +112,7 @@ def rate(
         roots=roots,
         pitch_point=pitch_point_contact(pair, material, load.torque),
         notices=(
-            *scope_notices(pair),
+            *_scope_notices(pair),
             *_fillet_notices(pair),
             *stiffness_notices(pair, specific),
             *flank_notices(pair),
@@ -130,7 +130,7 @@ def _check(pair: GearPair, load: Load) -> None:
         raise GeometryError("transverse_contact_ratio", ratio, f"must be at least 1 and below 3 for a rating: {meaning}")
 
 
-def scope_notices(pair: GearPair) -> Iterator[Notice]:
+def _scope_notices(pair: GearPair) -> Iterator[Notice]:
     """Where the pair leaves the scope of the whole standard (ISO 6336-1, clause 1)."""
     if not 15 <= (angle := pair.pinion.rack.pressure_angle) <= 25:
         text = f"ISO 6336 is confirmed for pressure angles from 15 to 25 deg, here {angle:g} deg"

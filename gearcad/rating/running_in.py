@@ -57,7 +57,7 @@ class _Rule(NamedTuple):
     most: tuple[float, float, float]
 
     def allowance(self, deviation: float, speed: ArrayLike, softness: float) -> Floats:
-        """At circumferential speeds (m/s)."""
+        """What wears off a deviation (µm) at circumferential speeds (m/s), in their shape."""
         v = np.abs(np.asarray(speed, float))
         most = np.select([v <= _SLOW, v <= _FAST], self.most[:2], self.most[2])
         result: Floats = np.minimum(np.minimum(self.part * deviation, most) / softness, deviation)

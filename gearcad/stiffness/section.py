@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,7 +20,7 @@ from gearcad.geometry import Gear, ToothProfile
 from gearcad.geometry.curves import Curve, Fillet, Involute
 from gearcad.geometry.involute import involute_at_roll
 from gearcad.geometry.profile import base_half_angle
-from gearcad.geometry.trochoid import ToolTip
+from gearcad.rating.virtual import VirtualGear
 
 __all__ = ["BeamLoad", "BeamTooth"]
 
@@ -162,19 +162,14 @@ def _place(curve: Curve, slope: Slope, x: Floats) -> Floats:
 
 def _virtual_profile(gear: Gear) -> ToothProfile:
     """The tooth that the gear's own tool would cut on the virtual spur gear of z_n teeth (ISO 6336-3:2006, (21) ... (27))."""
-    radius = gear.normal_module * gear.virtual_teeth / 2
-    angle = math.radians(gear.rack.pressure_angle)
-    own = gear.profile.tool
-    tool = ToolTip(
-        radius=own.radius, u=own.u, v=own.v, pressure_angle=own.pressure_angle, helix_angle=0.0, reference_radius=radius
-    )
-    half = base_half_angle(gear.virtual_teeth, gear.normal_tooth_thickness, gear.normal_module, gear.rack.pressure_angle)
+    virtual = VirtualGear.of(gear)
+    d_n = virtual.reference_diameter
     return ToothProfile(
-        teeth=gear.virtual_teeth,
-        reference_diameter=2 * radius,
-        base_diameter=2 * radius * math.cos(angle),
-        tip_diameter=2 * radius + gear.tip_form_diameter - gear.reference_diameter,
-        root_diameter=2 * radius + gear.root_diameter - gear.reference_diameter,
-        base_half_angle=half,
-        tool=tool,
+        teeth=virtual.teeth,
+        reference_diameter=d_n,
+        base_diameter=virtual.base_diameter,
+        tip_diameter=virtual.tip_diameter,
+        root_diameter=d_n + gear.root_diameter - gear.reference_diameter,
+        base_half_angle=base_half_angle(virtual.teeth, gear.normal_tooth_thickness, gear.normal_module, virtual.pressure_angle),
+        tool=replace(gear.profile.tool, helix_angle=0.0, reference_radius=d_n / 2),
     )
