@@ -11,8 +11,8 @@ from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.progress import job_progress
 
 if TYPE_CHECKING:
+    from gearcad.dynamics.charts.kv import KvChart
     from gearcad.dynamics.pair_study import ContactStudy
-    from gearcad.dynamics.response.kv import KvChart
     from gearcad.dynamics.study import TrainStudy
     from gearcad.dynamics.trains.modes import NaturalModes
     from gearcad.jobs.dynamics import Study

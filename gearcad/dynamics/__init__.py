@@ -5,9 +5,10 @@ from __future__ import annotations
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from gearcad.dynamics.options import DynamicsOptions
-    from gearcad.dynamics.pair_study import ContactStudy, PairStudy
+    from gearcad.dynamics.pair_study import ContactStudy, PairStudy, study_contact, study_pair
     from gearcad.dynamics.study import ModalStudy, TrainStudy, study_modes, study_train
-    from gearcad.dynamics.trains.train import Inertia, Mesh, Shaft, StiffnessWave, Train, TrainModel
+    from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft, StiffnessWave
+    from gearcad.dynamics.trains.train import Train, TrainModel
 else:
     from gearcad.lazy import lazily
 
@@ -23,9 +24,11 @@ __all__ = [
     "Train",
     "TrainModel",
     "TrainStudy",
+    "study_contact",
     "study_modes",
+    "study_pair",
     "study_train",
 ]
 
 if not TYPE_CHECKING:
-    __getattr__ = lazily(__name__, __all__, ("options", "trains.train", "study", "pair_study"))
+    __getattr__ = lazily(__name__, __all__, ("options", "trains.members", "trains.train", "study", "pair_study"))

@@ -15,6 +15,7 @@ from gearcad.errors import (
     require_whole,
 )
 from gearcad.geometry import GearPair
+from gearcad.per_gear import PerGear
 from gearcad.ranges import DAMPING, DURATION, INERTIA, SAMPLING, SPEED, STIFFNESS
 from gearcad.rating.options import RatingOptions
 from gearcad.reprs import concise
@@ -124,15 +125,25 @@ class DynamicsOptions:
         for name, permitted_range in _RANGES.items():
             if (value := getattr(self, name)) is not None:
                 permitted_range.require(name, value)
-        if (self.pinion_bearing_stiffness is None) != (self.wheel_bearing_stiffness is None):
-            permitted = "must be given together with that of the other gear: both stand on bearings, or neither"
-            given = "pinion" if self.wheel_bearing_stiffness is None else "wheel"
-            raise GeometryError(f"{given}_bearing_stiffness", getattr(self, f"{given}_bearing_stiffness"), permitted, "N/µm")
+        given = [(role, each) for role, each in self.bearing_stiffness.items() if each is not None]
+        if len(given) == 1:
+            (role, stiffness), permitted = given[0], "must be given together with that of the other gear: both stand on "
+            raise GeometryError(f"{role.value}_bearing_stiffness", stiffness, permitted + "bearings, or neither", "N/µm")
         if self.speed_from is not None and self.speed_to is not None and self.speed_to <= self.speed_from:
             raise GeometryError("speed_to", self.speed_to, f"must be above speed_from, {self.speed_from:g} rpm", "rpm")
         if self.duration * self.sampling > 5e7:
             permitted = f"must be at most {5e7 / self.sampling:g} s at this sampling: 50 million samples a speed"
             raise ParameterError("duration", self.duration, permitted, "s")
+
+    @property
+    def inertias(self) -> PerGear[float | None]:
+        """Of both gears (kg·m²), None for those of their own solids."""
+        return PerGear(self.pinion_inertia, self.wheel_inertia)
+
+    @property
+    def bearing_stiffness(self) -> PerGear[float | None]:
+        """Of both gears (N/µm), None where they turn on rigid axes."""
+        return PerGear(self.pinion_bearing_stiffness, self.wheel_bearing_stiffness)
 
     @property
     def chart_speeds(self) -> int:

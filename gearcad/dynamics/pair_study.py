@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.dynamics.excitation.driving import pair_errors, pair_excitation, pair_train
+from gearcad.dynamics.excitation.sources import pair_errors, pair_excitation, pair_train
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.study import TrainStudy, study_train
 from gearcad.dynamics.tooth_springs.campbell import CampbellStudy, campbell
@@ -24,6 +24,7 @@ from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
@@ -48,7 +49,7 @@ class PairStudy:
 
     pair: GearPair
     cycle: MeshCycle
-    inertias: tuple[float, float]
+    inertias: PerGear[float]
     study: TrainStudy
     bearings: PairOnBearings | None
     unrated: str = ""
@@ -57,17 +58,25 @@ class PairStudy:
         return f"<PairStudy of {self.pair.name!r}: {self.study!r}>"
 
     @property
-    def warnings(self) -> tuple[str, ...]:
+    def notices(self) -> tuple[Notice, ...]:
         """What to know before trusting it."""
         factor = self.study.method_b
-        standard = factor.warnings if factor is not None else (f"no K_v of ISO 6336-1: {self.unrated}",)
-        return (*self.study.warnings, *self.cycle.notes, *self._full_discs(), *standard)
+        unrated = Notice("no-standard-factor", f"no K_v of ISO 6336-1: {self.unrated}")
+        standard = factor.notices if factor is not None else (unrated,)
+        return (*self.study.notices, *self.cycle.notices, *self._full_discs(), *standard)
 
-    def _full_discs(self) -> Iterator[str]:
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+    def _full_discs(self) -> Iterator[Notice]:
         """Of gears with a web whose inertia nobody gave."""
-        for owner, gear in (("pinion", self.pair.pinion), ("wheel", self.pair.wheel)):
-            if gear.body.web_thickness and getattr(self.study.options, f"{owner}_inertia") is None:
-                yield f"the {owner}'s moment of inertia is that of a full disc, without its web; {owner}_inertia gives another"
+        for role, gear in self.pair.gears.items():
+            if gear.body.web_thickness and self.study.options.inertias.pick(role) is None:
+                own = role.value
+                text = f"the {own}'s moment of inertia is that of a full disc, without its web; {own}_inertia gives another"
+                yield Notice("full-disc", text)
 
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it."""
@@ -76,11 +85,12 @@ class PairStudy:
             "stiffness_method": self.cycle.method,
             "mesh_stiffness_mean": self.cycle.mean,
             "mesh_stiffness_tangent_mean": self.cycle.tangent_mean,
-            "pinion_inertia": self.inertias[0],
-            "wheel_inertia": self.inertias[1],
+            "pinion_inertia": self.inertias.pinion,
+            "wheel_inertia": self.inertias.wheel,
             "frequencies_on_bearings": None if self.bearings is None else list(self.bearings.frequencies()),
             **{key: value for key, value in self.study.to_dict().items() if key != "model"},
             "warnings": list(self.warnings),
+            "notices": [notice.to_dict() for notice in self.notices],
         }
 
     def arrays(self) -> dict[str, Floats]:
@@ -101,9 +111,14 @@ class ContactStudy:
         return f"<ContactStudy of {self.pair.name!r}: {len(self.study.speeds)} speeds up to {self.study.speeds.max():.6g} rpm>"
 
     @property
-    def warnings(self) -> tuple[str, ...]:
+    def notices(self) -> tuple[Notice, ...]:
         """What to know before trusting it."""
-        return self.study.warnings
+        return self.study.notices
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it."""
@@ -112,8 +127,8 @@ class ContactStudy:
             "model": "contact",
             "tooth_stiffness": model.pair_stiffness,
             "tooth_damping": model.damping,
-            "pinion_inertia": model.inertias[0],
-            "wheel_inertia": model.inertias[1],
+            "pinion_inertia": model.inertias.pinion,
+            "wheel_inertia": model.inertias.wheel,
             "natural_frequency": model.natural_frequency(),
             "damping_ratio": model.damping_ratio,
             "static_approach": model.static_approach,
@@ -141,11 +156,11 @@ def study_pair(
     material: Material,
     load: Load,
     cycle: MeshCycle,
-    inertias: tuple[float, float],
+    inertias: PerGear[float],
     options: DynamicsOptions | None = None,
     *,
     rating: RatingOptions | None = None,
-    masses: tuple[float, float] | None = None,
+    masses: PerGear[float] | None = None,
     tell: Callable[[str], None] = lambda _step: None,
 ) -> PairStudy:
     """K_v over speed of a pair by itself, beside ISO 6336-1 Method B, and the course at the load's speed.
@@ -153,6 +168,7 @@ def study_pair(
     `cycle` is the pair's mesh cycle under the load, `inertias` (kg·m²) those of pinion and wheel; their `masses` (kg) are
     needed where the options give bearings. The accuracy grade of the options wins over that of the `rating`.
     """
+    inertias = PerGear(*inertias)
     options = (options or DynamicsOptions()).graded(rating := rating or RatingOptions())
     assert options.accuracy_grade is not None  # it has one now
     rating = replace(rating, accuracy_grade=options.accuracy_grade)
@@ -167,20 +183,20 @@ def study_pair(
 
 
 def _method_b(
-    pair: GearPair, material: Material, load: Load, inertias: tuple[float, float], rating: RatingOptions
+    pair: GearPair, material: Material, load: Load, inertias: PerGear[float], rating: RatingOptions
 ) -> tuple[DynamicFactor | None, str]:
     """K_v of ISO 6336-1, or None and why the standard has none for this pair."""
     try:
-        return DynamicFactor.of(pair, material, load, PerGear(*inertias), rating), ""
+        return DynamicFactor.of(pair, material, load, inertias, rating), ""
     except InputError as error:
         return None, str(error)
 
 
 def _on_bearings(
-    train: Train, pair: GearPair, options: DynamicsOptions, masses: tuple[float, float] | None
+    train: Train, pair: GearPair, options: DynamicsOptions, masses: PerGear[float] | None
 ) -> PairOnBearings | None:
     """The pair's turning gears on the bearings of the options, if these have any."""
-    first, second = options.pinion_bearing_stiffness, options.wheel_bearing_stiffness
+    first, second = options.bearing_stiffness
     if first is None or second is None:
         return None
     if masses is None:
@@ -188,11 +204,11 @@ def _on_bearings(
     of, mesh = system(train), train.meshes[0]
     return PairOnBearings(
         masses=masses,
-        inertias=(train.inertias[0].inertia, train.inertias[1].inertia),
+        inertias=PerGear(*(each.inertia for each in train.inertias)),
         base_radii=mesh.base_radii,
         working_transverse_pressure_angle=pair.working_transverse_pressure_angle,
         mesh_stiffness=mesh.stiffness,
-        bearing_stiffness=((first, first), (second, second)),
+        bearing_stiffness=PerGear((first, first), (second, second)),
         mesh_damping=float(of.mesh_damping[0]),
         bearing_damping=options.bearing_damping,
         torque=train.torques["pinion"],
@@ -203,7 +219,7 @@ def study_contact(
     pair: GearPair,
     load: Load,
     cycle: MeshCycle | None,
-    inertias: tuple[float, float],
+    inertias: PerGear[float],
     options: DynamicsOptions,
     *,
     tell: Callable[[str], None] = lambda _step: None,
@@ -212,12 +228,13 @@ def study_contact(
 
     `cycle` gives the stiffness of a pair of teeth where the options do not.
     """
+    inertias = PerGear(*inertias)
     ratio, torque = pair.usable_contact_ratio, abs(load.torque) * load.application_factor
     stiffness = options.tooth_stiffness
     if stiffness is None:
         assert cycle is not None  # whoever calls has one then
         stiffness = cycle.tangent_mean / ratio
-    radii = (pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2)
+    radii = pair.gears.map(lambda gear: gear.base_diameter / 2)
     mass = 1 / sum((radius / 1000) ** 2 / inertia for radius, inertia in zip(radii, inertias, strict=True))
     damping = options.tooth_damping
     if damping is None:

@@ -11,17 +11,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
-from gearcad.dynamics.excitation.driving import train_excitation
-from gearcad.dynamics.excitation.excitation import Excitation
+from gearcad.dynamics.charts.kv import KvChart
+from gearcad.dynamics.charts.over_speed import OverSpeed, over_speed
+from gearcad.dynamics.excitation.meshes import Excitation
+from gearcad.dynamics.excitation.sources import train_excitation
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.response.kv import KvChart
-from gearcad.dynamics.response.response import PeriodicResponse
-from gearcad.dynamics.response.speed_chart import OverSpeed, over_speed
+from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.modes import NaturalModes, natural_modes
 from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.errors import GeometryError
+from gearcad.notice import Notice, texts
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 
@@ -36,11 +37,6 @@ _SHARE = 0.02
 
 _DRAWN, _DRAWN_OF_MANY = 1024, 256
 """Samples of a course over a tooth, at least, and over each of many; 8 of the quickest vibration that could be felt."""
-
-_UNRESOLVED = (
-    "at the speed asked for, harmonics beyond the {most} orders that are solved meet natural frequencies that can be felt: "
-    "K_v and the course there are not those of the whole motion"
-)
 
 _LOWER, _RUN_UP = 3.0, 60
 """Where flanks part at a speed beyond the chart, the run up to it begins at the speed over the first, and has so many steps."""
@@ -75,26 +71,38 @@ class ModalStudy:
     modes: NaturalModes
 
     @property
-    def warnings(self) -> tuple[str, ...]:
+    def notices(self) -> tuple[Notice, ...]:
         """What to know before trusting it."""
         return _missed(self.train, self.modes)
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it: no chart, no course."""
-        return {"model": self.train.model.value, "modes": self.modes.to_dict(), "warnings": list(self.warnings)}
+        return {
+            "model": self.train.model.value,
+            "modes": self.modes.to_dict(),
+            "warnings": list(self.warnings),
+            "notices": [notice.to_dict() for notice in self.notices],
+        }
 
     def arrays(self) -> dict[str, Floats]:
         """As the .npz file has them."""
         return _mode_arrays(self.modes)
 
 
-def _missed(train: Train, modes: NaturalModes) -> tuple[str, ...]:
+def _missed(train: Train, modes: NaturalModes) -> tuple[Notice, ...]:
+    """That the model has fewer natural frequencies than the train."""
     if not modes.missed or train.model is TrainModel.MODES:
         return ()
-    return (
+    text = (
         f"natural frequencies below the highest listed that this model does not have: {modes.missed}; "
-        'the model "exact" has them all',
+        'the model "exact" has them all'
     )
+    return (Notice("missed-frequencies", text),)
 
 
 def _mode_arrays(modes: NaturalModes) -> dict[str, Floats]:
@@ -119,7 +127,8 @@ class TrainStudy:
     down: KvChart | None
     jumps: tuple[Floats, Floats]
     course: Course
-    notes: tuple[str, ...]
+    found: tuple[Notice, ...]
+    """What its own calculation has to say; `notices` are those of the charts and modes too."""
     method_b: DynamicFactor | None
 
     def __repr__(self) -> str:
@@ -136,11 +145,15 @@ class TrainStudy:
         return result
 
     @property
-    def warnings(self) -> tuple[str, ...]:
+    def notices(self) -> tuple[Notice, ...]:
         """What to know before trusting it."""
-        down = self.down.warnings if self.down is not None else ()
-        found = dict.fromkeys((*self.notes, *self.up.warnings, *down))
-        return (*found, *_missed(self.train, self.modes))
+        down = self.down.notices if self.down is not None else ()
+        return tuple(dict.fromkeys((*self.found, *self.up.notices, *down, *_missed(self.train, self.modes))))
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it; frequencies in Hz and 1/s, speeds in rpm."""
@@ -155,6 +168,7 @@ class TrainStudy:
             "resonance_speed_iso6336": None if self.method_b is None else self.method_b.resonance_speed,
             "course": self.course.to_dict(),
             "warnings": list(self.warnings),
+            "notices": [notice.to_dict() for notice in self.notices],
         }
 
     def arrays(self) -> dict[str, Floats]:
@@ -223,7 +237,7 @@ def study_train(
         down=over.down,
         jumps=over.jumps,
         course=course,
-        notes=tuple(dict.fromkeys((*over.notes, *more))),
+        found=(*over.notices, *more),
         method_b=method_b,
     )
 
@@ -238,22 +252,30 @@ def _speeds(train: Train, options: DynamicsOptions, modes: NaturalModes) -> Floa
     return np.linspace(first, last, options.chart_speeds)
 
 
-def _course(train: Train, over: OverSpeed, asked: float) -> tuple[Course, tuple[str, ...]]:
+def _course(train: Train, over: OverSpeed, asked: float) -> tuple[Course, tuple[Notice, ...]]:
     """At the frequency of the train's speed, or where the first mesh's K_v is greatest; and what to know about it."""
     frequency = asked or float(over.up.frequencies[over.up.factors[:, 0].argmax()])
-    response, notes = over.response(frequency), tuple[str, ...]()
+    response, notices = over.response(frequency), tuple[Notice, ...]()
     within = over.up.frequencies[0] <= frequency <= over.up.frequencies[-1]
     if not within and over.excitation.parting and _pull(response):
         run_up = np.geomspace(frequency / _LOWER, frequency, _RUN_UP)
         beyond = over_speed(over.curves.system, over.excitation, run_up, harmonics=over.curves.harmonics)
-        response, notes = beyond.response(frequency), beyond.notes
+        response, notices = beyond.response(frequency), beyond.notices
     samples = max(_DRAWN, _DRAWN_OF_MANY * max(over.excitation.orders))
     if over.curves.resolvable:
         felt, most = float(over.curves.felt_orders(np.array([frequency]))[0]), over.curves.most_orders
         samples = max(samples, 8 * int(min(felt, most)))
         if felt > most:
-            notes = (*notes, _UNRESOLVED.format(most=most))
-    return _drawn(train, response, samples), notes
+            notices = (*notices, _unresolved(most))
+    return _drawn(train, response, samples), notices
+
+
+def _unresolved(most: int) -> Notice:
+    text = (
+        f"at the speed asked for, harmonics beyond the {most} orders that are solved meet natural frequencies that can be felt:"
+        " K_v and the course there are not those of the whole motion"
+    )
+    return Notice("course-unresolved", text)
 
 
 def _pull(response: PeriodicResponse) -> bool:

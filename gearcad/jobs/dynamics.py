@@ -17,6 +17,7 @@ from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.per_gear import PerGear, Role
 from gearcad.progress import Progress
 from gearcad.stiffness.methods import METHODS
 
@@ -88,24 +89,24 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
     return study_pair(pair, material, design.load, cycle, inertias, options, rating=design.rating, masses=masses, tell=tell)
 
 
-def _inertias(pair: GearPair, material: Material, options: DynamicsOptions) -> tuple[float, float]:
+def _inertias(pair: GearPair, material: Material, options: DynamicsOptions) -> PerGear[float]:
     """Of pinion and wheel (kg·m²): as given, or those of their own solids."""
-    found = []
-    for gear, given in ((pair.pinion, options.pinion_inertia), (pair.wheel, options.wheel_inertia)):
-        if given is None:
-            from gearcad.solids.exact.inertia import mass_properties
 
-            given = mass_properties(gear, material.density).inertia
-        found.append(given)
-    return found[0], found[1]
+    def inertia(role: Role) -> float:
+        if (given := options.inertias.pick(role)) is not None:
+            return given
+        from gearcad.solids.exact.inertia import mass_properties
+
+        return mass_properties(pair.gears.pick(role), material.density).inertia
+
+    return PerGear.each(inertia)
 
 
-def _masses(pair: GearPair, material: Material) -> tuple[float, float]:
+def _masses(pair: GearPair, material: Material) -> PerGear[float]:
     """Of pinion and wheel (kg), as solids."""
     from gearcad.solids.exact.inertia import mass_properties
 
-    pinion, wheel = (mass_properties(gear, material.density).mass for gear in (pair.pinion, pair.wheel))
-    return pinion, wheel
+    return pair.gears.map(lambda gear: mass_properties(gear, material.density).mass)
 
 
 def _teller(progress: Progress | None, kind: str) -> Callable[[str], None]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
-from gearcad.dynamics.response.kv import KvChart
+from gearcad.dynamics.charts.kv import KvChart
 from gearcad.dynamics.study import TrainStudy
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.plots.labels import plain

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from support.responses import VARIATION, cosine, oscillator, preloaded, two_stages
 
-from gearcad.dynamics.excitation.excitation import Excitation, MeshExcitation
+from gearcad.dynamics.charts.kv import KvChart, kv_chart
 from gearcad.dynamics.excitation.mesh_curves import square_stiffness
-from gearcad.dynamics.response.backlash import trace
-from gearcad.dynamics.response.kv import KvChart, kv_chart
-from gearcad.dynamics.response.periodic import periodic_response
+from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
+from gearcad.dynamics.response.branch import trace
+from gearcad.dynamics.response.linear import periodic_response
 from gearcad.dynamics.trains.system import System
 
 pytestmark = pytest.mark.benchmark_suite

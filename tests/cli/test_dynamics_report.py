@@ -14,7 +14,8 @@ from gearcad import Gear, GearPair, Load, Material
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.pair_study import ContactStudy, PairStudy, study_contact, study_pair
 from gearcad.dynamics.study import TrainStudy, study_train
-from gearcad.dynamics.trains.train import Inertia, Mesh, Shaft, StiffnessWave, Train, TrainModel
+from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft, StiffnessWave
+from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.plots.paper import short
 from gearcad.plots.speeds import plot_course, plot_cycle, plot_factors, plot_shaft_overload, shafts_with_reference
 from gearcad.plots.trains import plot_energies, plot_shapes

@@ -12,10 +12,11 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 
 from gearcad.dynamics.trains.lines import system
+from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
 from gearcad.dynamics.trains.modes import count_below, natural_modes
 from gearcad.dynamics.trains.parts import static_forces
 from gearcad.dynamics.trains.shafts import dynamic_inertia, dynamic_stiffness, element_matrices
-from gearcad.dynamics.trains.train import GROUND, Inertia, Mesh, Shaft, Train
+from gearcad.dynamics.trains.train import Train
 from gearcad.errors import InputError
 from tests.support.trains import one_stage, random_trains, two_stages
 

@@ -14,12 +14,12 @@ from scipy.optimize import brentq
 from scipy.special import mathieu_a, mathieu_b
 from support.responses import STIFFNESS, VARIATION, cosine, isolated, oscillator, preloaded, two_stages
 
-from gearcad.dynamics.excitation.excitation import Excitation, MeshExcitation
+from gearcad.dynamics.charts.kv import kv_chart
 from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffness
-from gearcad.dynamics.response.backlash import Direction, trace
+from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
+from gearcad.dynamics.response.branch import Direction, trace
 from gearcad.dynamics.response.floquet import floquet_multipliers, monodromy
-from gearcad.dynamics.response.kv import kv_chart
-from gearcad.dynamics.response.periodic import periodic_response
+from gearcad.dynamics.response.linear import periodic_response
 from gearcad.dynamics.trains.system import System
 
 COMPONENT_MODES = [3719.28572070, 14682.88891153, 64.56267647]

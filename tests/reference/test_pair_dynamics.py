@@ -137,8 +137,8 @@ def test_warnings_name_the_penetration_and_the_chaos(study: CampbellStudy) -> No
     assert "0.4 N/µm" in soft and "1.6 mm" in soft
     assert "more than the module of 1.75 mm" in deep and "3500 rpm" in deep
     assert "1000, 2000, 3500, 4000 rpm" in chaotic
-    assert replace(thesis_model(), pair_stiffness=0.3).warnings[0].count("pass through each other") == 1
-    assert replace(thesis_model(), pair_stiffness=200.0).warnings == ()
+    assert replace(thesis_model(), pair_stiffness=0.3).notices[0].text.count("pass through each other") == 1
+    assert replace(thesis_model(), pair_stiffness=200.0).notices == ()
 
 
 @pytest.mark.parametrize(

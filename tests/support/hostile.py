@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from gearcad.cli import main
 from gearcad.designs.keys import KEYS
 from gearcad.designs.starters import starter_text
-from gearcad.dynamics.trains.train import Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
 
 __all__ = ["CHEAP", "hostile_rows", "hostile_specs", "physical_specs", "put", "run_politely", "toml_text"]
 

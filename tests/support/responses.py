@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearcad.dynamics.excitation.excitation import Excitation, MeshExcitation
 from gearcad.dynamics.excitation.mesh_curves import CosineStiffness
+from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
 from gearcad.dynamics.trains.system import System
 
 MOMENT, RADIUS = 2256.0, 0.0507

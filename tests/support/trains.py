@@ -6,7 +6,8 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from gearcad.dynamics.trains.train import GROUND, Inertia, Mesh, Shaft, Train
+from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.train import Train
 
 LONG, SHORT = ((750.0, 56.7), (1000.0, 18.5)), ((100.0, 34.4), (200.0, 12.4))
 """Lengths and diameters (mm) of input and output shaft: (2.1) and (2.4) of the paper."""

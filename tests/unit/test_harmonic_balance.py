@@ -13,13 +13,13 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from support.responses import MOMENT, VARIATION, cosine, isolated, oscillator, two_stages
 
-from gearcad.dynamics.excitation.excitation import Excitation, MeshExcitation, cycle_excitation
+from gearcad.dynamics.charts.kv import ForceDefinition, kv_chart
+from gearcad.dynamics.excitation.deviations import ToothDeviations, TransmissionError, random_deviations, tooth_errors
 from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffness, cycle_stiffness, square_stiffness
-from gearcad.dynamics.excitation.tooth_errors import ToothDeviations, TransmissionError, random_deviations, tooth_errors
-from gearcad.dynamics.response.backlash import Direction, sweep, trace
+from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation, cycle_excitation
+from gearcad.dynamics.response.branch import Direction, sweep, trace
 from gearcad.dynamics.response.floquet import floquet_multipliers, growth
-from gearcad.dynamics.response.kv import ForceDefinition, kv_chart
-from gearcad.dynamics.response.periodic import harmonic_orders, periodic_response
+from gearcad.dynamics.response.linear import harmonic_orders, periodic_response
 from gearcad.dynamics.response.transient import integrate
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import GeometryError, ParameterError, SolverError
@@ -142,7 +142,7 @@ def test_transmission_error_drives_an_oscillator() -> None:
     exact = 0.5 * (1 + 0.2j * speeds) / (1 - speeds**2 + 0.2j * speeds)
     assert response.approach_coefficients[:, 1, 0] == pytest.approx(exact, rel=1e-12)
     assert response.approach_coefficients[:, 0, 0] == pytest.approx([1, 1, 1], rel=1e-12)
-    assert "would part" in response.warnings[0]
+    assert "would part" in str(response.notices[0])
 
 
 def pitch_errors(backlash: float | None = None) -> Excitation:
@@ -249,7 +249,7 @@ def test_parametric_instability_is_told() -> None:
         pytest.approx(2 * np.sqrt(1 - half), abs=0.012),
         pytest.approx(2 * np.sqrt(1 + half), abs=0.012),
     )
-    assert "parametric instability" in response.warnings[0]
+    assert "parametric instability" in str(response.notices[0])
     assert periodic_response(oscillator(0.06), cosine(0.2), speeds).stable.all()
 
 
@@ -267,7 +267,7 @@ def test_without_parting_both_methods_agree() -> None:
     linear = periodic_response(oscillator(0.1), cosine(0.1), speeds, harmonics=10)
     parting = sweep(oscillator(0.1), cosine(0.1, backlash=1e6), speeds, harmonics=10)
     assert parting.approach_coefficients == pytest.approx(linear.approach_coefficients, abs=1e-9)
-    assert linear.warnings == parting.warnings == ()
+    assert linear.notices == parting.notices == ()
 
 
 def test_both_branches_against_time_integration() -> None:

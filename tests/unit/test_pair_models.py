@@ -86,7 +86,7 @@ def test_contact_ratio_below_one_warns_and_runs() -> None:
     """Between two pairs nothing resists: the flanks still come together, and all numbers are finite."""
     model = replace(thesis_model(), last_contact=6.0)
     assert model.contact_ratio < 1
-    assert any("below 1" in text for text in model.warnings)
+    assert any("below 1" in notice.text for notice in model.notices)
     assert np.isfinite(time_history(model, 6000.0, duration=0.05).approach).all()
 
 

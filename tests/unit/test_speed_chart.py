@@ -12,17 +12,17 @@ from numpy.typing import NDArray
 from support.responses import cosine, isolated, oscillator, preloaded, two_stages
 
 from gearcad.designs import read_spec
-from gearcad.dynamics.excitation.excitation import Excitation, MeshExcitation
+from gearcad.dynamics.charts.kv import KvChart, kv_chart
+from gearcad.dynamics.charts.over_speed import OverSpeed, over_speed
+from gearcad.dynamics.charts.speed_curves import LEFT_OUT, SpeedCurves
+from gearcad.dynamics.excitation.deviations import TransmissionError
 from gearcad.dynamics.excitation.mesh_curves import CurveStiffness, square_stiffness
+from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
 from gearcad.dynamics.excitation.polyline import Polyline
-from gearcad.dynamics.excitation.tooth_errors import TransmissionError
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.response.backlash import trace
+from gearcad.dynamics.response.branch import trace
 from gearcad.dynamics.response.krylov import solve_all
-from gearcad.dynamics.response.kv import KvChart, kv_chart
-from gearcad.dynamics.response.periodic import periodic_response
-from gearcad.dynamics.response.speed_chart import OverSpeed, over_speed
-from gearcad.dynamics.response.speed_curves import LEFT_OUT, SpeedCurves
+from gearcad.dynamics.response.linear import periodic_response
 from gearcad.dynamics.response.transient import integrate
 from gearcad.dynamics.study import study_modes, study_train
 from gearcad.dynamics.trains.system import System
@@ -155,7 +155,7 @@ def test_towards_standstill_loads_are_those_at_rest() -> None:
     found = over_speed(oscillator(0.07), stepped(0.4), np.geomspace(1e-3, 0.1, 9))
     # What a thousand vibrations between two teeth still leave of one.
     assert found.up.factors[0, 0] == pytest.approx(1, abs=2e-3) and found.up.least[0, 0] == pytest.approx(1, abs=2e-3)
-    assert not found.notes
+    assert not found.notices
 
 
 def test_steps_of_stiffness_are_told_to_load_teeth_at_standstill() -> None:
@@ -163,7 +163,7 @@ def test_steps_of_stiffness_are_told_to_load_teeth_at_standstill() -> None:
     excitation = Excitation(meshes=(MeshExcitation(stiffness=square_stiffness(1.6)),))
     found = over_speed(oscillator(0.07), excitation, np.array([0.002, 0.003]))
     assert found.up.factors[0, 0] == pytest.approx(2, rel=0.005)
-    assert "towards standstill K_v tends to 2.000, not to 1" in found.notes[0]
+    assert "towards standstill K_v tends to 2.000, not to 1" in str(found.notices[0])
 
 
 def test_too_few_harmonics_are_told() -> None:
@@ -177,7 +177,7 @@ def test_a_period_of_many_teeth_is_told() -> None:
 
     meshes = (cosine(0.2).meshes[0], replace(cosine(0.2).meshes[0], frequency_ratio=Fraction(997, 1009)))
     found = over_speed(two_stages(), Excitation(meshes=meshes), np.array([3000.0, 5000.0]))
-    assert "the teeth of all meshes come again after 1009 teeth only: K_v holds 6 harmonics" in found.notes[0]
+    assert "the teeth of all meshes come again after 1009 teeth only: K_v holds 6 harmonics" in str(found.notices[0])
 
 
 # ---------------------------------------------------------------------- where flanks part
@@ -220,7 +220,7 @@ def test_force_over_time_is_that_of_the_motion(parting: OverSpeed) -> None:
 def test_few_speeds_begin_with_flanks_apart() -> None:
     """No motion below the first speed to begin with: a warning, and the linear motion."""
     found = over_speed(oscillator(0.02), cosine(0.3, phase=180.0, backlash=math.inf), np.linspace(0.9, 1.0, 5))
-    assert found.down is None and any("flanks are taken to stick to each other" in note for note in found.notes)
+    assert found.down is None and any("flanks are taken to stick to each other" in str(notice) for notice in found.notices)
 
 
 # ---------------------------------------------------------------------- one speed, no mesh

@@ -11,7 +11,8 @@ from typing import Any, ClassVar, Self
 from gearcad.designs.design import Design, DesignKind, require_plain_name
 from gearcad.designs.files import Where
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.trains.train import Inertia, Mesh, Shaft, Train
+from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.train import Train
 from gearcad.errors import InputError, SpecError, format_number, shown
 
 __all__ = ["TrainDesign"]

@@ -11,11 +11,8 @@ from functools import cached_property
 import numpy as np
 
 from gearcad.arrays import Bools, Complexes, Floats, Indices
-from gearcad.dynamics.excitation.excitation import Excitation
-from gearcad.dynamics.response.flexibility import StaticState, senses, static_state
-from gearcad.dynamics.response.periodic import at_orders, both_sides
-from gearcad.dynamics.response.response import pressed
-from gearcad.dynamics.trains.system import System
+from gearcad.dynamics.response.driven import Driven, pressed
+from gearcad.dynamics.response.flexibility import at_orders, both_sides
 
 __all__ = ["TOLERANCE", "Balance", "real_course"]
 
@@ -29,29 +26,15 @@ TOLERANCE = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
-class Balance:
+class Balance(Driven):
     """The equations y - y_static - G (K y - N(y) + c e') = 0 of all orders, N what the teeth carry. Orders are signed here."""
 
-    system: System
-    excitation: Excitation
     orders: Indices
 
     @cached_property
-    def static(self) -> StaticState:
-        return static_state(self.system)
-
-    @cached_property
-    def sense(self) -> Floats:
-        return senses(self.system)
-
-    @cached_property
     def signed(self) -> Indices:
+        """(2q - 1,): the orders on both sides of 0."""
         return np.concatenate([-self.orders[:0:-1], self.orders])
-
-    @cached_property
-    def scale(self) -> float:
-        """Static deflection (m)."""
-        return float(np.abs(self.static.approach).max())
 
     @cached_property
     def count(self) -> int:
@@ -83,13 +66,13 @@ class Balance:
 
     def slopes(self, approach: Complexes) -> Floats:
         """k(t) g'(y - e) (..., t, m) in N/m."""
-        gap, backlash = self.sense * self.gaps(approach), self.excitation.backlashes
+        gap, backlash = self.senses * self.gaps(approach), self.excitation.backlashes
         apart = (gap <= 0) & ~(gap <= -backlash) & ~np.isnan(backlash)
         return np.asarray(np.where(apart, 0.0, self.stiffness), float)
 
     def forces(self, approach: Complexes, omega: Floats | float) -> tuple[Complexes, Complexes]:
         """K y - N(y) + c e' (..., q, m), and its derivative with respect to omega."""
-        carried = self.stiffness * pressed(self.gaps(approach), self.excitation.backlashes, self.sense)
+        carried = self.stiffness * pressed(self.gaps(approach), self.excitation.backlashes, self.senses)
         spectrum = np.fft.fft(carried, axis=-2)[..., self.signed, :] / self.count
         rate = self.error_rates
         return approach * self.system.stiffness - spectrum + np.asarray(omega)[..., None, None] * rate, rate

@@ -9,11 +9,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearcad.arrays import Complexes, Floats
+from gearcad.arrays import Complexes, Floats, Indices
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import GeometryError, SolverError
 
-__all__ = ["Flexibility", "StaticState", "flexibility", "senses", "static_state"]
+__all__ = [
+    "Flexibility",
+    "StaticState",
+    "at_orders",
+    "both_sides",
+    "flexibility",
+    "senses",
+    "static_state",
+    "turns_and_torques",
+]
 
 
 _LOSS = 1e-9
@@ -23,39 +32,6 @@ _MOST_AMPLIFIED = 1e9
 """Deflection over the static one beyond which rounding decides: resonance without damping."""
 
 _NO_DAMPING = "no finite periodic motion: a harmonic of one of the frequencies meets a resonance without damping"
-
-
-@dataclass(frozen=True, eq=False)
-class Flexibility:
-    """Per force along the line of action: `mesh` (..., m, m) approaches, `others` (..., i + s, m) turns, then shaft torques."""
-
-    mesh: Complexes
-    others: Complexes
-
-
-def flexibility(system: System, frequencies: Floats) -> Flexibility:
-    """At circular frequencies (...) other than 0 (1/s), with the meshes at their mean stiffness.
-
-    With P = V^T a^-1 V of the lines alone, a = squares - w^2 + i w damping, and meshes K, that of the whole is P (1 + K P)^-1.
-    """
-    rows = np.hstack([system.inertias, system.shaft_torques])
-    count, others = system.mesh.shape[1], rows.shape[1]
-    w = frequencies[..., None]
-    modes = system.squares - w**2 + 1j * w * system.damping
-    least = _LOSS * (system.squares + w**2)
-    modes = np.where(np.abs(modes) < least, modes + 1j * least, modes)
-    products = np.hstack([system.mesh, rows])[:, :, None] * system.mesh[:, None, :]
-    sums = ((1 / modes) @ products.reshape(system.size, -1)).reshape(*frequencies.shape, count + others, count)
-    lines, rest = sums[..., :count, :], sums[..., count:, :]
-    mesh = system.stiffness + 1j * w * system.mesh_damping
-    try:
-        inverse = np.linalg.inv(np.eye(count) + mesh[..., None] * lines)
-        result = Flexibility(lines @ inverse, rest @ inverse)
-    except np.linalg.LinAlgError:
-        raise SolverError(_NO_DAMPING) from None
-    if not np.abs(result.mesh).max(initial=0.0) * system.stiffness.max() < _MOST_AMPLIFIED:
-        raise SolverError(_NO_DAMPING)
-    return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,3 +75,59 @@ def senses(system: System) -> Floats:
     """
     modal = np.linalg.lstsq(system.stiffness_matrix(), system.load, rcond=1e-11)[0]
     return np.where(system.mesh.T @ modal < 0, -1.0, 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Flexibility:
+    """Per force along the line of action: `mesh` (..., m, m) approaches, `others` (..., i + s, m) turns, then shaft torques."""
+
+    mesh: Complexes
+    others: Complexes
+
+
+def flexibility(system: System, frequencies: Floats) -> Flexibility:
+    """At circular frequencies (...) other than 0 (1/s), with the meshes at their mean stiffness.
+
+    With P = V^T a^-1 V of the lines alone, a = squares - w^2 + i w damping, and meshes K, that of the whole is P (1 + K P)^-1.
+    """
+    rows = np.hstack([system.inertias, system.shaft_torques])
+    count, others = system.mesh.shape[1], rows.shape[1]
+    w = frequencies[..., None]
+    modes = system.squares - w**2 + 1j * w * system.damping
+    least = _LOSS * (system.squares + w**2)
+    modes = np.where(np.abs(modes) < least, modes + 1j * least, modes)
+    products = np.hstack([system.mesh, rows])[:, :, None] * system.mesh[:, None, :]
+    sums = ((1 / modes) @ products.reshape(system.size, -1)).reshape(*frequencies.shape, count + others, count)
+    lines, rest = sums[..., :count, :], sums[..., count:, :]
+    mesh = system.stiffness + 1j * w * system.mesh_damping
+    try:
+        inverse = np.linalg.inv(np.eye(count) + mesh[..., None] * lines)
+        result = Flexibility(lines @ inverse, rest @ inverse)
+    except np.linalg.LinAlgError:
+        raise SolverError(_NO_DAMPING) from None
+    if not np.abs(result.mesh).max(initial=0.0) * system.stiffness.max() < _MOST_AMPLIFIED:
+        raise SolverError(_NO_DAMPING)
+    return result
+
+
+def turns_and_torques(
+    system: System, static: StaticState, flexible: Flexibility, forces: Complexes
+) -> tuple[Complexes, Complexes]:
+    """Coefficients (s, q, i) of inertias' turns and (s, q, n) of shaft torques, from forces (s, q, m) at the mean system."""
+    others = np.einsum("shij,shj->shi", flexible.others, forces)
+    others[:, 0] += static.others
+    count = system.inertias.shape[1]
+    return others[..., :count], others[..., count:]
+
+
+def at_orders(system: System, static: StaticState, omega: Floats, orders: Indices) -> Flexibility:
+    """Flexibilities (s, q, ...) at the orders from 0 on of fundamental frequencies omega (s,)."""
+    moving = flexibility(system, omega[:, None] * orders[1:])
+    still = (np.broadcast_to(each, (len(omega), 1, *each.shape)) for each in (static.unit_mesh, static.unit_others))
+    mesh, others = (np.concatenate(pair, axis=1) for pair in zip(still, (moving.mesh, moving.others), strict=True))
+    return Flexibility(np.asarray(mesh, complex), np.asarray(others, complex))
+
+
+def both_sides(coefficients: Complexes) -> Complexes:
+    """From orders 0 on (s, q, ...) to all of them, -q ... q: those of a real course are conjugate."""
+    return np.concatenate([coefficients[:, :0:-1].conj(), coefficients], axis=1)

@@ -7,12 +7,15 @@ from itertools import pairwise
 import numpy as np
 
 from gearcad.arrays import Complexes, Floats
-from gearcad.dynamics.excitation.excitation import Excitation
+from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import SolverError
 
-__all__ = ["floquet_multipliers", "growth", "monodromy"]
+__all__ = ["UNSTABLE", "floquet_multipliers", "growth", "monodromy"]
 
+
+UNSTABLE = 1 + 1e-5
+"""Floquet multipliers beyond this are growth; 1 itself belongs to a train that is free to turn."""
 
 _COARSE = 16
 """Steps over the period of the stiffness that the extrapolation begins with."""

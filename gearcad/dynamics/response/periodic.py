@@ -1,219 +1,73 @@
-"""Harmonic balance of a train whose flanks stay in contact: linear, with coefficients periodic in time.
-
-Every mesh presses with k_j(t) (y_j - e_j) + c_j (y_j' - e_j'). What differs from the mean stiffness is moved to the right-hand
-side, so only the approaches of the meshes are unknown: y_h + G_h (kappa y)_h = y_static + G_h (k e + c e')_h for every order h,
-G the dynamic flexibility with the meshes at their mean. SI units, frequencies circular (1/s).
-"""
+"""PeriodicResponse: what a train does at each of many speeds, as Fourier coefficients over the common period."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from gearcad.arrays import Complexes, Floats, Indices
-from gearcad.dynamics.excitation.excitation import Excitation
-from gearcad.dynamics.response.flexibility import Flexibility, StaticState, flexibility, static_state
-from gearcad.dynamics.response.floquet import growth
-from gearcad.dynamics.response.response import PeriodicResponse
-from gearcad.dynamics.trains.system import System
-from gearcad.errors import ParameterError, SolverError, require_whole
+from gearcad.arrays import Bools, Complexes, Floats, Indices
+from gearcad.dynamics.response.driven import Driven, pressed
+from gearcad.notice import Notice
 
-__all__ = [
-    "UNSTABLE",
-    "at_orders",
-    "bonded",
-    "both_sides",
-    "checked_frequencies",
-    "harmonic_orders",
-    "instability_warnings",
-    "periodic_response",
-    "runs",
-    "turns_and_torques",
-]
+__all__ = ["PeriodicResponse"]
 
 
-_BLOCK = 4_000_000
-"""Complex numbers that one block of speeds may need at a time."""
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PeriodicResponse(Driven):
+    """Steady vibration at `frequencies` (s,): circular tooth frequencies of the first mesh in 1/s. All in SI units.
 
-UNSTABLE = 1 + 1e-5
-"""Floquet multipliers beyond this are growth; 1 itself belongs to a train that is free to turn."""
-
-
-def checked_frequencies(frequencies: ArrayLike) -> Floats:
-    """Frequencies (s,) as floats; raises ParameterError unless all are above 0."""
-    values = np.atleast_1d(np.array(frequencies, float))
-    if values.ndim != 1 or not values.size or not np.isfinite(values).all() or values.min() <= 0:
-        raise ParameterError("frequencies", f"{values.size} values", "must be finite numbers above 0 1/s")
-    return values
-
-
-def harmonic_orders(excitation: Excitation, harmonics: int) -> Indices:
-    """Orders (q,) of the common period, from 0 on, that the excitation drives up to `harmonics` of each tooth frequency.
-
-    Those of several tooth frequencies combine; transmission errors of a longer period bring all orders with them.
+    Coefficients over the common period belong to the orders `harmonics` (q,), from 0 on: `approach_coefficients` (s, q, m) of
+    the approach y of the flanks (m), `inertia_coefficients` (s, q, i) of turns (rad), `torque_coefficients` (s, q, n) of shaft
+    torques (N m). `stable` (s,): whether a small disturbance dies away. `jumps`: frequencies at which a sweep went over to
+    another branch. `notices` say what to know before trusting it.
     """
-    require_whole("harmonics", harmonics, at_least=1, at_most=200)
-    orders = sorted(set(excitation.orders))
-    highest = harmonics * orders[-1]
-    found = np.zeros(1, int)
-    for _ in range(harmonics if len(orders) > 1 else 0):
-        found = np.unique(np.concatenate([found + sign * q for q in orders for sign in (-1, 0, 1)]))
-    if len(orders) == 1:
-        found = orders[0] * np.arange(harmonics + 1)
-    found = found[(found >= 0) & (found <= highest)]
-    lines = np.flatnonzero(np.abs(excitation.error_coefficients(highest)).max(axis=1))
-    if not np.isin(lines, found).all():
-        found = np.arange(highest + 1)
-    if len(found) > 20_000:
-        raise ParameterError("harmonics", harmonics, f"must be fewer: the common period would have {len(found)} orders")
-    return np.asarray(found, np.intp)
 
+    frequencies: Floats
+    harmonics: Indices
+    approach_coefficients: Complexes
+    inertia_coefficients: Complexes
+    torque_coefficients: Complexes
+    stable: Bools
+    jumps: Floats = field(default_factory=lambda: np.zeros(0))
+    notices: tuple[Notice, ...] = ()
 
-def periodic_response(
-    system: System, excitation: Excitation, frequencies: ArrayLike, *, harmonics: int = 6, stability: bool = True
-) -> PeriodicResponse:
-    """Steady vibration at circular tooth frequencies of the first mesh (1/s), flanks always in contact.
+    @property
+    def samples(self) -> int:
+        """Samples over the common period that show the highest harmonic at least 16 times a wave."""
+        return int(max(256, 2 ** int(np.ceil(np.log2(16 * max(int(self.harmonics[-1]), 1))))))
 
-    With `stability` the Floquet multipliers at every frequency are found too, and growth is told in the warnings. Raises
-    GeometryError for torques that do not balance, SolverError where no finite response exists.
-    """
-    excitation.fits(system)
-    speeds = checked_frequencies(frequencies)
-    orders = harmonic_orders(excitation, harmonics)
-    static = static_state(system)
-    meshes, rows = len(system.stiffness), system.inertias.shape[1] + system.shaft_torques.shape[1]
-    per_class = 1 + 2 * len(orders) // int(np.gcd.reduce(excitation.orders))
-    block = max(1, _BLOCK // (len(orders) * meshes * (system.size + 2 * meshes + rows) + 2 * (per_class * meshes) ** 2))
-    parts = [_solve(system, excitation, static, speeds[i : i + block], orders) for i in range(0, len(speeds), block)]
-    approach, inertias, torques = (np.concatenate(each) for each in zip(*parts, strict=True))
-    stable = growth(system, excitation, speeds) <= UNSTABLE if stability else np.ones(len(speeds), bool)
-    result = PeriodicResponse(
-        system=system,
-        excitation=excitation,
-        frequencies=speeds,
-        harmonics=orders,
-        approach_coefficients=approach,
-        inertia_coefficients=inertias,
-        torque_coefficients=torques,
-        stable=stable,
-        warnings=instability_warnings(speeds, stable),
-    )
-    return _with_parting(result)
+    def phases(self, count: int | None = None) -> Floats:
+        """Phases of the common period (t,), in rad, at which the courses below are given."""
+        return 2 * np.pi * np.arange(count or self.samples) / (count or self.samples)
 
+    def approach(self, which: slice = slice(None), count: int | None = None) -> Floats:
+        """y (s, t, m) in m."""
+        return self._course(self.approach_coefficients[which], count)
 
-def _solve(
-    system: System, excitation: Excitation, static: StaticState, speeds: Floats, orders: Indices
-) -> tuple[Complexes, Complexes, Complexes]:
-    """Coefficients (s, q, ...) of approaches, turns and torques."""
-    omega = excitation.fundamental * speeds
-    flexible = at_orders(system, static, omega, orders)
-    signed = np.concatenate([-orders[:0:-1], orders])
-    driving = _driving(system, excitation, omega, signed)
-    try:
-        approach, forces = _approaches(system, excitation, static, both_sides(flexible.mesh), driving, signed)
-    except np.linalg.LinAlgError:
-        approach = np.full(1, np.nan)
-    if not np.isfinite(approach).all():
-        raise SolverError("no finite periodic motion at one of the frequencies: it is at the limit of parametric instability")
-    half = slice(len(orders) - 1, None)
-    turns, torques = turns_and_torques(system, static, flexible, forces[:, half])
-    return approach[:, half], turns, torques
+    def turns(self, which: slice = slice(None), count: int | None = None) -> Floats:
+        """Turns of the inertias (s, t, i) in rad."""
+        return self._course(self.inertia_coefficients[which], count)
 
+    def shaft_torques(self, which: slice = slice(None), count: int | None = None) -> Floats:
+        """(s, t, n) in N m."""
+        return self._course(self.torque_coefficients[which], count)
 
-def turns_and_torques(
-    system: System, static: StaticState, flexible: Flexibility, forces: Complexes
-) -> tuple[Complexes, Complexes]:
-    """Coefficients (s, q, i) of inertias' turns and (s, q, n) of shaft torques, from forces (s, q, m) at the mean system."""
-    others = np.einsum("shij,shj->shi", flexible.others, forces)
-    others[:, 0] += static.others
-    count = system.inertias.shape[1]
-    return others[..., :count], others[..., count:]
+    def spring_forces(self, which: slice = slice(None), count: int | None = None) -> Floats:
+        """k(t) g(y - e) (s, t, m) in N: what the teeth carry, without damping."""
+        theta = self.phases(count)
+        gap = self.approach(which, count) - self.excitation.error_course(len(theta))
+        return self.excitation.ratios(theta) * self.system.stiffness * pressed(gap, self.excitation.backlashes, self.senses)
 
+    def damping_forces(self, which: slice = slice(None), count: int | None = None) -> Floats:
+        """c (y' - e') (s, t, m) in N."""
+        speed = self.excitation.fundamental * self.frequencies[which]
+        slopes = self.approach_coefficients[which] * 1j * self.harmonics[:, None]
+        rates = self._course(slopes, count) - self.excitation.error_slope_course(count or self.samples)
+        return np.asarray(self.system.mesh_damping * speed[:, None, None] * rates, float)
 
-def at_orders(system: System, static: StaticState, omega: Floats, orders: Indices) -> Flexibility:
-    """Flexibilities (s, q, ...) at the orders from 0 on of fundamental frequencies omega (s,)."""
-    moving = flexibility(system, omega[:, None] * orders[1:])
-    still = (np.broadcast_to(each, (len(omega), 1, *each.shape)) for each in (static.unit_mesh, static.unit_others))
-    mesh, others = (np.concatenate(pair, axis=1) for pair in zip(still, (moving.mesh, moving.others), strict=True))
-    return Flexibility(np.asarray(mesh, complex), np.asarray(others, complex))
-
-
-def both_sides(coefficients: Complexes) -> Complexes:
-    """From orders 0 on (s, q, ...) to all of them, -q ... q: those of a real course are conjugate."""
-    return np.concatenate([coefficients[:, :0:-1].conj(), coefficients], axis=1)
-
-
-def _driving(system: System, excitation: Excitation, omega: Floats, signed: Indices) -> Complexes:
-    """(s, q, m): coefficients of k e + c e'."""
-    highest = int(signed[-1])
-    errors = excitation.error_coefficients(highest)
-    result = np.zeros((len(omega), len(signed), errors.shape[1]), complex)
-    if errors.any():
-        # So many samples that no order of the product is mistaken for one that is wanted.
-        count = 4 * highest + 2
-        ratios = excitation.ratio_coefficients(2 * highest) * system.stiffness
-        product = np.fft.irfft(ratios * count, count, axis=0) * np.fft.irfft(errors * count, count, axis=0)
-        spring = np.fft.fft(product, axis=0)[signed] / count
-        rate = np.concatenate([errors[:0:-1].conj(), errors])[signed + highest] * system.mesh_damping * signed[:, None]
-        result += spring + 1j * omega[:, None, None] * rate
-    return result
-
-
-def _approaches(
-    system: System, excitation: Excitation, static: StaticState, mesh: Complexes, driving: Complexes, signed: Indices
-) -> tuple[Complexes, Complexes]:
-    """Approaches and forces (s, q, m). Orders that differ by no multiple of those of the stiffness know nothing of each other:
-    each class of them is solved alone."""
-    reach = int(signed[-1] - signed[0])
-    half = excitation.ratio_coefficients(reach) * system.stiffness
-    half[0] = 0
-    varying = np.concatenate([half[:0:-1].conj(), half])
-    right = np.einsum("shij,shj->shi", mesh, driving)
-    right[:, np.flatnonzero(signed == 0)[0]] += static.approach
-    approach, forces = np.zeros_like(right), driving.copy()
-    remainders = np.mod(signed, np.gcd.reduce(excitation.orders))
-    for remainder in np.unique(remainders):
-        of = np.flatnonzero(remainders == remainder)
-        size = len(of) * right.shape[2]
-        block = varying[signed[of, None] - signed[of] + reach]
-        coupling = np.einsum("shij,hlj->shilj", mesh[:, of], block).reshape(len(mesh), size, size)
-        solved = np.linalg.solve(np.eye(size) + coupling, right[:, of].reshape(len(mesh), size, 1))
-        approach[:, of] = solved.reshape(len(mesh), len(of), -1)
-        forces[:, of] -= np.einsum("hlj,slj->shj", block, approach[:, of])
-    return approach, forces
-
-
-def instability_warnings(speeds: Floats, stable: NDArray[np.bool_]) -> tuple[str, ...]:
-    if stable.all():
-        return ()
-    ranges = [f"{part[0]:g}" if len(part) == 1 else f"{part[0]:g} to {part[-1]:g}" for part in runs(speeds, ~stable)]
-    return (
-        f"parametric instability: vibrations grow without bound at tooth frequencies (1/s) {', '.join(ranges)}; "
-        "what is given there is a periodic motion that does not last",
-    )
-
-
-def runs(speeds: Floats, marked: NDArray[np.bool_]) -> list[Floats]:
-    """Neighbouring speeds that are marked, run by run."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]]).astype(int)))
-    return [speeds[start:end] for start, end in edges.reshape(-1, 2)]
-
-
-def _with_parting(result: PeriodicResponse) -> PeriodicResponse:
-    """With a warning where the linear response has flanks that pull."""
-    per = max(1, _BLOCK // (result.samples * result.approach_coefficients.shape[2]))
-    starts = range(0, len(result.frequencies), per)
-    linear = replace(result, excitation=bonded(result.excitation))
-    least = np.concatenate([(linear.senses * linear.spring_forces(slice(i, i + per))).min(axis=(1, 2)) for i in starts])
-    if (least >= 0).all():
-        return result
-    ranges = [f"{part[0]:g} to {part[-1]:g}" for part in runs(result.frequencies, least < 0)]
-    text = f"flanks would part at tooth frequencies (1/s) {', '.join(ranges)}: a sweep with backlash shows what happens there"
-    return replace(linear, warnings=(*result.warnings, text))
-
-
-def bonded(excitation: Excitation) -> Excitation:
-    """The same with flanks that never part."""
-    return Excitation(meshes=tuple(replace(mesh, backlash=None) for mesh in excitation.meshes))
+    def _course(self, coefficients: Complexes, count: int | None) -> Floats:
+        count = count or self.samples
+        spectrum = np.zeros((coefficients.shape[0], count // 2 + 1, coefficients.shape[2]), complex)
+        spectrum[:, self.harmonics] = coefficients
+        return np.asarray(np.fft.irfft(spectrum * count, count, axis=1), float)

@@ -13,11 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Complexes, Floats
-from gearcad.dynamics.excitation.excitation import Excitation
-from gearcad.dynamics.response.flexibility import Flexibility, StaticState, senses, static_state
+from gearcad.dynamics.response.driven import Driven
+from gearcad.dynamics.response.flexibility import Flexibility, at_orders
 from gearcad.dynamics.response.krylov import solve_all
-from gearcad.dynamics.response.periodic import at_orders
-from gearcad.dynamics.trains.system import System
 
 __all__ = ["Motions", "Resolution"]
 
@@ -62,11 +60,9 @@ class Motions:
 
 
 @dataclass(frozen=True, eq=False)
-class Resolution:
+class Resolution(Driven):
     """The balance of the orders 0 ... `orders` of a System's common period. Meshes with a backlash may part."""
 
-    system: System
-    excitation: Excitation
     orders: int
     tolerance: float = _TOLERANCE
 
@@ -74,19 +70,6 @@ class Resolution:
     def samples(self) -> int:
         """In time: so many that no product of stiffness and motion is mistaken for one of lower order."""
         return 4 * self.orders * (2 if self.excitation.parting else 1)
-
-    @cached_property
-    def static(self) -> StaticState:
-        return static_state(self.system)
-
-    @cached_property
-    def sense(self) -> Floats:
-        return senses(self.system)
-
-    @cached_property
-    def scale(self) -> float:
-        """Static deflection (m)."""
-        return float(np.abs(self.static.approach).max())
 
     @cached_property
     def stiffness(self) -> Floats:
@@ -175,10 +158,10 @@ class Resolution:
         carried = self.stiffness * course - self.driving
         if self.excitation.parting:
             # By forces, not gaps: orders that samples cannot tell would let them jump where flanks touch.
-            pressing, backlash = self.sense * carried, self.excitation.backlashes
+            pressing, backlash = self.senses * carried, self.excitation.backlashes
             behind = np.minimum(pressing + self.stiffness * backlash, 0.0)
             apart = (pressing <= 0) & ~(behind < 0) & ~np.isnan(backlash)
-            carried = np.where(np.isnan(backlash), carried, self.sense * (np.maximum(pressing, 0.0) + behind))
+            carried = np.where(np.isnan(backlash), carried, self.senses * (np.maximum(pressing, 0.0) + behind))
             slopes = np.where(apart, 0.0, self.stiffness)
         forces = self._spectrum(self.system.stiffness * course - carried)[..., : 2 * self.orders + 1, :]
         return forces + omega[:, None, None] * self.rates, slopes

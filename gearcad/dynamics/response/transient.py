@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats, Indices
-from gearcad.dynamics.excitation.excitation import Excitation
-from gearcad.dynamics.response.flexibility import senses, static_state
-from gearcad.dynamics.response.response import pressed
+from gearcad.dynamics.excitation.meshes import Excitation
+from gearcad.dynamics.response.driven import Driven, pressed
+from gearcad.dynamics.response.flexibility import static_state
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import ParameterError, SolverError, require_number
 
@@ -24,15 +23,13 @@ _MOST_PIECES = 1_000_000
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Transient:
+class Transient(Driven):
     """The motion at `time` (t,) in s: `modal` (t, n) and `modal_speed` (t, n) are z and z' of the system.
 
     `phase` (t,) is that of the common period (rad), `frequency` (t,) the circular tooth frequency of the first mesh (1/s);
     `events` (e,) the times (s) at which flanks parted or met.
     """
 
-    system: System
-    excitation: Excitation
     time: Floats
     phase: Floats
     frequency: Floats
@@ -60,9 +57,7 @@ class Transient:
         """k(t) g(y - e) (t, m) in N: what the teeth carry, without damping."""
         gap = self.approach - self.excitation.errors(self.phase)
         return (
-            self.excitation.ratios(self.phase)
-            * self.system.stiffness
-            * pressed(gap, self.excitation.backlashes, senses(self.system))
+            self.excitation.ratios(self.phase) * self.system.stiffness * pressed(gap, self.excitation.backlashes, self.senses)
         )
 
     @property
@@ -73,18 +68,11 @@ class Transient:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _Motion:
+class _Motion(Driven):
     """The equations on a stretch without jumps, each mesh in one state: 1 in contact, 0 apart, -1 in contact at the back."""
 
-    system: System
-    excitation: Excitation
     start: float
     acceleration: float
-
-    @cached_property
-    def sense(self) -> Floats:
-        """Which flanks (m,) the load presses."""
-        return senses(self.system)
 
     def phase(self, time: ArrayLike) -> Floats:
         """Of the common period, while the speed rises evenly."""
@@ -98,7 +86,7 @@ class _Motion:
     def gaps(self, time: float, state: Floats) -> Floats:
         """y - e (m,), counted from the flanks that carry the load."""
         gaps = self.system.mesh.T @ state[: self.system.size] - self.excitation.errors(self.phase(time))
-        return np.asarray(self.sense * gaps, float)
+        return np.asarray(self.senses * gaps, float)
 
     def contact(self, gap: Floats) -> Indices:
         """State of each mesh at these gaps (m,)."""
@@ -108,7 +96,7 @@ class _Motion:
     def rates(self, contact: Indices, inside: float) -> Callable[[float, Floats], Floats]:
         """d/dt of the state. `inside` is a time within the stretch, which says on which side of a jump its ends lie."""
         system, excitation, n = self.system, self.excitation, self.system.size
-        back = np.where(contact < 0, self.sense * np.nan_to_num(excitation.backlashes, posinf=0.0), 0.0)
+        back = np.where(contact < 0, self.senses * np.nan_to_num(excitation.backlashes, posinf=0.0), 0.0)
         touching = contact != 0
         still = all(mesh.error is None for mesh in excitation.meshes)
 

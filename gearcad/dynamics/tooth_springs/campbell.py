@@ -16,6 +16,7 @@ from gearcad.dynamics.tooth_springs.contact_model import ContactModel
 from gearcad.dynamics.tooth_springs.pair_history import Start, checked_samples, time_history
 from gearcad.dynamics.tooth_springs.spectra import Peak, Spectrum
 from gearcad.errors import ParameterError, require_number
+from gearcad.notice import Notice, texts
 
 __all__ = ["CampbellStudy", "campbell"]
 
@@ -70,19 +71,26 @@ class CampbellStudy:
         return found
 
     @property
-    def warnings(self) -> tuple[str, ...]:
+    def notices(self) -> tuple[Notice, ...]:
         """Those of the model, and what the motion adds to them."""
-        found = list(self.model.warnings)
+        found = list(self.model.notices)
         worst = int(np.argmax(self.deepest))
         if 1e-3 * self.deepest[worst] > self.model.normal_module:
-            found.append(
+            text = (
                 f"the flanks penetrate by up to {1e-3 * self.deepest[worst]:.4g} mm (at {self.speeds[worst]:g} rpm), more than"
                 f" the module of {self.model.normal_module:g} mm: no teeth do that"
             )
+            found.append(Notice("deep-penetration", text))
         if self.chaotic.any():
             listed = ", ".join(f"{speed:g}" for speed in self.speeds[self.chaotic])
-            found.append(f"chaotic at {listed} rpm: spectra there change with the last digit of any input, statistics do not")
+            text = f"chaotic at {listed} rpm: spectra there change with the last digit of any input, statistics do not"
+            found.append(Notice("chaotic", text))
         return tuple(found)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
 
     def to_dict(self) -> dict[str, Any]:
         """A row per speed, for JSON; the spectra themselves are arrays."""
@@ -95,6 +103,7 @@ class CampbellStudy:
             **{name: getattr(self, name).tolist() for name in names},
             "peaks": [[list(peak) for peak in self.peaks(speed)] for speed in self.speeds],
             "warnings": list(self.warnings),
+            "notices": [notice.to_dict() for notice in self.notices],
         }
 
     def _index(self, speed: float) -> int:

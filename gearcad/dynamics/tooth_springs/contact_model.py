@@ -14,6 +14,8 @@ from typing import Any
 
 from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_number, require_whole
 from gearcad.geometry import GearPair
+from gearcad.notice import Notice
+from gearcad.per_gear import PerGear
 
 __all__ = ["ContactModel", "ContactZone", "disc_inertia"]
 
@@ -50,13 +52,13 @@ class ContactModel:
     places of the two flanks of one tooth of the pinion, each from the base tangent point of its own line of action.
     """
 
-    teeth: tuple[int, int]
+    teeth: PerGear[int]
     normal_module: float
-    base_radii: tuple[float, float]
+    base_radii: PerGear[float]
     base_pitch: float
     first_contact: float
     last_contact: float
-    inertias: tuple[float, float]
+    inertias: PerGear[float]
     pair_stiffness: float
     damping: float
     torque: float
@@ -71,11 +73,11 @@ class ContactModel:
             values = getattr(self, name)
             if not isinstance(values, list | tuple) or len(values) != 2:
                 raise ParameterError(name, values, "must be two numbers, of pinion and wheel")
-            object.__setattr__(self, name, tuple(values))
-        for gear in range(2):
-            require_whole(f"teeth[{gear}]", self.teeth[gear], at_least=1, at_most=10000)
-            require_number(f"base_radii[{gear}]", self.base_radii[gear], "mm", above=0)
-            require_number(f"inertias[{gear}]", self.inertias[gear], "kg·m²", above=0)
+            object.__setattr__(self, name, PerGear(*values))
+        for gear, (teeth, radius, inertia) in enumerate(zip(self.teeth, self.base_radii, self.inertias, strict=True)):
+            require_whole(f"teeth[{gear}]", teeth, at_least=1, at_most=10000)
+            require_number(f"base_radii[{gear}]", radius, "mm", above=0)
+            require_number(f"inertias[{gear}]", inertia, "kg·m²", above=0)
         for name, unit in (("normal_module", "mm"), ("base_pitch", "mm"), ("pair_stiffness", "N/µm"), ("torque", "N·m")):
             require_number(name, getattr(self, name), unit, above=0)
         require_number("damping", self.damping, "N·s/m", at_least=0)
@@ -92,7 +94,7 @@ class ContactModel:
         cls,
         pair: GearPair,
         *,
-        inertias: tuple[float, float],
+        inertias: PerGear[float],
         pair_stiffness: float,
         damping: float,
         torque: float,
@@ -109,9 +111,9 @@ class ContactModel:
             # A reflection in the line of centres takes one line of action to the other, and a turn to its opposite.
             back = {"backlash": max(pair.normal_backlash, 0.0), "back_place": pair.pinion.base_diameter * angles}
         return cls(
-            teeth=(pair.pinion.teeth, pair.wheel.teeth),
+            teeth=pair.gears.map(lambda gear: gear.teeth),
             normal_module=pair.pinion.normal_module,
-            base_radii=(pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2),
+            base_radii=pair.gears.map(lambda gear: gear.base_diameter / 2),
             base_pitch=pair.pinion.transverse_base_pitch,
             first_contact=pair.path_of_contact.A,
             last_contact=pair.path_of_contact.E,
@@ -126,10 +128,11 @@ class ContactModel:
     # ------------------------------------------------------------------ figures
 
     @property
-    def masses(self) -> tuple[float, float]:
+    def masses(self) -> PerGear[float]:
         """J/R_b^2 of pinion and wheel along the line of action (kg)."""
-        one, other = (inertia / (1e-3 * radius) ** 2 for inertia, radius in zip(self.inertias, self.base_radii, strict=True))
-        return one, other
+        return PerGear(
+            *(inertia / (1e-3 * radius) ** 2 for inertia, radius in zip(self.inertias, self.base_radii, strict=True))
+        )
 
     @property
     def reduced_mass(self) -> float:
@@ -147,7 +150,7 @@ class ContactModel:
     @property
     def force(self) -> float:
         """Static force along the line of action (N)."""
-        return self.torque / (1e-3 * self.base_radii[0])
+        return self.torque / (1e-3 * self.base_radii.pinion)
 
     @property
     def static_approach(self) -> float:
@@ -166,20 +169,22 @@ class ContactModel:
 
     def tooth_frequency(self, speed: float, harmonic: int = 1) -> float:
         """i z_1 n/60 in Hz at a speed of the pinion in rpm: Uhlir (3.55)."""
-        return harmonic * self.teeth[0] * speed / 60
+        return harmonic * self.teeth.pinion * speed / 60
 
     @property
-    def warnings(self) -> tuple[str, ...]:
+    def notices(self) -> tuple[Notice, ...]:
         """What makes the parameters unlike those of gears."""
         found = []
         rest = 1e-3 * self.static_approach
         depth = rest / self.normal_module
         if depth > SOFT:
             more = ": the teeth pass through each other" if depth > 1 else ""
-            found.append(
+            text = (
                 f"pair_stiffness = {self.pair_stiffness:.4g} N/µm: the flanks penetrate by {rest:.4g} mm at rest,"
                 f" {depth:.3g} of the module{more}; teeth are far stiffer"
             )
+            found.append(Notice("soft-teeth", text))
         if self.contact_ratio < 1:
-            found.append(f"contact ratio {self.contact_ratio:.4f}: below 1 no pair carries for a part of the time")
+            text = f"contact ratio {self.contact_ratio:.4f}: below 1 no pair carries for a part of the time"
+            found.append(Notice("low-contact-ratio", text))
         return tuple(found)

@@ -83,7 +83,7 @@ class TimeHistory:
     def pinion_speed(self) -> Floats:
         """(n,) omega_1 in rad/s: the uniform rotation and the pinion's share of the approach."""
         share = _pinion_share(self.model)
-        return self.speed * math.pi / 30 + share * self.approach_rate / self.model.base_radii[0]
+        return self.speed * math.pi / 30 + share * self.approach_rate / self.model.base_radii.pinion
 
     @property
     def wheel_speed(self) -> Floats:
@@ -95,7 +95,7 @@ class TimeHistory:
     def pinion_angle(self) -> Floats:
         """(n,) turn of the pinion since time 0 in degrees."""
         moved = _pinion_share(self.model) * 1e-3 * (self.approach - self.approach[0])
-        angle: Floats = 6 * self.speed * self.time + np.degrees(moved / self.model.base_radii[0])
+        angle: Floats = 6 * self.speed * self.time + np.degrees(moved / self.model.base_radii.pinion)
         return angle
 
     @property
@@ -132,7 +132,7 @@ def time_history(
     samples = checked_samples(duration, sampling)
     require_number("speed", speed, "rpm", at_least=0)
     begin = start or Start()
-    y, drift = 1e-6 * begin.approach, speed * math.pi / 30 * 1e-3 * model.base_radii[0]
+    y, drift = 1e-6 * begin.approach, speed * math.pi / 30 * 1e-3 * model.base_radii.pinion
     travel = 1e-3 * begin.place - _pinion_share(model) * y
     state = (travel, y, 1e-3 * begin.approach_rate)
     approach, rate = np.empty(samples), np.empty(samples)

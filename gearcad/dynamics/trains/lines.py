@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
+from gearcad.dynamics.trains.members import Mesh
 from gearcad.dynamics.trains.parts import Parts, parts_of
 from gearcad.dynamics.trains.shafts import element_matrices, shaft_inertia, shaft_stiffness
 from gearcad.dynamics.trains.system import System
-from gearcad.dynamics.trains.train import Mesh, Train, TrainModel
+from gearcad.dynamics.trains.train import Train, TrainModel
 
 __all__ = ["Lines", "lines_of", "system"]
 

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
-from gearcad.dynamics.trains.graph import GROUND, turning_pieces
+from gearcad.dynamics.trains.graph import turning_pieces
+from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
 from gearcad.dynamics.trains.shafts import shaft_stiffness
-from gearcad.dynamics.trains.train import Inertia, Mesh, Shaft, Train, TrainModel
+from gearcad.dynamics.trains.train import Train, TrainModel
 
 __all__ = ["Parts", "parts_of", "static_forces"]
 
@@ -80,7 +81,7 @@ def _parts(train: Train) -> Parts:
     names = [inertia.name for inertia in train.inertias]
     approach = np.zeros((len(names), len(train.meshes)))
     for column, mesh in enumerate(train.meshes):
-        for gear, radius in zip((mesh.pinion, mesh.wheel), mesh.radii, strict=True):
+        for gear, radius in zip(mesh.gears, mesh.radii, strict=True):
             approach[names.index(gear), column] = radius
     return Parts(
         inertias=train.inertias,

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearcad.arrays import Floats
-
-if TYPE_CHECKING:
-    from gearcad.dynamics.trains.train import Shaft
+from gearcad.dynamics.trains.members import Shaft
 
 __all__ = [
     "clamped_modes_below",

@@ -14,6 +14,7 @@ import numpy as np
 
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import plain_numbers, require_number
+from gearcad.per_gear import PerGear
 
 __all__ = ["PairOnBearings"]
 
@@ -26,17 +27,19 @@ class PairOnBearings:
     in N·m (the wheel's holds it). Raises ParameterError.
     """
 
-    masses: tuple[float, float]
-    inertias: tuple[float, float]
-    base_radii: tuple[float, float]
+    masses: PerGear[float]
+    inertias: PerGear[float]
+    base_radii: PerGear[float]
     working_transverse_pressure_angle: float
     mesh_stiffness: float
-    bearing_stiffness: tuple[tuple[float, float], tuple[float, float]]
+    bearing_stiffness: PerGear[tuple[float, float]]
     mesh_damping: float = 0.0
     bearing_damping: float = 0.0
     torque: float = 0.0
 
     def __post_init__(self) -> None:
+        for name in ("masses", "inertias", "base_radii", "bearing_stiffness"):
+            object.__setattr__(self, name, PerGear(*getattr(self, name)))
         plain_numbers(self)
         for name, unit in (("masses", "kg"), ("inertias", "kg·m²"), ("base_radii", "mm")):
             for value in getattr(self, name):
@@ -58,10 +61,10 @@ class PairOnBearings:
             [value for mass, turn in zip(self.masses, self.inertias, strict=True) for value in (mass, mass, turn)]
         )
         springs, dampers, turns = np.zeros(6), np.zeros(6), np.zeros((6, 2))
-        for gear in (0, 1):
-            springs[3 * gear : 3 * gear + 2] = [1e6 * each for each in self.bearing_stiffness[gear]]
+        for gear, (bearing, inertia) in enumerate(zip(self.bearing_stiffness, self.inertias, strict=True)):
+            springs[3 * gear : 3 * gear + 2] = [1e6 * each for each in bearing]
             dampers[3 * gear : 3 * gear + 2] = self.bearing_damping
-            turns[3 * gear + 2, gear] = 1 / math.sqrt(self.inertias[gear])
+            turns[3 * gear + 2, gear] = 1 / math.sqrt(inertia)
         load = np.zeros(6)
         load[2], load[5] = self.torque, self.torque * second / first
         root = np.sqrt(masses)

@@ -9,9 +9,10 @@ import numpy as np
 
 from gearcad.dynamics.study import ModalStudy, TrainStudy
 from gearcad.dynamics.tooth_springs.campbell import CampbellStudy
+from gearcad.dynamics.trains.members import Mesh, Shaft, StiffnessWave
 from gearcad.dynamics.trains.modes import NaturalModes
 from gearcad.dynamics.trains.shafts import shaft_inertia, shaft_stiffness
-from gearcad.dynamics.trains.train import Mesh, Shaft, StiffnessWave, TrainModel
+from gearcad.dynamics.trains.train import TrainModel
 from gearcad.plots.paper import short
 
 __all__ = [

@@ -10,18 +10,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearcad.arrays import Bools, Floats
-from gearcad.dynamics.excitation.excitation import Excitation
-from gearcad.dynamics.response.backlash import Direction
-from gearcad.dynamics.response.floquet import growth
-from gearcad.dynamics.response.kv import KvChart, chart_of, idle_shafts, kv_chart
-from gearcad.dynamics.response.parting import MOST_ROUNDS, Parted, parted
-from gearcad.dynamics.response.periodic import UNSTABLE, bonded, instability_warnings, periodic_response, runs
-from gearcad.dynamics.response.refine import speeds_between
-from gearcad.dynamics.response.resonances import LEAST_RATIO
-from gearcad.dynamics.response.response import PeriodicResponse
-from gearcad.dynamics.response.speed_curves import HIGHEST_SOUGHT, LEFT_OUT, SpeedCurves, Told
+from gearcad.dynamics.charts.kv import KvChart, chart_of, idle_shafts, kv_chart
+from gearcad.dynamics.charts.notices import fixed_harmonics, hardly_damped, left_out, not_looked_for, standstill, stuck
+from gearcad.dynamics.charts.parting import MOST_ROUNDS, Parted, parted
+from gearcad.dynamics.charts.refine import speeds_between
+from gearcad.dynamics.charts.speed_curves import SpeedCurves, Told
+from gearcad.dynamics.excitation.meshes import Excitation
+from gearcad.dynamics.response.branch import Direction
+from gearcad.dynamics.response.floquet import UNSTABLE, growth
+from gearcad.dynamics.response.linear import periodic_response
+from gearcad.dynamics.response.notices import instability, parting
+from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import SolverError
+from gearcad.notice import Notice
 from gearcad.rating.dynamic_factor import DynamicFactor
 
 __all__ = ["OverSpeed", "over_speed"]
@@ -36,19 +38,17 @@ _DRAWN = 256
 _CLOSE = 0.01
 """Relative: speeds so near to a resonance of a low harmonic are looked at, however many high ones there are."""
 
-_STUCK = "flanks are taken to stick to each other"
-
 
 @dataclass(frozen=True, eq=False)
 class OverSpeed:
-    """Charts `up` and, where flanks part, `down`; frequencies of the jumps of both; what went wrong; and how it was found:
+    """Charts `up` and, where flanks part, `down`; frequencies of the jumps of both; what to know; and how it was found:
     by `curves` of flanks that stick to each other, and a `branch` where those of the `excitation` part."""
 
     excitation: Excitation
     up: KvChart
     down: KvChart | None
     jumps: tuple[Floats, Floats]
-    notes: tuple[str, ...]
+    notices: tuple[Notice, ...]
     curves: SpeedCurves
     branch: Parted | None
 
@@ -80,21 +80,21 @@ def over_speed(
     `harmonics` of the tooth frequencies at most; else as many as leave out less than a hundredth of the load at rest.
     """
     excitation.fits(system)
-    linear = _curves(system, bonded(excitation), frequencies, harmonics)
+    linear = _curves(system, excitation.bonded, frequencies, harmonics)
     if not linear.resolvable:
         return _few(linear, excitation, frequencies, method_b)
     told, skipped = _refined(linear, frequencies)
     stable = growth(system, linear.excitation, told.frequencies) <= UNSTABLE
     apart = np.asarray((told.least <= 0).any(axis=1), bool)
-    branch, notes = None, (*_standstill(linear), *_sharp(linear, told.frequencies), *_skipped(skipped))
+    branch, notices = None, (*standstill(linear), *hardly_damped(linear, told.frequencies), *not_looked_for(skipped))
     if excitation.parting and (apart | ~stable).any():
         curves = SpeedCurves(system, excitation, harmonics, linear.idle)
         try:
             branch = parted(curves, frequencies, told.frequencies[apart | ~stable])
         except SolverError as error:
-            notes = (*notes, f"{_STUCK}, for want of a motion in which they part: {error}")
+            notices = (*notices, stuck(error))
     elif apart.any():
-        notes = (*notes, _would_part(told.frequencies, apart))
+        notices = (*notices, parting(told.frequencies, apart))
     sides = [(told, stable, np.zeros(0))]
     if branch is not None:
         sides = [_together(told, stable, branch, direction) for direction in (Direction.UP, Direction.DOWN)]
@@ -104,7 +104,7 @@ def over_speed(
         up=charts[0],
         down=charts[1] if branch is not None else None,
         jumps=(sides[0][2], sides[-1][2]),
-        notes=notes,
+        notices=notices,
         curves=linear,
         branch=branch,
     )
@@ -156,7 +156,6 @@ def _together(told: Told, stable: Bools, branch: Parted, direction: Direction) -
 
 
 def _chart(curves: SpeedCurves, told: Told, stable: Bools, method_b: DynamicFactor | None) -> KvChart:
-    warnings = (*instability_warnings(told.frequencies, stable), *_left_out(curves, told))
     return chart_of(
         curves.system,
         curves.static,
@@ -164,74 +163,12 @@ def _chart(curves: SpeedCurves, told: Told, stable: Bools, method_b: DynamicFact
         (told.most, told.least, told.torques),
         method_b=method_b,
         stable=stable,
-        warnings=warnings,
-    )
-
-
-# ---------------------------------------------------------------------- what to know
-
-
-def _ranges(frequencies: Floats, marked: Bools) -> str:
-    return ", ".join(f"{part[0]:.6g} to {part[-1]:.6g}" for part in runs(frequencies, marked))
-
-
-def _would_part(frequencies: Floats, apart: Bools) -> str:
-    return (
-        f"flanks would part at tooth frequencies (1/s) {_ranges(frequencies, apart)}: "
-        "a sweep with backlash shows what happens there"
-    )
-
-
-def _left_out(curves: SpeedCurves, told: Told) -> tuple[str, ...]:
-    """Where there are fewer harmonics than a hundredth asks for."""
-    short = told.left_out > LEFT_OUT
-    if not short.any():
-        return ()
-    most = curves.most_orders // max(curves.excitation.orders)
-    return (
-        f"more than {most} harmonics of the tooth frequency would be needed at tooth frequencies (1/s) "
-        f"{_ranges(told.frequencies, short)}: what is left out may be more than 1 % of the load",
-    )
-
-
-def _standstill(curves: SpeedCurves) -> tuple[str, ...]:
-    """Where loads do not come down to those at rest, however slowly gears turn."""
-    factor = curves.standstill
-    if factor < 1 + LEFT_OUT:
-        return ()
-    return (
-        f"the stiffness of a mesh jumps where teeth come into mesh, at any speed at once: towards standstill K_v tends to "
-        f"{factor:.3f}, not to 1",
-    )
-
-
-def _skipped(frequencies: Floats) -> tuple[str, ...]:
-    """Low speeds, between which there is one resonance after the other."""
-    if not len(frequencies):
-        return ()
-    return (
-        f"up to a tooth frequency of {frequencies[-1]:.5g} 1/s resonances between the speeds are not looked for: they are met "
-        f"there by harmonics beyond the {HIGHEST_SOUGHT}th",
-    )
-
-
-def _sharp(curves: SpeedCurves, frequencies: Floats) -> tuple[str, ...]:
-    """Resonances that are hardly damped."""
-    sharp = curves.sharp(frequencies)
-    if not len(sharp):
-        return ()
-    return (
-        f"natural frequencies of {', '.join(f'{each:.5g}' for each in sharp / (2 * np.pi))} Hz have a damping ratio below "
-        f"{LEAST_RATIO:g}: their resonances are higher than shown, and a chart may pass them by",
+        notices=(*instability(told.frequencies, stable), *left_out(curves, told)),
     )
 
 
 def _few(curves: SpeedCurves, excitation: Excitation, frequencies: Floats, method_b: DynamicFactor | None) -> OverSpeed:
     """With a fixed number of harmonics, at these frequencies only."""
     found = periodic_response(curves.system, curves.excitation, frequencies, harmonics=curves.few)
-    period = max(curves.excitation.orders)
-    note = (
-        f"the teeth of all meshes come again after {period} teeth only: K_v holds {curves.few} harmonics of the "
-        "tooth frequencies, and what is left out, and resonances between the speeds, are not looked for"
-    )
-    return OverSpeed(excitation, kv_chart(found, method_b=method_b), None, (np.zeros(0), np.zeros(0)), (note,), curves, None)
+    notice = fixed_harmonics(max(curves.excitation.orders), curves.few)
+    return OverSpeed(excitation, kv_chart(found, method_b=method_b), None, (np.zeros(0), np.zeros(0)), (notice,), curves, None)

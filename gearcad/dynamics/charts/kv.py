@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
 from gearcad.dynamics.response.flexibility import StaticState
-from gearcad.dynamics.response.response import PeriodicResponse
+from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import GeometryError, ParameterError, as_choice
+from gearcad.notice import Notice, texts
 from gearcad.rating.dynamic_factor import DynamicFactor
 
 __all__ = ["ForceDefinition", "KvChart", "Peak", "chart_of", "extremes", "idle_shafts", "kv_chart", "torque_references"]
@@ -70,7 +71,12 @@ class KvChart:
     stable: NDArray[np.bool_]
     mesh_names: tuple[str, ...]
     shaft_names: tuple[str, ...]
-    warnings: tuple[str, ...]
+    notices: tuple[Notice, ...]
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What to know before trusting it, in words."""
+        return texts(self.notices)
 
     def peaks(self, mesh: int = 0) -> list[Peak]:
         """Resonances of a mesh, in order of frequency: maxima of K_v that stand out from both sides."""
@@ -93,6 +99,7 @@ class KvChart:
             "kv_iso6336": None if self.standard is None else self.standard.tolist(),
             "stable": self.stable.tolist(),
             "warnings": list(self.warnings),
+            "notices": [notice.to_dict() for notice in self.notices],
         }
 
 
@@ -120,7 +127,7 @@ def kv_chart(
         shaft_references=shaft_references,
         method_b=method_b,
         stable=response.stable,
-        warnings=response.warnings,
+        notices=response.notices,
     )
 
 
@@ -134,7 +141,7 @@ def chart_of(
     shaft_references: Sequence[float | None] | None = None,
     method_b: DynamicFactor | None = None,
     stable: NDArray[np.bool_],
-    warnings: tuple[str, ...],
+    notices: tuple[Notice, ...],
 ) -> KvChart:
     """The chart of `extremes` that were found somehow."""
     forces = np.abs(system.stiffness * static.approach)
@@ -158,7 +165,7 @@ def chart_of(
         stable=stable,
         mesh_names=system.names[0],
         shaft_names=system.names[2],
-        warnings=warnings,
+        notices=notices,
     )
 
 

@@ -6,16 +6,16 @@ Inputs in µm and degrees; what solvers take from them is in SI units, over the 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
 
 from gearcad.arrays import Complexes, Floats
+from gearcad.dynamics.excitation.deviations import TransmissionError
 from gearcad.dynamics.excitation.mesh_curves import StiffnessShape, cycle_phase, cycle_stiffness
 from gearcad.dynamics.excitation.polyline import Polyline
-from gearcad.dynamics.excitation.tooth_errors import TransmissionError
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import GeometryError, ParameterError, plain_numbers, require_number
 from gearcad.mesh_cycle import MeshCycle
@@ -105,6 +105,11 @@ class Excitation:
     def parting(self) -> bool:
         """Whether any flanks may part."""
         return any(mesh.backlash is not None for mesh in self.meshes)
+
+    @property
+    def bonded(self) -> Excitation:
+        """The same with flanks that never part."""
+        return Excitation(meshes=tuple(replace(mesh, backlash=None) for mesh in self.meshes))
 
     def fits(self, system: System) -> None:
         """Raise unless there is one mesh for each of the system's, of positive mean stiffness."""

@@ -8,14 +8,16 @@ from fractions import Fraction
 
 import numpy as np
 
-from gearcad.dynamics.excitation.excitation import Excitation, MeshExcitation, cycle_excitation
+from gearcad.dynamics.excitation.deviations import ToothDeviations, TransmissionError, random_deviations, tooth_errors
 from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, StiffnessShape, square_stiffness
-from gearcad.dynamics.excitation.tooth_errors import ToothDeviations, TransmissionError, random_deviations, tooth_errors
+from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation, cycle_excitation
 from gearcad.dynamics.trains.graph import turning_pieces
-from gearcad.dynamics.trains.train import Inertia, Mesh, StiffnessWave, Train, TrainModel
+from gearcad.dynamics.trains.members import Inertia, Mesh, StiffnessWave
+from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair
 from gearcad.mesh_cycle import MeshCycle
+from gearcad.per_gear import PerGear
 from gearcad.rating.iso1328 import flank_tolerances
 from gearcad.rating.options import RatingOptions
 
@@ -64,7 +66,7 @@ def _mesh_errors(mesh: Mesh, grade: int | None, seed: int) -> TransmissionError:
         given = ToothDeviations(position=-np.cumsum(pitches - pitches.mean()))
         return tooth_errors(given, contact_ratio=mesh.contact_ratio or _CONTACT_RATIO, harmonics=_HARMONICS)
     assert grade is not None  # one of the two is there
-    diameter = 2 * mesh.base_radii[0] / math.cos(math.radians(_PRESSURE_ANGLE))
+    diameter = 2 * mesh.base_radii.pinion / math.cos(math.radians(_PRESSURE_ANGLE))
     tolerances = flank_tolerances(grade, diameter, diameter / mesh.teeth)
     ratio = mesh.contact_ratio or _CONTACT_RATIO
     return tooth_errors(random_deviations(mesh.teeth, tolerances, seed), contact_ratio=ratio, harmonics=_HARMONICS)
@@ -78,7 +80,7 @@ def _tooth_ratios(train: Train) -> list[Fraction]:
             name=mesh.name,
             pinion=mesh.pinion,
             wheel=mesh.wheel,
-            base_radii=(float(mesh.teeth), float(wheel)),
+            base_radii=PerGear(float(mesh.teeth), float(wheel)),
             stiffness=mesh.stiffness,
             teeth=mesh.teeth,
             internal=mesh.internal,
@@ -96,23 +98,23 @@ def _tooth_ratios(train: Train) -> list[Fraction]:
 
 def _wheel_teeth(mesh: Mesh) -> int:
     """z_2 = z_1 r_b2/r_b1. Raises GeometryError where that is far from a whole number."""
-    teeth = mesh.teeth * mesh.base_radii[1] / mesh.base_radii[0]
+    teeth = mesh.teeth * mesh.base_radii.wheel / mesh.base_radii.pinion
     if abs(teeth - round(teeth)) > 0.2 or round(teeth) < 1:
         permitted = f"must be in the ratio of whole numbers of teeth: with {mesh.teeth} of the pinion the wheel has {teeth:.3f}"
-        raise GeometryError(f"{mesh.name}.base_radii", mesh.base_radii[1], permitted, "mm")
+        raise GeometryError(f"{mesh.name}.base_radii", mesh.base_radii.wheel, permitted, "mm")
     return round(teeth)
 
 
 def pair_train(
-    pair: GearPair, cycle: MeshCycle, inertias: tuple[float, float], *, torque: float, speed: float, damping_ratio: float
+    pair: GearPair, cycle: MeshCycle, inertias: PerGear[float], *, torque: float, speed: float, damping_ratio: float
 ) -> Train:
     """A pair by itself: its inertias (kg·m²), the mean tangent stiffness of its cycle, its backlash, a torque (N·m) on it."""
-    radii = (pair.pinion.base_diameter / 2, pair.wheel.base_diameter / 2)
+    radii = pair.gears.map(lambda gear: gear.base_diameter / 2)
     across = math.cos(math.radians(pair.working_transverse_pressure_angle))
     return Train(
         name=pair.name,
         model=TrainModel.ISOLATED,
-        inertias=tuple(Inertia(name=name, inertia=each) for name, each in zip(("pinion", "wheel"), inertias, strict=True)),
+        inertias=tuple(Inertia(name=role.value, inertia=each) for role, each in inertias.items()),
         meshes=(
             Mesh(
                 name="mesh",
@@ -125,18 +127,18 @@ def pair_train(
                 backlash=max(1000 * pair.circumferential_backlash * across, 0.0),
             ),
         ),
-        torques={"pinion": abs(torque), "wheel": abs(torque) * radii[1] / radii[0]},
+        torques={"pinion": abs(torque), "wheel": abs(torque) * radii.wheel / radii.pinion},
         speed=abs(speed),
     )
 
 
 def pair_excitation(train: Train, cycle: MeshCycle, errors: TransmissionError | None = None) -> Excitation:
     """The course of a pair's stiffness and transmission error, with the errors of its teeth."""
-    of = cycle_excitation(cycle, backlash=train.meshes[0].backlash)
+    mesh = cycle_excitation(cycle, backlash=train.meshes[0].backlash)
     if errors is not None:
-        assert of.error is not None  # a cycle has one
-        of = replace(of, error=replace(errors, line=of.error.line))
-    return Excitation(meshes=(of,))
+        assert mesh.error is not None  # a cycle has one
+        mesh = replace(mesh, error=replace(errors, line=mesh.error.line))
+    return Excitation(meshes=(mesh,))
 
 
 def pair_errors(pair: GearPair, rating: RatingOptions, seed: int) -> TransmissionError:

@@ -12,14 +12,12 @@ from functools import cached_property
 import numpy as np
 
 from gearcad.arrays import Bools, Complexes, Floats, Indices
-from gearcad.dynamics.excitation.excitation import Excitation
-from gearcad.dynamics.response.flexibility import StaticState, static_state
-from gearcad.dynamics.response.kv import ForceDefinition, extremes, torque_references
-from gearcad.dynamics.response.periodic import turns_and_torques
+from gearcad.dynamics.charts.kv import ForceDefinition, extremes, torque_references
+from gearcad.dynamics.charts.resonances import FELT, Resonances, quasi_static_forces, resonances, settled
+from gearcad.dynamics.response.driven import Driven
+from gearcad.dynamics.response.flexibility import turns_and_torques
+from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.response.resolved import Motions, Resolution
-from gearcad.dynamics.response.resonances import FELT, Resonances, quasi_static_forces, resonances, settled
-from gearcad.dynamics.response.response import PeriodicResponse
-from gearcad.dynamics.trains.system import System
 
 __all__ = ["HIGHEST_SOUGHT", "LEFT_OUT", "MOST_ORDERS", "SpeedCurves", "Told"]
 
@@ -76,20 +74,14 @@ class Told:
 
 
 @dataclass(frozen=True, eq=False)
-class SpeedCurves:
+class SpeedCurves(Driven):
     """Loads of a System over speed; `harmonics` of the tooth frequencies at most, where they are given.
 
     `idle` (n,): shafts that carry next to nothing at rest, so that their torque is held against nothing.
     """
 
-    system: System
-    excitation: Excitation
     harmonics: int | None = None
     idle: Bools | None = None
-
-    @cached_property
-    def static(self) -> StaticState:
-        return static_state(self.system)
 
     @cached_property
     def references(self) -> tuple[Floats, Floats]:

@@ -13,21 +13,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Bools, Complexes, Floats, Indices
-from gearcad.dynamics.excitation.excitation import Excitation
+from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.response.balance import Balance
 from gearcad.dynamics.response.continuation import Arc, follow
-from gearcad.dynamics.response.floquet import growth
-from gearcad.dynamics.response.periodic import (
-    UNSTABLE,
-    at_orders,
-    both_sides,
-    checked_frequencies,
-    harmonic_orders,
-    instability_warnings,
-    periodic_response,
-    turns_and_torques,
-)
-from gearcad.dynamics.response.response import PeriodicResponse
+from gearcad.dynamics.response.flexibility import at_orders, both_sides, turns_and_torques
+from gearcad.dynamics.response.floquet import UNSTABLE, growth
+from gearcad.dynamics.response.linear import checked_frequencies, harmonic_orders, periodic_response
+from gearcad.dynamics.response.notices import instability
+from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import ParameterError, SolverError, as_choice
 
@@ -130,7 +123,7 @@ class Branch:
             torque_coefficients=torques,
             stable=stable,
             jumps=np.zeros(0) if jumps is None else jumps,
-            warnings=instability_warnings(frequencies, stable),
+            notices=instability(frequencies, stable),
         )
 
 

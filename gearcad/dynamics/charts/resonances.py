@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearcad.arrays import Bools, Floats
-from gearcad.dynamics.excitation.excitation import Excitation
+from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.response.flexibility import StaticState
 from gearcad.dynamics.trains.system import System
 

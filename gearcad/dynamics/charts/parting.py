@@ -10,12 +10,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gearcad.arrays import Bools, Complexes, Floats, Indices
-from gearcad.dynamics.response.backlash import Branch, Direction, trace
-from gearcad.dynamics.response.kv import ForceDefinition, extremes
-from gearcad.dynamics.response.periodic import harmonic_orders
-from gearcad.dynamics.response.refine import speeds_between
-from gearcad.dynamics.response.response import PeriodicResponse
-from gearcad.dynamics.response.speed_curves import SpeedCurves, Told
+from gearcad.dynamics.charts.kv import ForceDefinition, extremes
+from gearcad.dynamics.charts.refine import speeds_between
+from gearcad.dynamics.charts.speed_curves import SpeedCurves, Told
+from gearcad.dynamics.response.branch import Branch, Direction, trace
+from gearcad.dynamics.response.linear import harmonic_orders
+from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.errors import SolverError
 
 __all__ = ["MOST_ROUNDS", "Parted", "parted"]
@@ -124,6 +124,7 @@ def _harmonics(curves: SpeedCurves, frequency: float) -> int:
     """Of the tooth frequencies; raises SolverError where these are too many unknowns."""
     meshes = len(curves.system.stiffness)
     wanted = float(curves.felt_orders(np.array([frequency]))[0]) / max(curves.excitation.orders)
+    wanted = min(wanted, _MOST_UNKNOWNS)
     for count in range(max(int(np.ceil(wanted)), _LEAST_HARMONICS), _LEAST_HARMONICS - 1, -1):
         unknowns = meshes * len(harmonic_orders(curves.excitation, count))
         if unknowns <= _MOST_UNKNOWNS:
