@@ -100,17 +100,9 @@ class ToothLayout:
     def _shape(self, pieces: tuple[Piece, ...]) -> None:
         self.pieces = pieces
         self.sweep = sweep_of(self.gear, pieces)
-        self.junctions = np.array([self._start(piece) for piece in pieces])
+        self.junctions = np.array([piece.start for piece in pieces])
 
     # -------------------------------------------------------------- stations of the outline
-
-    @staticmethod
-    def _start(piece: Piece) -> tuple[float, float]:
-        """Radius and polar angle (rad) where a piece starts."""
-        if isinstance(piece, LandArc):
-            return piece.radius, piece.first
-        x, y = piece.poles[0]
-        return math.hypot(x, y), math.atan2(y, x)
 
     def _flank_at(self, k: int) -> tuple[FlankSpan, int]:
         """A flank's piece at a junction, and its u there. One of both neighbours is a flank's, and the first piece is."""
@@ -120,7 +112,7 @@ class ToothLayout:
         assert isinstance(before, FlankSpan)
         return before, 1
 
-    def turn(self, k: int, z: Any) -> Any:
+    def turn(self, k: int, z: Floats) -> Floats:
         """Angle (rad) by which a junction is turned at heights z (mm)."""
         piece, u = self._flank_at(k)
         return self.sweep.turn(piece, np.array(float(u)), z)
@@ -132,10 +124,11 @@ class ToothLayout:
         """
         count, found, breaks = len(self.pieces), list[Segment](), list[tuple[float, float]]()
         for k, piece in enumerate(self.pieces):
-            first, last = piece.radii if isinstance(piece, FlankSpan) else (0.0, 0.0)
             if isinstance(piece, LandArc):
                 found.append(Segment(k, k, k + 1, piece.first, piece.last, piece.radius > end.cone.face_radius))
-            elif end.cone.face_radius >= max(first, last) - _ROUNDING or end.cone.face_radius <= min(first, last) + _ROUNDING:
+                continue
+            first, last = piece.radii
+            if end.cone.face_radius >= max(first, last) - _ROUNDING or end.cone.face_radius <= min(first, last) + _ROUNDING:
                 found.append(Segment(k, k, k + 1, 0.0, 1.0, 2 * end.cone.face_radius < first + last))
             else:
                 u = parameter_at_radius(piece, end.cone.face_radius)

@@ -55,6 +55,12 @@ class FlankSpan:
         return self.curve.turn(form, self.first + u * (self.last - self.first), z, left=self.left)
 
     @property
+    def start(self) -> tuple[float, float]:
+        """Radius (mm) and polar angle (rad) at u = 0."""
+        x, y = self.poles[0]
+        return math.hypot(x, y), math.atan2(y, x)
+
+    @property
     def radii(self) -> tuple[float, float]:
         """Radius (mm) at u = 0 and u = 1."""
         start, end = np.hypot(*self.poles[[0, -1]].T)
@@ -70,8 +76,9 @@ class LandArc:
     last: float
 
     @property
-    def radii(self) -> tuple[float, float]:
-        return self.radius, self.radius
+    def start(self) -> tuple[float, float]:
+        """Radius (mm) and polar angle (rad)."""
+        return self.radius, self.first
 
 
 Piece = FlankSpan | LandArc
