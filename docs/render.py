@@ -22,9 +22,10 @@ from vtkmodules.vtkRenderingCore import (
 )
 
 from gearcad import Gear
-from gearcad.batch import Step, Wanted, run_table
+from gearcad.batch import run_table
 from gearcad.batch.study import plan_study, write_study
 from gearcad.designs import read_spec
+from gearcad.jobs.data import Data
 from gearcad.plots import plot_contours, save_plot
 from gearcad.plots.table_data import read_points
 from gearcad.solids import tessellate
@@ -111,7 +112,7 @@ def plot_study(path: Path) -> None:
     with TemporaryDirectory() as folder:
         table, target = Path(folder, "study.csv"), Path(folder, "study")
         write_study(plan_study(SPEC, varied), table)
-        run_table(table, target, Wanted(steps=(Step.DATA,)))
+        run_table(table, target, [Data()])
         points = read_points(target / "results.csv", "pinion.profile_shift", "helix_angle", contour="usable_contact_ratio")
         save_plot(plot_contours, points, path)
 

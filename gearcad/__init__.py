@@ -12,17 +12,37 @@ Gear(teeth=30, normal_module=2.0, face_width=20.0)
 >>> round(pair.transverse_contact_ratio, 3)
 1.605
 
-What is done with a pair under a load is a job: `gearcad.jobs.check.assess(pair, Load(torque=60))` checks it,
-`gearcad.jobs.stiffness.compare` tells its mesh stiffness by every method, `gearcad.jobs.dynamics.simulate` its dynamics,
-`gearcad.jobs.modify.propose` its tip relief, and `gearcad.rating.rate(pair, material, load)` rates it. Each takes, beside the
-pair and the load, `material`, `mounting` and the options of the tables of a spec by their names. `gearcad.solids` makes solids
-and files.
+What is done with gears is a verb. It takes a pair and a load, or a design such as `read` makes of a spec, and beside them
+`material`, `mounting`, and the options of the other tables of a spec by their names:
+
+>>> import gearcad
+>>> load = Load(torque=60)
+>>> f"{gearcad.rate(pair, load).flank.nominal_stress:.0f} MPa"
+'1058 MPa'
+>>> gearcad.stiffness(pair, load, methods=["iso6336", "potential-energy"])
+<StiffnessComparison of 'pair' at 60 N·m: iso6336 303.1, potential-energy 434.8 N/µm>
+>>> gearcad.check(pair, 60)
+Traceback (most recent call last):
+...
+gearcad.errors.ParameterError: load = 60: must be a Load
+
+    read(file)                     the design in a spec: a gear, a pair or a train, with its load and options
+    data(pair)                     every derived quantity
+    build(pair, folder)            STEP, STL, 3MF, GLB, DXF, points
+    check(pair, load)              contact and root stress by finite elements, beside Hertz and ISO 6336
+    rate(pair, load)               ISO 6336 or DIN 3990, Method B
+    stiffness(pair, load)          mesh stiffness by every method
+    dynamics(pair, load)           natural frequencies, K_v over speed; of trains too
+    modify(pair, load)             tip relief and crowning for the load
+
+A class for each in `gearcad.jobs` writes the files of a result: `gearcad.jobs.check.Check().write(result, folder)`.
 """
 
 from __future__ import annotations
 
 TYPE_CHECKING = False  # as in guard.py
 if TYPE_CHECKING:
+    from gearcad.designs import read_spec as read
     from gearcad.errors import GearcadError, GeometryError, ParameterError, SolverError, SpecError
     from gearcad.geometry import (
         ISO53_A,
@@ -42,6 +62,7 @@ if TYPE_CHECKING:
     from gearcad.load import Load
     from gearcad.material import Material
     from gearcad.mounting import Mounting
+    from gearcad.verbs import *  # noqa: F403 - that of each verb
 
 __all__ = [
     "ISO53_A",
@@ -66,19 +87,26 @@ __all__ = [
     "SpecError",
     "ToothProfile",
     "__version__",
+    "read",
 ]
 
 __version__ = "0.1.0"
 
 if not TYPE_CHECKING:
-    from gearcad.lazy import lazily
+    import sys
 
+    from gearcad.lazy import Entrance, lazily
+    from gearcad.verbs import VERBS
+
+    __all__ += VERBS
     __getattr__ = lazily(
         __name__,
         __all__,
         ("errors", "geometry", "load", "material", "mounting"),
         ("batch", "check", "contact", "designs", "dynamics", "jobs", "rating", "solids", "stiffness"),
+        {"read": "designs.read_spec", **{verb: f"jobs.{verb}.{verb}" for verb in VERBS}},
     )
+    sys.modules[__name__].__class__ = Entrance
 
 
 def __dir__() -> list[str]:

@@ -36,11 +36,20 @@ _TABLES = {
     "check.rating": symbols.RATING,
     "check.rating.pinion": symbols.GEAR_RATING,
     "check.rating.wheel": symbols.GEAR_RATING,
-    "dynamics": symbols.DYNAMICS,
+    "stiffness": symbols.STIFFNESS,
+    "dynamics": symbols.DYNAMICS | symbols.DYNAMICS_RESULTS,
+    "modify": symbols.MODIFY,
+    "modify.before": symbols.MODIFY_FIGURES,
+    "modify.after": symbols.MODIFY_FIGURES,
+    "modify.pinion": _GEAR,
+    "modify.wheel": _GEAR,
     "rating": symbols.RATING_OPTIONS,
     "": _STATES,
 }
 """By the beginning of the heading."""
+
+_NAMED = ("stiffness",)
+"""Tables whose quantities stand under a name each: `stiffness.iso6336.mean`."""
 
 _OWNERS = tuple(role.value for role in Role)
 
@@ -54,6 +63,7 @@ def column_symbol(heading: str) -> tuple[str, Symbol] | None:
         if table and not heading.startswith(f"{table}."):
             continue
         field = heading[len(table) + 1 :] if table else heading
+        field = field.partition(".")[2] if table in _NAMED else field
         if field in known:
             return next((owner for owner in _OWNERS if table.endswith(owner)), ""), known[field]
         for owner in _OWNERS:

@@ -8,7 +8,10 @@ from typing import NamedTuple
 __all__ = ["Agenda", "Expected", "Progress", "Share", "unheard"]
 
 Progress = Callable[[str, float, float], None]
-"""Called with what is being done, how much of the job is done, and how much there is: in files, steps or seconds expected."""
+"""Called with what is being done, how much of the job is done, and how much there is (0: nobody knows yet).
+
+Both are in files, rows, steps or seconds expected. What is being done is a step, or a step and more of it: "making, 2 failed".
+"""
 
 Share = Callable[[float], None]
 """Called with the share (0 ... 1) of one step that is done."""

@@ -13,14 +13,18 @@ from typing import NamedTuple
 __all__ = [
     "CHECK",
     "DYNAMICS",
+    "DYNAMICS_RESULTS",
     "GEAR",
     "GEAR_RATING",
     "LOAD",
     "MATERIAL",
+    "MODIFY",
+    "MODIFY_FIGURES",
     "MOUNTING",
     "PAIR",
     "RATING",
     "RATING_OPTIONS",
+    "STIFFNESS",
     "Symbol",
 ]
 
@@ -283,3 +287,56 @@ DYNAMICS = {
     "duration": Symbol("", "s", "", "time that each speed runs"),
     "sampling": Symbol("", "Hz", "", "samples of each speed per second"),
 }
+
+STIFFNESS = {
+    "mean": Symbol("", "N/µm", "", "mean secant mesh stiffness"),
+    "maximum": Symbol("", "N/µm", "", "greatest secant mesh stiffness"),
+    "minimum": Symbol("", "N/µm", "", "least secant mesh stiffness"),
+    "pitch_point": Symbol("", "N/µm", "", "secant mesh stiffness at the pitch point"),
+    "transmission_error_peak_to_peak": Symbol("", "µm", "", "transmission error, peak to peak"),
+    "single_stiffness": Symbol("", "N/µm", "", "stiffness of one pair of teeth"),
+    "tangent_mean": Symbol("", "N/µm", "", "mean tangent mesh stiffness"),
+    "c_gamma_beta": Symbol("c_γβ", "N/(mm·µm)", "ISO 6336-1", "mean secant mesh stiffness per common face width"),
+    "c_gamma_alpha": Symbol("c_γα", "N/(mm·µm)", "ISO 6336-1", "mean tangent mesh stiffness per common face width"),
+    "deviation_from_3d": Symbol("", "", "", "deviation of the mean from that of solid bodies"),
+}
+"""Of each method, as stiffness.json has them."""
+
+DYNAMICS_RESULTS = {
+    "model": DYNAMICS["model"],
+    "stiffness_method": DYNAMICS["stiffness"],
+    "mesh_stiffness_mean": STIFFNESS["mean"],
+    "mesh_stiffness_tangent_mean": STIFFNESS["tangent_mean"],
+    "pinion_inertia": DYNAMICS["pinion_inertia"],
+    "wheel_inertia": DYNAMICS["wheel_inertia"],
+    "tooth_stiffness": DYNAMICS["tooth_stiffness"],
+    "tooth_damping": DYNAMICS["tooth_damping"],
+    "natural_frequency": Symbol("f_n", "Hz", "", "natural frequency of the pair"),
+    "damping_ratio": DYNAMICS["damping_ratio"],
+    "static_approach": Symbol("", "µm", "", "approach of the flanks at rest"),
+    "contact_ratio": Symbol("", "", "", "usable contact ratio"),
+    "resonance_speed_iso6336": Symbol("n_E1", "rpm", "ISO 6336-1, 6", "resonance speed by the standard"),
+    "course_speed": Symbol("n_1", "rpm", "", "speed of the course"),
+    "kv": Symbol("K_v", "", "ISO 6336-1, 6", "dynamic factor at that speed"),
+    "kv_highest": Symbol("K_v", "", "ISO 6336-1, 6", "highest dynamic factor of the chart"),
+    "kv_highest_speed": Symbol("n_1", "rpm", "", "speed of the highest dynamic factor"),
+}
+"""What a line of a table has of the dynamics of a pair."""
+
+MODIFY = {
+    "torque": Symbol("T_1", "N·m", "", "torque of the modifications, on the pinion"),
+    "pressure_bound": Symbol("", "MPa", "", "bound of the contact pressure"),
+    "variants": Symbol("", "", "", "variants that were tried"),
+}
+
+MODIFY_FIGURES = {
+    name: CHECK[name]
+    for name in (
+        "transmission_error_peak_to_peak",
+        "transmission_error_harmonics",
+        "contact_pressure",
+        "root_tension",
+        "face_load_factor",
+    )
+} | {"edge_positions": Symbol("", "", "", "positions where the edge of a tip touches")}
+"""What a mesh comes to before and after."""

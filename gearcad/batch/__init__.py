@@ -1,15 +1,15 @@
 """Design tables: every row a design, made in parallel processes, and one table of results.
 
-table.py (spec)  ->  run.py: check all rows, make them, write the results
+table.py (designs)  ->  run.py: check all rows, make them, write the results
                        pool.py     threads here or on a Dask cluster
                        worker.py   a process of its own for each thread
                        row.py      one row: what is missing of it, made and published
+                       stages.py   the jobs that a row does, and the parts that they make
                        manifest.py what a finished folder holds, of which inputs
 
 """
 
 from gearcad.batch.results import Decimal
-from gearcad.batch.run import Progress, Summary, run_table
-from gearcad.batch.steps import Step, Wanted
+from gearcad.batch.run import Summary, run_table
 
-__all__ = ["Decimal", "Progress", "Step", "Summary", "Wanted", "run_table"]
+__all__ = ["Decimal", "Summary", "run_table"]

@@ -16,10 +16,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from gearcad.batch.manifest import Manifest, Part, inputs_hash, publish, read_manifest
-from gearcad.batch.steps import Step, Wanted, make_parts, part_of
+from gearcad.batch.stages import DATA, make_parts
 from gearcad.designs.table import Row
 from gearcad.errors import GearcadError, OutputError, SpecError
+from gearcad.jobs.job import Job
 from gearcad.output import UNWRITABLE, unwritable
+from gearcad.per_gear import PerGear
 
 __all__ = ["Record", "Status", "Task", "check_rows", "make_row"]
 
@@ -27,8 +29,8 @@ _HOPELESS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.ENOENT)
 """Errors of the target that every other row would meet too."""
 
 
-_WARNING = ("gear", "pinion", "wheel", "pair", "check")
-"""What has warnings in its document."""
+_PER_GEAR = ("working_pitch_diameters", "tip_clearances", "active_root_diameters")
+"""What a pair has of pinion and wheel each."""
 
 
 class Status(Enum):
@@ -41,10 +43,10 @@ class Status(Enum):
 
 @dataclass(frozen=True)
 class Task:
-    """One row and what to make of it: in `folder`/NAME, by way of `workspace` on the same file system."""
+    """One row and the jobs to do on it: in `folder`/NAME, by way of `workspace` on the same file system."""
 
     row: Row
-    wanted: Wanted
+    stages: tuple[Job[Any, Any], ...]
     folder: Path
     workspace: Path
     fresh: bool
@@ -76,7 +78,7 @@ def make_row(task: Task) -> Record:
     try:
         _require_workspace(task)
         folder = task.folder / task.row.name
-        updates = [_update(task, folder, stage) for stage in task.wanted.stages]
+        updates = [_update(task, folder, job) for job in task.stages]
         document = _document(task, folder)
     except GearcadError as error:
         stop = isinstance(error, OutputError) and getattr(error.__cause__, "errno", None) in _HOPELESS
@@ -90,7 +92,7 @@ def make_row(task: Task) -> Record:
     return Record(
         number=number,
         status=Status.OK,
-        warnings=tuple(f"{part}: {text}" for part in _WARNING for text in document.get(part, {}).get("warnings", ())),
+        warnings=tuple(_warnings(document)),
         seconds=_since(began) if any(update.made for update in updates) else None,
         files=tuple(file for update in updates for part in update.parts for file in part.files),
         values=dict(_flat(document)),
@@ -108,19 +110,23 @@ def _since(began: float) -> float:
 
 
 def _document(task: Task, folder: Path) -> dict[str, Any]:
-    """What data.json says, and the figures of check.json."""
-    document: dict[str, Any] = json.loads((folder / "data.json").read_text(encoding="utf-8"))
-    if Step.CHECK in task.wanted.steps:
-        check = json.loads((folder / "check.json").read_text(encoding="utf-8"))
-        document["check"] = {
-            "passed": check["passed"],
-            "numerics": check["numerics"],
-            "strength": check["strength"],
-            **check["summary"],
-            "rating": check["rating"],
-            "warnings": check["warnings"],
-        }
+    """What data.json says, and the figures of the other jobs' documents under their verbs."""
+    document = _read(folder, DATA)
+    for job in task.stages:
+        if job.verb != DATA and job.verb in job.parts:
+            document[job.verb] = job.figures(_read(folder, job.verb))
     return document
+
+
+def _read(folder: Path, verb: str) -> dict[str, Any]:
+    document: dict[str, Any] = json.loads((folder / f"{verb}.json").read_text(encoding="utf-8"))
+    return document
+
+
+def _warnings(document: dict[str, Any]) -> Iterator[str]:
+    """Each led by what it is about."""
+    for part, of in document.items():
+        yield from (f"{part}: {text}" for text in (of.get("warnings", ()) if isinstance(of, dict) else ()))
 
 
 class _Update(NamedTuple):
@@ -130,9 +136,9 @@ class _Update(NamedTuple):
     parts: list[Part]
 
 
-def _update(task: Task, folder: Path, wanted: dict[str, dict[str, Any]]) -> _Update:
-    """Make what is missing of the parts of one stage."""
-    row = task.row
+def _update(task: Task, folder: Path, job: Job[Any, Any]) -> _Update:
+    """Make what is missing of a job's parts."""
+    row, wanted = task.row, job.parts
     inputs = inputs_hash({"name": row.name} | row.values)
     before = read_manifest(folder)
     kept = _kept(before, inputs, folder)
@@ -140,8 +146,8 @@ def _update(task: Task, folder: Path, wanted: dict[str, dict[str, Any]]) -> _Upd
     if missing:
         design = row.design()
         with _staging(task, folder) as staging:
-            make_parts(design, missing, task.wanted, staging)
-            made = _parts_in(staging, wanted)
+            make_parts(job, design, missing, staging)
+            made = _parts_in(staging, job)
             publish(staging, folder, Manifest(inputs, kept | made), before)
         kept |= made
     return _Update(bool(missing), [kept[name] for name in wanted])
@@ -171,22 +177,22 @@ def _kept(before: Manifest | None, inputs: str, folder: Path) -> dict[str, Part]
     return {name: part for name, part in before.parts.items() if part.is_there(folder)}
 
 
-def _parts_in(staging: Path, options: Mapping[str, Mapping[str, Any]]) -> dict[str, Part]:
-    files: dict[str, dict[str, int]] = {}
+def _parts_in(staging: Path, job: Job[Any, Any]) -> dict[str, Part]:
+    options, files = job.parts, dict[str, dict[str, int]]()
     for file in sorted(staging.iterdir()):
-        files.setdefault(part_of(file.name), {})[file.name] = file.stat().st_size
+        files.setdefault(job.part_of(file.name), {})[file.name] = file.stat().st_size
     return {name: Part(options[name], of) for name, of in files.items()}
 
 
 def _flat(document: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """The document's values under dotted keys; two of a pair are the pinion's and the wheel's; warnings have a column."""
+    """The document's values under dotted keys; what pinion and wheel each have under their names; warnings have a column."""
     for key, value in document.items():
         if isinstance(value, dict):
             yield from _flat(value, f"{prefix}{key}.")
         elif key in ("warnings", "notices") or not prefix:
             continue
-        elif isinstance(value, list) and prefix == "pair.":
-            yield from ((f"{prefix}{key}.{gear}", of_gear) for gear, of_gear in zip(("pinion", "wheel"), value, strict=True))
+        elif prefix == "pair." and key in _PER_GEAR:
+            yield from ((f"{prefix}{key}.{role.value}", of) for role, of in PerGear(*value).items())
         elif isinstance(value, list):
             yield prefix + key, tuple(value)
         else:

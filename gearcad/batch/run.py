@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import errno
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 from filelock import FileLock, Timeout
 
@@ -16,13 +17,15 @@ from gearcad.batch.journal import Journal
 from gearcad.batch.pool import ClusterLostError, Outcome, Pool, open_pool
 from gearcad.batch.results import FILES, Decimal, write_results
 from gearcad.batch.row import Record, Status, Task, check_rows, make_row
-from gearcad.batch.steps import Wanted
+from gearcad.batch.stages import stages
 from gearcad.batch.worker import WorkerLostError
 from gearcad.designs.table import Row, Table, open_table
 from gearcad.errors import OutputError, SpecError, require_number
+from gearcad.jobs.job import Job
 from gearcad.output import UNWRITABLE, unwritable
+from gearcad.progress import Progress
 
-__all__ = ["Progress", "Summary", "run_table"]
+__all__ = ["Summary", "run_table"]
 
 WORKSPACE = ".gearcad-batch"
 """Folder inside the output folder where rows grow; it is there during a run, and after one that was killed."""
@@ -32,9 +35,6 @@ _LOCK = "lock"
 _ROWS_PER_CHECK = 50
 _CHECK_SECONDS = 600.0
 _LONGEST_LIMIT = 1e6
-
-Progress = Callable[[str, int, int, int | None], None]
-"""Called with what is being done ("checking", "making"), rows done, rows failed, and rows there are (None: not known yet)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,7 +56,7 @@ class Summary:
 def run_table(
     path: Path | str,
     folder: Path,
-    wanted: Wanted,
+    wanted: Sequence[Job[Any, Any]],
     *,
     jobs: int | None = None,
     cluster: str | None = None,
@@ -66,18 +66,21 @@ def run_table(
     decimal: Decimal = Decimal.POINT,
     progress: Progress | None = None,
 ) -> Summary:
-    """Make every row of the design table at `path` in a folder of its own inside `folder`, and the table of results.
+    """Do the `wanted` jobs on every row of the design table at `path`, each row in a folder of its own inside `folder`.
+
+    Their documents and the files of `build` are kept there, and the table of results has their figures.
 
     First all rows are checked; if any is at fault nothing is made, unless `keep_going`. What a former run has made of the
     same inputs by the same gearcad stays, unless `fresh`. A row gets `time_limit` (s). `jobs` and `cluster` are those of
     `open_pool`. Raises SpecError with one line per fault, ParameterError, and OutputError for a folder that cannot be written.
     """
+    jobs_of_row = stages(wanted)
     require_number("time_limit", time_limit, "s", above=0, at_most=_LONGEST_LIMIT)
     table = open_table(path)
     if table.path.resolve() in [(folder / name).resolve() for name in FILES]:
         raise OutputError("output", str(folder), f"has the table itself as its {table.path.name}; give another folder")
     with closing(Journal()) as journal, open_pool(jobs, cluster) as pool:
-        run = _Run(journal, pool, progress or _silent)
+        run = _Run(journal, pool, progress)
         faults = run.check(table)
         if not run.total:
             raise SpecError(f"{table.path}: has a heading but no design; add a row with a name for each gear or pair")
@@ -85,7 +88,7 @@ def run_table(
             raise SpecError("\n".join(faults))
         with _workspace(folder) as workspace:
             target = workspace.parent
-            tasks = (Task(row, wanted, target, workspace, fresh) for row in journal.open_rows())
+            tasks = (Task(row, jobs_of_row, target, workspace, fresh) for row in journal.open_rows())
             try:
                 run.make(tasks, time_limit)
             except ClusterLostError as error:
@@ -96,14 +99,10 @@ def run_table(
         return run.summary(results)
 
 
-def _silent(_phase: str, _done: int, _failed: int, _total: int | None) -> None:
-    pass
-
-
 class _Run:
     """One run: the journal, the pool, and the count."""
 
-    def __init__(self, journal: Journal, pool: Pool, progress: Progress) -> None:
+    def __init__(self, journal: Journal, pool: Pool, progress: Progress | None) -> None:
         self.journal = journal
         self.pool = pool
         self.progress = progress
@@ -121,7 +120,7 @@ class _Run:
                 if found or row.number in faults:
                     faults[row.number] = [*found, *faults.get(row.number, ())]
             self.done += len(outcome.argument)
-            self.progress("checking", self.done, len(faults), None)
+            self.tell("checking", len(faults), 0)
         for number, lines in faults.items():
             self.journal.finish(Record(number=number, status=Status.FAILED, error="; ".join(lines)))
         self.done = self.failed = len(faults)
@@ -138,7 +137,7 @@ class _Run:
 
     def make(self, tasks: Iterator[Task], time_limit: float) -> None:
         """Make the rows until all are done, or one finds that no other can be."""
-        self.progress("making", self.done, self.failed, self.total)
+        self.tell("making", self.failed, self.total)
         for outcome in self.pool.run(make_row, tasks, time_limit):
             record = _record(outcome)
             if record.stop:
@@ -147,7 +146,12 @@ class _Run:
             self.journal.finish(record)
             self.done += 1
             self.failed += record.status is Status.FAILED
-            self.progress("making", self.done, self.failed, self.total)
+            self.tell("making", self.failed, self.total)
+
+    def tell(self, phase: str, failed: int, whole: int) -> None:
+        """Say how many rows are done of all there are, 0 where that is not known yet, and how many of them failed."""
+        if self.progress is not None:
+            self.progress(f"{phase}, {failed} failed", self.done, whole)
 
     def write_results(self, folder: Path, workspace: Path, decimal: Decimal) -> list[Path]:
         """The table of results; where even that cannot be written, the run says so."""

@@ -9,14 +9,7 @@ import sys
 import click
 
 import gearcad
-from gearcad.cli.checks import check
-from gearcad.cli.designs import build, data, new
-from gearcad.cli.dynamics import dynamics
 from gearcad.cli.group import Commands, debug_option
-from gearcad.cli.modifications import modify
-from gearcad.cli.stiffness import stiffness
-from gearcad.cli.studies import plot, study
-from gearcad.cli.tables import batch
 
 __all__ = ["main"]
 
@@ -44,7 +37,3 @@ def main() -> None:
             stream.reconfigure(errors="replace")  # an old terminal shows ? for a Greek letter, and goes on
     for library in _CHATTY:
         logging.getLogger(library).setLevel(logging.ERROR)
-
-
-for _command in (new, data, build, check, stiffness, dynamics, modify, study, batch, plot):
-    main.add_command(_command)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gearcad.cli.group import debug_option, spec_argument
-from gearcad.cli.progress import job_progress
+from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
 
 if TYPE_CHECKING:
     from gearcad.dynamics.charts.kv import KvChart
@@ -24,9 +24,9 @@ _MOST_PEAKS = 8
 
 @click.command(short_help="Natural frequencies, dynamic factors and spectra of SPEC's pair or train.")
 @spec_argument
-@click.option("-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/NAME]")
-@click.option("--json", "as_json", is_flag=True, help="Print the document of dynamics.json and nothing else.")
-@click.option("--quiet", is_flag=True, help="No progress on the screen.")
+@output_option
+@json_option
+@quiet_option
 @debug_option
 def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
     """Dynamics of the pair of SPEC, under its [load], or of its [train]: what the stiffness of the teeth does to the machine.
@@ -36,30 +36,14 @@ def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> Non
     that part; with model "contact" in [dynamics] its Campbell diagram. Inertias come from the gears' own solids, mesh stiffness
     from one of the methods of `gearcad stiffness`. Writes dynamics.json, dynamics.npz (the arrays) and dynamics.html.
     """
-    import numpy as np
+    from gearcad.jobs.dynamics import Dynamics
 
-    from gearcad.designs import read_spec
-    from gearcad.jobs.dynamics import dynamics_document, simulate
-    from gearcad.output import json_text, staged_files
-    from gearcad.report import write_dynamics_report
+    perform(Dynamics(), spec, output, _show, as_json=as_json, quiet=quiet)
 
-    design = read_spec(spec)
-    with job_progress(shown=not quiet) as progress:
-        study = simulate(design, progress=progress)
-    document = dynamics_document(study, design.name)
-    folder = output if output is not None else Path("output") / design.name
-    with staged_files(folder) as staging:
-        (staging / "dynamics.json").write_text(json_text(document), encoding="utf-8")
-        with (staging / "dynamics.npz").open("wb") as file:
-            np.savez_compressed(file, allow_pickle=False, **study.arrays())
-        write_dynamics_report(study, design.name, staging / "dynamics.html")
-        files = sorted(file.name for file in staging.iterdir())
-    if as_json:
-        click.echo(json_text(document), nl=False)
-        return
-    for line in (*_lines(study), *(f"Warning: {warning}" for warning in study.warnings)):
-        click.echo(line)
-    click.echo("".join(f"{folder / file}\n" for file in files), nl=False)
+
+def _show(_name: str, study: Study) -> None:
+    click.echo("\n".join(_lines(study)))
+    echo_warnings(study.warnings)
 
 
 def _lines(study: Study) -> list[str]:

@@ -6,16 +6,18 @@ import errno
 import signal
 from collections.abc import Callable
 from enum import Enum
+from importlib import import_module
 from pathlib import Path
+from pkgutil import iter_modules
 from typing import Any, NoReturn, TypeVar
 
 import click
 
 from gearcad.errors import GearcadError, ParameterError, SolverError, as_choice, printable, shown
 from gearcad.output import source_date
-from gearcad.solids import Format
+from gearcad.verbs import VERBS
 
-__all__ = ["Commands", "debug_option", "format_option", "parse_choices", "require_new_file", "spec_argument"]
+__all__ = ["Commands", "debug_option", "job_commands", "parse_choices", "require_new_file", "spec_argument"]
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Choice = TypeVar("Choice", bound=Enum)
@@ -30,9 +32,16 @@ INTERRUPTED = 128 + signal.SIGINT
 class Commands(click.Group):
     """A group whose commands end with one line instead of a traceback, and with the exit status that fits."""
 
-    def list_commands(self, ctx: click.Context) -> list[str]:
+    def list_commands(self, _ctx: click.Context) -> list[str]:
         """In the order of use, not of the alphabet."""
-        return list(self.commands)
+        return ["new", *job_commands(), "study", "batch", "plot"]
+
+    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
+        """That of the module of its name, which is imported now: a command is as quick to start as what it needs."""
+        if name not in self.list_commands(ctx):
+            return None
+        found: click.Command = getattr(import_module(f"gearcad.cli.{name}"), name)
+        return found
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; raises SystemExit by way of `ctx.exit`."""
@@ -80,6 +89,12 @@ def _interrupted(error: BaseException | None) -> bool:
     return False
 
 
+def job_commands() -> tuple[str, ...]:
+    """The jobs that are commands: those with a module of their name here."""
+    modules = {each.name for each in iter_modules([str(Path(__file__).parent)])}
+    return tuple(verb for verb in VERBS if verb in modules)
+
+
 def debug_option(command: Command) -> Command:
     def remember(ctx: click.Context, _parameter: click.Parameter, value: bool) -> None:
         # `meta` is shared by a command and its group, so the option works in both places.
@@ -93,12 +108,6 @@ def debug_option(command: Command) -> Command:
 
 def spec_argument(command: Command) -> Command:
     return click.argument("spec", type=click.Path(path_type=Path))(command)
-
-
-def format_option(command: Command) -> Command:
-    offered = ", ".join(kind.value for kind in Format)
-    help_text = f"Comma-separated list of {offered}."
-    return click.option("--format", "formats", default="step,stl", show_default=True, help=help_text)(command)
 
 
 def parse_choices(parameter: str, text: str, kind: type[Choice]) -> tuple[Choice, ...]:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from gearcad.batch import Progress as RowProgress
     from gearcad.progress import Expected, Progress
 
 __all__ = ["file_progress", "job_progress", "row_progress"]
@@ -117,7 +116,7 @@ class _JobLines:
 
 
 @contextmanager
-def row_progress(*, shown: bool) -> Iterator[RowProgress | None]:
+def row_progress(*, shown: bool) -> Iterator[Progress | None]:
     """Rows done, failed, rate and time left, as a bar on stderr; a line now and then where that is no terminal."""
     if not shown:
         yield None
@@ -126,7 +125,7 @@ def row_progress(*, shown: bool) -> Iterator[RowProgress | None]:
 
     console = Console(stderr=True)
     if not console.is_terminal:
-        yield _Lines()
+        yield _RowLines()
         return
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
     from rich.progress import Progress as Bar
@@ -135,40 +134,41 @@ def row_progress(*, shown: bool) -> Iterator[RowProgress | None]:
         TextColumn("{task.description:<9}"),
         BarColumn(),
         MofNCompleteColumn(),
-        TextColumn("{task.fields[failed]} failed"),
+        TextColumn("{task.fields[detail]}"),
         TextColumn("{task.fields[rate]}"),
         TimeRemainingColumn(),
     )
     with Bar(*columns, console=console, transient=True) as bar:
-        task = bar.add_task("", total=None, failed=0, rate="")
+        task = bar.add_task("", total=None, detail="", rate="")
         phase = ""
 
-        def show(what: str, done: int, failed: int, total: int | None) -> None:
+        def show(what: str, done: float, whole: float) -> None:
             nonlocal phase
-            if what != phase:
-                bar.reset(task, total=total, completed=0)
-                phase = what
+            step, _, detail = what.partition(", ")
+            if step != phase:
+                bar.reset(task, total=whole or None, completed=0)
+                phase = step
             speed = bar.tasks[0].speed
             rate = f"{speed:.3g} rows/s" if speed else ""
-            bar.update(task, description=what, completed=done, total=total, failed=failed, rate=rate)
+            bar.update(task, description=step, completed=done, total=whole or None, detail=detail, rate=rate)
 
         yield show
 
 
-class _Lines:
+class _RowLines:
     """Progress where there is no terminal: a line at the end of each phase and every few seconds."""
 
     def __init__(self) -> None:
         self.began = self.last = time.monotonic()
         self.phase = ""
 
-    def __call__(self, phase: str, done: int, failed: int, total: int | None) -> None:
-        now = time.monotonic()
+    def __call__(self, what: str, done: float, whole: float) -> None:
+        now, (phase, _, detail) = time.monotonic(), what.partition(", ")
         if phase != self.phase:
             self.phase, self.began = phase, now
-        if done != total and now - self.last < _SECONDS_BETWEEN_LINES:
+        if done != whole and now - self.last < _SECONDS_BETWEEN_LINES:
             return
         self.last = now
         rate = done / max(now - self.began, 1e-3)
-        left = f", {(total - done) / rate:.0f} s left" if total and rate and done < total else ""
-        click.echo(f"{phase}: {done}{f' of {total}' if total else ''} rows, {failed} failed, {rate:.3g} rows/s{left}", err=True)
+        left = f", {(whole - done) / rate:.0f} s left" if rate and done < whole else ""
+        click.echo(f"{phase}: {done}{f' of {whole}' if whole else ''} rows, {detail}, {rate:.3g} rows/s{left}", err=True)

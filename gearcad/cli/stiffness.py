@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gearcad.cli.group import debug_option, spec_argument
-from gearcad.cli.progress import job_progress
+from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
 
 if TYPE_CHECKING:
     from gearcad.stiffness import StiffnessComparison
@@ -26,9 +26,9 @@ _NONE = "-"
 )
 @click.option("--positions", type=int, default=0, metavar="N", help="Over one base pitch.  [default: the method's own]")
 @click.option("--fourier", "harmonics", type=int, default=0, metavar="N", help="Write the first N harmonics of each curve too.")
-@click.option("-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/NAME]")
-@click.option("--json", "as_json", is_flag=True, help="Print the document of stiffness.json and nothing else.")
-@click.option("--quiet", is_flag=True, help="No progress on the screen.")
+@output_option
+@json_option
+@quiet_option
 @debug_option
 def stiffness(
     spec: Path,
@@ -53,39 +53,30 @@ def stiffness(
     Writes stiffness.json, stiffness.csv (the curves) and stiffness.html. Bodies are held where [check] in SPEC says, or in
     their bores. A method that cannot treat the pair is left out, with its reason.
     """
-    from gearcad.designs import read_spec
-    from gearcad.errors import ParameterError, require_whole
-    from gearcad.jobs.stiffness import compare, curves_csv, expected_comparison, stiffness_document
-    from gearcad.output import json_text, staged_files
-    from gearcad.report import write_stiffness_report
+    from gearcad.errors import ParameterError
+    from gearcad.jobs.stiffness import Stiffness
     from gearcad.stiffness import METHODS
 
     for name in methods:
         if name not in (_ALL, *METHODS):
             raise ParameterError("method", name, f"must be one of {', '.join((_ALL, *METHODS))}")
     wanted = tuple(METHODS) if not methods or _ALL in methods else tuple(dict.fromkeys(methods))
-    most = min(positions or METHODS[name].default_positions for name in wanted) // 4
-    require_whole("fourier", harmonics, at_least=0, at_most=max(most, 0))
-    design = read_spec(spec)
-    expected = None if quiet else expected_comparison(design, wanted, positions)
-    with job_progress(shown=not quiet, expected=expected) as progress:
-        comparison = compare(design, methods=wanted, positions=positions, progress=progress)
-    document = stiffness_document(comparison, design.name, harmonics)
-    folder = output if output is not None else Path("output") / design.name
-    with staged_files(folder) as staging:
-        (staging / "stiffness.json").write_text(json_text(document), encoding="utf-8")
-        (staging / "stiffness.csv").write_text(curves_csv(comparison), encoding="utf-8", newline="")
-        write_stiffness_report(comparison, design.name, staging / "stiffness.html")
-        files = sorted(file.name for file in staging.iterdir())
-    if as_json:
-        click.echo(json_text(document), nl=False)
-        return
-    for line in (*_table(comparison), *(str(folder / file) for file in files)):
-        click.echo(line)
+    job = Stiffness(methods=wanted, positions=positions, fourier=harmonics)
+    perform(job, spec, output, _show, as_json=as_json, quiet=quiet)
+
+
+def _show(_name: str, comparison: StiffnessComparison) -> None:
+    """The methods, a line each, then what to know of them."""
+    from gearcad.stiffness import METHODS
+
+    click.echo("\n".join(_table(comparison)))
+    echo_warnings(tuple(f"{METHODS[cycle.method].title}: {note}" for cycle in comparison.cycles for note in cycle.notes))
+    for name, reason in comparison.left_out.items():
+        click.echo(f"{METHODS[name].title}: left out: {reason}")
 
 
 def _table(comparison: StiffnessComparison) -> list[str]:
-    """The methods, a line each, then what to know of them."""
+    """The methods, a line each."""
     from gearcad.stiffness import METHODS
 
     heads = ("mean", "max", "min", "at C", "c_γβ", "c_γα", "one pair", "to 3d")
@@ -104,8 +95,6 @@ def _table(comparison: StiffnessComparison) -> list[str]:
         )
         lines.append(_line(METHODS[cycle.method].title, [cell if isinstance(cell, str) else f"{cell:.5g}" for cell in cells]))
     lines.append("c_γβ: mean secant, c_γα: mean tangent stiffness per face width; 'to 3d': of the mean from that of 3d")
-    lines += [f"Warning: {METHODS[cycle.method].title}: {note}" for cycle in comparison.cycles for note in cycle.notes]
-    lines += [f"{METHODS[name].title}: left out: {reason}" for name, reason in comparison.left_out.items()]
     return lines
 
 

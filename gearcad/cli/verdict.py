@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from gearcad.check.comparison import Comparison, Role
+from gearcad.cli.job import echo_warnings
 
 if TYPE_CHECKING:
     from gearcad.check.result import CheckResult
@@ -44,12 +45,12 @@ def print_verdict(name: str, result: CheckResult) -> None:
         rows = [_Line(row.cells[:-1], row.style) for row in rows]
     lines = [*_aligned(rows), (_WORDS, "")]
     lines += [(f"Not evaluated: {', '.join(quantities)}: {reason}", "yellow") for reason, quantities in _reasons(result)]
-    lines += [(f"Warning: {notice}", "yellow") for notice in result.notices]
-    verdict = f"{name} at {result.torque:g} N·m: {result.verdict}"
-    lines.append((verdict, "bold green" if result.passed else "bold red"))
     for text, style in lines:
         # Soft wrap: a narrow window may break a line, but never cut a number.
         console.print(Text(text, style=style), soft_wrap=True)
+    echo_warnings(result.notices)
+    verdict = f"{name} at {result.torque:g} N·m: {result.verdict}"
+    console.print(Text(verdict, style="bold green" if result.passed else "bold red"), soft_wrap=True)
 
 
 def _row(of: Comparison) -> _Line:

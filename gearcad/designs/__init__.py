@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from gearcad.designs.design import Design, DesignKind
     from gearcad.designs.kinds.gear import GearDesign
     from gearcad.designs.kinds.geared import GearedDesign, Inputs
-    from gearcad.designs.kinds.pair import PairDesign, as_design
+    from gearcad.designs.kinds.pair import PairDesign
     from gearcad.designs.kinds.train import TrainDesign
     from gearcad.designs.reader import design_from_tables, read_spec
     from gearcad.designs.table import Row, Table, open_table
@@ -23,7 +23,6 @@ __all__ = [
     "Row",
     "Table",
     "TrainDesign",
-    "as_design",
     "design_from_tables",
     "open_table",
     "read_spec",

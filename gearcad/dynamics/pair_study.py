@@ -58,6 +58,11 @@ class PairStudy:
         return f"<PairStudy of {self.pair.name!r}: {self.study!r}>"
 
     @property
+    def name(self) -> str:
+        """Of the pair."""
+        return self.pair.name
+
+    @property
     def notices(self) -> tuple[Notice, ...]:
         """What to know before trusting it."""
         factor = self.study.method_b
@@ -109,6 +114,11 @@ class ContactStudy:
 
     def __repr__(self) -> str:
         return f"<ContactStudy of {self.pair.name!r}: {len(self.study.speeds)} speeds up to {self.study.speeds.max():.6g} rpm>"
+
+    @property
+    def name(self) -> str:
+        """Of the pair."""
+        return self.pair.name
 
     @property
     def notices(self) -> tuple[Notice, ...]:

@@ -71,6 +71,11 @@ class ModalStudy:
     modes: NaturalModes
 
     @property
+    def name(self) -> str:
+        """Of the train."""
+        return self.train.name
+
+    @property
     def notices(self) -> tuple[Notice, ...]:
         """What to know before trusting it."""
         return _missed(self.train, self.modes)
@@ -143,6 +148,11 @@ class TrainStudy:
         """Speed of the first mesh's pinion at circular tooth frequencies of that mesh (1/s)."""
         result: Floats = np.asarray(frequencies, float) * 30 / (math.pi * self.train.meshes[0].teeth)
         return result
+
+    @property
+    def name(self) -> str:
+        """Of the train."""
+        return self.train.name
 
     @property
     def notices(self) -> tuple[Notice, ...]:

@@ -1,83 +1,95 @@
-"""Build: a design in, its files out - solids, meshes, contours, points, and the data sheet as `data.json`."""
+"""Build: the files of a design - solids, facets, contours, points, and the data sheet as `data.json`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any
 
+from gearcad import __version__
 from gearcad.designs import Design, GearDesign, GearedDesign, PairDesign
-from gearcad.errors import GeometryError, ParameterError
-from gearcad.output import json_text, staged_files
+from gearcad.errors import GeometryError, ParameterError, as_choice
+from gearcad.geometry import Gear, GearPair
+from gearcad.jobs.data import Data
+from gearcad.jobs.job import Job, Writer
+from gearcad.jobs.subject import as_design
 from gearcad.progress import Progress
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.files.formats import formats_minding
 from gearcad.solids.files.products import GearProduct, PairProduct
 
-__all__ = ["DEFAULT_FORMATS", "build"]
+__all__ = ["Build", "build"]
 
-DEFAULT_FORMATS = (Format.STEP, Format.STL)
-
-_PLAIN = FileOptions()
+_DEFAULT = (Format.STEP, Format.STL)
 
 _WHERE = {"bracket": "the bracket is part of assembly.step", "circles": "the circles are drawn there"}
 """Where options show that no file but those of a few formats can show."""
 
 
-class _Step(NamedTuple):
-    """One file to write: its name, and what writes it when given the path."""
-
-    file: str
-    write: Callable[[Path], None]
-
-
-def build(
-    design: Design,
-    folder: Path,
-    formats: Iterable[Format] = DEFAULT_FORMATS,
-    options: FileOptions = _PLAIN,
-    progress: Progress | None = None,
-) -> list[Path]:
-    """Write the design's files into `folder` and return their paths in the order they were made.
+@dataclass(frozen=True, kw_only=True)
+class Build(Job[GearedDesign, GearedDesign]):
+    """The files of a design in some formats. Its result is the design itself: solids are made as they are written.
 
     Per gear `pinion.step`, `wheel.step` or `gear.step` and so on; a pair also gets `assembly.*`, posed in mesh, in the formats
-    that have assemblies. All files appear, or none.
-    Raises ParameterError or GeometryError for wrong input, a folder that cannot be written too.
+    that have assemblies. Raises ParameterError without a format.
     """
-    geared = design.accepted(GearDesign, PairDesign, why="there are no teeth")
-    wanted = set(formats)
-    _check(geared, wanted, options)
-    steps = list(_plan(geared, [kind for kind in Format if kind in wanted], options))
-    with staged_files(folder) as staging:
-        for done, step in enumerate(steps):
-            if progress is not None:
-                progress(step.file, done, len(steps))
-            step.write(staging / step.file)
-    return [folder / step.file for step in steps]
 
+    verb = "build"
+    accepts = (GearDesign, PairDesign)
+    why = "there are no teeth"
+    solves = False
 
-def _check(design: GearedDesign, formats: set[Format], options: FileOptions) -> None:
-    if not formats:
-        raise ParameterError("format", "", f"must be one or more of {', '.join(kind.value for kind in Format)}")
-    if options.bracket and design.assembly is None:
-        raise GeometryError("bracket", True, "needs a pair: a single gear has no assembly")
-    for option, where in _WHERE.items():
-        needed = formats_minding(option)
-        if getattr(options, option) and not formats.intersection(needed):
-            raise GeometryError(option, True, f"needs the format {' or '.join(kind.value for kind in needed)}: {where}")
+    formats: tuple[Format, ...] = _DEFAULT
+    options: FileOptions = field(default_factory=FileOptions)
 
+    def __post_init__(self) -> None:
+        if not self.formats:
+            raise ParameterError("format", "", f"must be one or more of {', '.join(kind.value for kind in Format)}")
 
-def _plan(design: GearedDesign, formats: list[Format], options: FileOptions) -> Iterator[_Step]:
-    """Every file of the design, quickest first."""
-    yield _Step("data.json", partial(_write_data, design))
-    pair = PairProduct(design.assembly, options) if design.assembly is not None else None
-    gears = _products(design, pair, options)
-    for kind in reversed(formats):
-        for name, product in gears.items():
-            yield _Step(f"{name}.{kind.value}", partial(kind.entry.write, product))
-        if pair is not None and kind.entry.write_pair is not None:
-            yield _Step(f"assembly.{kind.value}", partial(kind.entry.write_pair, pair))
+    def _run(self, design: GearedDesign, _progress: Progress | None) -> GearedDesign:
+        if self.options.bracket and design.assembly is None:
+            raise GeometryError("bracket", True, "needs a pair: a single gear has no assembly")
+        for option, where in _WHERE.items():
+            needed = formats_minding(option)
+            if getattr(self.options, option) and not set(self.formats).intersection(needed):
+                raise GeometryError(option, True, f"needs the format {' or '.join(kind.value for kind in needed)}: {where}")
+        return design
+
+    def document(self, result: GearedDesign) -> dict[str, Any]:
+        """Whose files these are; `--json` tells of them."""
+        return {"kind": "build", "name": result.name, "gearcad": __version__}
+
+    def files(self, result: GearedDesign) -> dict[str, Writer]:
+        """Every file of the design, quickest first."""
+        found = Data().files(result)
+        pair = PairProduct(result.assembly, self.options) if result.assembly is not None else None
+        gears = _products(result, pair, self.options)
+        for kind in reversed(Format):
+            if kind not in self.formats:
+                continue
+            found |= {f"{name}.{kind.value}": partial(kind.entry.write, product) for name, product in gears.items()}
+            if pair is not None and kind.entry.write_pair is not None:
+                found[f"assembly.{kind.value}"] = partial(kind.entry.write_pair, pair)
+        return found
+
+    @property
+    def parts(self) -> dict[str, dict[str, Any]]:
+        """The data, and each format with the options that matter to it."""
+        return Data().parts | {kind.value: kind.minded(self.options) for kind in self.formats}
+
+    def part_of(self, file: str) -> str:
+        """Formats are called as their files end."""
+        return Data().part_of(file) or file.rpartition(".")[2]
+
+    def for_row(self, design: Design, parts: Collection[str]) -> Job[Any, Any]:
+        """These formats only, with the options that matter to them; a gear has no bracket."""
+        formats = tuple(kind for kind in self.formats if kind.value in parts)
+        if not formats:
+            return Data()
+        options = FileOptions(**{name: value for kind in formats for name, value in kind.minded(self.options).items()})
+        return Build(formats=formats, options=options if isinstance(design, PairDesign) else replace(options, bracket=False))
 
 
 def _products(design: GearedDesign, pair: PairProduct | None, options: FileOptions) -> dict[str, GearProduct]:
@@ -87,5 +99,31 @@ def _products(design: GearedDesign, pair: PairProduct | None, options: FileOptio
     return {name: GearProduct(gear=gear, name=design.name, options=options) for name, gear in design.gears.items()}
 
 
-def _write_data(design: Design, path: Path) -> None:
-    path.write_text(json_text(design.to_dict()), encoding="utf-8")
+def build(
+    subject: Design | GearPair | Gear,
+    folder: Path | str,
+    formats: Iterable[Format | str] = _DEFAULT,
+    *,
+    chord_error: float = FileOptions.chord_error,
+    bracket: bool = False,
+    circles: bool = False,
+    progress: Progress | None = None,
+) -> list[Path]:
+    """Write the files of a gear or a pair into `folder`, all or none, and return their paths in the order they were made.
+
+    `formats` are of "step", "stl", "3mf", "glb", "dxf" and "csv". `chord_error` (mm) bounds the facets; `bracket` puts a pair
+    on two shafts with a bracket (STEP); `circles` draws the tip, reference, base and root circles (DXF).
+
+    >>> import tempfile
+    >>> from gearcad import Gear
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     [file.name for file in build(Gear(teeth=20, normal_module=2, face_width=20), folder, ["dxf", "csv"])]
+    ['data.json', 'gear.csv', 'gear.dxf']
+
+    Raises ParameterError or GeometryError for wrong input, a folder that cannot be written too, SolverError where the CAD
+    kernel fails.
+    """
+    wanted = tuple(as_choice("format", each, Format) for each in formats)
+    options = FileOptions(chord_error=chord_error, bracket=bracket, circles=circles)
+    job = Build(formats=wanted, options=options)
+    return job.write(job.run(as_design(subject)), Path(folder), progress)

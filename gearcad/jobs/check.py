@@ -1,54 +1,113 @@
-"""Assess: the structural check of a pair, or of what a spec describes."""
+"""Check: contact and root stress of a pair under its load by finite elements, beside Hertz and ISO 6336."""
 
 from __future__ import annotations
 
-from typing import Unpack
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar, Unpack
 
+from gearcad.check.document import check_document
+from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult
 from gearcad.check.run import check_pair, expected_check
-from gearcad.designs import Design, Inputs, PairDesign, as_design
+from gearcad.check.solid.result import SolidCheck
+from gearcad.designs import Design, Inputs, PairDesign
 from gearcad.geometry import GearPair
+from gearcad.jobs.job import Job, Writer
+from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.per_gear import PerGear, Role
 from gearcad.progress import Expected, Progress
 
-__all__ = ["NO_MATE", "assess", "expected_assessment"]
+__all__ = ["Check", "check"]
 
-NO_MATE = "a single gear has nothing to press against"
+_NO_LOAD = "without it there is no stress"
+
+_FIELDS = PerGear("stress_pinion.vtu", "stress_wheel.vtu")
 
 
-def assess(
-    subject: Design | GearPair, load: Load | None = None, *, progress: Progress | None = None, **inputs: Unpack[Inputs]
+@dataclass(frozen=True, kw_only=True)
+class Check(Job[PairDesign, CheckResult]):
+    """The structural check of a pair; `model` ("2d" or "3d") wins over that of the design's own [check]."""
+
+    verb = "check"
+    accepts = (PairDesign,)
+    why = "a single gear has nothing to press against"
+    sometimes: ClassVar[tuple[str, ...]] = _FIELDS
+
+    model: str | None = None
+
+    def _run(self, design: PairDesign, progress: Progress | None) -> CheckResult:
+        load, material, options = design.loaded(_NO_LOAD), design.material or Material(), self._options(design)
+        return check_pair(design.pair, material, load, options, progress, design.mounting, design.rating)
+
+    def _expected(self, design: PairDesign) -> Expected:
+        load, material, options = design.loaded(_NO_LOAD), design.material or Material(), self._options(design)
+        return expected_check(design.pair, material, load, options, design.mounting, design.rating)
+
+    def _options(self, design: PairDesign) -> CheckOptions | None:
+        if self.model is None:
+            return design.check
+        return replace(design.check or CheckOptions(), model=self.model)
+
+    def document(self, result: CheckResult) -> dict[str, Any]:
+        """What check.json holds: stiffness in N/(mm µm) of common face width, transmission error in µm, stresses in MPa."""
+        return check_document(result)
+
+    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+        """The verdict, the summary and the rating."""
+        verdict = {name: document[name] for name in ("passed", "numerics", "strength")}
+        return {**verdict, **document["summary"], "rating": document["rating"], "warnings": document["warnings"]}
+
+    def files(self, result: CheckResult) -> dict[str, Writer]:
+        """check.json, the report, and of solid bodies the stresses in the most stressed tooth of each gear."""
+        found: dict[str, Writer] = {
+            "check.json": partial(self.write_document, result),
+            "report.html": partial(_write_report, result),
+        }
+        if isinstance(result, SolidCheck):
+            found |= {name: partial(_write_field, result, role) for role, name in _FIELDS.items()}
+        return found
+
+
+def _write_report(result: CheckResult, path: Path) -> None:
+    from gearcad.report import write_report
+
+    write_report(result, result.pair.name, path)
+
+
+def _write_field(result: SolidCheck, role: Role, path: Path) -> None:
+    from gearcad.contact.solid.field import shown_stress, worst_field, write_vtu
+
+    field = worst_field(result.cycle, role)
+    write_vtu(field, path, shown_stress(result.cycle, role, field))
+
+
+def check(
+    subject: Design | GearPair,
+    load: Load | None = None,
+    *,
+    model: str | None = None,
+    progress: Progress | None = None,
+    **inputs: Unpack[Inputs],
 ) -> CheckResult:
-    """Check a pair as mounted, under a load, with the options of `check`.
+    """Check a pair as mounted, under a load, by finite elements: contact and root stress, beside Hertz and ISO 6336.
 
-    `material`, `mounting`, `check` and `rating`, as the load, stand in place of those of a design; a pair has the defaults.
+    `model` is "2d" (a plane section) or "3d" (solid bodies); None stands for 3d where gears are helical. `material`,
+    `mounting`, `check` (CheckOptions) and `rating` (RatingOptions), as the load, stand in place of those of a design; a pair
+    has the defaults.
 
     >>> from gearcad import Gear, GearPair, Load
     >>> from gearcad.check import CheckOptions
     >>> gears = [Gear(teeth=z, normal_module=2, face_width=20, tooth_thinning=0.03) for z in (20, 30)]
     >>> quick = CheckOptions(positions=12, refinement=0.5, convergence="off", body_teeth=3, torques=[20])
-    >>> result = assess(GearPair(pinion=gears[0], wheel=gears[1]), Load(torque=20), check=quick)
+    >>> result = check(GearPair(pinion=gears[0], wheel=gears[1]), Load(torque=20), check=quick)
     >>> f"{result.rating.to_dict()['p_0']:.0f} MPa by Hertz, {result.summary.contact_pressure_pitch_point:.0f} MPa here"
     '683 MPa by Hertz, 683 MPa here'
 
-    Raises ParameterError for a design without pair or load, and what `check_pair` raises.
+    Raises ParameterError without a pair or a load, ParameterError and GeometryError for what cannot be checked, SolverError
+    where a solver fails.
     """
-    design, given = _loaded(as_design(subject, load, **inputs))
-    from threadpoolctl import threadpool_limits
-
-    # The dense systems are small, and solid bodies are solved side by side: more threads cost more than they bring.
-    with threadpool_limits(1):
-        material = design.material or Material()
-        return check_pair(design.pair, material, given, design.check, progress, design.mounting, design.rating)
-
-
-def expected_assessment(design: Design) -> Expected:
-    """What `assess` is expected to take. Raises what it raises for a design that cannot be checked."""
-    of, load = _loaded(design)
-    return expected_check(of.pair, of.material or Material(), load, of.check, of.mounting, of.rating)
-
-
-def _loaded(design: Design) -> tuple[PairDesign, Load]:
-    pair = design.accepted(PairDesign, why=NO_MATE)
-    return pair, pair.loaded("without it there is no stress")
+    return Check(model=model).run(as_design(subject, load, **inputs), progress)

@@ -1,105 +1,138 @@
-"""Simulate: the dynamics of a pair of gears, or of a train."""
+"""Dynamics: what the stiffness of its teeth does to a pair of gears, or to a train."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
 from typing import Any, Unpack
+
+import numpy as np
 
 from gearcad import __version__
 from gearcad.check.options import CheckOptions
-from gearcad.designs import Design, Inputs, PairDesign, TrainDesign, as_design
-from gearcad.designs.design import not_accepted
+from gearcad.designs import Design, Inputs, PairDesign, TrainDesign
 from gearcad.dynamics.options import DynamicsOptions, PairModel
 from gearcad.dynamics.pair_study import ContactStudy, PairStudy, study_contact, study_pair
 from gearcad.dynamics.study import ModalStudy, TrainStudy, study_modes, study_train
+from gearcad.dynamics.trains.train import Train
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
+from gearcad.jobs.job import Job, Writer
+from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
 from gearcad.per_gear import PerGear, Role
-from gearcad.progress import Progress
+from gearcad.progress import Agenda, Progress
 from gearcad.stiffness.methods import METHODS
+from gearcad.symbols import DYNAMICS_RESULTS
 
-__all__ = ["Study", "dynamics_document", "simulate"]
+__all__ = ["Dynamics", "Study", "dynamics"]
 
 Study = TrainStudy | ModalStudy | PairStudy | ContactStudy
 
-_STEPS = {
-    "train": ("modes", "chart", "course"),
-    "mesh": ("inertias", "mesh stiffness", "modes", "chart", "course"),
-    "contact": ("inertias", "mesh stiffness", "campbell", "history"),
+_TRAIN = ("modes", "chart", "course")
+_PAIR = {
+    PairModel.MESH: ("inertias", "mesh stiffness", *_TRAIN),
+    PairModel.CONTACT: ("inertias", "mesh stiffness", "campbell", "history"),
 }
 
 
-def simulate(
-    subject: Design | GearPair,
-    load: Load | None = None,
-    *,
-    progress: Progress | None = None,
-    **inputs: Unpack[Inputs],
-) -> Study:
-    """The study of a train, or of a pair as mounted, under a load, with the options of `dynamics`.
+@dataclass(frozen=True, kw_only=True)
+class Dynamics(Job[PairDesign | TrainDesign, Study]):
+    """The study that [dynamics] of a design asks for."""
 
-    `material`, `mounting`, `check` and `dynamics`, as the load, stand in place of those of a design; a pair has the defaults,
-    and a train holds its own.
+    verb = "dynamics"
+    accepts = (PairDesign, TrainDesign)
+    why = "a single gear has no mesh"
 
-    Raises ParameterError for a design without pair or load, and what the studies raise.
-    """
-    from threadpoolctl import threadpool_limits
-
-    with threadpool_limits(1):  # the dense systems are small
-        design = as_design(subject, load, **inputs)
+    def _run(self, design: PairDesign | TrainDesign, progress: Progress | None) -> Study:
         if isinstance(design, TrainDesign):
-            return _of_train(design, progress)
-        if isinstance(design, PairDesign):
-            return _of_pair(design, progress)
-        raise not_accepted(type(design), (PairDesign, TrainDesign), "a single gear has no mesh")
+            if not design.train.meshes:
+                return study_modes(design.train, design.dynamics)
+            return study_train(design.train, design.dynamics, tell=Agenda(progress, dict.fromkeys(_TRAIN, 1.0)))
+        return _of_pair(design, progress)
+
+    def document(self, result: Study) -> dict[str, Any]:
+        """What dynamics.json holds: everything but the long arrays."""
+        return {"kind": "dynamics", "name": result.name, "gearcad": __version__, **result.to_dict()}
+
+    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+        """What a line can hold of a pair: inertias and stiffness, its natural frequency, K_v at the speed and the highest."""
+        found = {name: document[name] for name in DYNAMICS_RESULTS if name in document}
+        if document["model"] == PairModel.MESH.value:
+            modes, course = document["modes"], document["course"]
+            (kv,) = course["kv"]
+            (over_speed,) = document["chart"]["kv"].values()
+            highest = max(range(len(over_speed)), key=over_speed.__getitem__)
+            found |= {
+                "natural_frequency": modes["frequency"][modes["rigid"]],
+                "course_speed": course["speed"],
+                "kv": kv,
+                "kv_highest": over_speed[highest],
+                "kv_highest_speed": document["speed"][highest],
+            }
+            return {**found, "warnings": document["warnings"]}
+        return {**found, "warnings": document["campbell"]["warnings"]}
+
+    def files(self, result: Study) -> dict[str, Writer]:
+        """The report, the document, the arrays."""
+        return {
+            "dynamics.html": partial(_write_report, result),
+            "dynamics.json": partial(self.write_document, result),
+            "dynamics.npz": partial(_write_arrays, result),
+        }
 
 
-def _of_train(design: TrainDesign, progress: Progress | None) -> TrainStudy | ModalStudy:
-    if not design.train.meshes:
-        return study_modes(design.train, design.dynamics)
-    return study_train(design.train, design.dynamics, tell=_teller(progress, "train"))
+def _write_report(study: Study, path: Path) -> None:
+    from gearcad.report import write_dynamics_report
+
+    write_dynamics_report(study, study.name, path)
+
+
+def _write_arrays(study: Study, path: Path) -> None:
+    with path.open("wb") as file:
+        np.savez_compressed(file, allow_pickle=False, **study.arrays())
 
 
 def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | ContactStudy:
     if design.load is None or not design.load.torque:
         given = None if design.load is None else design.load.torque
         raise ParameterError("load.torque", given, "must be given, in N·m on the pinion: flanks without load rattle")
-    options = design.dynamics or DynamicsOptions()
-    tell = _teller(progress, options.model)
-    mounting, material = design.mounting or Mounting(), design.material or Material()
-    pair = mounting.mounted(design.pair)
-    if options.pair_model is PairModel.CONTACT and pair.pinion.helix_angle:
+    options, material = design.dynamics or DynamicsOptions(), design.material or Material()
+    pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)
+    contact = options.pair_model is PairModel.CONTACT
+    if contact and pair.pinion.helix_angle:
         permitted = 'must be 0 for model "contact": its pairs of teeth touch over their whole width at once'
         raise GeometryError("pair.helix_angle", pair.pinion.helix_angle, permitted, "deg")
-    tell("inertias")
-    inertias = _inertias(pair, material, options)
-    tell("mesh stiffness")
-    cycle = None
-    if options.pair_model is PairModel.MESH or options.tooth_stiffness is None:
-        body = (design.check or CheckOptions()).body
-        method = METHODS[options.method_for(pair)](pair=design.pair, material=material, body=body, mounting=mounting)
-        cycle = method(design.load)
-    if options.pair_model is PairModel.CONTACT:
-        return study_contact(pair, design.load, cycle, inertias, options, tell=tell)
-    assert cycle is not None  # made above
+    agenda = Agenda(progress, dict.fromkeys(_PAIR[options.pair_model], 1.0))
+    agenda("inertias")
+    inertias = PerGear.each(lambda role: _inertia(role, pair, material, options))
+    agenda("mesh stiffness")
+    if contact:
+        cycle = _mesh_cycle(design, design.load, options) if options.tooth_stiffness is None else None
+        return study_contact(pair, design.load, cycle, inertias, options, tell=agenda)
+    cycle = _mesh_cycle(design, design.load, options)
     masses = _masses(pair, material) if options.pinion_bearing_stiffness is not None else None
-    return study_pair(pair, material, design.load, cycle, inertias, options, rating=design.rating, masses=masses, tell=tell)
+    return study_pair(pair, material, design.load, cycle, inertias, options, rating=design.rating, masses=masses, tell=agenda)
 
 
-def _inertias(pair: GearPair, material: Material, options: DynamicsOptions) -> PerGear[float]:
-    """Of pinion and wheel (kg·m²): as given, or those of their own solids."""
+def _mesh_cycle(design: PairDesign, load: Load, options: DynamicsOptions) -> MeshCycle:
+    """By the method of the options, the bodies held as [check] says."""
+    mounting, body = design.mounting or Mounting(), (design.check or CheckOptions()).body
+    kind = METHODS[options.method_for(mounting.mounted(design.pair))]
+    return kind(pair=design.pair, material=design.material or Material(), body=body, mounting=mounting)(load)
 
-    def inertia(role: Role) -> float:
-        if (given := options.inertias.pick(role)) is not None:
-            return given
-        from gearcad.solids.exact.inertia import mass_properties
 
-        return mass_properties(pair.gears.pick(role), material.density).inertia
+def _inertia(role: Role, pair: GearPair, material: Material, options: DynamicsOptions) -> float:
+    """Of a gear (kg·m²): as given, or that of its own solid."""
+    if (given := options.inertias.pick(role)) is not None:
+        return given
+    from gearcad.solids.exact.inertia import mass_properties
 
-    return PerGear.each(inertia)
+    return mass_properties(pair.gears.pick(role), material.density).inertia
 
 
 def _masses(pair: GearPair, material: Material) -> PerGear[float]:
@@ -109,11 +142,19 @@ def _masses(pair: GearPair, material: Material) -> PerGear[float]:
     return pair.gears.map(lambda gear: mass_properties(gear, material.density).mass)
 
 
-def _teller(progress: Progress | None, kind: str) -> Callable[[str], None]:
-    steps = _STEPS[kind]
-    return lambda step: progress(step, steps.index(step), len(steps)) if progress is not None else None
+def dynamics(
+    subject: Design | GearPair | Train,
+    load: Load | None = None,
+    *,
+    progress: Progress | None = None,
+    **inputs: Unpack[Inputs],
+) -> Study:
+    """The dynamics of a pair as mounted, under a load, or of a train: natural frequencies, K_v over speed, one speed's course.
 
+    `material`, `mounting`, `check` (CheckOptions: where bodies are held), `dynamics` (DynamicsOptions) and `rating`, as the
+    load, stand in place of those of a design; a pair has the defaults, and a train holds its own.
 
-def dynamics_document(study: Study, name: str) -> dict[str, Any]:
-    """Everything but the long arrays under the names of dynamics.json."""
-    return {"kind": "dynamics", "name": name, "gearcad": __version__, **study.to_dict()}
+    Raises ParameterError without a pair or a load, and what the solvers raise.
+    """
+    design = TrainDesign(name=subject.name, train=subject) if isinstance(subject, Train) else subject
+    return Dynamics().run(as_design(design, load, **inputs), progress)

@@ -2,230 +2,143 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 
+from gearcad import __version__
 from gearcad.arrays import Floats
 from gearcad.check.options import CheckOptions, Model
-from gearcad.check.solid.summary import worst_place
 from gearcad.contact.optimum.search import Found, Search, conditions, start_search
-from gearcad.contact.optimum.variants import AMOUNTS, Condition, with_amounts
+from gearcad.contact.optimum.variants import AMOUNTS, with_amounts
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, loaded_left, solid_pair
-from gearcad.designs import Design, Inputs, PairDesign, as_design
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.designs import Design, Inputs, PairDesign
+from gearcad.errors import GeometryError, ParameterError, as_choice
 from gearcad.geometry import GearPair, ReliefShape
+from gearcad.jobs.job import Job
+from gearcad.jobs.proposal import SUFFIX, CycleFigures, Proposal, Robustness
+from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
-from gearcad.per_gear import Role
-from gearcad.progress import Progress
+from gearcad.progress import Agenda, Progress
 from gearcad.ranges import STRENGTH, TORQUE
 
-__all__ = ["Figures", "Proposal", "Robustness", "propose", "unmirrored"]
+__all__ = ["Modify", "modify", "unmirrored"]
 
-
-_STEPS = ("bodies of pinion and wheel", "mesh cycle", "search", "robustness")
+_BODIES, _CYCLE, _SEARCH, _ROBUSTNESS = _STEPS = ("bodies of pinion and wheel", "mesh cycle", "search", "robustness")
 
 _MORE_PRESSURE = 1.05
 """Share of the pressure of the plain flanks that a proposal may reach where the material's limit is out of reach."""
 
-_BESIDE = 1.01
-"""Share of the bound from which on a pressure, solved in full, is worth a warning."""
-
-_SUFFIX = "-modified"
-
 
 @dataclass(frozen=True, kw_only=True)
-class Figures:
-    """What a mesh cycle comes to: transmission error in µm, stresses in MPa, and at how many positions a tip's edge carries."""
+class Modify(Job[PairDesign, Proposal]):
+    """Search tip relief and crowning for a pair at a torque (N·m on the pinion; None: that of its load, times its factor).
 
-    transmission_error_peak_to_peak: float
-    transmission_error_harmonics: tuple[float, float, float]
-    contact_pressure: float
-    root_tension_pinion: float
-    root_tension_wheel: float
-    face_load_factor: float
-    edge_positions: int
+    `pressure` (MPa) None stands for the material's limit or, where that is out of reach, a little more than without
+    modifications; `shape` of the tip relief None for the better one.
+    """
 
-    @classmethod
-    def of(cls, cycle: SolidCycle) -> Figures:
-        """Those of a cycle. Raises ParameterError where no place of contact is away from edges."""
-        worst = worst_place(cycle)
-        if worst is None:
-            permitted = "must leave a place of contact away from the edges of the flanks: beside them no pressure is told"
-            raise ParameterError("torque", cycle.torque, permitted, "N·m")
-        first, second, third = cycle.harmonics[:3].tolist()
-        pinion, wheel = (cycle.worst_position(role).tension.pick(role).stress for role in Role)
-        return cls(
-            transmission_error_peak_to_peak=float(np.ptp(cycle.values("transmission_error"))),
-            transmission_error_harmonics=(first, second, third),
-            contact_pressure=worst.of(worst.contact.pressures),
-            root_tension_pinion=pinion,
-            root_tension_wheel=wheel,
-            face_load_factor=cycle.face_load_factor,
-            edge_positions=cycle.edge_positions,
+    verb = "modify"
+    accepts = (PairDesign,)
+    why = "flanks are modified for those of a mate"
+
+    torque: float | None = None
+    pressure: float | None = None
+    shape: ReliefShape | None = None
+
+    def _run(self, design: PairDesign, progress: Progress | None) -> Proposal:
+        pair, torque = self._task(design)
+        options, agenda = design.check or CheckOptions(), Agenda(progress, dict.fromkeys(_STEPS, 1.0))
+        model = _model(design, pair, torque, options, agenda)
+        agenda(_CYCLE)
+        before = SolidCycle.run(model, torque, options.positions_of(Model.SOLID))
+        agenda(_SEARCH)
+        count, limits = len(before.positions), self._limits(design.material or Material())
+        shapes = ReliefShape if self.shape is None else (self.shape,)
+        tried = [_tried(model, torque, shape, limits, count, self.pressure is not None) for shape in shapes]
+        best = _best(tried, limits)
+        agenda(_ROBUSTNESS)
+        pairs = (model.pair, best.cycle.model.pair)
+        robustness = tuple(
+            Robustness(each, *(best.search.peak_to_peak(of, each) for of in pairs)) for each in conditions(torque)
+        )
+        return Proposal(
+            design=design,
+            pair=with_amounts(pair, unmirrored(best.found.amounts, pair, torque), best.search.variants.shape),
+            torque=torque,
+            found=best.found,
+            variants=sum(each.search.tried for each in tried),
+            before=CycleFigures.of(before),
+            after=CycleFigures.of(best.cycle),
+            robustness=robustness,
         )
 
+    def _task(self, design: PairDesign) -> tuple[GearPair, float]:
+        """Pair and torque; raises for what cannot be searched."""
+        torque, pressure = self.torque, self.pressure
+        if torque is not None:
+            TORQUE.require("torque", torque)
+        elif design.load is None:
+            raise ParameterError("load.torque", None, "must be given, in N·m on the pinion, here or as --torque")
+        else:
+            torque = design.load.torque * design.load.application_factor
+        if not torque:
+            raise ParameterError("load.torque", torque, "must not be 0: without torque flanks need no modification", "N·m")
+        if pressure is not None:
+            STRENGTH.require("pressure", pressure)
+        if design.pair.total_contact_ratio < 1:
+            ratio = design.pair.total_contact_ratio
+            raise GeometryError("pair.total_contact_ratio", ratio, "must be at least 1: the teeth lose each other")
+        replace(design, name=design.name + SUFFIX)  # a name that gets too long is told before the work
+        return design.pair, torque
 
-class Robustness(NamedTuple):
-    """Transmission error, peak to peak (µm), as the pair is and as proposed, under another condition than the load."""
+    def _limits(self, material: Material) -> list[float]:
+        """The pressure (MPa) that is given, else what the material bears for certain, if that is known."""
+        if self.pressure is not None:
+            return [self.pressure]
+        limit = material.contact_limit
+        return [] if limit is None else [limit[0] if isinstance(limit, tuple) else limit]
 
-    condition: Condition
-    before: float
-    after: float
+    def document(self, result: Proposal) -> dict[str, Any]:
+        """What modify.json holds: µm, MPa, mm of roll; the changes under their keys of a spec."""
+        return {"kind": "modify", "name": result.name, "gearcad": __version__, **result.to_dict()}
 
-    def to_dict(self) -> dict[str, float]:
-        """Flat."""
-        return {**asdict(self.condition), "before": self.before, "after": self.after}
-
-
-@dataclass(frozen=True, kw_only=True)
-class Proposal:
-    """Modifications for a design at a torque (N·m on the pinion), and what they do; `pair` is the design's with them."""
-
-    design: PairDesign
-    pair: GearPair
-    torque: float
-    found: Found
-    variants: int
-    before: Figures
-    after: Figures
-    robustness: tuple[Robustness, ...]
-
-    def __repr__(self) -> str:
-        errors = (each.transmission_error_peak_to_peak for each in (self.before, self.after))
-        return f"<Proposal for {self.design.name!r} at {self.torque:g} N·m: {' -> '.join(f'{each:.3g}' for each in errors)} µm>"
-
-    @property
-    def name(self) -> str:
-        """Of the modified design."""
-        return self.design.name + _SUFFIX
-
-    @cached_property
-    def changes(self) -> dict[str, float | str]:
-        """The keys of the spec that change, with their values."""
-        found: dict[str, float | str] = {"pair.name": self.name}
-        for owner in ("pinion", "wheel"):
-            old, new = (getattr(pair, owner).modification for pair in (self.design.pair, self.pair))
-            for name, value in new.to_dict().items():
-                if value != old.to_dict()[name] and (name in new.in_use or not name.endswith(("_length", "_shape"))):
-                    found[f"{owner}.modification.{name}"] = value
-        return found
-
-    @property
-    def notes(self) -> dict[str, str]:
-        """Units, to stand behind new keys."""
-        numbers = [key for key, value in self.changes.items() if not isinstance(value, str)]
-        return {key: "mm of roll" if key.endswith("_length") else "µm" for key in numbers}
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What an engineer should know before making this."""
-        after, bound, found = self.after, self.found.bound, []
-        if not self.found.bounded or after.contact_pressure > _BESIDE * bound:
-            found.append(f"the contact pressure is {after.contact_pressure:.0f} MPa, above the bound of {bound:.0f} MPa")
-        if after.edge_positions:
-            found.append(
-                f"a tip edge still touches at {after.edge_positions} positions: to free it would cost transmission error or "
-                "pressure above the bound"
-            )
-        if after.transmission_error_peak_to_peak > self.before.transmission_error_peak_to_peak:
-            found.append("the transmission error is not less than it was: the flanks as they are break the bounds")
-        return tuple(found)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The document that `gearcad modify --json` prints."""
-        return {
-            "torque": self.torque,
-            "pressure_bound": self.found.bound,
-            "variants": self.variants,
-            "changes": self.changes,
-            "before": asdict(self.before),
-            "after": asdict(self.after),
-            "robustness": [each.to_dict() for each in self.robustness],
-            "warnings": list(self.warnings),
-        }
+    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+        """The modifications, and what the mesh comes to without and with them."""
+        changes = {key: value for key, value in document["changes"].items() if key != "pair.name"}
+        named = ("torque", "pressure_bound", "variants", "before", "after", "warnings")
+        return {**{name: document[name] for name in named}, **changes}
 
 
-def propose(
+def modify(
     subject: Design | GearPair,
     load: Load | None = None,
     *,
     torque: float | None = None,
     pressure: float | None = None,
-    shape: ReliefShape | None = None,
+    shape: ReliefShape | str | None = None,
     progress: Progress | None = None,
     **inputs: Unpack[Inputs],
 ) -> Proposal:
-    """Search tip relief and crowning for a pair under a load.
+    """Search tip relief and crowning for a pair under a load: least transmission error, the contact pressure bounded.
 
-    `torque` (N·m on the pinion) None stands for the load's, `pressure` (MPa) None for the material's limit or, where that is
-    out of reach, a little more than without modifications, `shape` None for the better one. `material`, `mounting` and
-    `check`, as the load, stand in place of those of a design.
+    `torque` (N·m on the pinion) None stands for the load's, times its application factor; `pressure` (MPa) None for the
+    material's limit or, where that is out of reach, a little more than without modifications; `shape` ("linear" or
+    "parabolic") None for the better one. `material`, `mounting` and `check` (CheckOptions), as the load, stand in place of
+    those of a design. `Proposal.pair` has the modified flanks.
 
-    Raises ParameterError for a design without pair or load, and what `gearcad.contact` does.
+    Raises ParameterError without a pair or a torque, GeometryError for a pair whose teeth lose each other, and what
+    `gearcad.contact` raises.
     """
-    design = as_design(subject, load, **inputs).accepted(PairDesign, why="flanks are modified for those of a mate")
-    pair, torque = _task(design, torque, pressure)
-    from threadpoolctl import threadpool_limits
-
-    options = design.check or CheckOptions()
-    with threadpool_limits(1):
-        model = _model(design, pair, torque, options, progress)
-        _tell(progress, "mesh cycle")
-        before = SolidCycle.run(model, torque, options.positions_of(Model.SOLID))
-        _tell(progress, "search")
-        count, limits = len(before.positions), _limits(design.material or Material(), pressure)
-        tried = [
-            _tried(model, torque, each, limits, count, pressure is not None) for each in ([shape] if shape else ReliefShape)
-        ]
-        best = _best(tried, limits)
-        _tell(progress, "robustness")
-        pairs = (model.pair, best.cycle.model.pair)
-        robustness = tuple(
-            Robustness(each, *(best.search.peak_to_peak(of, each) for of in pairs)) for each in conditions(torque)
-        )
-    return Proposal(
-        design=design,
-        pair=with_amounts(pair, unmirrored(best.found.amounts, pair, torque), best.search.variants.shape),
-        torque=torque,
-        found=best.found,
-        variants=sum(each.search.tried for each in tried),
-        before=Figures.of(before),
-        after=Figures.of(best.cycle),
-        robustness=robustness,
-    )
+    chosen = None if shape is None else as_choice("shape", shape, ReliefShape)
+    return Modify(torque=torque, pressure=pressure, shape=chosen).run(as_design(subject, load, **inputs), progress)
 
 
-def _tell(progress: Progress | None, step: str, share: float = 0.0) -> None:
-    if progress is not None:
-        progress(step, _STEPS.index(step) + share, len(_STEPS))
-
-
-def _task(design: PairDesign, torque: float | None, pressure: float | None) -> tuple[GearPair, float]:
-    """Pair and torque; raises for what cannot be searched."""
-    if torque is not None:
-        TORQUE.require("torque", torque)
-    elif design.load is None:
-        raise ParameterError("load.torque", None, "must be given, in N·m on the pinion, here or as --torque")
-    else:
-        torque = design.load.torque * design.load.application_factor
-    if not torque:
-        raise ParameterError("load.torque", torque, "must not be 0: without torque flanks need no modification", "N·m")
-    if pressure is not None:
-        STRENGTH.require("pressure", pressure)
-    if design.pair.total_contact_ratio < 1:
-        ratio = design.pair.total_contact_ratio
-        raise GeometryError("pair.total_contact_ratio", ratio, "must be at least 1: the teeth lose each other")
-    replace(design, name=design.name + _SUFFIX)  # a name that gets too long is told before the work
-    return design.pair, torque
-
-
-def _model(design: PairDesign, pair: GearPair, torque: float, options: CheckOptions, progress: Progress | None) -> SolidPair:
+def _model(design: PairDesign, pair: GearPair, torque: float, options: CheckOptions, agenda: Agenda) -> SolidPair:
     """The solid bodies, as `gearcad check --model 3d` makes them."""
     mounting = design.mounting or Mounting()
     return solid_pair(
@@ -234,16 +147,8 @@ def _model(design: PairDesign, pair: GearPair, torque: float, options: CheckOpti
         body=options.body,
         sizes=SolidSizes().refined(options.refinement),
         mounting=replace(mounting, centre_distance_change=0.0),
-        tell=lambda share: _tell(progress, _STEPS[0], share),
+        tell=agenda.within(_BODIES),
     )
-
-
-def _limits(material: Material, pressure: float | None) -> list[float]:
-    """The pressure (MPa) that is given, else what the material bears for certain, if that is known."""
-    if pressure is not None:
-        return [pressure]
-    limit = material.contact_limit
-    return [] if limit is None else [limit[0] if isinstance(limit, tuple) else limit]
 
 
 class _Tried(NamedTuple):
@@ -256,7 +161,7 @@ class _Tried(NamedTuple):
     @property
     def peak_to_peak(self) -> float:
         """Of the transmission error (µm), solved in full."""
-        return Figures.of(self.cycle).transmission_error_peak_to_peak
+        return CycleFigures.of(self.cycle).transmission_error_peak_to_peak
 
 
 def _tried(model: SolidPair, torque: float, shape: ReliefShape, limits: list[float], count: int, given: bool) -> _Tried:
@@ -265,7 +170,7 @@ def _tried(model: SolidPair, torque: float, shape: ReliefShape, limits: list[flo
     bounds = limits if given else [*limits, _MORE_PRESSURE * float(search.plain.pressures[0])]
     found = search.best(bounds)
     cycle = _cycle(model, found, shape, torque, count)
-    over = Figures.of(cycle).contact_pressure / found.bound
+    over = CycleFigures.of(cycle).contact_pressure / found.bound
     if found.bounded and over > 1:
         # On finer lines, at more positions, there is more than the search saw: it has to stay so much lower.
         found = replace(search.best([found.bound / over]), bound=found.bound)

@@ -1,28 +1,106 @@
-"""Compare: the mesh stiffness of a pair, or of what a spec describes, by every method."""
+"""Stiffness: that of a pair's mesh by every method, side by side."""
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
 from typing import Any, Unpack
 
 from gearcad import __version__
 from gearcad.check.options import CheckOptions
-from gearcad.designs import Design, Inputs, PairDesign, as_design
+from gearcad.designs import Design, Inputs, PairDesign
+from gearcad.errors import ParameterError, require_whole
 from gearcad.geometry import GearPair
+from gearcad.jobs.job import Job, Writer
+from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.progress import Expected, Progress
 from gearcad.stiffness.comparison import StiffnessComparison, compare_methods, expected_methods
+from gearcad.stiffness.curves import curves_csv
 from gearcad.stiffness.methods import METHODS
+from gearcad.symbols import STIFFNESS
 
-__all__ = ["compare", "curves_csv", "expected_comparison", "stiffness_document"]
+__all__ = ["Stiffness", "stiffness"]
 
-_COLUMNS = ("method", "roll_angle", "path_position", "mesh_stiffness", "tangent_stiffness", "transmission_error")
+_NO_LOAD = "stiffness depends on it"
 
 
-def compare(
+@dataclass(frozen=True, kw_only=True)
+class Stiffness(Job[PairDesign, StiffnessComparison]):
+    """Mesh stiffness by `methods`, at so many `positions` over one base pitch (0: those of each method).
+
+    `fourier` says how many harmonics of each curve the document has.
+    """
+
+    verb = "stiffness"
+    accepts = (PairDesign,)
+    why = "a single gear has no mesh"
+
+    methods: Sequence[str] = tuple(METHODS)
+    positions: int = 0
+    fourier: int = 0
+
+    def __post_init__(self) -> None:
+        if isinstance(self.methods, str):
+            raise ParameterError("methods", self.methods, "must be a list of names")
+        if self.fourier != 0:
+            fewest = min(
+                (self.positions or METHODS[name].default_positions for name in self.methods if name in METHODS), default=0
+            )
+            require_whole("fourier", self.fourier, at_least=0, at_most=max(fewest // 4, 0))
+
+    def _run(self, design: PairDesign, progress: Progress | None) -> StiffnessComparison:
+        return compare_methods(
+            design.pair,
+            design.material or Material(),
+            design.loaded(_NO_LOAD),
+            self.methods,
+            body=(design.check or CheckOptions()).body,
+            mounting=design.mounting,
+            positions=self.positions,
+            progress=progress,
+        )
+
+    def _expected(self, design: PairDesign) -> Expected:
+        design.loaded(_NO_LOAD)
+        pair, material, body = design.pair, design.material or Material(), (design.check or CheckOptions()).body
+        return expected_methods(pair, material, self.methods, body=body, mounting=design.mounting, positions=self.positions)
+
+    def document(self, result: StiffnessComparison) -> dict[str, Any]:
+        """What stiffness.json holds: N/µm, per face width N/(mm µm), degrees, µm."""
+        return {"kind": "stiffness", "name": result.pair.name, "gearcad": __version__, **result.to_dict(self.fourier)}
+
+    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+        """Of each method the figures over one base pitch; its notes, and why others are left out, are warnings."""
+        methods = document["methods"]
+        notes = [f"{of['title']}: {note}" for of in methods.values() for note in of["notes"]]
+        notes += [f"{METHODS[name].title}: left out: {reason}" for name, reason in document["left_out"].items()]
+        figures = {method: {name: of[name] for name in STIFFNESS if name in of} for method, of in methods.items()}
+        return {**figures, "warnings": notes}
+
+    def files(self, result: StiffnessComparison) -> dict[str, Writer]:
+        """The curves as CSV, the report, the document."""
+        return {
+            "stiffness.csv": partial(_write_curves, result),
+            "stiffness.html": partial(_write_report, result),
+            "stiffness.json": partial(self.write_document, result),
+        }
+
+
+def _write_report(comparison: StiffnessComparison, path: Path) -> None:
+    from gearcad.report import write_stiffness_report
+
+    write_stiffness_report(comparison, comparison.pair.name, path)
+
+
+def _write_curves(comparison: StiffnessComparison, path: Path) -> None:
+    path.write_text(curves_csv(comparison), encoding="utf-8", newline="")
+
+
+def stiffness(
     subject: Design | GearPair,
     load: Load | None = None,
     *,
@@ -31,76 +109,18 @@ def compare(
     progress: Progress | None = None,
     **inputs: Unpack[Inputs],
 ) -> StiffnessComparison:
-    """Mesh stiffness of a pair as mounted, under a load, by `methods`, its bodies held as `check` says.
+    """Mesh stiffness of a pair as mounted, under a load, by `methods`: names of `gearcad.stiffness.METHODS`.
 
-    `material`, `mounting` and `check`, as the load, stand in place of those of a design; a pair has the defaults.
+    It is told at so many `positions` over one base pitch (0: those of each method). `material`, `mounting` and `check`
+    (CheckOptions: where bodies are held), as the load, stand in place of those of a design; a pair has the defaults. A method
+    that cannot treat the pair is left out, with its reason.
 
     >>> from gearcad import Gear, GearPair, Load
     >>> gears = [Gear(teeth=z, normal_module=2, face_width=20, tooth_thinning=0.03) for z in (20, 30)]
-    >>> compare(GearPair(pinion=gears[0], wheel=gears[1]), Load(torque=60), methods=["iso6336", "potential-energy"])
+    >>> stiffness(GearPair(pinion=gears[0], wheel=gears[1]), Load(torque=60), methods=["iso6336", "potential-energy"])
     <StiffnessComparison of 'pair' at 60 N·m: iso6336 303.1, potential-energy 431.1 N/µm>
 
-    Raises ParameterError for a design without pair or load, and what `compare_methods` raises.
+    Raises ParameterError without a pair or a load, or for an unknown method; where no method can treat the pair, what the first
+    one raises.
     """
-    design, given = _loaded(as_design(subject, load, **inputs))
-    from threadpoolctl import threadpool_limits
-
-    # The dense systems are small, and solid bodies are solved side by side: more threads cost more than they bring.
-    with threadpool_limits(1):
-        return compare_methods(
-            design.pair,
-            design.material or Material(),
-            given,
-            methods,
-            body=(design.check or CheckOptions()).body,
-            mounting=design.mounting,
-            positions=positions,
-            progress=progress,
-        )
-
-
-def expected_comparison(design: Design, methods: Sequence[str] = tuple(METHODS), positions: int = 0) -> Expected:
-    """What `compare` is expected to take. Raises ParameterError for a design without pair or load."""
-    of, _ = _loaded(design)
-    body, material = (of.check or CheckOptions()).body, of.material or Material()
-    return expected_methods(of.pair, material, methods, body=body, mounting=of.mounting, positions=positions)
-
-
-def _loaded(design: Design) -> tuple[PairDesign, Load]:
-    pair = design.accepted(PairDesign, why="a single gear has no mesh")
-    return pair, pair.loaded("stiffness depends on it")
-
-
-def stiffness_document(comparison: StiffnessComparison, name: str, harmonics: int = 0) -> dict[str, Any]:
-    """Everything under the names of stiffness.json, with so many Fourier coefficients of each curve."""
-    return {"kind": "stiffness", "name": name, "gearcad": __version__, **comparison.to_dict(harmonics)}
-
-
-def curves_csv(comparison: StiffnessComparison) -> str:
-    """The curves of all methods, one row for each roll angle of each: degrees, mm from T1, N/µm, µm, µm/N.
-
-    Load shares stand under `load_share.PAIR`, compliances under `compliance.PART`; blank where a method has none.
-    """
-    cycles = comparison.cycles
-    pairs = sorted({pair for cycle in cycles for pair in cycle.pairs})
-    parts = list(dict.fromkeys(part for cycle in cycles for part in cycle.compliance_parts))
-    headings = [*_COLUMNS, *(f"load_share.{pair}" for pair in pairs), *(f"compliance.{part}" for part in parts)]
-    text = io.StringIO()
-    writer = csv.DictWriter(text, headings, lineterminator="\n", restval="")
-    writer.writeheader()
-    for cycle in cycles:
-        places = comparison.path_position(cycle.roll_angle)
-        for row, (angle, place) in enumerate(zip(cycle.roll_angle.tolist(), places.tolist(), strict=True)):
-            writer.writerow(
-                {
-                    "method": cycle.method,
-                    "roll_angle": angle,
-                    "path_position": place,
-                    "mesh_stiffness": cycle.mesh_stiffness[row],
-                    "tangent_stiffness": cycle.tangent_stiffness[row],
-                    "transmission_error": cycle.transmission_error[row],
-                    **{f"load_share.{pair}": cycle.load_share[row, at] for at, pair in enumerate(cycle.pairs)},
-                    **{f"compliance.{name}": part[row] for name, part in cycle.compliance_parts.items()},
-                }
-            )
-    return text.getvalue()
+    return Stiffness(methods=methods, positions=positions).run(as_design(subject, load, **inputs), progress)

@@ -3,7 +3,6 @@
 import csv
 import json
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,23 +10,26 @@ import pytest
 from support import jobs
 from support.batches import GEARS, MIXED, PAIRS, read_results, rows_of, write_table
 
-from gearcad.batch import Decimal, Step, Summary, Wanted, run_table
+from gearcad.batch import Decimal, Summary, run_table
 from gearcad.batch import run as run_module
 from gearcad.batch.results import _text
 from gearcad.designs import read_spec
 from gearcad.designs.table import open_table
 from gearcad.errors import OutputError, ParameterError
+from gearcad.jobs.build import Build
+from gearcad.jobs.data import Data
+from gearcad.jobs.job import Job
 from gearcad.solids import FileOptions, Format
 
-DATA = Wanted(steps=(Step.DATA,))
-POINTS = Wanted(formats=(Format.CSV,))
+DATA = (Data(),)
+POINTS = (Build(formats=(Format.CSV,)),)
 
 FIRST = ["name", "status", "error", "warnings", "seconds"]
 
 TEXTS = ("name", "rack", "hub_side", "profile_shift_split")
 
 
-def make(folder: Path, lines: tuple[str, ...], wanted: Wanted = DATA, **options: Any) -> Summary:
+def make(folder: Path, lines: tuple[str, ...], wanted: tuple[Job[Any, Any], ...] = DATA, **options: Any) -> Summary:
     return run_table(write_table(folder / "table.csv", lines), folder / "out", wanted, jobs=2, **options)
 
 
@@ -326,7 +328,7 @@ def test_want_of_memory_fails_the_row(tmp_path: Path, monkeypatch: pytest.Monkey
 def test_error_of_a_row_names_the_row_once(tmp_path: Path) -> None:
     """A pair that can be computed but not built with these options: the row's place leads what the builder says."""
     lines = ("name,normal_module,pinion.teeth,wheel.teeth,pinion.face_width,wheel.face_width", "bare,1,17,22,2,2")
-    summary = make(tmp_path, lines, Wanted(formats=(Format.STEP,), options=FileOptions(bracket=True)))
+    summary = make(tmp_path, lines, (Build(formats=(Format.STEP,), options=FileOptions(bracket=True)),))
     (error,) = summary.errors
     assert error.startswith(f"{tmp_path / 'table.csv'} row 2 (bare): pinion.body.bore = 0 mm: must be above 0 mm")
     assert read_results(tmp_path / "out")[0]["error"] == error
@@ -336,11 +338,11 @@ def test_error_of_a_row_names_the_row_once(tmp_path: Path) -> None:
 
 
 def test_progress_counts_rows_in_both_phases(tmp_path: Path) -> None:
-    seen: list[tuple[str, int, int, int | None]] = []
+    seen: list[tuple[str, float, float]] = []
     lines = (*GEARS, "bad,2,1,2,", "worse,3,1,2,80")
     make(tmp_path, lines, keep_going=True, progress=lambda *step: seen.append(step))
-    assert [step for step in seen if step[0] == "checking"] == [("checking", 5, 2, None)]
-    assert [step for step in seen if step[0] == "making"] == [("making", done, 2, 5) for done in (2, 3, 4, 5)]
+    assert [step for step in seen if step[0].startswith("checking")] == [("checking, 2 failed", 5, 0)]
+    assert [step for step in seen if step[0].startswith("making")] == [("making, 2 failed", done, 5) for done in (2, 3, 4, 5)]
 
 
 def test_options_are_checked_first(tmp_path: Path) -> None:
@@ -355,9 +357,9 @@ def test_options_are_checked_first(tmp_path: Path) -> None:
             run_table(write_table(tmp_path / "table.csv", GEARS), tmp_path / "out", DATA, **({"jobs": 1} | options))
         assert str(caught.value).startswith(message)
     with pytest.raises(ParameterError, match=r"^do = '': must be one or more of data, build"):
-        replace(DATA, steps=())
+        run_table(write_table(tmp_path / "table.csv", GEARS), tmp_path / "out", ())
     with pytest.raises(ParameterError, match=r"^format = '': must be one or more of step, stl, 3mf, glb, dxf, csv$"):
-        Wanted(formats=())
+        Build(formats=())
     assert not (tmp_path / "out").exists()
 
 

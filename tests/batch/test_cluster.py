@@ -21,17 +21,19 @@ from support import jobs
 from support.batches import GEARS, MIXED, lies, read_results, snapshot, write_table
 from support.processes import PATIENCE, below, run_batch, start_batch, wait_for_end, wait_until
 
-from gearcad.batch import Step, Summary, Wanted, run_table
+from gearcad.batch import Summary, run_table
 from gearcad.batch import pool as pool_module
 from gearcad.batch import run as run_module
 from gearcad.batch.row import Status, Task, make_row
 from gearcad.designs.table import open_table
 from gearcad.errors import ParameterError
+from gearcad.jobs.build import Build
+from gearcad.jobs.data import Data
 from gearcad.solids import Format
 
 distributed = pytest.importorskip("distributed")
 
-DATA = Wanted(steps=(Step.DATA,))
+DATA = (Data(),)
 OPTIONS = ("--format", "csv,dxf,stl", "--quiet")
 MANY = (GEARS[0], *(f"row {number:03d},{12 + number % 50},1,2,{number % 3}" for number in range(100)))
 
@@ -163,14 +165,14 @@ def test_ctrl_c_ends_the_run_on_the_cluster_too(address: str, many: Path, tmp_pa
         _, errors = process.communicate(timeout=PATIENCE)
     assert (process.returncode, errors.strip()) == (130, "Aborted!")
     assert {line["status"] for line in read_results(folder)} == {"ok", "not run"}
-    assert run_table(many, folder, Wanted(formats=(Format.DXF,)), cluster=address).ok == 100
+    assert run_table(many, folder, (Build(formats=(Format.DXF,)),), cluster=address).ok == 100
     assert lies(folder) == [] and not list(folder.glob(".*"))
 
 
 def run_here(table: Path, folder: Path, address: str) -> tuple[list[Summary], threading.Thread]:
     """A run in a thread, so that something can happen to the cluster meanwhile."""
     found: list[Summary] = []
-    formats = Wanted(formats=(Format.DXF,))
+    formats = (Build(formats=(Format.DXF,)),)
     thread = threading.Thread(target=lambda: found.append(run_table(table, folder, formats, cluster=address)))
     thread.start()
     wait_until(lambda: len(list(folder.glob("row*"))) > 20, "rows that are finished")
@@ -205,7 +207,7 @@ def test_scheduler_that_dies_ends_the_run_with_what_there_is(
     assert summary.ok >= 1 and summary.failed == 0 and summary.ok + summary.not_run == 100
     assert {line["status"] for line in read_results(tmp_path / "out")} == {"ok", "not run"}
     assert "Traceback" not in capfd.readouterr().err
-    assert run_table(many, tmp_path / "out", Wanted(formats=(Format.DXF,)), jobs=2).ok == 100
+    assert run_table(many, tmp_path / "out", (Build(formats=(Format.DXF,)),), jobs=2).ok == 100
 
 
 # ---------------------------------------------------------------------- clusters that cannot be used

@@ -17,10 +17,12 @@ from support import jobs
 from support.batches import lies, read_results, snapshot, write_table
 from support.processes import PATIENCE, below, run_batch, send_to_all, start_batch, wait_for_end, wait_until
 
-from gearcad.batch import Step, Wanted, run_table
+from gearcad.batch import run_table
 from gearcad.batch.row import Status, Task, make_row
 from gearcad.batch.worker import close_workers, isolated
 from gearcad.designs.table import open_table
+from gearcad.jobs.build import Build
+from gearcad.jobs.data import Data
 from gearcad.solids import Format
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
@@ -196,7 +198,7 @@ def test_worker_killed_before_any_change_on_disk_leaves_no_lie(change: str, tmp_
 
     def task(row: str) -> Task:
         rows = open_table(write_table(tmp_path / "table.csv", (HEADING, row))).rows()
-        return Task(next(rows), Wanted(formats=(Format.CSV, Format.DXF)), folder, workspace, False)
+        return Task(next(rows), (Build(formats=(Format.CSV, Format.DXF)),), folder, workspace, False)
 
     def make(row: str) -> None:
         shutil.rmtree(workspace, ignore_errors=True)  # as a run does when it begins
@@ -226,7 +228,7 @@ def test_parent_killed_before_any_change_on_disk_leaves_no_trace(tmp_path: Path)
     """From the output folder to the tables of results; its workers die with it."""
     rows = table(tmp_path / "table.csv", 3, 2.0)
     folder = tmp_path / "deep" / "out"
-    run = partial(run_table, rows, folder, Wanted(steps=(Step.DATA,)), jobs=1)
+    run = partial(run_table, rows, folder, (Data(),), jobs=1)
     run()
     expected = snapshot(folder)
     shutil.rmtree(tmp_path / "deep")

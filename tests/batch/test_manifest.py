@@ -13,11 +13,12 @@ import pytest
 from support.batches import GEARS, made_now, snapshot, write_table
 
 import gearcad
-from gearcad.batch import Wanted, run_table
+from gearcad.batch import run_table
 from gearcad.batch.manifest import inputs_hash
+from gearcad.jobs.build import Build
 from gearcad.solids import Format
 
-POINTS = Wanted(formats=(Format.CSV,))
+POINTS = (Build(formats=(Format.CSV,)),)
 
 
 def test_manifest_names_gearcad_the_parts_and_every_file_with_its_size(tmp_path: Path) -> None:

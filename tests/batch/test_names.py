@@ -6,9 +6,10 @@ import pytest
 from support.batches import read_results
 
 from gearcad import SpecError
-from gearcad.batch import Step, Wanted, run_table
+from gearcad.batch import run_table
+from gearcad.jobs.data import Data
 
-DATA = Wanted(steps=(Step.DATA,))
+DATA = (Data(),)
 
 PLAIN = "must be a plain file name"
 SIGNS = f'{PLAIN}, without / \\ < > : " | ? * and control characters'

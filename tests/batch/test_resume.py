@@ -10,15 +10,18 @@ import pytest
 from support import jobs
 from support.batches import GEARS, PAIRS, lies, made_now, read_results, snapshot, times, write_table
 
-from gearcad.batch import Step, Summary, Wanted, run_table
+from gearcad.batch import Summary, run_table
 from gearcad.batch import run as run_module
+from gearcad.jobs.build import Build
+from gearcad.jobs.data import Data
+from gearcad.jobs.job import Job
 from gearcad.solids import FileOptions, Format
 
-POINTS = Wanted(formats=(Format.CSV,))
-DATA = Wanted(steps=(Step.DATA,))
+POINTS = (Build(formats=(Format.CSV,)),)
+DATA = (Data(),)
 
 
-def make(folder: Path, lines: tuple[str, ...] = GEARS, wanted: Wanted = POINTS, **options: Any) -> Summary:
+def make(folder: Path, lines: tuple[str, ...] = GEARS, wanted: tuple[Job[Any, Any], ...] = POINTS, **options: Any) -> Summary:
     summary = run_table(write_table(folder / "table.csv", lines), folder / "out", wanted, jobs=1, **options)
     assert lies(folder / "out") == []
     return summary
@@ -144,7 +147,7 @@ def test_users_own_files_survive_every_kind_of_run(made: Path) -> None:
     for lines, wanted, fresh in (
         (GEARS, POINTS, True),
         (changed, POINTS, False),
-        (GEARS, Wanted(formats=(Format.DXF,)), False),
+        (GEARS, (Build(formats=(Format.DXF,)),), False),
         (changed, DATA, False),
     ):
         make(made, lines, wanted, fresh=fresh)
@@ -171,11 +174,11 @@ def test_row_that_was_damaged_and_fails_is_told(made: Path) -> None:
 
 def test_another_format_is_added_and_nothing_else_is_touched(made: Path) -> None:
     points = {path: when for path, when in times(made / "out").items() if path.endswith("gear.csv")}
-    make(made, wanted=Wanted(formats=(Format.DXF,)))
+    make(made, wanted=(Build(formats=(Format.DXF,)),))
     assert files_of(made, "left") == {"data.json", "gear.csv", "gear.dxf", "manifest.json"}
     assert {path: times(made / "out")[path] for path in points} == points
     assert "files.gear.csv" not in read_results(made / "out")[0]
-    make(made, wanted=Wanted(formats=(Format.DXF, Format.CSV)))
+    make(made, wanted=(Build(formats=(Format.DXF, Format.CSV)),))
     assert made_now(made / "out") == []
     assert {key for key in read_results(made / "out")[0] if key.startswith("files.")} == {
         "files.data.json", "files.gear.dxf", "files.gear.csv",
@@ -184,24 +187,24 @@ def test_another_format_is_added_and_nothing_else_is_touched(made: Path) -> None
 
 def test_chord_error_makes_the_facets_again_and_nothing_else(tmp_path: Path) -> None:
     both = (Format.STL, Format.CSV)
-    make(tmp_path, GEARS[:3], Wanted(formats=both))
+    make(tmp_path, GEARS[:3], (Build(formats=both),))
     before, old = snapshot(tmp_path / "out"), times(tmp_path / "out")
-    make(tmp_path, GEARS[:3], Wanted(formats=both, options=FileOptions(chord_error=0.02)))
+    make(tmp_path, GEARS[:3], (Build(formats=both, options=FileOptions(chord_error=0.02)),))
     assert made_now(tmp_path / "out") == ["spur", "left"]
     new = times(tmp_path / "out")
     again = {path.partition("/")[2] for path in old if old[path] != new[path]}
     assert again == {"gear.stl", "data.json", "manifest.json"}  # the data come with every build
     assert snapshot(tmp_path / "out")["left/gear.stl"] != before["left/gear.stl"]
     assert snapshot(tmp_path / "out")["left/data.json"] == before["left/data.json"]
-    make(tmp_path, GEARS[:3], Wanted(formats=both))
+    make(tmp_path, GEARS[:3], (Build(formats=both),))
     assert snapshot(tmp_path / "out") == before
 
 
 def test_bracket_makes_the_step_files_again(tmp_path: Path) -> None:
     lines = (PAIRS[0] + ",pinion.body.bore,wheel.body.bore", PAIRS[1] + ",4,6")
-    make(tmp_path, lines, Wanted(formats=(Format.STEP, Format.CSV)))
+    make(tmp_path, lines, (Build(formats=(Format.STEP, Format.CSV)),))
     before = times(tmp_path / "out")
-    make(tmp_path, lines, Wanted(formats=(Format.STEP, Format.CSV), options=FileOptions(bracket=True)))
+    make(tmp_path, lines, (Build(formats=(Format.STEP, Format.CSV), options=FileOptions(bracket=True)),))
     after = times(tmp_path / "out")
     changed = {path.partition("/")[2] for path in before if before[path] != after[path]}
     assert changed == {"assembly.step", "pinion.step", "wheel.step", "data.json", "manifest.json"}
@@ -209,7 +212,7 @@ def test_bracket_makes_the_step_files_again(tmp_path: Path) -> None:
 
 def test_bracket_of_a_single_gear_is_no_matter(tmp_path: Path) -> None:
     """A table may hold both."""
-    make(tmp_path, GEARS[:2], Wanted(formats=(Format.STEP,), options=FileOptions(bracket=True)))
+    make(tmp_path, GEARS[:2], (Build(formats=(Format.STEP,), options=FileOptions(bracket=True)),))
     assert files_of(tmp_path, "spur") == {"data.json", "gear.step", "manifest.json"}
 
 

@@ -13,12 +13,14 @@ import pytest
 from support.batches import GEARS, lies, read_results, snapshot, write_table
 from support.processes import PATIENCE, run_batch, start_batch, wait_until
 
-from gearcad.batch import Step, Wanted, run_table
+from gearcad.batch import run_table
 from gearcad.errors import OutputError
+from gearcad.jobs.build import Build
+from gearcad.jobs.data import Data
 from gearcad.solids import Format
 
-DATA = Wanted(steps=(Step.DATA,))
-POINTS = Wanted(formats=(Format.CSV,))
+DATA = (Data(),)
+POINTS = (Build(formats=(Format.CSV,)),)
 
 MANY = (GEARS[0], *(f"row {number:03d},{12 + number % 50},1,2,{number % 3}" for number in range(60)))
 

@@ -21,9 +21,12 @@ import pytest
 from support.batches import write_table
 from support.variants import variants
 
-from gearcad.batch import Step, Wanted
 from gearcad.batch.row import Task, make_row
+from gearcad.batch.stages import stages
 from gearcad.designs.table import open_table
+from gearcad.jobs.build import Build
+from gearcad.jobs.data import Data
+from gearcad.jobs.job import Job
 
 pytestmark = pytest.mark.benchmark_suite
 
@@ -98,17 +101,17 @@ def test_memory_of_the_parent_does_not_grow_with_the_table(benchmark: Any, condi
     assert peaks[5000] - peaks[200] < MOST_GROWTH[condition]
 
 
-@pytest.mark.parametrize("step", [Step.DATA, Step.BUILD])
-def test_time_outside_the_solid_kernel(benchmark: Any, step: Step, tmp_path: Path) -> None:
+@pytest.mark.parametrize("job", [Data(), Build()], ids=lambda job: job.verb)
+def test_time_outside_the_solid_kernel(benchmark: Any, job: Job[Any, Any], tmp_path: Path) -> None:
     """Share of a worker's time by whose code runs: the kernel with CadQuery, numpy, the batch, and all else.
 
     The profiler tells the time inside the kernel, which it does not slow down; a run without it tells the whole.
     """
-    benchmark.group = f"batch: whose time, {step.value}"
+    benchmark.group = f"batch: whose time, {job.verb}"
     rows = list(open_table(write_table(tmp_path / "table.csv", variants(21))).rows())
     workspace = tmp_path / "out" / ".work"
     workspace.mkdir(parents=True)
-    tasks = [Task(row, Wanted(steps=(step,)), tmp_path / "out", workspace, True) for row in rows]
+    tasks = [Task(row, stages([job]), tmp_path / "out", workspace, True) for row in rows]
     assert make_row(tasks[0]).error == ""  # imports are done
 
     def make_all() -> float:

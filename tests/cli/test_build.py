@@ -14,7 +14,7 @@ from gearcad.cli import main
 from gearcad.designs import read_spec
 from gearcad.designs.design import Design
 from gearcad.jobs.build import build
-from gearcad.solids import FileOptions, Format
+from gearcad.solids import Format
 from gearcad.solids.files import products
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
@@ -90,7 +90,7 @@ def test_facets_of_a_gear_are_made_once_for_all_formats(pair: Design, stand_ins:
 
 
 def test_bracket_reaches_the_assembly(pair: Design, stand_ins: list[str], tmp_path: Path) -> None:
-    build(pair, tmp_path, [Format.STEP], FileOptions(bracket=True))
+    build(pair, tmp_path, [Format.STEP], bracket=True)
     assert "pair_assembly {'bracket': True}" in stand_ins
 
 
@@ -157,7 +157,7 @@ def test_kernel_failure_is_status_1(stand_ins: list[str], tmp_path: Path, monkey
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("built")
-    build(read_spec(TEMPLATES / "volvo-13-44.toml"), folder, Format, FileOptions(chord_error=0.02))
+    build(read_spec(TEMPLATES / "volvo-13-44.toml"), folder, Format, chord_error=0.02)
     return folder
 
 
@@ -167,7 +167,7 @@ def test_every_file_of_the_reference_pair_is_there(built: Path) -> None:
 
 
 def test_equal_input_gives_equal_bytes(built: Path, tmp_path: Path) -> None:
-    build(read_spec(TEMPLATES / "volvo-13-44.toml"), tmp_path, Format, FileOptions(chord_error=0.02))
+    build(read_spec(TEMPLATES / "volvo-13-44.toml"), tmp_path, Format, chord_error=0.02)
     assert [name for name in sorted(names(built)) if (built / name).read_bytes() != (tmp_path / name).read_bytes()] == []
 
 
@@ -222,5 +222,5 @@ def test_bracket_without_bores_is_refused_and_leaves_nothing(pair: Design, tmp_p
     spec = tmp_path / "bare.toml"
     spec.write_text((TEMPLATES / "volvo-13-44.toml").read_text().replace("body.bore = 16.0", ""))
     with pytest.raises(GeometryError, match=r"pinion\.body\.bore = 0 mm: must be above 0 mm"):
-        build(read_spec(spec), tmp_path / "out", [Format.STEP], FileOptions(bracket=True))
+        build(read_spec(spec), tmp_path / "out", [Format.STEP], bracket=True)
     assert names(tmp_path) == {"bare.toml"}

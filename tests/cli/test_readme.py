@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+from click import Context
 from click.testing import CliRunner
 
 from gearcad.cli import main
@@ -36,9 +37,10 @@ def test_spec_example_is_the_shipped_pair(tmp_path: Path, monkeypatch: pytest.Mo
 
 
 def test_commands_exist() -> None:
+    context = Context(main)
     for line in _block("sh", "gearcad new pair").splitlines():
         command = line.split("#")[0].split()
         assert command[0] == "gearcad"
-        assert command[1] in main.commands
-        options = {name for parameter in main.commands[command[1]].params for name in parameter.opts}
+        found = main.get_command(context, command[1])
+        options = {name for parameter in found.params for name in parameter.opts}
         assert {word for word in command[2:] if word.startswith("--")} <= options

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import inspect
 import re
+import subprocess
+import sys
 import xml.etree.ElementTree as ElementTree
 from importlib import import_module
+from inspect import signature
 from pathlib import Path
 
 import numpy as np
@@ -28,11 +32,11 @@ from gearcad import (
     dynamics,
 )
 from gearcad.check import CheckOptions
-from gearcad.designs import Design, as_design, read_spec
+from gearcad.designs import Design, read_spec
 from gearcad.dynamics import DynamicsOptions
-from gearcad.jobs.dynamics import simulate
-from gearcad.jobs.modify import propose
-from gearcad.jobs.stiffness import compare
+from gearcad.jobs import JOBS
+from gearcad.jobs.subject import as_design
+from gearcad.verbs import VERBS
 from tests.support.coarse import coarse_pair
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
@@ -120,18 +124,65 @@ def test_a_job_takes_a_pair_and_a_load_as_it_takes_a_design() -> None:
     assert (design.pair, design.load, design.material, design.name) == (FZG_C, load, material, FZG_C.name)
     other = as_design(design, Load(torque=100), mounting=Mounting(misalignment=5))
     assert (other.load, other.material) == (Load(torque=100), material)
-    one = compare(FZG_C, load, methods=["iso6336"], material=material)
-    two = compare(design, methods=["iso6336"])
+    one = gearcad.stiffness(FZG_C, load, methods=["iso6336"], material=material)
+    two = gearcad.stiffness(design, methods=["iso6336"])
     assert one.cycles[0].mean == two.cycles[0].mean
     assert repr(one.cycles[0]).startswith("<MeshCycle by iso6336 at 302 N·m: ")
 
 
-@pytest.mark.parametrize("job", [compare, simulate, propose])
-def test_a_job_without_a_load_or_on_something_else_is_one_line(job: object) -> None:
-    with pytest.raises(ParameterError, match=r"load\.torque = None: must be given"):
+@pytest.mark.parametrize("verb", ["check", "rate", "stiffness", "dynamics", "modify"])
+def test_a_job_without_a_load_or_on_something_else_is_one_line(verb: str) -> None:
+    job, load, gear = getattr(gearcad, verb), Load(torque=60), FZG_C.pinion
+    with pytest.raises(ParameterError, match=r"^load\.torque = None: must be given"):
         job(FZG_C)
-    with pytest.raises(ParameterError, match="subject = 3: must be a GearPair or a Design"):
+    with pytest.raises(ParameterError, match=r"^kind = 'gear': must be a pair"):
+        job(gear, load)
+    with pytest.raises(
+        ParameterError, match=r"^subject = 3: must be a GearPair, a Gear, or a design such as gearcad.read gives$"
+    ):
         job(3)
+    with pytest.raises(ParameterError, match=r"^load = 5: must be a Load$"):
+        job(FZG_C, 5)
+    with pytest.raises(ParameterError, match=r"^material = 'steel': must be a Material$"):
+        job(FZG_C, load, material="steel")
+
+
+def test_every_job_has_a_class_and_a_function_of_its_name() -> None:
+    assert list(JOBS) == list(VERBS)
+    for verb, job in JOBS.items():
+        assert job.verb == verb
+        function = getattr(import_module(f"gearcad.jobs.{verb}"), verb)
+        assert signature(getattr(gearcad, verb)) == signature(function)
+        assert inspect.getdoc(function).split("\n")[0] in inspect.getdoc(getattr(gearcad, verb))
+    with pytest.raises(KeyError):
+        JOBS["nothing"]
+
+
+IMPORTS = ("import gearcad", "from gearcad.check import CheckOptions", "from gearcad import check", "import gearcad.jobs.check")
+
+
+@pytest.mark.parametrize("first", range(len(IMPORTS)))
+def test_a_room_can_be_called_as_its_job_however_it_was_imported(first: int) -> None:
+    lines = [*IMPORTS[first:], *IMPORTS[:first]]
+    code = "\n".join([*lines, "assert check is gearcad.check", "gearcad.check.Model", "check(3)"])
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert "ParameterError: subject = 3: must be" in done.stderr, done.stderr
+
+
+@pytest.mark.long
+def test_a_type_checker_knows_what_verbs_take_and_give(tmp_path: Path) -> None:
+    (tmp_path / "user.py").write_text(
+        "import gearcad\n"
+        "from gearcad.check import CheckOptions, CheckResult\n"
+        "def use(pair: gearcad.GearPair, load: gearcad.Load) -> CheckResult:\n"
+        "    gearcad.dynamics(gearcad.read('a.toml'))\n"
+        "    gearcad.stiffness(pair, 5)\n"
+        "    return gearcad.check(pair, load, check=CheckOptions())\n"
+    )
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "user.py"], capture_output=True, text=True, cwd=tmp_path)
+    assert [line for line in done.stdout.splitlines() if line.startswith("user.py")] == [
+        'user.py:5: error: Argument 2 to "stiffness" has incompatible type "int"; expected "Load | None"  [arg-type]'
+    ]
 
 
 @pytest.mark.parametrize("room", ["check", "dynamics", "geometry", "meshing", "rating", "solids", "designs", "stiffness"])

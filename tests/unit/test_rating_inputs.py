@@ -110,5 +110,5 @@ def test_check_goes_by_the_rating(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     seen: list[Any] = []
     monkeypatch.setattr(gearcad.jobs.check, "check_pair", lambda *arguments: seen.extend(arguments))
     design = read_spec(spec(tmp_path))
-    gearcad.jobs.check.assess(design)
+    gearcad.check(design)
     assert seen[-1] is design.rating

@@ -19,9 +19,9 @@ from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.rating.options import RatingOptions
 
-__all__ = ["GearedDesign", "Inputs", "beside_teeth", "require_tables"]
+__all__ = ["BESIDE", "GearedDesign", "Inputs", "beside_teeth", "require_tables"]
 
-_BESIDE: dict[str, type[Any]] = {
+BESIDE: dict[str, type[Any]] = {
     "material": Material,
     "load": Load,
     "mounting": Mounting,
@@ -29,6 +29,7 @@ _BESIDE: dict[str, type[Any]] = {
     "dynamics": DynamicsOptions,
     "rating": RatingOptions,
 }
+"""What may stand beside the teeth, by the tables of a spec."""
 
 
 class Inputs(TypedDict, total=False):
@@ -65,7 +66,7 @@ class GearedDesign(Design):
 
     def to_dict(self) -> dict[str, Any]:
         """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
-        given = {table: getattr(self, table) for table in _BESIDE}
+        given = {table: getattr(self, table) for table in BESIDE}
         return super().to_dict() | {table: asdict(value) for table, value in given.items() if value is not None}
 
 
@@ -83,4 +84,4 @@ def require_tables(tables: Mapping[str, Any], where: Where) -> None:
 
 def beside_teeth(spec: Spec, tables: Mapping[str, Any]) -> dict[str, Any]:
     """What the tables beside those of the gears make, as keyword arguments of a GearedDesign."""
-    return {table: spec.simple(table, kind) for table, kind in _BESIDE.items() if table in tables}
+    return {table: spec.simple(table, kind) for table, kind in BESIDE.items() if table in tables}

@@ -6,20 +6,20 @@ What both gears share may stand in `[pair]`; a gear's own value wins, and the wh
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Self, Unpack
+from dataclasses import dataclass
+from typing import Any, ClassVar, Self
 
 from gearcad.designs.auto import AUTO, make_gears, resolve_profile_shifts, resolve_tip_alterations
-from gearcad.designs.design import Design, DesignKind
+from gearcad.designs.design import DesignKind
 from gearcad.designs.files import Where
 from gearcad.designs.keys import SHARED
-from gearcad.designs.kinds.geared import GearedDesign, Inputs, beside_teeth, require_tables
+from gearcad.designs.kinds.geared import GearedDesign, beside_teeth, require_tables
 from gearcad.designs.spec import Given, Spec
 from gearcad.errors import ParameterError, SpecError, as_choice, require_number
 from gearcad.geometry import Gear, GearPair, ShiftSplit
 from gearcad.load import Load
 
-__all__ = ["PairDesign", "as_design"]
+__all__ = ["PairDesign"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,19 +67,6 @@ class PairDesign(GearedDesign):
         if self.load is None:
             raise ParameterError("load.torque", None, f"must be given, in N·m on the pinion: {why}")
         return self.load
-
-
-def as_design(subject: Design | GearPair, load: Load | None = None, **inputs: Unpack[Inputs]) -> Design:
-    """A design as it is, or that of a pair, with what is given in place of its own. Raises ParameterError."""
-    if isinstance(subject, GearPair):
-        subject = PairDesign(name=subject.name, pair=subject)
-    if not isinstance(subject, Design):
-        raise ParameterError("subject", subject, "must be a GearPair or a Design")
-    given: dict[str, Any] = {**inputs, "load": load} if load is not None else {**inputs}
-    for name, value in given.items():
-        if not hasattr(subject, name):
-            raise ParameterError(name, value, f"is nothing that a {subject.kind.value} has")
-    return replace(subject, **given)
 
 
 def _require_pair(tables: Mapping[str, Any], where: Where) -> None:

@@ -1,4 +1,4 @@
-"""The commands of a parameter study: study, which writes a design table, and plot, which draws what batch made of it."""
+"""A design table from a spec and what to vary: study."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gearcad.errors import ParameterError, as_choice
 if TYPE_CHECKING:
     from gearcad.batch.study import Sample
 
-__all__ = ["plot", "study"]
+__all__ = ["study"]
 
 MOST_CHECKED = 2000
 """Rows of the largest table that is tried at once, about 1 ms for each; batch tries all rows before it begins."""
@@ -87,36 +87,3 @@ def _echo_prospects(path: Path, rows: int) -> None:
     keep_going = " --keep-going    # builds the others" if 0 < faulty < rows else ""
     if faulty < rows:
         click.echo(f"Next: gearcad batch {path}{keep_going}", err=True)
-
-
-@click.command(short_help="Draw columns of results.csv over each other.")
-@click.argument("results", type=click.Path(path_type=Path))
-@click.option("--x", required=True, metavar="KEY", help="Column along the x axis.")
-@click.option("--y", required=True, metavar="KEY", help="Column along the y axis.")
-@click.option("--colour", "--color", metavar="KEY", help="Column that colours the points.")
-@click.option("--contour", metavar="KEY", help="Column whose contours to draw over x and y.")
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="A .png, .svg or .pdf.  [default: a .png beside RESULTS]",
-)
-@debug_option
-def plot(results: Path, x: str, y: str, colour: str | None, contour: str | None, output: Path | None) -> None:
-    """Draw one column of RESULTS, the results.csv of a batch, over another.
-
-    KEY is the heading of a column, such as pinion.profile_shift; its beginning may be left out where no other column ends
-    alike, such as transverse_contact_ratio.
-    """
-    from gearcad.plots import plot_contours, plot_scatter, require_picture, save_plot
-    from gearcad.plots.table_data import read_points
-
-    if output is not None:
-        require_picture(output)
-    points = read_points(results, x, y, colour=colour, contour=contour)
-    path = output if output is not None else results.with_name(f"{results.stem}-{points.y.key}-{points.x.key}.png")
-    save_plot(plot_scatter if contour is None else plot_contours, points, path)
-    click.echo(path)
-    if points.omitted:
-        click.echo(f"{points.omitted} rows are left out: not ok, or without one of these values", err=True)

@@ -9,10 +9,11 @@ import click
 
 import gearcad
 from gearcad.cli.group import debug_option, require_new_file, spec_argument
+from gearcad.cli.job import echo_warnings
 from gearcad.cli.progress import job_progress
 
 if TYPE_CHECKING:
-    from gearcad.jobs.modify import Proposal
+    from gearcad.jobs.proposal import Proposal
 
 __all__ = ["modify"]
 
@@ -48,25 +49,26 @@ def modify(
     from gearcad.designs.edit import edit_spec
     from gearcad.errors import as_choice
     from gearcad.geometry import ReliefShape
-    from gearcad.jobs.modify import propose
+    from gearcad.jobs.modify import Modify
     from gearcad.output import json_text, staged_files
 
     wanted = None if shape is None else as_choice("shape", shape, ReliefShape)
+    job = Modify(torque=torque, pressure=pressure, shape=wanted)
     design = read_spec(spec)
     path = output or Path(f"{design.name}-modified.toml")
     require_new_file(path, force)
     with job_progress(shown=not quiet) as progress:
-        proposal = propose(design, torque=torque, pressure=pressure, shape=wanted, progress=progress)
+        proposal = job.run(design, progress)
     text = edit_spec(spec.read_bytes().decode("utf-8-sig"), proposal.changes, proposal.notes)
     with staged_files(path.parent) as staging:
         (staging / path.name).write_text(text, encoding="utf-8", newline="")
     if as_json:
-        document = {"kind": "modify", "name": proposal.name, "gearcad": gearcad.__version__, "output": str(path)}
-        click.echo(json_text({**document, **proposal.to_dict()}), nl=False)
-        return
-    click.echo("\n".join([*_lines(proposal), str(path)]))
-    for warning in () if quiet else proposal.warnings:
-        click.echo(f"Warning: {warning}", err=True)
+        head = {"kind": "modify", "name": proposal.name, "gearcad": gearcad.__version__, "output": str(path)}
+        click.echo(json_text(head | job.document(proposal)), nl=False)
+    else:
+        click.echo("\n".join([*_lines(proposal), str(path)]))
+    if not quiet:
+        echo_warnings((*design.warnings, *proposal.warnings), err=True)
 
 
 def _lines(proposal: Proposal) -> list[str]:

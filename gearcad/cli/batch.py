@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 import click
 
 import gearcad
-from gearcad.cli.group import debug_option, format_option, parse_choices
+from gearcad.cli.build import format_option
+from gearcad.cli.group import debug_option, job_commands, parse_choices
 from gearcad.cli.progress import row_progress
-from gearcad.errors import as_choice
+from gearcad.errors import ParameterError, as_choice
+from gearcad.jobs import JOBS
 from gearcad.solids import FileOptions, Format
 
 if TYPE_CHECKING:
@@ -24,7 +26,7 @@ __all__ = ["batch"]
 @click.argument("table", type=click.Path(path_type=Path))
 @click.option("-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/TABLE]")
 @click.option("-j", "--jobs", type=int, metavar="N", help="Processes at work.  [default: the cores]")
-@click.option("--do", "steps", default="build", show_default=True, help="Comma-separated list of data, build, check.")
+@click.option("--do", "steps", default="build", show_default=True, help=f"Comma-separated list of {', '.join(job_commands())}.")
 @format_option
 @click.option("--chord-error", default=0.005, show_default=True, metavar="MM", help="Largest error of the facets, in mm.")
 @click.option("--bracket", is_flag=True, help="Put the assemblies on two shafts with a bracket (STEP).")
@@ -62,13 +64,12 @@ def batch(
     All rows are checked before anything is made. Run it again after a change, a crash or a Ctrl-C: it makes only what is
     missing or changed. `gearcad new pairs` writes a commented table to begin with.
     """
-    from gearcad.batch import Decimal, Step, Wanted, run_table
+    from gearcad.batch import Decimal, run_table
+    from gearcad.jobs.build import Build
 
-    wanted = Wanted(
-        steps=parse_choices("do", steps, Step),
-        formats=parse_choices("format", formats, Format),
-        options=FileOptions(chord_error=chord_error, bracket=bracket, circles=circles),
-    )
+    options = FileOptions(chord_error=chord_error, bracket=bracket, circles=circles)
+    build = Build(formats=parse_choices("format", formats, Format), options=options)
+    wanted = [build if verb == build.verb else JOBS[verb]() for verb in _verbs(steps)]
     chosen = as_choice("decimal", decimal.lower(), Decimal)
     folder = output if output is not None else Path("output") / table.stem
     began = time.perf_counter()
@@ -88,6 +89,15 @@ def batch(
     _report(summary, time.perf_counter() - began, as_json=as_json, quiet=quiet)
     if summary.failed or summary.not_run or summary.stopped:
         click.get_current_context().exit(1)
+
+
+def _verbs(text: str) -> list[str]:
+    """The jobs of a comma-separated list, each once; raises ParameterError."""
+    found = [name.strip().lower() for name in text.split(",")]
+    for verb in found:
+        if verb not in job_commands():
+            raise ParameterError("do", verb, f"must be one of {', '.join(map(repr, job_commands()))}")
+    return list(dict.fromkeys(found))
 
 
 def _report(summary: Summary, seconds: float, *, as_json: bool, quiet: bool) -> None:

@@ -1,0 +1,68 @@
+"""What the commands of jobs share: a spec in, progress while it lasts, files, what the screen shows, warnings."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from gearcad.cli.progress import job_progress
+
+if TYPE_CHECKING:
+    from gearcad.jobs.job import Job
+
+__all__ = ["echo_warnings", "folder_of", "json_option", "output_option", "perform", "quiet_option"]
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+Result = TypeVar("Result")
+
+
+def output_option(command: Command) -> Command:
+    return click.option(
+        "-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/NAME]"
+    )(command)
+
+
+def json_option(command: Command) -> Command:
+    words = f"Print the document of {command.__name__}.json and nothing else."
+    return click.option("--json", "as_json", is_flag=True, help=words)(command)
+
+
+def quiet_option(command: Command) -> Command:
+    return click.option("--quiet", is_flag=True, help="No progress and no warnings of the design on the screen.")(command)
+
+
+def folder_of(output: Path | None, name: str) -> Path:
+    """Where the files of a design go."""
+    return output if output is not None else Path("output") / name
+
+
+def perform(
+    job: Job[Any, Result], spec: Path, output: Path | None, show: Callable[[str, Result], None], *, as_json: bool, quiet: bool
+) -> Result:
+    """Do a job on the design of a spec, write its files, and print its document, or what `show` does and the files."""
+    from gearcad.designs import read_spec
+    from gearcad.output import json_text
+
+    design = read_spec(spec)
+    with job_progress(shown=not quiet, expected=None if quiet else job.expected(design)) as progress:
+        result = job.run(design, progress)
+    files = job.write(result, folder_of(output, design.name))
+    if as_json:
+        click.echo(json_text(job.document(result)), nl=False)
+    else:
+        show(design.name, result)
+        click.echo("".join(f"{file}\n" for file in files), nl=False)
+    if not quiet:
+        echo_warnings(design.warnings, err=True)
+    return result
+
+
+def echo_warnings(texts: tuple[str, ...], *, err: bool = False) -> None:
+    """What to know before trusting a result, a line each: among the results, or on stderr beside them."""
+    colour = False if os.environ.get("NO_COLOR") else None  # None: where it is a terminal
+    for text in texts:
+        click.secho(f"Warning: {text}", fg="yellow", err=err, color=colour)

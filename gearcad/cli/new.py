@@ -1,0 +1,45 @@
+"""A starter to begin with: new."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from gearcad.cli.group import debug_option, require_new_file
+
+__all__ = ["new"]
+
+
+@click.command()
+@click.argument("kind", required=False)
+@click.option("-o", "--output", metavar="FILE", help="Where to write it; - prints it.  [default: its own name here]")
+@click.option("--force", is_flag=True, help="Replace a file that exists.")
+@debug_option
+def new(kind: str | None, output: str | None, force: bool) -> None:
+    """Write a commented starter: a spec of one design, or a table of many.
+
+    KIND is the name of a starter or its beginning; without it the starters are listed.
+    """
+    from gearcad.designs.starters import starter_text, starters
+
+    if kind is None:
+        click.echo("".join(f"{name:<14}{what}\n" for name, what in starters().items()), nl=False)
+        return
+    name, text = starter_text(kind)
+    if output == "-":
+        click.echo(text, nl=False)
+        return
+    path = Path(output or name)
+    _write_new(path, text, force)
+    click.echo(path)
+    command = "batch" if name.endswith(".csv") else "dynamics" if "\n[train]\n" in text else "data"
+    click.echo(f"Next: gearcad {command} {path}", err=True)
+
+
+def _write_new(path: Path, text: str, force: bool) -> None:
+    from gearcad.output import staged_files
+
+    require_new_file(path, force)
+    with staged_files(path.parent) as staging:
+        (staging / path.name).write_text(text, encoding="utf-8")

@@ -1,0 +1,121 @@
+"""Job: what is done with a design, in one shape - its options are its fields, a result comes out, and files hold that."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass, fields
+from enum import Enum
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar, Generic, TypeVar, cast
+
+from gearcad.designs.design import Design
+from gearcad.output import json_text, staged_files
+from gearcad.progress import Agenda, Expected, Progress
+
+__all__ = ["Job", "Writer"]
+
+Accepted = TypeVar("Accepted", bound=Design)
+Result = TypeVar("Result")
+
+Writer = Callable[[Path], object]
+"""Writes one file at the path it is given."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Job(ABC, Generic[Accepted, Result]):
+    """One verb with its options. Commands, tables and Python ask jobs, and nothing below them."""
+
+    verb: ClassVar[str]
+    """Its name: that of its module, of its command, of its document and of its function in `gearcad`."""
+
+    accepts: ClassVar[tuple[type[Design], ...]]
+    """The kinds of designs that it takes."""
+
+    why: ClassVar[str]
+    """Why it takes no other: the end of a message."""
+
+    solves: ClassVar[bool] = True
+    """Whether it solves systems. They are small, or solved side by side: more threads cost more than they bring."""
+
+    sometimes: ClassVar[tuple[str, ...]] = ()
+    """Files that not every result has: one that is there of a former result goes, for it would belong to another."""
+
+    def run(self, design: Design, progress: Progress | None = None) -> Result:
+        """The result for a design. Raises ParameterError for a kind that it does not take, and what its solvers raise."""
+        with _one_thread() if self.solves else nullcontext():
+            return self._run(self._accepted(design), progress)
+
+    @abstractmethod
+    def _run(self, design: Accepted, progress: Progress | None) -> Result:
+        """The result for a design of a kind that it takes."""
+
+    def expected(self, design: Design) -> Expected | None:
+        """What `run` is expected to take, where that is known. Raises what `run` raises for input that cannot be treated."""
+        return self._expected(self._accepted(design))
+
+    def _expected(self, _design: Accepted) -> Expected | None:
+        return None
+
+    @abstractmethod
+    def document(self, result: Result) -> dict[str, Any]:
+        """What VERB.json holds, and `--json` prints."""
+
+    def files(self, result: Result) -> dict[str, Writer]:
+        """The names of a result's files, in the order in which they are made, and what writes each."""
+        return {f"{self.verb}.json": partial(self.write_document, result)}
+
+    def write_document(self, result: Result, path: Path) -> None:
+        """Write what VERB.json holds."""
+        path.write_text(json_text(self.document(result)), encoding="utf-8")
+
+    def write(self, result: Result, folder: Path, progress: Progress | None = None) -> list[Path]:
+        """Write all files of a result into `folder`, or none, and return their paths. Raises OutputError."""
+        files = self.files(result)
+        agenda = Agenda(progress, dict.fromkeys(files, 1.0))
+        with staged_files(folder) as staging:
+            for name, write in files.items():
+                agenda(name)
+                write(staging / name)
+        for name in self.sometimes:
+            if name not in files:
+                (folder / name).unlink(missing_ok=True)
+        return [folder / name for name in files]
+
+    # ------------------------------------------------------------------ rows of a table
+
+    @property
+    def parts(self) -> dict[str, dict[str, Any]]:
+        """What a row keeps of it, each made again on its own, and the options on which it depends, as JSON has them."""
+        values = {each.name: getattr(self, each.name) for each in fields(self)}
+        return {self.verb: {each.name: _plain(values[each.name]) for each in fields(self) if values[each.name] != each.default}}
+
+    def part_of(self, file: str) -> str:
+        """The part to which a file belongs; "" if a row does not keep it."""
+        return self.verb if file == f"{self.verb}.json" else ""
+
+    def for_row(self, _design: Design, _parts: Collection[str]) -> Job[Any, Any]:
+        """What makes these parts of a row: without options that the row has no use for."""
+        return self
+
+    def figures(self, _document: dict[str, Any]) -> dict[str, Any]:
+        """What a table of results has of its document, in columns that begin with the verb."""
+        return {}
+
+    def _accepted(self, design: Design) -> Accepted:
+        return cast("Accepted", design.accepted(*self.accepts, why=self.why))
+
+
+def _plain(value: Any) -> Any:
+    """As JSON gives it back."""
+    return list(value) if isinstance(value, tuple) else value.value if isinstance(value, Enum) else value
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(1):
+        yield

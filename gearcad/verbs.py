@@ -1,0 +1,19 @@
+"""The verbs of gearcad, in the order of use. A job is entered here, once by its name and once for type checkers.
+
+Its module `gearcad/jobs/VERB.py` has the class and the function of its name: `Check` is what commands and tables do, `check` is
+`gearcad.check`. A module `gearcad/cli/VERB.py` makes it a command, and a step of `gearcad batch --do`.
+"""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False  # as in guard.py
+if TYPE_CHECKING:
+    from gearcad.jobs.build import build as build
+    from gearcad.jobs.check import check as check
+    from gearcad.jobs.data import data as data
+    from gearcad.jobs.dynamics import dynamics as dynamics
+    from gearcad.jobs.modify import modify as modify
+    from gearcad.jobs.rate import rate as rate
+    from gearcad.jobs.stiffness import stiffness as stiffness
+
+VERBS = ("data", "build", "check", "rate", "stiffness", "dynamics", "modify")
