@@ -26,7 +26,7 @@ from gearcad.geometry.curves import Curve, CurveKind, Land
 from gearcad.meshing.grading import Grading, graded
 from gearcad.meshing.outline import EdgeLength, MeshSizes, Side, edge_lengths
 
-__all__ = ["Counts", "Layout", "Piece", "cartesian", "choose_counts", "polar", "quadrangles", "shares"]
+__all__ = ["Counts", "Piece", "SectorLayout", "cartesian", "choose_counts", "polar", "quadrangles", "shares"]
 
 
 _WEIGHT_OF_ALL = 30.0
@@ -112,7 +112,7 @@ def shares(pieces: tuple[Piece, ...], count: int) -> list[tuple[Piece, int]]:
 
 
 @dataclass(frozen=True)
-class Layout:
+class SectorLayout:
     """The lines between the blocks of the left half of tooth 0's sector, and the edges that the sizes ask for on them.
 
     Inside the outline they are drawn in the plane of angle and logarithm of the radius, where circles and radii are straight

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from enum import Enum
 
 import numpy as np
 
-from gearcad.arrays import Floats
+from gearcad.arrays import Floats, Wholes
 from gearcad.errors import require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.meshing.grading import graded
 
-__all__ = ["OTHER_SIDE", "EdgeLength", "MeshSizes", "Side", "Stretch", "edge_lengths", "sector_outline"]
+__all__ = ["OTHER_SIDE", "EdgeLength", "MeshSizes", "SectorSides", "Side", "Stretch", "edge_lengths", "sector_outline"]
 
 
 EdgeLength = Callable[[Floats, float], Floats]
@@ -35,6 +35,22 @@ class Side(Enum):
     AHEAD = "cut at plus half a pitch"
     INNER = "inner circle"
     BEHIND = "cut at minus half a pitch"
+
+
+class SectorSides:
+    """Nodes of a sector's mesh by the sides of its outline, in order along it: end, middle, end, middle ... end."""
+
+    sides: Mapping[Side, Wholes]
+
+    @property
+    def ahead(self) -> Wholes:
+        """Nodes of the cut at plus half a pitch, from the root inwards."""
+        return self.sides[Side.AHEAD]
+
+    @property
+    def behind(self) -> Wholes:
+        """Nodes of the cut at minus half a pitch, from the root inwards: the k-th meets the k-th of `ahead`."""
+        return self.sides[Side.BEHIND][::-1]
 
 
 @dataclass(frozen=True, kw_only=True)

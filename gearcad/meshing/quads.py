@@ -12,8 +12,8 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
-from gearcad.meshing.layout import Layout, Piece, cartesian, polar, shares
-from gearcad.meshing.outline import OTHER_SIDE, MeshSizes, Side
+from gearcad.meshing.layout import Piece, SectorLayout, cartesian, polar, shares
+from gearcad.meshing.outline import OTHER_SIDE, MeshSizes, SectorSides, Side
 from gearcad.meshing.quality import LEAST_SCALED_JACOBIAN, scaled_jacobians
 from gearcad.meshing.transfinite import transfinite
 
@@ -25,27 +25,17 @@ _FLIPPED = np.array([-1.0, 1.0])
 
 
 @dataclass(frozen=True)
-class QuadMesh:
+class QuadMesh(SectorSides):
     """Quadrangles of tooth 0, centred on +x, and its share of the body.
 
     `points` (n, 2) in mm, the `vertices` first; `quads` (m, 8), four vertices counter-clockwise and the nodes between 0-1,
-    1-2, 2-3, 3-0; `sides` gives the nodes of each side in order along the outline: end, middle, end ... end.
+    1-2, 2-3, 3-0.
     """
 
     points: Floats
     vertices: int
     quads: Wholes
     sides: Mapping[Side, Wholes]
-
-    @property
-    def ahead(self) -> Wholes:
-        """Nodes of the cut at plus half a pitch, from the root inwards."""
-        return self.sides[Side.AHEAD]
-
-    @property
-    def behind(self) -> Wholes:
-        """Nodes of the cut at minus half a pitch, from the root inwards: the k-th meets the k-th of `ahead`."""
-        return self.sides[Side.BEHIND][::-1]
 
 
 def mesh_quads(gear: Gear, inner_radius: float, sizes: MeshSizes) -> QuadMesh:
@@ -54,7 +44,7 @@ def mesh_quads(gear: Gear, inner_radius: float, sizes: MeshSizes) -> QuadMesh:
     The number of quadrangles follows the square of the sizes. Raises GeometryError for a tooth without a fillet, SolverError
     where quadrangles would be too distorted.
     """
-    blocks = _Blocks(Layout(gear, inner_radius, sizes))
+    blocks = _Blocks(SectorLayout(gear, inner_radius, sizes))
     mesh = _quadratic(blocks)
     worst = float(scaled_jacobians(mesh.points[mesh.quads]).min())
     if worst < LEAST_SCALED_JACOBIAN:
@@ -72,7 +62,7 @@ class _Blocks:
     The tooth stands on the middle of the body's last row.
     """
 
-    layout: Layout
+    layout: SectorLayout
 
     @cached_property
     def root(self) -> Floats:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
+from gearcad.meshing.shapes import triangle_slopes
 
 __all__ = ["LEAST_SCALED_JACOBIAN", "MeshQuality", "mesh_quality", "scaled_jacobians"]
 
@@ -56,10 +57,8 @@ def mesh_quality(points: Floats, triangles: NDArray[np.int64]) -> MeshQuality:
 def _jacobians(nodes: Floats) -> Floats:
     """Determinant of the quadratic map at the three corners of each element (m, 6, 2)."""
     found = []
-    for s, t in _CORNERS:
-        u = 1 - s - t
-        along_s = np.array([1 - 4 * u, 4 * s - 1, 0, 4 * (u - s), 4 * t, -4 * t])
-        along_t = np.array([1 - 4 * u, 0, 4 * t - 1, -4 * s, 4 * s, 4 * (u - t)])
+    for slopes in triangle_slopes(_CORNERS):
+        along_s, along_t = np.ascontiguousarray(slopes.T)
         x, y = np.einsum("a,mac->cm", along_s, nodes), np.einsum("a,mac->cm", along_t, nodes)
         found.append(x[0] * y[1] - x[1] * y[0])
     return np.stack(found, -1)

@@ -10,7 +10,7 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
-from gearcad.meshing.outline import MeshSizes, Side, Stretch, sector_outline
+from gearcad.meshing.outline import MeshSizes, SectorSides, Side, Stretch, sector_outline
 
 __all__ = ["MeshSizes", "SectorMesh", "fill_polygon", "mesh_sector"]
 
@@ -23,26 +23,16 @@ _EDGES = ((0, 1), (1, 2), (2, 0))
 
 
 @dataclass(frozen=True)
-class SectorMesh:
+class SectorMesh(SectorSides):
     """Quadratic triangles of tooth 0, centred on +x, and its share of the body.
 
     `points` (n, 2) in mm, vertices first; `triangles` (m, 6), three vertices and the nodes between 0-1, 1-2, 2-0,
-    counter-clockwise; `sides` gives the nodes of each side in order along the outline: end, middle, end, middle ... end.
+    counter-clockwise.
     """
 
     points: Floats
     triangles: Wholes
     sides: Mapping[Side, Wholes]
-
-    @property
-    def ahead(self) -> Wholes:
-        """Nodes of the cut at plus half a pitch, from the root inwards."""
-        return self.sides[Side.AHEAD]
-
-    @property
-    def behind(self) -> Wholes:
-        """Nodes of the cut at minus half a pitch, from the root inwards: the k-th meets the k-th of `ahead`."""
-        return self.sides[Side.BEHIND][::-1]
 
 
 def mesh_sector(gear: Gear, inner_radius: float, sizes: MeshSizes | None = None) -> SectorMesh:

@@ -14,7 +14,7 @@ from support.strategies import build_gear, gear_inputs
 from gearcad import Gear
 from gearcad.contact.solid.pair import SolidSizes
 from gearcad.errors import GeometryError, InputError
-from gearcad.meshing.layout import Layout
+from gearcad.meshing.layout import SectorLayout
 from gearcad.meshing.outline import Side
 from gearcad.meshing.quads import QuadMesh, mesh_quads
 from gearcad.meshing.quality import scaled_jacobians
@@ -48,7 +48,7 @@ def check_section(gear: Gear, rim: float | None, factor: float) -> None:
     check_outline(gear, mesh, radius)
     other = SIZES.scaled(factor)
     # A body thinner than an element, or a fillet shorter than one, gets one all the same.
-    if min(min(Layout(gear, radius, sizes).wanted) for sizes in (SIZES, other)) > FEWEST:
+    if min(min(SectorLayout(gear, radius, sizes).wanted) for sizes in (SIZES, other)) > FEWEST:
         event("followed")
         assert len(mesh_quads(gear, radius, other).quads) / len(mesh.quads) == pytest.approx(factor**2, rel=FOLLOWS)
 

@@ -16,7 +16,7 @@ from gearcad.check.extremes import PLANE, SOLID, STRESSES
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.contact.shared.bodies import BodyModel
-from gearcad.contact.shared.extremes import Extreme, Quantity, Span, add_positions, extreme
+from gearcad.contact.shared.extremes import Extreme, Quantity, RollRange, add_positions, extreme
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.geometry import ReliefShape
 from gearcad.per_gear import Role
@@ -34,7 +34,7 @@ Kink = tuple[float, float, float]
 
 def sought(course: Course, count: int, pitch: float = 20.0, repeats: bool = True) -> tuple[Extreme | None, int]:
     """The extreme of a course from `count` even positions, and how many were added."""
-    quantity, span = Quantity("value", lambda value: value), Span(pitch, repeats)
+    quantity, span = Quantity("value", lambda value: value), RollRange(pitch, repeats)
     angles = ((np.arange(count) + 0.5) / count * pitch - pitch / 2).tolist()
     asked: list[float] = []
 
@@ -108,14 +108,14 @@ def test_nothing_is_sought_where_nothing_can_be() -> None:
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_a_few_positions_tell_nothing_of_what_stands_between_them(count: int, repeats: bool) -> None:
     quantity, angles = Quantity("value", lambda value: value), np.linspace(-5, 5, count)
-    found = extreme([(float(angle), 100.0) for angle in angles], Span(20.0, repeats), quantity)
+    found = extreme([(float(angle), 100.0) for angle in angles], RollRange(20.0, repeats), quantity)
     assert found is not None and found.value == 100.0
     assert math.isinf(found.error) or (count == 1 and not repeats)
 
 
 def test_a_least_value_and_a_swing() -> None:
     known = [(angle, math.cos(math.radians(18 * angle))) for angle in (-7.5, -2.5, 2.5, 7.5)]
-    least = extreme(known, Span(20.0), Quantity("value", lambda value: value, least=True, swing=True))
+    least = extreme(known, RollRange(20.0), Quantity("value", lambda value: value, least=True, swing=True))
     assert least is not None
     assert least.value == min(value for _, value in known) and least.error > 0
 
@@ -133,7 +133,7 @@ def plane(relief: float = 0.0) -> PlanePair:
 
 def missed(cycle: PlaneCycle | SolidCycle, dense: PlaneCycle | SolidCycle, quantity: Quantity) -> float:  # type: ignore[type-arg]
     """How far a cycle's extreme is below that of another with many positions, of itself or of its swing."""
-    values = quantity.sign * np.array([quantity.of(position) for position in dense.positions])
+    values = quantity.sign * np.array([quantity.value(position) for position in dense.positions])
     values = values[~np.isnan(values)]
     found = cycle.extreme(quantity)
     assert found is not None

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact, PlanePosition
-from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.plane.flank import PlaneCompliance, near_elements
-from gearcad.contact.plane.subsurface import strip_stresses
+from gearcad.contact.plane.subsurface import strip_stresses, von_mises
 from gearcad.contact.shared.engaged import TOOTH_ORDER
 from gearcad.meshing.outline import Side
+from gearcad.meshing.shapes import triangle_shapes, triangle_slopes
 from gearcad.per_gear import Role
 
 __all__ = ["ToothField", "contact_frame", "tooth_field"]
@@ -74,7 +74,7 @@ def tooth_field(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: i
     points, stresses, triangles, count = [], [], [], 0
     for elements, parts in ((mesh.triangles[~finely], _COARSE), (mesh.triangles[finely], _FINE)):
         local, split = _lattice(parts)
-        shape = _shape(local)
+        shape = triangle_shapes(local)
         points.append(np.einsum("qa,eac->eqc", shape, mesh.points[elements]).reshape(-1, 2))
         stresses.append(np.einsum("qa,eas->eqs", shape, smooth[elements]).reshape(-1, 3))
         triangles.append((count + len(local) * np.arange(len(elements))[:, None, None] + split).reshape(-1, 3))
@@ -85,7 +85,9 @@ def tooth_field(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: i
     turn, axis = _pose(cycle, position, role, tooth)
     profile = np.concatenate([nodes for side, nodes in mesh.sides.items() if side not in _INSIDE])
     outline = mesh.points[profile] @ turn.T + axis
-    return ToothField(where @ turn.T + axis, np.concatenate(triangles), _von_mises(stress, body), outline)
+    x, y, shear = np.moveaxis(stress, -1, 0)
+    mises = von_mises(x, y, shear, body.elasticity)
+    return ToothField(where @ turn.T + axis, np.concatenate(triangles), mises, outline)
 
 
 def _pose(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: int) -> tuple[Floats, Floats]:
@@ -137,7 +139,7 @@ def _at_length(body: PlaneCompliance, columns: Floats, length: float) -> Floats:
 def _element_stresses(body: PlaneCompliance, triangles: Wholes, moved: Floats) -> Floats:
     """Stresses (m, 6, 3) at the nodes of the elements by displacements of all nodes."""
     corners = body.ring.sector.mesh.points[triangles]
-    slopes = _slopes(_CORNERS)
+    slopes = triangle_slopes(_CORNERS)
     jacobian = np.einsum("qad,eac->eqdc", slopes, corners)
     gradient = np.linalg.solve(jacobian, np.einsum("qad,eac->eqdc", slopes, moved.reshape(-1, 2)[triangles]))
     lame, shear = body.elasticity.lame
@@ -161,13 +163,6 @@ def _strips(body: PlaneCompliance, contact: PlanePairContact, role: Role, points
     return np.stack([turned[..., 0, 0], turned[..., 1, 1], turned[..., 0, 1]], -1)
 
 
-def _von_mises(stress: Floats, body: PlaneCompliance) -> Floats:
-    x, y, shear = np.moveaxis(stress, -1, 0)
-    along = body.elasticity.material.poisson_ratio * (x + y) if body.elasticity.plane is Plane.STRAIN else np.zeros_like(x)
-    result: Floats = np.sqrt(((x - y) ** 2 + (y - along) ** 2 + (along - x) ** 2) / 2 + 3 * shear**2)
-    return result
-
-
 def _near_contact(body: PlaneCompliance, contact: PlanePairContact, role: Role) -> NDArray[np.bool_]:
     """Elements that a circle around the contact reaches: their own circles meet it."""
     mesh = body.ring.sector.mesh
@@ -186,19 +181,3 @@ def _lattice(parts: int) -> tuple[Floats, Wholes]:
     upright = [(number[i, j], number[i + 1, j], number[i, j + 1]) for i, j in number if i + j < parts]
     inverted = [(number[i + 1, j], number[i + 1, j + 1], number[i, j + 1]) for i, j in number if i + j < parts - 1]
     return np.array(list(number)) / parts, np.array(upright + inverted)
-
-
-def _shape(local: Floats) -> Floats:
-    """Quadratic shape functions (n, 6) at points of a triangle's own coordinates."""
-    s, t = local.T
-    r = 1 - s - t
-    return np.stack([r * (2 * r - 1), s * (2 * s - 1), t * (2 * t - 1), 4 * r * s, 4 * s * t, 4 * t * r], -1)
-
-
-def _slopes(local: Floats) -> Floats:
-    """Their derivatives (n, 6, 2)."""
-    s, t = local.T
-    r, zero = 1 - s - t, np.zeros_like(s)
-    by_s = np.stack([1 - 4 * r, 4 * s - 1, zero, 4 * (r - s), 4 * t, -4 * t], -1)
-    by_t = np.stack([1 - 4 * r, zero, 4 * t - 1, -4 * s, 4 * s, 4 * (r - t)], -1)
-    return np.stack([by_s, by_t], -1)

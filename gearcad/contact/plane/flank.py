@@ -22,12 +22,16 @@ from gearcad.geometry import Gear
 from gearcad.meshing import SectorMesh
 from gearcad.meshing.outline import Side
 from gearcad.meshing.quality import mesh_quality
+from gearcad.meshing.shapes import edge_shapes, edge_slopes
 
 __all__ = ["Compliance", "PlaneCompliance", "PlaneFlank", "flank_compliance", "flank_of", "near_elements"]
 
 
 _GAUSS = 8
 """Points on each edge for the tractions of Flamant's field."""
+
+_ENDS_FIRST = [0, 2, 1]
+"""The nodes of an edge as triangles have them."""
 
 Compliance = Callable[[Floats, Floats], Floats]
 """Normal displacements (n, m) in mm at roll lengths (n,) by 1 N per mm of width at roll lengths (m,)."""
@@ -237,8 +241,7 @@ def _boundary_edges(triangles: Wholes) -> Wholes:
 def _traction_forces(mesh: SectorMesh, edges: Wholes, load_at: Floats, inward: Floats) -> Floats:
     """Nodal forces (2 n,) of the tractions of Flamant's field on the edges."""
     s, weight = np.polynomial.legendre.leggauss(_GAUSS)
-    shape = np.array([s * (s - 1) / 2, s * (s + 1) / 2, 1 - s * s])
-    slope = np.array([s - 0.5, s + 0.5, -2 * s])
+    shape, slope = (np.ascontiguousarray(each[:, _ENDS_FIRST].T) for each in (edge_shapes(s), edge_slopes(s)))
     points = np.einsum("aq,eac->eqc", shape, mesh.points[edges])
     along = np.einsum("aq,eac->eqc", slope, mesh.points[edges])
     normals = np.stack([along[..., 1], -along[..., 0]], -1)  # outward, times the length per unit of s

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from gearcad.arrays import Floats, Wholes
 from gearcad.contact.plane.elasticity import PlaneElasticity, stiffness_matrix
 from gearcad.contact.plane.support import held_nodes, hub_seen_by, hub_tractions, rigid_motions, with_support
-from gearcad.contact.shared.chain import Chain, Cuts
+from gearcad.contact.shared.chain import Chain, Cuts, polar_turn
 from gearcad.contact.shared.holding import Support
 from gearcad.errors import SolverError
 from gearcad.meshing import SectorMesh
@@ -86,15 +86,10 @@ def make_sector(mesh: SectorMesh, elasticity: PlaneElasticity, support: Support 
 
 
 def _cut_turn(mesh: SectorMesh) -> Any:
-    import scipy.sparse
-
     angles = np.zeros(len(mesh.points))
     for nodes in (mesh.ahead, mesh.behind):
         angles[nodes] = np.arctan2(mesh.points[nodes, 1], mesh.points[nodes, 0])
-    cosine, sine = np.cos(angles), np.sin(angles)
-    diagonal, upper, lower = np.repeat(cosine, 2), np.zeros(2 * len(angles) - 1), np.zeros(2 * len(angles) - 1)
-    upper[::2], lower[::2] = -sine, sine
-    return scipy.sparse.diags([diagonal, upper, lower], [0, 1, -1], format="csr")
+    return polar_turn(angles, 2)
 
 
 def _dofs(nodes: Wholes) -> Wholes:

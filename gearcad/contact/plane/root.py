@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
 from gearcad.contact.plane.flank import PlaneCompliance
@@ -17,15 +16,13 @@ from gearcad.contact.plane.support import key_load
 from gearcad.contact.shared.holding import Hold
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, RootStress
 from gearcad.meshing.outline import Side
+from gearcad.meshing.shapes import GAUSS, edge_shapes, edge_slopes, edges_of
 
 __all__ = ["Fillets", "ToothLoad", "seen_from"]
 
 
 ToothLoad = tuple[int, float, float]
 """Tooth, roll length (mm) and force (N per mm of width)."""
-
-_GAUSS = 1 / np.sqrt(3)
-"""Place of the two points of an edge at which strains of quadratic elements are most accurate."""
 
 
 @dataclass(frozen=True)
@@ -97,7 +94,7 @@ class Fillets:
         found = {}
         points = self.body.ring.sector.mesh.points
         for side in self._sides:
-            edges = self._edges(side)
+            edges = edges_of(self.body.ring.sector.mesh.sides[side])
             where = np.einsum("qa,eac->eqc", _SHAPE, points[edges]).reshape(-1, 2)
             along = np.einsum("qa,eac->eqc", _SLOPE, points[edges]).reshape(-1, 2)
             angle = np.degrees(np.arctan2(along[:, 1], np.abs(along[:, 0])))
@@ -108,11 +105,6 @@ class Fillets:
             matrix = scipy.sparse.csr_matrix((values, (rows, columns)), shape=(len(where), points.size))
             found[side] = (np.hypot(*where.T), angle, matrix)
         return found
-
-    def _edges(self, side: Side) -> NDArray[np.int64]:
-        """End, middle, end of each edge, (n, 3)."""
-        chain = self.body.ring.sector.mesh.sides[side]
-        return np.stack([chain[:-1:2], chain[1::2], chain[2::2]], -1)
 
     def _response(self, side: Side, tooth: int) -> Callable[[float], Floats] | None:
         """Stress on a side of a tooth by 1 N per mm on tooth 0, as a function of the load's roll length; None if unknown."""
@@ -167,6 +159,5 @@ def seen_from(own: int, loads: list[ToothLoad]) -> list[ToothLoad]:
 
 _ROOT = (Side.LEFT_FILLET, Side.LEFT_ROOT, Side.RIGHT_ROOT, Side.RIGHT_FILLET)
 
-_AT = np.array([-_GAUSS, _GAUSS])
-_SHAPE = np.stack([_AT * (_AT - 1) / 2, 1 - _AT * _AT, _AT * (_AT + 1) / 2], -1)
-_SLOPE = np.stack([_AT - 0.5, -2 * _AT, _AT + 0.5], -1)
+_PLACES = np.array([-GAUSS, GAUSS])
+_SHAPE, _SLOPE = edge_shapes(_PLACES), edge_slopes(_PLACES)

@@ -7,7 +7,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
 
-__all__ = ["greatest_von_mises", "strip_stresses"]
+__all__ = ["greatest_von_mises", "strip_stresses", "von_mises"]
 
 
 def strip_stresses(x: Floats, depth: Floats, places: Floats, width: float, pressures: Floats) -> tuple[Floats, Floats, Floats]:
@@ -22,6 +22,13 @@ def strip_stresses(x: Floats, depth: Floats, places: Floats, width: float, press
     return across, down, shear
 
 
+def von_mises(x: Floats, y: Floats, shear: Floats, elasticity: PlaneElasticity) -> Floats:
+    """Von Mises stress (...,) in MPa of a plane state; along the axis there is nu (x + y) in plane strain, else nothing."""
+    along = elasticity.material.poisson_ratio * (x + y) if elasticity.plane is Plane.STRAIN else np.zeros_like(x)
+    result: Floats = np.sqrt(((x - y) ** 2 + (y - along) ** 2 + (along - x) ** 2) / 2 + 3 * shear**2)
+    return result
+
+
 def greatest_von_mises(
     places: Floats, width: float, pressures: Floats, half_width: float, elasticity: PlaneElasticity
 ) -> tuple[float, float]:
@@ -31,7 +38,6 @@ def greatest_von_mises(
         middle + half_width * np.linspace(-1.2, 1.2, 49), half_width * np.linspace(0.05, 2.0, 79), indexing="ij"
     )
     across, down, shear = strip_stresses(x, depth, places, width, pressures)
-    along = elasticity.material.poisson_ratio * (across + down) if elasticity.plane is Plane.STRAIN else np.zeros_like(across)
-    mises = np.sqrt(((across - down) ** 2 + (down - along) ** 2 + (along - across) ** 2) / 2 + 3 * shear**2)
+    mises = von_mises(across, down, shear, elasticity)
     at = np.unravel_index(np.argmax(mises), mises.shape)
     return float(mises[at]), float(depth[at])

@@ -17,6 +17,7 @@ from gearcad.contact.shared.holding import Hold, Support
 from gearcad.meshing import SectorMesh
 from gearcad.meshing.outline import Side
 from gearcad.meshing.shaft import with_shaft
+from gearcad.meshing.shapes import edge_shapes, edge_slopes, edges_of
 
 __all__ = ["held_nodes", "hub_seen_by", "hub_tractions", "key_load", "rigid_motions", "with_support"]
 
@@ -75,13 +76,11 @@ def rigid_motions(points: Floats) -> Floats:
 
 def _on_bore(mesh: SectorMesh, half: float) -> Floats:
     """Nodal forces (2 n, 3) by rigid motions' parts along the bore, as tractions up to `half` (rad) from its middle."""
-    arc = mesh.sides[Side.INNER]
-    edges = np.stack([arc[:-1:2], arc[1::2], arc[2::2]], -1)
+    edges = edges_of(mesh.sides[Side.INNER])
     s, weight = np.polynomial.legendre.leggauss(_GAUSS)
     s = (np.arange(_PARTS)[:, None] + (s + 1) / 2).ravel() * 2 / _PARTS - 1
     weight = np.tile(weight / _PARTS, _PARTS)
-    shape = np.stack([s * (s - 1) / 2, 1 - s * s, s * (s + 1) / 2], -1)
-    slope = np.stack([s - 0.5, -2 * s, s + 0.5], -1)
+    shape, slope = edge_shapes(s), edge_slopes(s)
     points = np.einsum("qa,eac->eqc", shape, mesh.points[edges])
     length = np.hypot(*np.moveaxis(np.einsum("qa,eac->eqc", slope, mesh.points[edges]), -1, 0)) * weight
     angle = np.arctan2(points[..., 1], points[..., 0])

@@ -1,4 +1,6 @@
-"""Equal tooth sectors in a row, condensed to the cuts at both ends: what makes a full ring as cheap as a few teeth.
+"""Substructures: equal tooth sectors in a row, condensed to the cuts at both ends (static condensation, Guyan 1965).
+
+That makes a full ring as cheap as a few teeth.
 
 The dofs of a cut are radial, tangential and, in solid bodies, axial, node by node, so the matrices of all sectors are the same
 and need no turning.
@@ -9,13 +11,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
 
-__all__ = ["Chain", "Cuts", "condensed"]
+__all__ = ["Chain", "Cuts", "condensed", "cut_held", "polar_turn"]
 
 
 class Cuts(Enum):
@@ -92,6 +95,20 @@ class Chain:
         if cuts is not Cuts.FREE:
             motions[far[tangential], n] = radii
         return condensed(motions.T @ self.matrix @ motions, n + 1)
+
+
+def polar_turn(angles: Floats, components: int) -> Any:
+    """Matrix (scipy CSR) from radial and tangential dofs of nodes at `angles` (n,) in rad to those along x and y.
+
+    Of three `components` the third, along the axis, stays. An angle of 0 leaves a node as it is.
+    """
+    import scipy.sparse
+
+    cosine, sine = np.cos(angles), np.sin(angles)
+    diagonal = np.stack([cosine, cosine, *(components - 2) * [np.ones(len(angles))]], -1).ravel()
+    upper, lower = np.zeros(len(diagonal) - 1), np.zeros(len(diagonal) - 1)
+    upper[::components], lower[::components] = -sine, sine
+    return scipy.sparse.diags([diagonal, upper, lower], [0, 1, -1], format="csr")
 
 
 def cut_held(cuts: Cuts, dofs: int, components: int) -> NDArray[np.bool_]:

@@ -11,13 +11,14 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from operator import itemgetter
 from typing import Generic, TypeVar
 
 import numpy as np
 
 from gearcad.arrays import Floats
 
-__all__ = ["Extreme", "Quantity", "Span", "add_positions", "extreme"]
+__all__ = ["Extreme", "Quantity", "RollRange", "add_positions", "extreme"]
 
 P = TypeVar("P")
 Seen = TypeVar("Seen", contravariant=True)
@@ -46,13 +47,13 @@ _MOST = 20
 
 @dataclass(frozen=True)
 class Quantity(Generic[Seen]):
-    """What is to be greatest, or `least`: `of` gives its value at a position, NaN where it has none there.
+    """What is to be greatest, or `least`: `value` gives it at a position, NaN where it has none there.
 
     `swing` measures tolerance and error by how far the quantity goes up and down, not by its size.
     """
 
     name: str
-    of: Callable[[Seen], float]
+    value: Callable[[Seen], float]
     least: bool = False
     swing: bool = False
 
@@ -75,7 +76,7 @@ class Extreme:
 
 
 @dataclass(frozen=True)
-class Span:
+class RollRange:
     """The roll angles (deg) over which a mesh is looked at: a `pitch`, after which it `repeats` itself or not."""
 
     pitch: float
@@ -83,23 +84,23 @@ class Span:
 
 
 def add_positions(
-    known: Iterable[tuple[float, P]], span: Span, solve: Callable[[float], P], quantities: Sequence[Quantity[P]]
+    known: Iterable[tuple[float, P]], span: RollRange, solve: Callable[[float], P], quantities: Sequence[Quantity[P]]
 ) -> list[P]:
     """Positions `solve`d at roll angles (deg) between those that are known."""
-    pool, added = sorted(known, key=lambda of: of[0]), []
+    pool, added = sorted(known, key=itemgetter(0)), []
     for quantity in quantities:
         for _ in range(_MOST):
-            place = _Course.of(pool, span, quantity).doubtful
+            place = _Sampled.from_positions(pool, span, quantity).doubtful
             if place is None:
                 break
             added.append(solve(place))
-            pool = sorted([*pool, (place, added[-1])], key=lambda of: of[0])
+            pool = sorted([*pool, (place, added[-1])], key=itemgetter(0))
     return added
 
 
-def extreme(known: Iterable[tuple[float, P]], span: Span, quantity: Quantity[P]) -> Extreme | None:
+def extreme(known: Iterable[tuple[float, P]], span: RollRange, quantity: Quantity[P]) -> Extreme | None:
     """The greatest (or least) of all positions; None where the quantity has no value at any."""
-    course = _Course.of(sorted(known, key=lambda of: of[0]), span, quantity)
+    course = _Sampled.from_positions(sorted(known, key=itemgetter(0)), span, quantity)
     if course.nothing:
         return None
     at = int(np.nanargmax(course.values))
@@ -113,19 +114,19 @@ def extreme(known: Iterable[tuple[float, P]], span: Span, quantity: Quantity[P])
 
 
 @dataclass(frozen=True)
-class _Course:
+class _Sampled:
     """Values (n,) of a quantity, to be greatest, at rising angles (n,) in deg."""
 
     angles: Floats
     values: Floats
-    span: Span
+    span: RollRange
     swing: bool
 
     @classmethod
-    def of(cls, pool: Sequence[tuple[float, P]], span: Span, quantity: Quantity[P]) -> _Course:
+    def from_positions(cls, pool: Sequence[tuple[float, P]], span: RollRange, quantity: Quantity[P]) -> _Sampled:
         """That of known positions, in order."""
         angles, positions = zip(*pool, strict=True)
-        values = quantity.sign * np.array([quantity.of(each) for each in positions], float)
+        values = quantity.sign * np.array([quantity.value(each) for each in positions], float)
         return cls(np.array(angles), values, span, quantity.swing)
 
     @property
@@ -174,7 +175,7 @@ class _Course:
             return self.angles[around % count] + around // count * self.span.pitch, self.values[around % count]
         if count < 2:
             return np.arange(3.0), np.full(3, self.values[0])  # no interval
-        return tuple(np.r_[2 * of[0] - of[1], of, 2 * of[-1] - of[-2]] for of in (self.angles, self.values))
+        return tuple(np.r_[2 * each[0] - each[1], each, 2 * each[-1] - each[-2]] for each in (self.angles, self.values))
 
 
 def _roof(first: float, second: float, before: float, after: float) -> tuple[float, float]:

@@ -13,7 +13,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.shared.engaged import FlankCompliance, FlexiblePair
-from gearcad.contact.shared.extremes import Extreme, Quantity, Span, add_positions, extreme
+from gearcad.contact.shared.extremes import Extreme, Quantity, RollRange, add_positions, extreme
 from gearcad.per_gear import PerGear, Role
 
 __all__ = ["FAIR", "INTERIOR", "LEAST_TANGENT_ANGLE", "Cycle", "LoadedCycle", "LoadedPosition", "PairContact", "RootStress"]
@@ -236,8 +236,8 @@ class LoadedCycle(ABC, Generic[M, P, C]):
         return [(position.roll_angle, position) for position in self.every]
 
     @property
-    def _span(self) -> Span:
-        return Span(360 / self.model.pair.pinion.teeth, self.model.repeats)
+    def _span(self) -> RollRange:
+        return RollRange(360 / self.model.pair.pinion.teeth, self.model.repeats)
 
 
 Cycle: TypeAlias = LoadedCycle[FlexiblePair[FlankCompliance], LoadedPosition[PairContact], PairContact]

@@ -1,4 +1,5 @@
-"""A sector condensed to its cuts: its section is divided in two, and again, and nodes go with the part that needs them last.
+"""A sector condensed to its cuts (static condensation): its section is divided in two, and again, and nodes go with the part
+that needs them last.
 
 Fronts are dense (nested dissection, multifrontal Cholesky): above a node of the section stand all nodes of the sweep, so even
 small parts make large blocks.
@@ -26,13 +27,13 @@ _DIRECTIONS, _SHARES = 16, (0.42, 0.46, 0.5, 0.54, 0.58)
 
 
 @dataclass(frozen=True)
-class Part:
+class SectionPart:
     """Some quadrangles of a section, divided or not, the nodes (n,) that nothing else needs, and how many others do."""
 
     quads: Wholes
     own: Wholes
     shared: int
-    halves: tuple[Part, ...]
+    halves: tuple[SectionPart, ...]
 
     @property
     def work(self) -> float:
@@ -41,21 +42,21 @@ class Part:
         return own**3 / 3 + own**2 * self.shared + own * self.shared**2
 
 
-def parts_of(points: Floats, quads: Wholes, kept: Wholes) -> Part:
+def parts_of(points: Floats, quads: Wholes, kept: Wholes) -> SectionPart:
     """Divide a section: nodes `points` (n, 2), quadrangles (m, 8), and nodes that are not to go."""
     uses = np.bincount(quads.ravel(), minlength=len(points))
     uses[kept] = len(quads) * 8 + 1  # more than there can be
     return _divided(points, quads, np.arange(len(quads)), uses)
 
 
-def _divided(points: Floats, quads: Wholes, chosen: Wholes, uses: Wholes) -> Part:
+def _divided(points: Floats, quads: Wholes, chosen: Wholes, uses: Wholes) -> SectionPart:
     nodes, times = np.unique(quads[chosen], return_counts=True)
     complete = nodes[times == uses[nodes]]
     if len(chosen) <= _SMALLEST:
-        return Part(chosen, complete, len(nodes) - len(complete), ())
+        return SectionPart(chosen, complete, len(nodes) - len(complete), ())
     halves = tuple(_divided(points, quads, chosen[half], uses) for half in _halves(points, quads[chosen]))
     gone = np.concatenate([_all_own(half) for half in halves])
-    return Part(chosen, np.setdiff1d(complete, gone), len(nodes) - len(complete), halves)
+    return SectionPart(chosen, np.setdiff1d(complete, gone), len(nodes) - len(complete), halves)
 
 
 def _halves(points: Floats, quads: Wholes) -> tuple[Wholes, Wholes]:
@@ -74,11 +75,11 @@ def _halves(points: Floats, quads: Wholes) -> tuple[Wholes, Wholes]:
     return best[1], best[2]
 
 
-def _all_work(part: Part) -> float:
+def _all_work(part: SectionPart) -> float:
     return part.work + sum(_all_work(half) for half in part.halves)
 
 
-def _all_own(part: Part) -> Wholes:
+def _all_own(part: SectionPart) -> Wholes:
     return np.concatenate([part.own, *(_all_own(half) for half in part.halves)])
 
 
@@ -126,7 +127,7 @@ class Condensed:
 
 
 def condense(
-    part: Part,
+    part: SectionPart,
     dofs_of: Callable[[Wholes], Wholes],
     matrix_of: Callable[[Wholes], tuple[Wholes, Floats]],
     kept: Wholes,
@@ -140,10 +141,10 @@ def condense(
     fronts: list[_Front] = []
     whole, done = _all_work(part), 0.0
 
-    def finished(front: _Front, of: Part) -> None:
+    def finished(front: _Front, part: SectionPart) -> None:
         nonlocal done
         fronts.append(front)
-        done += of.work
+        done += part.work
         tell(done / whole)
 
     dofs, matrix = _eliminated(part, dofs_of, matrix_of, finished)
@@ -153,10 +154,10 @@ def condense(
 
 
 def _eliminated(
-    part: Part,
+    part: SectionPart,
     dofs_of: Callable[[Wholes], Wholes],
     matrix_of: Callable[[Wholes], tuple[Wholes, Floats]],
-    finished: Callable[[_Front, Part], None],
+    finished: Callable[[_Front, SectionPart], None],
 ) -> tuple[Wholes, Floats]:
     """The dofs (sorted) that a part leaves, and the matrix on them; `finished` gets its fronts."""
     import scipy.linalg

@@ -88,15 +88,10 @@ class Faces:
 def boundary_faces(mesh: SweptMesh, quads: Wholes) -> Faces:
     """The faces around the hexahedra over some section quadrangles: sides of all layers, and both ends."""
     section = mesh.section.quads[quads]
-    edges = section[:, [[0, 1, 4], [1, 2, 5], [2, 3, 6], [3, 0, 7]]].reshape(-1, 3)
-    _, index, times = np.unique(edges[:, 2], return_index=True, return_counts=True)
-    first, second, middle = edges[index[times == 1]].T
-    found = []
-    for layer in range(mesh.layers):
-        low, high = mesh.plane(layer), mesh.plane(layer + 1)
-        half = mesh.elements(section[:1], layer)[0, 16] - section[0, 0]
-        corners = [first + low, second + low, second + high, first + high]
-        found.append(np.stack([*corners, middle + low, second + half, middle + high, first + half], -1))
+    edges = section[:, [[0, 4, 1], [1, 5, 2], [2, 6, 3], [3, 7, 0]]].reshape(-1, 3)
+    _, index, times = np.unique(edges[:, 1], return_index=True, return_counts=True)
+    once = edges[index[times == 1]]
+    found = [mesh.side_faces(once, layer) for layer in range(mesh.layers)]
     top = section + mesh.plane(mesh.layers)
     bottom = (section + mesh.plane(0))[:, [0, 3, 2, 1, 7, 6, 5, 4]]
     nodes = np.concatenate([*found, top, bottom])

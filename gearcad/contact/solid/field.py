@@ -15,13 +15,14 @@ from gearcad.arrays import Floats, Wholes
 from gearcad.contact.solid.cycle import SolidCycle, SolidPosition, tooth_loads
 from gearcad.contact.solid.hexahedra import PLACES, lame, slopes_at
 from gearcad.material import Material
+from gearcad.meshing.shapes import GAUSS
 from gearcad.per_gear import Role
 
 __all__ = ["SolidField", "nodal_stress", "shown_stress", "solid_field", "worst_field", "write_vtu"]
 
 
-_GAUSS = 0.5 / np.sqrt(3)
-"""Places, from the middle of an element, at which strains of quadratic elements are most accurate."""
+_GAUSS = GAUSS / 2
+"""The same in the unit cube."""
 
 _VTK = [0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, 12, 13, 14, 15, 16, 17, 18, 19]
 """Our nodes of a hexahedron in VTK's order: corners below, corners above, then the middles below, above and between."""

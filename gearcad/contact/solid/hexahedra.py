@@ -28,18 +28,18 @@ _ORDER = 5
 """Of quadrature: 3 x 3 x 3 points. Fewer leave hexahedra with zero-energy modes, more change nothing that shows."""
 
 
-class _Rule(NamedTuple):
+class _Quadrature(NamedTuple):
     slopes: Floats  # (points, 20, 3) of the shape functions
     weights: Floats
 
 
 @cache
-def _rule() -> _Rule:
+def _rule() -> _Quadrature:
     from skfem import ElementHexS2
     from skfem.quadrature import get_quadrature
 
     places, weights = get_quadrature(ElementHexS2.refdom, _ORDER)
-    return _Rule(slopes_at(places), weights)
+    return _Quadrature(slopes_at(places), weights)
 
 
 def slopes_at(places: Floats) -> Floats:

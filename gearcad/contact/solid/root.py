@@ -13,12 +13,13 @@ from gearcad.arrays import Floats, Wholes
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE
 from gearcad.contact.solid.flank import SolidCompliance
 from gearcad.meshing.outline import Side
+from gearcad.meshing.shapes import GAUSS, edges_of
 
 __all__ = ["FilletState", "SolidFillet", "SolidFillets", "ToothForces", "solid_fillets"]
 
 
-_GAUSS = 0.5 / np.sqrt(3)
-"""Places along the axis, from the middle of a face, at which strains of quadratic elements are most accurate."""
+_GAUSS = GAUSS / 2
+"""The same on a face that is 1 high."""
 
 _STEPS = 4
 """Steps from one point to the next in which the greatest stress is looked for."""
@@ -97,15 +98,8 @@ class SolidFillet:
     def _faces(self) -> Wholes:
         """Nodes (layers, edges, 8) of the fillet's faces: along the profile first, then up."""
         mesh = self.body.body.sector.mesh
-        chain = mesh.side(self.side)
-        first, middle, second = chain[:-1:2], chain[1::2], chain[2::2]
-        rows = []
-        for layer in range(mesh.layers):
-            low, high = mesh.plane(layer), mesh.plane(layer + 1)
-            half = mesh.elements(mesh.section.quads[:1], layer)[0, 16] - mesh.section.quads[0, 0]
-            corners = [first + low, second + low, second + high, first + high]
-            rows.append(np.stack([*corners, middle + low, second + half, middle + high, first + half], -1))
-        return np.stack(rows)
+        edges = edges_of(mesh.side(self.side))
+        return np.stack([mesh.side_faces(edges, layer) for layer in range(mesh.layers)])
 
     @cached_property
     def _shape(self) -> tuple[Floats, Floats]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.contact.shared.chain import Chain
+from gearcad.contact.shared.chain import Chain, polar_turn
 from gearcad.contact.solid.condensation import Condensed, condense, parts_of
 from gearcad.contact.solid.hexahedra import layer_matrices
 from gearcad.contact.solid.hub import bore_forces, seen_at
@@ -67,16 +67,11 @@ class SolidSector:
     @cached_property
     def cut_turn(self) -> Any:
         """Matrix (scipy CSR) from dofs with polar cuts to those in x, y, z of the turning axes."""
-        import scipy.sparse
-
         angles = np.zeros(self.mesh.nodes)
         for nodes in (self.mesh.section.ahead, self.mesh.section.behind):
             every = self.mesh.over(nodes)
             angles[every] = np.arctan2(*self.mesh.in_section[every].T[::-1])
-        cosine, sine, z = np.cos(angles), np.sin(angles), np.ones(len(angles))
-        diagonal, upper, lower = np.stack([cosine, cosine, z], -1).ravel(), np.zeros(self.dofs - 1), np.zeros(self.dofs - 1)
-        upper[::3], lower[::3] = -sine, sine
-        return scipy.sparse.diags([diagonal, upper, lower], [0, 1, -1], format="csr")
+        return polar_turn(angles, 3)
 
     def stiffness(self, quads: Wholes | None = None) -> Any:
         """Matrix (scipy CSR, N/mm) over the section's quadrangles, or some of them, in the turning axes."""

@@ -61,6 +61,13 @@ class SweptMesh:
         result: Wholes = np.c_[quads + self.plane(layer), quads + self.plane(layer + 1), quads[:, :4] + self._start(layer)]
         return result
 
+    def side_faces(self, edges: Wholes, layer: int) -> Wholes:
+        """Faces (n, 8) of a layer over edges (n, 3) of the section - end, middle, end - seen with the sweep upwards."""
+        first, middle, second = edges.T
+        low, high, half = self.plane(layer), self.plane(layer + 1), self._start(layer)
+        corners = [first + low, second + low, second + high, first + high]
+        return np.stack([*corners, middle + low, second + half, middle + high, first + half], -1)
+
     def over(self, nodes: Wholes) -> Wholes:
         """All nodes of the mesh above section nodes: plane by plane, then half-way up layer by layer."""
         half = nodes[nodes < self.section.vertices]
