@@ -10,7 +10,8 @@ import numpy as np
 from gearcad import __version__
 from gearcad.arrays import Floats
 from gearcad.check.options import CheckOptions, Model
-from gearcad.contact.optimum.search import Found, Search, conditions, start_search
+from gearcad.contact.optimum.search import Found, Search, conditions
+from gearcad.contact.optimum.start import start_search
 from gearcad.contact.optimum.variants import AMOUNTS, with_amounts
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, loaded_left, solid_pair
@@ -71,7 +72,7 @@ class Modify(Job[PairDesign, Proposal]):
             pair=with_amounts(pair, unmirrored(best.found.amounts, pair, torque), best.search.variants.shape),
             torque=torque,
             found=best.found,
-            variants=sum(each.search.tried for each in tried),
+            variants=sum(each.found.tried for each in tried),
             before=CycleFigures.of(before),
             after=CycleFigures.of(best.cycle),
             robustness=robustness,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from gearcad.contact.optimum.search import start_search
+from gearcad.contact.optimum.start import start_search
 from gearcad.geometry import ReliefShape
 from tests.support.coarse import PAIRS, TORQUES, coarse_model
 

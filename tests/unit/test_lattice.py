@@ -30,7 +30,7 @@ def test_the_least_of_all_places_is_found(seed: int) -> None:
     of, lattice = goal(seed), Lattice(LOW, HIGH)
     seen = lattice.survey(of, 4, LOW)
     ends = lattice.descend(of, lattice.best_apart(seen, of.at(seen), 4))
-    solved = len(of.figures.known)
+    solved = of.figures.count
     values = of.at(EVERY)
     assert of.at(ends).min() == pytest.approx(values.min(), rel=1e-12)
     assert solved < 0.04 * len(EVERY)
@@ -43,7 +43,7 @@ def test_a_place_is_worked_out_once_and_never_outside() -> None:
 
     def work(places: np.ndarray) -> np.ndarray:
         counted.append(places)
-        return of.figures.work(places)
+        return of.figures(places)
 
     once = Goal(Remembered(work), of.value)
     lattice.descend(once, np.array([LOW, HIGH]))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -37,19 +37,24 @@ _WORTH = 0.05
 """Relative gain of a step from which on a descent looks farther."""
 
 
-@dataclass(frozen=True)
 class Remembered:
     """Figures (v, m) of places (v, n), worked out once for each place."""
 
-    work: Callable[[Wholes], Floats]
-    known: dict[bytes, Floats] = field(default_factory=dict, repr=False)
+    def __init__(self, work: Callable[[Wholes], Floats]) -> None:
+        self._work = work
+        self._known: dict[bytes, Floats] = {}
+
+    @property
+    def count(self) -> int:
+        """Places that were worked out."""
+        return len(self._known)
 
     def __call__(self, places: Wholes) -> Floats:
         keys = [place.tobytes() for place in places]
-        new = {key: row for row, key in enumerate(keys) if key not in self.known}
+        new = {key: row for row, key in enumerate(keys) if key not in self._known}
         if new:
-            self.known.update(zip(new, self.work(places[list(new.values())]), strict=True))
-        return np.array([self.known[key] for key in keys])
+            self._known.update(zip(new, self._work(places[list(new.values())]), strict=True))
+        return np.array([self._known[key] for key in keys])
 
 
 @dataclass(frozen=True)

@@ -6,35 +6,18 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.contact.optimum.lattice import Goal, Lattice, Remembered
-from gearcad.contact.optimum.variants import AMOUNTS, Condition, Outcomes, Variants, with_amounts
+from gearcad.contact.optimum.variants import Condition, Outcomes, Variants
 from gearcad.contact.solid.contact_lines import gaps
 from gearcad.contact.solid.line_contact import solve_lines
-from gearcad.contact.solid.pair import KnownResponses, SolidPair
-from gearcad.errors import GeometryError
-from gearcad.geometry import GearPair, ReliefShape
+from gearcad.geometry import GearPair
 
-__all__ = ["Found", "Search", "conditions", "start_search"]
+__all__ = ["Found", "Search", "conditions"]
 
-
-class _Sampling(NamedTuple):
-    """Cells of a line of contact, positions over a base pitch, and as many more at either end of the path of contact."""
-
-    cells: int
-    positions: int
-    at_ends: int
-
-
-_HELICAL = _Sampling(16, 24, 0)
-_SPUR = _Sampling(8, 32, 8)
-"""By which a variant is judged: where a line runs across the flank its cells are at many places of it at once, where it does
-not positions must be.
-"""
 
 _ROUGH = 2
 """Of that many positions a survey takes one."""
@@ -42,17 +25,6 @@ _ROUGH = 2
 _STEPS = np.array([1.0, 0.05, 1.0, 0.05, 1.0, 1.0])
 _DECIMALS = 2
 """To what amounts (µm) and lengths (mm) are rounded, and to how many decimals that is."""
-
-_MOST_RELIEF = 1.5
-_MOST_CROWNING = 0.5
-"""Largest tip relief of a gear and largest crowning, as shares of the greatest deflection of the teeth."""
-
-_MOST_HELIX = 1.5
-"""Largest change of the pinion's helix, as a share of the one that makes up for the misalignment."""
-
-_SHORTEST = 0.1
-_LONGEST = 0.5
-"""Shortest and longest tip relief, as shares of the path of contact: in its middle flanks stay exact."""
 
 _OVER_PRESSURE = 10.0
 _ON_EDGE = (0.1, 10.0)
@@ -95,11 +67,15 @@ def conditions(torque: float) -> tuple[Condition, ...]:
 
 @dataclass(frozen=True)
 class Found:
-    """What a search came to: the amounts (6,), the bound (MPa), and what becomes of the flanks."""
+    """What a search came to: the amounts (6,), the bound (MPa), and what becomes of the flanks.
+
+    `tried` variants were solved for it under the torque, roughly or in full, those that were known before included.
+    """
 
     amounts: Floats
     bound: float
     outcome: Outcomes
+    tried: int = 0
 
     @property
     def bounded(self) -> bool:
@@ -115,11 +91,6 @@ class Found:
     def peak_to_peak(self) -> float:
         """Of the transmission error (µm)."""
         return float(self.outcome.peak_to_peak[0])
-
-    @property
-    def named(self) -> dict[str, float]:
-        """The amounts under the keys of a spec, without `modification.`."""
-        return dict(zip(AMOUNTS, self.amounts.tolist(), strict=True))
 
 
 @dataclass(frozen=True)
@@ -141,11 +112,6 @@ class Search:
         """The greatest transmission error (µm) of plain flanks."""
         return float(self.plain.transmission_errors.max())
 
-    @property
-    def tried(self) -> int:
-        """How many variants were solved under the torque, roughly or in full."""
-        return len(self._rough.known) + len(self._full.known)
-
     def outcomes(self, amounts: Floats, condition: Condition | None = None) -> Outcomes:
         """What becomes of variants (v, 6)."""
         return self.variants.outcomes(amounts, condition or Condition(self.torque))
@@ -157,14 +123,18 @@ class Search:
         """
         for bound in bounds:
             places = self._survey(bound)
-            if bound != bounds[-1] and Outcomes.of(self._rough(places)).pressures.min() > _OUT_OF_REACH * bound:
+            if bound != bounds[-1] and Outcomes.from_figures(self._rough(places)).pressures.min() > _OUT_OF_REACH * bound:
                 continue
             found = self._settled(bound, places)
             if found.bounded:
                 break
-        if found.edges_free or not found.bounded:
-            return found
-        strict = self._settled(bound, places, edges=False)
+        if not found.edges_free and found.bounded:
+            found = self._worth_its_price(found, places)
+        return replace(found, tried=self._rough.count + self._full.count)
+
+    def _worth_its_price(self, found: Found, places: Wholes) -> Found:
+        """The proposal that leaves the edges of tips free, if it is worth that; else the one with contact there."""
+        strict = self._settled(found.bound, places, edges=False)
         worth = strict.peak_to_peak <= self.dearest(found.peak_to_peak)
         return strict if strict.bounded and strict.edges_free and worth else found
 
@@ -177,13 +147,6 @@ class Search:
         over = np.maximum(found.pressures / bound - 1, 0.0)
         cost = _OVER_PRESSURE * over + _ON_EDGE[0 if edges else 1] * found.edge_shares
         return np.nan_to_num(found.peak_to_peak + self.deflection * cost, nan=_NEVER, posinf=_NEVER)
-
-    def run(self, bound: float, *, edges: bool = True) -> Found:
-        """Search with a bound (MPa) of the interior pressure; the same input gives the same result.
-
-        `edges` tells whether those of the tips may carry load.
-        """
-        return self._settled(bound, self._survey(bound), edges=edges)
 
     def _survey(self, bound: float) -> Wholes:
         """Places (v, 6) all over, the most of them where variants are good."""
@@ -209,7 +172,7 @@ class Search:
 
         Pressure counts along, else the free play would go into crowning that nothing asks for.
         """
-        pressures = Outcomes.of(self._full(places)).pressures
+        pressures = Outcomes.from_figures(self._full(places)).pressures
         within = pressures <= bound * (1 + _WITHIN)
         permitted = within if within.any() else np.ones_like(within)
         near = np.flatnonzero(permitted & (scores <= (1 + _NEAR) * scores[permitted].min()))
@@ -221,7 +184,7 @@ class Search:
         return best
 
     def _goal(self, figures: Remembered, bound: float, *, edges: bool) -> Goal:
-        return Goal(figures, lambda rows: self.scores(Outcomes.of(rows), bound, edges=edges))
+        return Goal(figures, lambda rows: self.scores(Outcomes.from_figures(rows), bound, edges=edges))
 
     @cached_property
     def _lattice(self) -> Lattice:
@@ -234,15 +197,15 @@ class Search:
 
     @cached_property
     def _rough(self) -> Remembered:
-        of, condition = self.variants, Condition(self.torque)
-        variants = replace(of, count=of.count // _ROUGH, at_ends=of.at_ends // _ROUGH)
+        full, condition = self.variants, Condition(self.torque)
+        variants = replace(full, count=full.count // _ROUGH, at_ends=full.at_ends // _ROUGH)
         return Remembered(lambda places: variants.outcomes(_amounts(places), condition).figures)
 
     def peak_to_peak(self, pair: GearPair, condition: Condition) -> float:
         """Of the transmission error (µm) of a pair with any modifications, the contact solved in full. Raises SolverError."""
-        of, mounting = self.variants, condition.mounted(self.variants.roomy.mounting)
-        force, helix = of.force(condition.torque), of.roomy.helix
-        solved = [solve_lines(given, gaps(given.lines, pair, mounting, helix), force).approach for given in of.positions]
+        variants, mounting = self.variants, condition.mounted(self.variants.roomy.mounting)
+        force, helix = variants.force(condition.torque), variants.roomy.helix
+        solved = [solve_lines(given, gaps(given.lines, pair, mounting, helix), force).approach for given in variants.positions]
         return float(np.ptp(solved)) / math.cos(helix) * 1000
 
 
@@ -256,49 +219,3 @@ def _amounts(places: Wholes) -> Floats:
     """Amounts (v, 6) of places."""
     result: Floats = np.round(places * _STEPS, _DECIMALS)
     return result
-
-
-def start_search(model: SolidPair, torque: float, shape: ReliefShape) -> Search:
-    """Prepare a search at a torque (N m) for a model whatever its own tip relief and crowning; the helix angle is modified
-    only against a misalignment of its mounting.
-    """
-    nothing = np.zeros(len(AMOUNTS))
-    sampling = _HELICAL if model.helix else _SPUR
-    bare = replace(
-        model.remade(with_amounts(model.pair, nothing, shape), model.mounting), cells=sampling.cells, known=KnownResponses()
-    )
-    start = np.array([0.0, 0.0, 0.0, 0.0, 0.0, _aligning(bare)])
-    plain = Variants(bare, shape, sampling.positions, torque, sampling.at_ends).outcomes(start[None], Condition(torque))
-    low, high = _bounds(bare, shape, float(plain.transmission_errors.max()))
-    roomy = bare.remade(with_amounts(bare.pair, high, shape), bare.mounting)
-    variants = Variants(roomy, shape, sampling.positions, torque, sampling.at_ends)
-    return Search(variants, torque, low, high, start, variants.outcomes(start[None], Condition(torque)))
-
-
-def _aligning(model: SolidPair) -> float:
-    """Helix angle modification (µm) of the pinion that turns its loaded, left flanks as far as the wheel is misaligned."""
-    form = model.pair.pinion.flank_form
-    return form.hand * model.mounting.misalignment * form.width / model.width
-
-
-def _bounds(model: SolidPair, shape: ReliefShape, deflection: float) -> tuple[Floats, Floats]:
-    """The least and the greatest amounts (6,)."""
-    path, pair = model.pair.path_of_contact, model.pair
-    reach = path.E - path.A
-    longest = [min(_LONGEST * reach, gear.flank_form.last - gear.flank_form.first) for gear in pair.gears]
-    helix = _MOST_HELIX * abs(_aligning(model))
-    low = np.array([0.0, _SHORTEST * reach, 0.0, _SHORTEST * reach, 0.0, -helix])
-    relief, crowning = np.ceil(_MOST_RELIEF * deflection), np.ceil(_MOST_CROWNING * deflection)
-    high = np.array([relief, longest[0], relief, longest[1], crowning, helix])
-    while not _fits(pair, high, shape):
-        high[[0, 2, 4]] = np.floor(0.9 * high[[0, 2, 4]])
-    return low, high
-
-
-def _fits(pair: GearPair, amounts: Floats, shape: ReliefShape) -> bool:
-    """Whether flanks can be taken back that far; nothing at all always fits."""
-    try:
-        with_amounts(pair, amounts, shape)
-    except GeometryError:
-        return not amounts[[0, 2, 4]].any()
-    return True

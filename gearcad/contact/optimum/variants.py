@@ -73,7 +73,7 @@ class Outcomes:
     position_edge_shares: Floats
 
     @classmethod
-    def of(cls, figures: Floats) -> Outcomes:
+    def from_figures(cls, figures: Floats) -> Outcomes:
         """Those of `figures`."""
         return cls(*np.split(figures, 3, axis=-1))
 
