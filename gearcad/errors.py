@@ -6,6 +6,7 @@ Every error has two parents: `GearcadError`, so that one clause catches all of o
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Collection
 from dataclasses import fields
 from enum import Enum
@@ -66,6 +67,9 @@ def _digits(value: int) -> int:
     """How many decimal digits a large whole number has, give or take one."""
     return math.ceil(value.bit_length() * math.log10(2))
 
+
+_WHOLE = re.compile(r"(Annotated\[)?int\b")
+"""Annotations of fields that are whole numbers."""
 
 _MOST_EXACT = 2**53
 """Largest whole number up to which a float holds every one; a larger one is left to the checks."""
@@ -130,7 +134,7 @@ def plain_numbers(instance: Any) -> None:
         value = getattr(instance, each.name)
         if isinstance(value, bool) or not isinstance(value, Real):
             continue
-        if isinstance(value, Integral) and (each.type in ("int", "int | None") or abs(int(value)) > _MOST_EXACT):
+        if isinstance(value, Integral) and (_WHOLE.match(str(each.type)) or abs(int(value)) > _MOST_EXACT):
             object.__setattr__(instance, each.name, int(value))
         elif not isinstance(value, float):
             object.__setattr__(instance, each.name, float(value))

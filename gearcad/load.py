@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
-from gearcad.errors import plain_numbers
 from gearcad.ranges import APPLICATION_FACTOR, SPEED, TORQUE
 from gearcad.reprs import concise
+from gearcad.schema import Words, require_fields
 
 __all__ = ["Load"]
 
@@ -18,14 +19,11 @@ class Load:
     `application_factor` K_A multiplies the torque in the ratings. Raises ParameterError.
     """
 
-    torque: float
-    speed: float = 0.0
-    application_factor: float = 1.0
+    torque: Annotated[float, TORQUE, Words("torque on the pinion", "T_1", "ISO 6336-1")]
+    speed: Annotated[float, SPEED, Words("speed of the pinion", "n_1", "ISO 6336-1")] = 0.0
+    application_factor: Annotated[float, APPLICATION_FACTOR, Words("application factor", "K_A", "ISO 6336-1")] = 1.0
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        plain_numbers(self)
-        TORQUE.require("torque", self.torque)
-        SPEED.require("speed", self.speed)
-        APPLICATION_FACTOR.require("application_factor", self.application_factor)
+        require_fields(self)

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Annotated
 
-from gearcad.errors import ParameterError, as_choice, plain_numbers
+from gearcad.errors import ParameterError
 from gearcad.ranges import DENSITY, MODULUS, POISSON_RATIO, STRENGTH
 from gearcad.reprs import concise
+from gearcad.schema import Words, require_fields
 
 __all__ = ["STEEL_MODULUS", "Material", "MaterialGroup"]
 
@@ -40,6 +42,10 @@ class MaterialGroup(StrEnum):
     """Through-hardening or case-hardening steel, nitrided or nitrocarburised."""
 
 
+_Limit = float | tuple[float, float] | None
+"""An allowable stress (MPa), the range in which it lies, or none."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Material:
     """Linear elastic material. `youngs_modulus` and the limits in MPa, `density` in kg/m^3.
@@ -49,40 +55,29 @@ class Material:
     they are not hardened on the surface. Raises ParameterError.
     """
 
-    name: str = "steel"
-    youngs_modulus: float = STEEL_MODULUS
-    poisson_ratio: float = 0.3
-    density: float = 7850.0
-    yield_strength: float | None = None
-    contact_limit: float | tuple[float, float] | None = None
-    root_limit: float | tuple[float, float] | None = None
-    group: MaterialGroup | None = None
-    contact_endurance_limit: float | None = None
+    name: Annotated[str, Words("material")] = "steel"
+    youngs_modulus: Annotated[float, MODULUS, Words("Young's modulus", "E")] = STEEL_MODULUS
+    poisson_ratio: Annotated[float, POISSON_RATIO, Words("Poisson's ratio", "ν")] = 0.3
+    density: Annotated[float, DENSITY, Words("density", "ρ")] = 7850.0
+    yield_strength: Annotated[float | None, STRENGTH, Words("yield strength", "σ_y")] = None
+    contact_limit: Annotated[_Limit, STRENGTH, Words("permissible contact stress", "σ_HP", "ISO 6336-2")] = None
+    root_limit: Annotated[_Limit, STRENGTH, Words("permissible root stress", "σ_FP", "ISO 6336-3")] = None
+    group: Annotated[MaterialGroup | None, Words("material group", "", "ISO 6336-5")] = None
+    contact_endurance_limit: Annotated[
+        float | None, STRENGTH, Words("endurance limit of contact stress", "σ_Hlim", "ISO 6336-5")
+    ] = None
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        plain_numbers(self)
-        MODULUS.require("youngs_modulus", self.youngs_modulus)
-        POISSON_RATIO.require("poisson_ratio", self.poisson_ratio)
-        DENSITY.require("density", self.density)
-        if self.group is not None:
-            object.__setattr__(self, "group", as_choice("group", self.group, MaterialGroup))
-        for name in ("yield_strength", "contact_endurance_limit"):
-            if getattr(self, name) is not None:
-                STRENGTH.require(name, getattr(self, name))
+        require_fields(self)
         for name in ("contact_limit", "root_limit"):
-            value = getattr(self, name)
-            if isinstance(value, list | tuple):
+            if isinstance(value := getattr(self, name), list | tuple):
                 object.__setattr__(self, name, _range(name, value))
-            elif value is not None:
-                STRENGTH.require(name, value)
 
 
 def _range(name: str, values: Sequence[float]) -> tuple[float, float]:
-    """A range of limits, checked."""
-    for value in values:
-        STRENGTH.require(name, value)
+    """Two limits, the lower one first."""
     if len(values) != 2 or values[0] >= values[1]:
         raise ParameterError(name, list(values), "must be a number, or a range [low, high]", "MPa")
     return float(values[0]), float(values[1])

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Annotated
 
-from gearcad.errors import GeometryError, InputError, format_number, plain_numbers, require_number
+from gearcad.errors import GeometryError, InputError, format_number
 from gearcad.geometry import GearPair
-from gearcad.ranges import OFFSET
+from gearcad.ranges import OFFSET, Range
 from gearcad.reprs import concise
+from gearcad.schema import Words, require_fields
 
 __all__ = ["Mounting"]
 
-_LARGEST = 1000.0
-"""Largest deviation (µm)."""
+_DEVIATION = Range("µm", -1000.0, 1000.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,19 +28,16 @@ class Mounting:
     to the centre distance. Raises ParameterError.
     """
 
-    misalignment: float = 0.0
-    misalignment_across: float = 0.0
-    pinion_pitch_error: float = 0.0
-    wheel_pitch_error: float = 0.0
-    centre_distance_change: float = 0.0
+    misalignment: Annotated[float, _DEVIATION, Words("misalignment in the plane of action", "F_βx", "ISO 6336-1")] = 0.0
+    misalignment_across: Annotated[float, _DEVIATION, Words("misalignment across that plane")] = 0.0
+    pinion_pitch_error: Annotated[float, _DEVIATION, Words("pitch error of a tooth of the pinion", "f_p1", "ISO 1328-1")] = 0.0
+    wheel_pitch_error: Annotated[float, _DEVIATION, Words("pitch error of a tooth of the wheel", "f_p2", "ISO 1328-1")] = 0.0
+    centre_distance_change: Annotated[float, OFFSET, Words("change of the centre distance", "Δa")] = 0.0
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        plain_numbers(self)
-        for name in ("misalignment", "misalignment_across", "pinion_pitch_error", "wheel_pitch_error"):
-            require_number(name, getattr(self, name), "µm", at_least=-_LARGEST, at_most=_LARGEST)
-        OFFSET.require("centre_distance_change", self.centre_distance_change)
+        require_fields(self)
 
     @property
     def pitch_error(self) -> float:

@@ -5,9 +5,11 @@ Wide enough for any real gear, narrow enough that no formula overflows. Lengths 
 
 from __future__ import annotations
 
+import math
+from enum import Enum
 from typing import Any, NamedTuple
 
-from gearcad.errors import ParameterError, is_finite_number, require_number
+from gearcad.errors import ParameterError, as_choice, is_finite_number, require_number, require_one_of, require_whole
 
 __all__ = [
     "ANGULAR_DAMPING",
@@ -31,32 +33,71 @@ __all__ = [
     "STRENGTH",
     "TORQUE",
     "TORSIONAL_STIFFNESS",
+    "Choice",
+    "Member",
     "Range",
+    "Whole",
 ]
 
 
 class Range(NamedTuple):
     """A unit, and the least and most that a quantity can be in it; a `signed` one is 0 or of such a size with either sign.
 
-    One that `may_vanish` is 0 or from `least` on.
+    One that `may_vanish` is 0 or from `least` on; `ends` in round brackets are outside. None has no bound on that side.
     """
 
     unit: str
-    least: float
-    most: float
+    least: float | None
+    most: float | None
     signed: bool = False
     may_vanish: bool = False
+    ends: str = "[]"
 
     def require(self, parameter: str, value: Any) -> None:
         """Raise ParameterError unless `value` is a number inside."""
         if not (self.signed or self.may_vanish):
-            require_number(parameter, value, self.unit, at_least=self.least, at_most=self.most)
+            lower, upper = "above" if self.ends[0] == "(" else "at_least", "below" if self.ends[1] == ")" else "at_most"
+            require_number(parameter, value, self.unit, **{lower: self.least, upper: self.most})
             return
-        inside = is_finite_number(value) and self.least <= (abs(value) if self.signed else value) <= self.most
+        least, most = self.least or 0.0, math.inf if self.most is None else self.most
+        inside = is_finite_number(value) and least <= (abs(value) if self.signed else value) <= most
         if not inside and not (is_finite_number(value) and value == 0):
             size = " in size" if self.signed else ""
-            permitted = f"must be a number, 0 or from {self.least:g} to {self.most:g} {self.unit}{size}"
+            permitted = f"must be a number, 0 or from {least:g} to {most:g} {self.unit}{size}"
             raise ParameterError(parameter, value, permitted, self.unit if isinstance(value, int | float) else "")
+
+
+class Whole(NamedTuple):
+    """The least and most that a whole number can be; one that `may_vanish` is 0 or from `least` on."""
+
+    least: int
+    most: int
+    may_vanish: bool = False
+
+    def require(self, parameter: str, value: Any) -> None:
+        """Raise ParameterError unless `value` is a whole number inside."""
+        if not (self.may_vanish and value == 0):
+            require_whole(parameter, value, at_least=self.least, at_most=self.most)
+
+
+class Choice(NamedTuple):
+    """The words that a text can be."""
+
+    words: tuple[str, ...]
+
+    def require(self, parameter: str, value: Any) -> None:
+        """Raise ParameterError unless `value` is one of the words."""
+        require_one_of(parameter, value, self.words)
+
+
+class Member(NamedTuple):
+    """The members of an enum that a value, or a text that stands for it, can name."""
+
+    choices: type[Enum]
+
+    def require(self, parameter: str, value: Any) -> None:
+        """Raise ParameterError unless `value` is a member, or the value of one."""
+        as_choice(parameter, value, self.choices)
 
 
 TORQUE = Range("N·m", 1e-9, 1e9, signed=True)

@@ -1,9 +1,9 @@
-"""The one table from field name to symbol, unit, source and words: data sheet, CSV headers and drawings read it.
+"""How what is derived and computed is written: symbol, unit, source and words, for data sheet, CSV headers and drawings.
 
-Keys are those of `Gear.to_dict()`, `GearPair.to_dict()`, `Material`, `Load`, `Mounting`, `RatingOptions` and
-`Rating.to_dict()`, nested ones joined by a dot (`rack.root_radius`, `path_of_contact.A`); GEAR_RATING holds those under a
-rating's "pinion" and "wheel". Clauses are those of ISO 21771:2007 unless another standard is named; an empty source means that
-the quantity is our own.
+Inputs say it at their own fields (see `schema`). Keys are those of what `Gear.to_dict()` and `GearPair.to_dict()` derive, of
+`Rating.to_dict()`, and of the figures of a check, nested ones joined by a dot (`path_of_contact.A`); GEAR_RATING holds those
+under a rating's "pinion" and "wheel". Clauses are those of ISO 21771:2007 unless another standard is named; an empty
+source means that the quantity is our own.
 """
 
 from __future__ import annotations
@@ -13,17 +13,12 @@ from typing import NamedTuple
 __all__ = [
     "CHECK",
     "DYNAMICS",
-    "DYNAMICS_RESULTS",
     "GEAR",
     "GEAR_RATING",
-    "LOAD",
-    "MATERIAL",
     "MODIFY",
     "MODIFY_FIGURES",
-    "MOUNTING",
     "PAIR",
     "RATING",
-    "RATING_OPTIONS",
     "STIFFNESS",
     "Symbol",
 ]
@@ -39,44 +34,6 @@ class Symbol(NamedTuple):
 
 
 GEAR = {
-    "name": Symbol("", "", "", "name"),
-    "teeth": Symbol("z", "", "4.1", "number of teeth"),
-    "normal_module": Symbol("m_n", "mm", "4.2", "normal module"),
-    "face_width": Symbol("b", "mm", "4.1", "face width"),
-    "helix_angle": Symbol("β", "deg", "4.2", "helix angle (right hand +)"),
-    "profile_shift": Symbol("x", "", "4.2", "profile shift coefficient"),
-    "tip_alteration": Symbol("k", "", "4.5", "tip alteration coefficient"),
-    "tooth_thinning": Symbol("A_sn", "mm", "7.3", "tooth thinning (normal)"),
-    "rack.pressure_angle": Symbol("α_n", "deg", "ISO 53", "normal pressure angle"),
-    "rack.addendum": Symbol("h_aP*", "", "ISO 53", "addendum of the rack"),
-    "rack.dedendum": Symbol("h_fP*", "", "ISO 53", "dedendum of the rack"),
-    "rack.root_radius": Symbol("ρ_fP*", "", "ISO 53", "root radius of the rack"),
-    "body.bore": Symbol("", "mm", "", "bore"),
-    "body.keyway_width": Symbol("", "mm", "DIN 6885", "keyway width"),
-    "body.keyway_depth": Symbol("t_2", "mm", "DIN 6885", "keyway depth from the bore"),
-    "body.hub_diameter": Symbol("", "mm", "", "hub diameter"),
-    "body.hub_length": Symbol("", "mm", "", "hub length on each side"),
-    "body.hub_side": Symbol("", "", "", "side of the hub"),
-    "body.rim_diameter": Symbol("", "mm", "", "rim diameter (internal gears)"),
-    "body.end_chamfer": Symbol("", "mm", "", "end chamfer, axial length"),
-    "body.end_chamfer_angle": Symbol("", "deg", "", "end chamfer, angle to the axis"),
-    "body.tip_chamfer": Symbol("h_K", "mm", "6.1", "tip chamfer, radial height"),
-    "body.web_thickness": Symbol("b_s", "mm", "ISO 6336-1", "web of the blank, for the rating"),
-    "body.rim_thickness": Symbol("s_R", "mm", "ISO 6336-1", "rim of the blank, for the rating"),
-    "modification.tip_relief": Symbol("C_αa", "µm", "6.2", "tip relief"),
-    "modification.tip_relief_length": Symbol("L_Cαa", "mm", "6.2", "tip relief, length of roll"),
-    "modification.tip_relief_shape": Symbol("", "", "6.2", "tip relief, shape"),
-    "modification.root_relief": Symbol("C_αf", "µm", "6.2", "root relief"),
-    "modification.root_relief_length": Symbol("L_Cαf", "mm", "6.2", "root relief, length of roll"),
-    "modification.root_relief_shape": Symbol("", "", "6.2", "root relief, shape"),
-    "modification.profile_crowning": Symbol("C_α", "µm", "6.2", "profile crowning"),
-    "modification.pressure_angle_modification": Symbol("C_Hα", "µm", "6.2", "pressure angle modification"),
-    "modification.lead_crowning": Symbol("C_β", "µm", "6.3", "lead crowning"),
-    "modification.end_relief": Symbol("C_βI", "µm", "6.3", "end relief at both ends"),
-    "modification.end_relief_length": Symbol("L_CβI", "mm", "6.3", "end relief, length along the axis"),
-    "modification.end_relief_shape": Symbol("", "", "6.3", "end relief, shape"),
-    "modification.helix_angle_modification": Symbol("C_Hβ", "µm", "6.3", "helix angle modification"),
-    "modification.twist": Symbol("S_α", "µm", "6.4", "twist of the flank"),
     "transverse_module": Symbol("m_t", "mm", "4.2", "transverse module"),
     "transverse_pressure_angle": Symbol("α_t", "deg", "4.3", "transverse pressure angle"),
     "base_helix_angle": Symbol("β_b", "deg", "4.3", "base helix angle"),
@@ -84,10 +41,8 @@ GEAR = {
     "virtual_teeth": Symbol("z_n", "", "4.7", "virtual number of teeth"),
     "reference_diameter": Symbol("d", "mm", "4.2", "reference diameter"),
     "base_diameter": Symbol("d_b", "mm", "4.3", "base diameter"),
-    "tip_diameter": Symbol("d_a", "mm", "4.5", "tip diameter"),
     "tip_form_diameter": Symbol("d_Fa", "mm", "7.6", "tip form diameter"),
     "form_diameter": Symbol("d_Ff", "mm", "7.6", "root form diameter"),
-    "root_diameter": Symbol("d_f", "mm", "4.5", "root diameter"),
     "undercut": Symbol("", "", "7.7", "undercut"),
     "normal_tooth_thickness": Symbol("s_n", "mm", "4.7", "normal tooth thickness"),
     "transverse_tooth_thickness": Symbol("s_t", "mm", "4.7", "transverse tooth thickness"),
@@ -104,8 +59,6 @@ GEAR = {
 }
 
 PAIR = {
-    "centre_distance": Symbol("a", "mm", "5.2", "centre distance"),
-    "axial_offset": Symbol("", "mm", "", "axial offset of the wheel"),
     "common_width.width": Symbol("b_w", "mm", "5.2", "common face width"),
     "common_width.offset": Symbol("", "mm", "", "middle of b_w from the pinion's"),
     "gear_ratio": Symbol("u", "", "5.1", "gear ratio"),
@@ -131,38 +84,6 @@ PAIR = {
     "contact_line_lengths.minimum": Symbol("", "mm", "5.4", "contact lines, least total length"),
     "contact_line_lengths.mean": Symbol("", "mm", "5.4", "contact lines, mean total length"),
     "contact_line_lengths.maximum": Symbol("", "mm", "5.4", "contact lines, greatest total length"),
-}
-
-MATERIAL = {
-    "name": Symbol("", "", "", "material"),
-    "youngs_modulus": Symbol("E", "MPa", "", "Young's modulus"),
-    "poisson_ratio": Symbol("ν", "", "", "Poisson's ratio"),
-    "density": Symbol("ρ", "kg/m³", "", "density"),
-    "yield_strength": Symbol("σ_y", "MPa", "", "yield strength"),
-    "contact_limit": Symbol("σ_HP", "MPa", "ISO 6336-2", "permissible contact stress"),
-    "root_limit": Symbol("σ_FP", "MPa", "ISO 6336-3", "permissible root stress"),
-    "group": Symbol("", "", "ISO 6336-5", "material group"),
-    "contact_endurance_limit": Symbol("σ_Hlim", "MPa", "ISO 6336-5", "endurance limit of contact stress"),
-}
-
-LOAD = {
-    "torque": Symbol("T_1", "N·m", "ISO 6336-1", "torque on the pinion"),
-    "speed": Symbol("n_1", "rpm", "ISO 6336-1", "speed of the pinion"),
-    "application_factor": Symbol("K_A", "", "ISO 6336-1", "application factor"),
-}
-
-MOUNTING = {
-    "misalignment": Symbol("F_βx", "µm", "ISO 6336-1", "misalignment in the plane of action"),
-    "misalignment_across": Symbol("", "µm", "", "misalignment across that plane"),
-    "pinion_pitch_error": Symbol("f_p1", "µm", "ISO 1328-1", "pitch error of a tooth of the pinion"),
-    "wheel_pitch_error": Symbol("f_p2", "µm", "ISO 1328-1", "pitch error of a tooth of the wheel"),
-    "centre_distance_change": Symbol("Δa", "mm", "", "change of the centre distance"),
-}
-
-RATING_OPTIONS = {
-    "standard": Symbol("", "", "", "standard of the rating"),
-    "accuracy": Symbol("", "", "", "standard of the accuracy grade"),
-    "accuracy_grade": Symbol("", "", "ISO 1328-1", "accuracy grade"),
 }
 
 RATING = {
@@ -216,24 +137,6 @@ GEAR_RATING = {
 }
 
 CHECK = {
-    "model": Symbol("", "", "", "model: plane (2d) or solid bodies (3d)"),
-    "plane": Symbol("", "", "", "plane strain or plane stress"),
-    "positions": Symbol("", "", "", "positions over one base pitch"),
-    "refinement": Symbol("", "", "", "how much finer than usual the elements are"),
-    "convergence": Symbol("", "", "", "whether finer meshes tell the error"),
-    "body_teeth": Symbol("", "", "", "teeth of the body, 0 for the full ring"),
-    "cuts": Symbol("", "", "", "what holds the cuts of the body"),
-    "pinion_inner_diameter": Symbol("", "mm", "", "diameter where the pinion is held"),
-    "wheel_inner_diameter": Symbol("", "mm", "", "diameter where the wheel is held"),
-    "pinion_support": Symbol("", "", "", "what holds the pinion there"),
-    "wheel_support": Symbol("", "", "", "what holds the wheel there"),
-    "shaft_modulus": Symbol("E", "MPa", "", "modulus of an elastic shaft"),
-    "pinion_shaft_bore": Symbol("", "mm", "", "bore of the pinion's elastic shaft"),
-    "wheel_shaft_bore": Symbol("", "mm", "", "bore of the wheel's elastic shaft"),
-    "torques": Symbol("T_1", "N·m", "", "torques of the sweep, on the pinion"),
-    "root_band": Symbol("", "%", "", "how far root stresses may be from the standard"),
-    "stiffness_band": Symbol("", "%", "", "how far stiffness may be from the standard"),
-    "contact_band": Symbol("", "%", "", "how far the contact stress may be from the standard"),
     "passed": Symbol("", "", "", "whether numerics are passed, and strength where it is judged"),
     "numerics": Symbol("", "", "", "verdict of the gates of the computation"),
     "strength": Symbol("", "", "", "verdict of the gates of strength"),
@@ -265,29 +168,6 @@ CHECK = {
     "root_face_load_factor": Symbol("K_Fβ", "", "", "face load factor of the root"),
 }
 
-DYNAMICS = {
-    "speed_from": Symbol("n_1", "rpm", "", "least speed of the chart"),
-    "speed_to": Symbol("n_1", "rpm", "", "greatest speed of the chart"),
-    "speeds": Symbol("", "", "", "speeds of the chart"),
-    "harmonics": Symbol("", "", "", "harmonics of the tooth frequency"),
-    "frequencies": Symbol("", "", "", "natural frequencies of a train"),
-    "accuracy_grade": Symbol("", "", "ISO 1328-1", "accuracy grade"),
-    "tooth_errors": Symbol("", "", "", "whether teeth have deviations"),
-    "seed": Symbol("", "", "", "seed of the deviations"),
-    "model": Symbol("", "", "", "what the teeth are: mesh or contact"),
-    "stiffness": Symbol("", "", "", "method of the mesh stiffness"),
-    "damping_ratio": Symbol("ζ", "", "", "damping ratio of the pair"),
-    "pinion_inertia": Symbol("J_1", "kg·m²", "", "inertia of the pinion"),
-    "wheel_inertia": Symbol("J_2", "kg·m²", "", "inertia of the wheel"),
-    "pinion_bearing_stiffness": Symbol("", "N/µm", "", "stiffness of the pinion's bearings"),
-    "wheel_bearing_stiffness": Symbol("", "N/µm", "", "stiffness of the wheel's bearings"),
-    "bearing_damping": Symbol("", "N·s/m", "", "damping of the bearings"),
-    "tooth_stiffness": Symbol("", "N/µm", "", "stiffness of one pair of teeth"),
-    "tooth_damping": Symbol("", "N·s/m", "", "damping of one pair of teeth"),
-    "duration": Symbol("", "s", "", "time that each speed runs"),
-    "sampling": Symbol("", "Hz", "", "samples of each speed per second"),
-}
-
 STIFFNESS = {
     "mean": Symbol("", "N/µm", "", "mean secant mesh stiffness"),
     "maximum": Symbol("", "N/µm", "", "greatest secant mesh stiffness"),
@@ -302,17 +182,11 @@ STIFFNESS = {
 }
 """Of each method, as stiffness.json has them."""
 
-DYNAMICS_RESULTS = {
-    "model": DYNAMICS["model"],
-    "stiffness_method": DYNAMICS["stiffness"],
+DYNAMICS = {
+    "stiffness_method": Symbol("", "", "", "method of the mesh stiffness"),
     "mesh_stiffness_mean": STIFFNESS["mean"],
     "mesh_stiffness_tangent_mean": STIFFNESS["tangent_mean"],
-    "pinion_inertia": DYNAMICS["pinion_inertia"],
-    "wheel_inertia": DYNAMICS["wheel_inertia"],
-    "tooth_stiffness": DYNAMICS["tooth_stiffness"],
-    "tooth_damping": DYNAMICS["tooth_damping"],
     "natural_frequency": Symbol("f_n", "Hz", "", "natural frequency of the pair"),
-    "damping_ratio": DYNAMICS["damping_ratio"],
     "static_approach": Symbol("", "µm", "", "approach of the flanks at rest"),
     "contact_ratio": Symbol("", "", "", "usable contact ratio"),
     "resonance_speed_iso6336": Symbol("n_E1", "rpm", "ISO 6336-1, 6", "resonance speed by the standard"),
@@ -321,7 +195,7 @@ DYNAMICS_RESULTS = {
     "kv_highest": Symbol("K_v", "", "ISO 6336-1, 6", "highest dynamic factor of the chart"),
     "kv_highest_speed": Symbol("n_1", "rpm", "", "speed of the highest dynamic factor"),
 }
-"""What a line of a table has of the dynamics of a pair."""
+"""Of a pair, beside what its options have."""
 
 MODIFY = {
     "torque": Symbol("T_1", "N·m", "", "torque of the modifications, on the pinion"),

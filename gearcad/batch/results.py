@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from gearcad.batch.row import Record
-from gearcad.columns import column_symbol
 from gearcad.designs.cells import guarded_text
+from gearcad.designs.columns import column_symbol
 from gearcad.designs.table import Row
 from gearcad.output import staged_files
 from gearcad.symbols import Symbol

@@ -4,33 +4,25 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import Annotated
 
 from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.chain import Cuts
 from gearcad.contact.shared.holding import Hold
-from gearcad.errors import (
-    GeometryError,
-    ParameterError,
-    as_choice,
-    plain_numbers,
-    require_number,
-    require_one_of,
-    require_whole,
-)
+from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.material import STEEL_MODULUS
 from gearcad.per_gear import PerGear
-from gearcad.ranges import BAND, LENGTH, MODULUS, TORQUE
+from gearcad.ranges import BAND, LENGTH, MODULUS, TORQUE, Choice, Member, Range, Whole
 from gearcad.reprs import concise
+from gearcad.schema import Words, require_fields
 
 __all__ = ["CheckOptions", "Model"]
 
 _PLANES = {"strain": Plane.STRAIN, "stress": Plane.STRESS}
 _AUTO = "auto"
 _SWITCH = {"on": True, "off": False}
-
-_LEAST_POSITIONS = 12
 
 
 class Model(Enum):
@@ -43,7 +35,10 @@ class Model(Enum):
     """Bodies over their face widths, in contact along lines."""
 
 
+_MODELS = Choice((*(model.value for model in Model), _AUTO))
 _POSITIONS = {Model.PLANE: 60, Model.SOLID: 24}
+_SHAFT_BORE = LENGTH._replace(least=0.0)
+_TORQUES = TORQUE._replace(signed=False)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,54 +59,34 @@ class CheckOptions:
     gears) or "stress": of the plane model only, as `contact_band` is of the solid one.
     """
 
-    model: str = _AUTO
-    plane: str = "strain"
-    positions: int = 0
-    refinement: float = 1.0
-    convergence: str = "on"
-    body_teeth: int = 0
-    cuts: str = "fixed"
-    pinion_inner_diameter: float | None = None
-    wheel_inner_diameter: float | None = None
-    pinion_support: str = "auto"
-    wheel_support: str = "auto"
-    shaft_modulus: float = STEEL_MODULUS
-    pinion_shaft_bore: float = 0.0
-    wheel_shaft_bore: float = 0.0
-    torques: tuple[float, ...] = ()
-    root_band: float = 25.0
-    stiffness_band: float = 25.0
-    contact_band: float = 25.0
+    model: Annotated[str, _MODELS, Words("model: plane (2d) or solid bodies (3d)")] = _AUTO
+    plane: Annotated[str, Choice(tuple(_PLANES)), Words("plane strain or plane stress")] = "strain"
+    positions: Annotated[int, Whole(12, 1000, may_vanish=True), Words("positions over one base pitch")] = 0
+    refinement: Annotated[float, Range("", 0.25, 4.0), Words("how much finer than usual the elements are")] = 1.0
+    convergence: Annotated[str, Choice(tuple(_SWITCH)), Words("whether finer meshes tell the error")] = "on"
+    body_teeth: Annotated[int, Whole(3, 999, may_vanish=True), Words("teeth of the body, 0 for the full ring")] = 0
+    cuts: Annotated[str, Member(Cuts), Words("what holds the cuts of the body")] = "fixed"
+    pinion_inner_diameter: Annotated[float | None, LENGTH, Words("diameter where the pinion is held")] = None
+    wheel_inner_diameter: Annotated[float | None, LENGTH, Words("diameter where the wheel is held")] = None
+    pinion_support: Annotated[str, Member(Hold), Words("what holds the pinion there")] = "auto"
+    wheel_support: Annotated[str, Member(Hold), Words("what holds the wheel there")] = "auto"
+    shaft_modulus: Annotated[float, MODULUS, Words("modulus of an elastic shaft", "E")] = STEEL_MODULUS
+    pinion_shaft_bore: Annotated[float, _SHAFT_BORE, Words("bore of the pinion's elastic shaft")] = 0.0
+    wheel_shaft_bore: Annotated[float, _SHAFT_BORE, Words("bore of the wheel's elastic shaft")] = 0.0
+    torques: Annotated[tuple[float, ...], _TORQUES, Words("torques of the sweep, on the pinion", "T_1")] = ()
+    root_band: Annotated[float, BAND, Words("how far root stresses may be from the standard")] = 25.0
+    stiffness_band: Annotated[float, BAND, Words("how far stiffness may be from the standard")] = 25.0
+    contact_band: Annotated[float, BAND, Words("how far the contact stress may be from the standard")] = 25.0
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        plain_numbers(self)
-        require_one_of("model", self.model, (*(model.value for model in Model), _AUTO))
-        require_one_of("plane", self.plane, _PLANES)
-        require_one_of("convergence", self.convergence, _SWITCH)
-        as_choice("cuts", self.cuts, Cuts)
-        if self.positions != 0:
-            require_whole("positions", self.positions, at_least=_LEAST_POSITIONS, at_most=1000)
-        require_number("refinement", self.refinement, at_least=0.25, at_most=4)
-        if self.body_teeth != 0:
-            require_whole("body_teeth", self.body_teeth, at_least=3, at_most=999)
-            if self.body_teeth % 2 == 0:
-                raise ParameterError("body_teeth", self.body_teeth, "must be odd (the loaded tooth stands in the middle), or 0")
-        for name in ("pinion_inner_diameter", "wheel_inner_diameter"):
-            if getattr(self, name) is not None:
-                LENGTH.require(name, getattr(self, name))
-        for name in ("pinion_support", "wheel_support"):
-            as_choice(name, getattr(self, name), Hold)
-        MODULUS.require("shaft_modulus", self.shaft_modulus)
-        for name in ("pinion_shaft_bore", "wheel_shaft_bore"):
-            require_number(name, getattr(self, name), LENGTH.unit, at_least=0, at_most=LENGTH.most)
-        torques = self.torques if isinstance(self.torques, list | tuple) else (self.torques,)
-        for torque in torques:
-            require_number("torques", torque, TORQUE.unit, at_least=TORQUE.least, at_most=TORQUE.most)
-        object.__setattr__(self, "torques", tuple(float(torque) for torque in torques))
-        for name in ("root_band", "stiffness_band", "contact_band"):
-            BAND.require(name, getattr(self, name))
+        if not isinstance(self.torques, list | tuple):
+            object.__setattr__(self, "torques", (self.torques,))
+        require_fields(self)
+        if self.body_teeth and self.body_teeth % 2 == 0:
+            raise ParameterError("body_teeth", self.body_teeth, "must be odd (the loaded tooth stands in the middle), or 0")
+        object.__setattr__(self, "torques", tuple(map(float, self.torques)))
 
     def model_for(self, pair: GearPair) -> Model:
         """The model of a pair. Raises GeometryError for helical gears in a plane."""

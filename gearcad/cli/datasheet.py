@@ -7,24 +7,37 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearcad import symbols
 from gearcad.designs.design import Design
+from gearcad.designs.keys import FIELDS
 from gearcad.errors import format_number
+from gearcad.geometry import Gear, GearPair
+from gearcad.schema import symbols_of
 
 if TYPE_CHECKING:
     from rich.console import Console
 
 __all__ = ["print_datasheet"]
 
+_OF_GEAR = symbols_of(Gear) | symbols.GEAR
+_OF_PAIR = symbols_of(GearPair) | symbols.PAIR
+
+
+def _of_part(part: str) -> str:
+    """The fields of one part of a gear."""
+    return " ".join(key for key in _OF_GEAR if key.startswith(f"{part}."))
+
+
 _GEAR_BLOCKS = {
     "Teeth": "teeth normal_module helix_angle profile_shift tip_alteration tooth_thinning face_width virtual_teeth lead",
-    "Basic rack": "rack.pressure_angle rack.addendum rack.dedendum rack.root_radius",
+    "Basic rack": _of_part("rack"),
     "Transverse section": "transverse_module transverse_pressure_angle base_helix_angle transverse_pitch transverse_base_pitch",
     "Diameters": "tip_diameter tip_form_diameter reference_diameter base_diameter form_diameter root_diameter undercut",
     "Tooth thickness": "normal_tooth_thickness transverse_tooth_thickness tip_thickness",
     "Inspection": "span_teeth span_measurement span_contact_diameter ball_diameter over_balls over_pins pin_axial_shift",
-    "Flank modifications": " ".join(key for key in symbols.GEAR if key.startswith("modification.")),
-    "Body": "body.bore body.keyway_width body.keyway_depth body.hub_diameter body.hub_length body.hub_side body.rim_diameter"
-    " body.end_chamfer body.end_chamfer_angle body.tip_chamfer body.web_thickness body.rim_thickness",
+    "Flank modifications": _of_part("modification"),
+    "Body": _of_part("body"),
 }
+_PLACED = {"name", *" ".join(_GEAR_BLOCKS.values()).split()}
+_GEAR_BLOCKS["Teeth"] += "".join(f" {key}" for key in _OF_GEAR if key not in _PLACED)
 
 _BOTH = "working_pitch_diameters active_root_diameters tip_clearances"
 """Fields of a pair that hold one value for the pinion and one for the wheel."""
@@ -76,22 +89,17 @@ def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
     yield _Line("")
     yield _Line(_columns(symbols.Symbol("", "", "", ""), gears, with_source=False), "bold")
     for title, keys in _GEAR_BLOCKS.items():
-        rows = [(symbols.GEAR[key], [_shown(values, key) for values in gears.values()]) for key in keys.split()]
+        rows = [(_OF_GEAR[key], [_shown(values, key) for values in gears.values()]) for key in keys.split()]
         if title == "Diameters" and pair:
-            rows += [(symbols.PAIR[key], [_value(value) for value in pair[key]]) for key in _BOTH.split()]
+            rows += [(_OF_PAIR[key], [_value(value) for value in pair[key]]) for key in _BOTH.split()]
         yield from _block(title, [row for row in rows if set(row[1]) != {_ABSENT}], with_source)
     for title, keys in _PAIR_BLOCKS.items() if pair else ():
-        yield from _block(title, [(symbols.PAIR[key], [_value(pair[key])]) for key in keys.split()], with_source)
-    tables = (
-        ("material", symbols.MATERIAL),
-        ("load", symbols.LOAD),
-        ("mounting", symbols.MOUNTING),
-        ("rating", symbols.RATING_OPTIONS),
-    )
-    for block, table in tables:
+        yield from _block(title, [(_OF_PAIR[key], [_value(pair[key])]) for key in keys.split()], with_source)
+    for block in ("material", "load", "mounting", "rating"):
         absent = (None, 0) if block == "mounting" else (None,)
         given = {key: value for key, value in document.get(block, {}).items() if value not in absent}
-        yield from _block(block.capitalize(), [(table[key], [_given(value)]) for key, value in given.items()], with_source)
+        rows = [(FIELDS[block][key].symbol, [_given(value)]) for key, value in given.items()]
+        yield from _block(block.capitalize(), rows, with_source)
     yield from _warnings(design)
 
 

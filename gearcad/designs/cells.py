@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from enum import Enum
 from typing import NamedTuple
 
-from gearcad.designs.keys import COLUMNS, LISTS, WHOLE_FIELDS, Cell
+from gearcad.designs.keys import COUNTS, LISTS, TEXTS, Cell
 from gearcad.errors import ParameterError
 
 __all__ = ["CellReader", "Layout", "RawCell", "Unreadable", "guarded_text", "is_blank", "is_comment", "list_text", "plain_text"]
@@ -32,25 +32,6 @@ class Unreadable(NamedTuple):
 
 RawCell = str | int | float | Unreadable | None
 """A cell as the file holds it; a text file has texts only."""
-
-_TEXT_FIELDS = (
-    "name",
-    "rack",
-    "body.hub_side",
-    *(f"modification.{relief}_shape" for relief in ("tip_relief", "root_relief", "end_relief")),
-    "profile_shift_split",
-    "model",
-    "plane",
-    "convergence",
-    "cuts",
-    "group",
-    "standard",
-    "accuracy",
-)
-_TEXTS = frozenset(f"{table}.{field}" for table, fields in COLUMNS.items() for field in fields if field in _TEXT_FIELDS) | {
-    "name"
-}
-_COUNTS = frozenset(f"{table}.{field}" for table, fields in COLUMNS.items() for field in fields if field in WHOLE_FIELDS)
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _GROUPED = re.compile(r"[+-]?[0-9.,]*[0-9][0-9.,]*(?:[eE][+-]?[0-9]+)?")
@@ -128,7 +109,7 @@ class CellReader:
             raise ParameterError(key, text, cell.fault)
         if _is_error(text):
             raise ParameterError(key, text, "is an error of the spreadsheet; mend the formula and save again")
-        if key in _TEXTS:
+        if key in TEXTS or key == "name":
             return text
         if not isinstance(cell, str):
             return _checked(key, text, cell)
@@ -172,7 +153,7 @@ class CellReader:
 
 def _checked(key: str, text: str, number: float) -> int | float:
     """A finite float, or a whole number where a count is meant: pandas and spreadsheets write 20.0."""
-    if key in _COUNTS and abs(number) <= _MOST_EXACT and float(number).is_integer():
+    if key in COUNTS and abs(number) <= _MOST_EXACT and float(number).is_integer():
         return int(number)
     try:
         number = float(number)

@@ -3,24 +3,32 @@
 from __future__ import annotations
 
 import difflib
-from dataclasses import fields
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
 
-from gearcad import symbols
 from gearcad.check.options import CheckOptions
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.geometry import BasicRack, Body, FlankModification, Gear
+from gearcad.geometry import Gear, GearPair, ShiftSplit
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.rating.options import RatingOptions
+from gearcad.schema import FieldSchema, Words, schema_of
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 __all__ = [
+    "BESIDE",
     "COLUMNS",
+    "COUNTS",
+    "FIELDS",
     "KEYS",
     "LISTS",
     "PARTS",
     "SHARED",
-    "WHOLE_FIELDS",
+    "TEXTS",
     "Cell",
     "explain_unknown_column",
     "explain_unknown_key",
@@ -31,37 +39,71 @@ __all__ = [
 Cell = int | float | str | tuple[float, ...]
 """What a spec and a cell of a design table can both hold."""
 
-WHOLE_FIELDS = ("teeth", "body_teeth", "positions", "speeds", "harmonics", "frequencies", "accuracy_grade", "seed")
-"""Fields that are whole numbers; elsewhere 2 means 2.0."""
-
-PARTS = ("rack", "body", "modification")
+PARTS = tuple(name for name, field in schema_of(Gear).items() if field.part is not None)
 """Fields of a gear that have fields of their own."""
 
-_RACK = ("rack", *(f"rack.{field.name}" for field in fields(BasicRack)))
-_BODY = tuple(f"body.{field.name}" for field in fields(Body))
-_MODIFICATION = tuple(f"modification.{field.name}" for field in fields(FlankModification))
-_PARTS = (*_RACK, *_BODY, *_MODIFICATION)
-_GEAR = (*(field.name for field in fields(Gear) if field.name not in PARTS), *_PARTS)
+BESIDE: dict[str, type[DataclassInstance]] = {
+    "material": Material,
+    "load": Load,
+    "mounting": Mounting,
+    "check": CheckOptions,
+    "dynamics": DynamicsOptions,
+    "rating": RatingOptions,
+}
+"""The tables that stand beside those of the gears, and what they make."""
 
-SHARED = ("normal_module", "helix_angle", "face_width", "tip_alteration", "tooth_thinning", *_PARTS)
+
+@dataclass(frozen=True)
+class _OfSpecs:
+    """Keys that only specs have: their numbers stand in fields of other names."""
+
+    rack: Annotated[str, Words("named basic rack", "", "ISO 53")] = "ISO53_A"
+    profile_shift_split: Annotated[ShiftSplit, Words("how two automatic profile shifts share their sum")] = (
+        ShiftSplit.EQUAL_SPECIFIC_SLIDING
+    )
+
+
+def _flat(kind: type[DataclassInstance]) -> Iterator[tuple[str, FieldSchema]]:
+    """Keys and fields of a type, those of its parts behind the others, with a dot; `rack` alone is the name of one."""
+    parts = {}
+    for name, field in schema_of(kind).items():
+        if field.part is None:
+            yield name, field
+        else:
+            parts[name] = field.part
+    for part, its in parts.items():
+        if part in _OF_SPECS:
+            yield part, _OF_SPECS[part]
+        yield from ((f"{part}.{name}", field) for name, field in _flat(its))
+
+
+_OF_SPECS = schema_of(_OfSpecs)
+_GEAR = dict(_flat(Gear))
+_PAIR = schema_of(GearPair)
+
+_PLAIN_SHARED = ("normal_module", "helix_angle", "face_width", "tip_alteration", "tooth_thinning")
+SHARED = (*_PLAIN_SHARED, *(key for key in _GEAR if key.partition(".")[0] in PARTS))
 """Keys of a gear that may stand in [pair] for both; the helix angle there is the pinion's."""
 
-KEYS = {
+FIELDS: dict[str, dict[str, FieldSchema]] = {
     "gear": _GEAR,
-    "pair": ("name", "centre_distance", "axial_offset", "profile_shift_split", *SHARED),
+    "pair": {key: _PAIR[key] for key in ("name", "centre_distance", "axial_offset")}
+    | {"profile_shift_split": _OF_SPECS["profile_shift_split"]}
+    | {key: _GEAR[key] for key in SHARED},
     "pinion": _GEAR,
     "wheel": _GEAR,
-    "material": tuple(field.name for field in fields(Material)),
-    "load": tuple(field.name for field in fields(Load)),
-    "mounting": tuple(field.name for field in fields(Mounting)),
-    "check": tuple(field.name for field in fields(CheckOptions)),
-    "dynamics": tuple(field.name for field in fields(DynamicsOptions)),
-    "rating": tuple(field.name for field in fields(RatingOptions)),
+    **{table: dict(_flat(kind)) for table, kind in BESIDE.items()},
 }
-"""Permitted keys of each table, flattened with dots. `rack` alone is the name of a rack."""
+"""What each key of each table says of itself, the keys flattened with dots."""
 
-LISTS = ("material.contact_limit", "material.root_limit", "check.torques")
-"""Keys that may hold several numbers; in a cell there is space between them."""
+KEYS = {table: tuple(fields) for table, fields in FIELDS.items()}
+"""Permitted keys of each table."""
+
+_EACH = {f"{table}.{key}": field for table, fields in FIELDS.items() for key, field in fields.items()}
+COUNTS = frozenset(key for key, field in _EACH.items() if field.whole)
+LISTS = frozenset(key for key, field in _EACH.items() if field.several)
+TEXTS = frozenset(key for key, field in _EACH.items() if field.text)
+"""Full keys of whole numbers, of what may be several numbers (in a cell there is space between them), and of words."""
 
 _MOVED = {
     "check.pinion_tip_relief": "write pinion.modification.tip_relief and pinion.modification.tip_relief_length (mm)",
@@ -91,15 +133,14 @@ def explain_unknown_key(table: str, key: str) -> str:
     if homes and table != "gear":
         return f"unknown key here; it belongs in {' or '.join(homes)}"
     known = KEYS[table]
-    if (near := _nearest(key, known)) is not None:
+    if (near := _nearest(key, table, known)) is not None:
         return f"unknown key; did you mean {near}?"
     return f"unknown key; permitted are {', '.join(known)}"
 
 
-def _nearest(key: str, known: tuple[str, ...]) -> str | None:
-    """The known key whose symbol, last word or spelling is nearest."""
-    entries = symbols.GEAR | symbols.PAIR | symbols.MATERIAL | symbols.LOAD | symbols.MOUNTING | symbols.RATING_OPTIONS
-    by_symbol = {entries[name].symbol: name for name in known if name in entries and entries[name].symbol}
+def _nearest(key: str, table: str, known: tuple[str, ...]) -> str | None:
+    """The known key of a table whose symbol, last word or spelling is nearest."""
+    by_symbol = {FIELDS[table][name].symbol.symbol: name for name in known if FIELDS[table][name].symbol.symbol}
     by_tail = {name.rpartition(".")[2]: name for name in reversed(known)}
     if key in by_symbol:
         return by_symbol[key]
@@ -126,7 +167,7 @@ def explain_unknown_column(heading: str, main: str) -> str:
     owner, field = (table, rest) if table else (main, heading)
     # A pair has no [gear]; a table with nothing but bare keys may have been meant for pairs.
     owners = [owner, *(name for name in COLUMNS if name != owner and (name != "gear" or main == "gear"))]
-    for meant in (field, *(_nearest(field, COLUMNS[name]) for name in owners)):
+    for meant in (field, *(_nearest(field, name, COLUMNS[name]) for name in owners)):
         if homes := [f"{name}.{meant}" for name in owners if meant in COLUMNS[name]]:
             found = homes[:1] if homes[0].startswith(f"{owner}.") else homes
             return f"unknown column; did you mean {' or '.join(found)}?"

@@ -13,10 +13,9 @@ from typing import Any, NamedTuple, Self, TypeVar
 from gearcad.designs.auto import AUTO
 from gearcad.designs.design import require_plain_name
 from gearcad.designs.files import Where, require_sane_tables
-from gearcad.designs.keys import KEYS, PARTS, SHARED, WHOLE_FIELDS, explain_unknown_key
+from gearcad.designs.keys import COUNTS, FIELDS, KEYS, PARTS, SHARED, explain_unknown_key
 from gearcad.errors import InputError, ParameterError, SpecError, format_number, shown
 from gearcad.geometry import NAMED_RACKS, BasicRack, Body, FlankModification
-from gearcad.load import Load
 
 __all__ = ["Given", "Spec"]
 
@@ -51,7 +50,7 @@ class Spec:
                     raise SpecError(f"{where(key)}: {shown(key)}: {explain_unknown_key(table, field)}")
                 require_sane_tables(value, where, key)
                 if isinstance(value, int) and not isinstance(value, bool):
-                    value = value if field in WHOLE_FIELDS else float(value)
+                    value = value if key in COUNTS else float(value)
                 # The sum makes -0.0 a plain zero, so that equal inputs give equal files.
                 values[key] = Given(value + 0.0 if isinstance(value, float) else value, key)
         return cls(values, where)
@@ -118,15 +117,13 @@ class Spec:
         with self.blame(owner):
             if not isinstance(values.get("name", ""), str):
                 raise ParameterError("name", values["name"], "must be a text")
-            if kind is Load:
-                values.setdefault("torque", None)
-            return kind(**values)
+            return kind(**_missing(owner) | values)
 
     def gear_inputs(self, owner: str) -> dict[str, Any]:
         """Keyword arguments of Gear; "auto" not yet resolved, what is missing as None for Gear to complain about."""
         given = self.fields_of(owner)
         parts: dict[str, dict[str, Any]] = {part: {} for part in PARTS}
-        inputs: dict[str, Any] = dict.fromkeys(("teeth", "normal_module", "face_width"))
+        inputs = _missing(owner)
         for key, value in given.items():
             part, _, field = key.partition(".")
             if field:
@@ -140,12 +137,18 @@ class Spec:
             if error.parameter == "rack":
                 raise
             raise error.within("rack") from error
-        for part, kind in (("body", Body), ("modification", FlankModification)):
+        kinds: dict[str, type[Any]] = {"body": Body, "modification": FlankModification}
+        for part, kind in kinds.items():
             try:
                 inputs[part] = kind(**parts[part])
             except InputError as error:
                 raise error.within(part) from error
         return inputs
+
+
+def _missing(table: str) -> dict[str, Any]:
+    """None for every field that must be given: its type complains about it."""
+    return {key: None for key, field in FIELDS[table].items() if field.required}
 
 
 def _entries(content: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:

@@ -4,40 +4,25 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import Enum
+from typing import Annotated
 
-from gearcad.errors import (
-    GeometryError,
-    ParameterError,
-    as_choice,
-    plain_numbers,
-    require_number,
-    require_one_of,
-    require_whole,
-)
+from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.per_gear import PerGear
-from gearcad.ranges import DAMPING, DURATION, INERTIA, SAMPLING, SPEED, STIFFNESS
+from gearcad.ranges import DAMPING, DURATION, INERTIA, SAMPLING, SPEED, STIFFNESS, Choice, Member, Range, Whole
 from gearcad.rating.options import RatingOptions
 from gearcad.reprs import concise
+from gearcad.schema import Words, require_fields
 
-__all__ = ["DynamicsOptions", "PairModel"]
+__all__ = ["OF_PAIRS", "DynamicsOptions", "PairModel"]
 
 _CHART, _CAMPBELL = 1000, 41
 """Speeds where none are given."""
 
-_RANGES = {
-    "speed_from": SPEED._replace(least=0.0, signed=False),
-    "speed_to": SPEED._replace(signed=False),
-    "pinion_inertia": INERTIA,
-    "wheel_inertia": INERTIA,
-    "pinion_bearing_stiffness": STIFFNESS,
-    "wheel_bearing_stiffness": STIFFNESS,
-    "bearing_damping": DAMPING,
-    "tooth_stiffness": STIFFNESS,
-    "tooth_damping": DAMPING,
-    "duration": DURATION,
-    "sampling": SAMPLING,
-}
+OF_PAIRS = "of pairs"
+"""Marks what a train has in its own parts, or has no use for."""
+
+_SPEED = SPEED._replace(signed=False)
 
 _SWITCH = {"on": True, "off": False}
 
@@ -84,47 +69,33 @@ class DynamicsOptions:
     `tooth_damping` (N·s/m; None: by the damping ratio); each speed runs for `duration` (s), sampled at `sampling` (Hz).
     """
 
-    speed_from: float | None = None
-    speed_to: float | None = None
-    speeds: int | None = None
-    harmonics: int | None = None
-    frequencies: int = 8
-    accuracy_grade: int | None = None
-    tooth_errors: str = "off"
-    seed: int = 0
-    model: str = PairModel.MESH.value
-    stiffness: str = AUTO
-    damping_ratio: float = 0.07
-    pinion_inertia: float | None = None
-    wheel_inertia: float | None = None
-    pinion_bearing_stiffness: float | None = None
-    wheel_bearing_stiffness: float | None = None
-    bearing_damping: float = 0.0
-    tooth_stiffness: float | None = None
-    tooth_damping: float | None = None
-    duration: float = 1.0
-    sampling: float = 200_000.0
+    speed_from: Annotated[float | None, _SPEED._replace(least=0.0), Words("least speed of the chart", "n_1")] = None
+    speed_to: Annotated[float | None, _SPEED, Words("greatest speed of the chart", "n_1")] = None
+    speeds: Annotated[int | None, Whole(2, 20_000), Words("speeds of the chart")] = None
+    harmonics: Annotated[int | None, Whole(1, 1000), Words("harmonics of the tooth frequency")] = None
+    frequencies: Annotated[int, Whole(1, 200), Words("natural frequencies of a train")] = 8
+    accuracy_grade: Annotated[int | None, Whole(0, 12), Words("accuracy grade", "", "ISO 1328-1")] = None
+    tooth_errors: Annotated[str, Choice(tuple(_SWITCH)), Words("whether teeth have deviations")] = "off"
+    seed: Annotated[int, Whole(0, 2**32 - 1), Words("seed of the deviations")] = 0
+    model: Annotated[str, Member(PairModel), Words("what the teeth are: mesh or contact"), OF_PAIRS] = PairModel.MESH.value
+    stiffness: Annotated[str, Words("method of the mesh stiffness"), OF_PAIRS] = AUTO
+    damping_ratio: Annotated[float, Range("", 0.0, 1.0, ends="()"), Words("damping ratio of the pair", "ζ"), OF_PAIRS] = 0.07
+    pinion_inertia: Annotated[float | None, INERTIA, Words("inertia of the pinion", "J_1"), OF_PAIRS] = None
+    wheel_inertia: Annotated[float | None, INERTIA, Words("inertia of the wheel", "J_2"), OF_PAIRS] = None
+    pinion_bearing_stiffness: Annotated[float | None, STIFFNESS, Words("stiffness of the pinion's bearings"), OF_PAIRS] = None
+    wheel_bearing_stiffness: Annotated[float | None, STIFFNESS, Words("stiffness of the wheel's bearings"), OF_PAIRS] = None
+    bearing_damping: Annotated[float, DAMPING, Words("damping of the bearings"), OF_PAIRS] = 0.0
+    tooth_stiffness: Annotated[float | None, STIFFNESS, Words("stiffness of one pair of teeth"), OF_PAIRS] = None
+    tooth_damping: Annotated[float | None, DAMPING, Words("damping of one pair of teeth"), OF_PAIRS] = None
+    duration: Annotated[float, DURATION, Words("time that each speed runs"), OF_PAIRS] = 1.0
+    sampling: Annotated[float, SAMPLING, Words("samples of each speed per second"), OF_PAIRS] = 200_000.0
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        plain_numbers(self)
-        if self.speeds is not None:
-            require_whole("speeds", self.speeds, at_least=2, at_most=20_000)
-        if self.harmonics is not None:
-            require_whole("harmonics", self.harmonics, at_least=1, at_most=1000)
-        require_whole("frequencies", self.frequencies, at_least=1, at_most=200)
-        require_whole("seed", self.seed, at_least=0, at_most=2**32 - 1)
-        if self.accuracy_grade is not None:
-            require_whole("accuracy_grade", self.accuracy_grade, at_least=0, at_most=12)
-        require_one_of("tooth_errors", self.tooth_errors, _SWITCH)
-        as_choice("model", self.model, PairModel)
+        require_fields(self)
         if self.stiffness != AUTO:
             _require_method(self.stiffness)
-        require_number("damping_ratio", self.damping_ratio, above=0, below=1)
-        for name, permitted_range in _RANGES.items():
-            if (value := getattr(self, name)) is not None:
-                permitted_range.require(name, value)
         given = [(role, each) for role, each in self.bearing_stiffness.items() if each is not None]
         if len(given) == 1:
             (role, stiffness), permitted = given[0], "must be given together with that of the other gear: both stand on "

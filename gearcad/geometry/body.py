@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import Annotated
 
-from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_number
+from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry.limits import at_most
+from gearcad.ranges import Range
 from gearcad.reprs import concise
+from gearcad.schema import Words, require_fields, schema_of
 
 __all__ = ["Body", "HubSide"]
+
+FEATURE = Range("mm", 0, None)
 
 LEAST_FEATURE = 0.001
 """Smallest size (mm) of anything on a body; less could be neither made nor measured."""
@@ -37,33 +42,26 @@ class Body:
     Raises ParameterError, or GeometryError for a keyway that does not fit its bore.
     """
 
-    bore: float = 0.0
-    keyway_width: float = 0.0
-    keyway_depth: float = 0.0
-    hub_diameter: float = 0.0
-    hub_length: float = 0.0
-    hub_side: HubSide = HubSide.FRONT
-    rim_diameter: float | None = None
-    end_chamfer: float = 0.0
-    end_chamfer_angle: float = 45.0
-    tip_chamfer: float = 0.0
-    web_thickness: float = 0.0
-    rim_thickness: float = 0.0
+    bore: Annotated[float, FEATURE, Words("bore")] = 0.0
+    keyway_width: Annotated[float, FEATURE, Words("keyway width", "", "DIN 6885")] = 0.0
+    keyway_depth: Annotated[float, FEATURE, Words("keyway depth from the bore", "t_2", "DIN 6885")] = 0.0
+    hub_diameter: Annotated[float, FEATURE, Words("hub diameter")] = 0.0
+    hub_length: Annotated[float, FEATURE, Words("hub length on each side")] = 0.0
+    hub_side: Annotated[HubSide, Words("side of the hub")] = HubSide.FRONT
+    rim_diameter: Annotated[float | None, Range("mm", 0, None, ends="(]"), Words("rim diameter (internal gears)")] = None
+    end_chamfer: Annotated[float, FEATURE, Words("end chamfer, axial length")] = 0.0
+    end_chamfer_angle: Annotated[float, Range("deg", 5, 85), Words("end chamfer, angle to the axis")] = 45.0
+    tip_chamfer: Annotated[float, FEATURE, Words("tip chamfer, radial height", "h_K", "6.1")] = 0.0
+    web_thickness: Annotated[float, FEATURE, Words("web of the blank, for the rating", "b_s", "ISO 6336-1")] = 0.0
+    rim_thickness: Annotated[float, FEATURE, Words("rim of the blank, for the rating", "s_R", "ISO 6336-1")] = 0.0
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        plain_numbers(self)
-        holes = ("bore", "keyway_width", "keyway_depth", "hub_diameter", "hub_length")
-        for name in (*holes, "end_chamfer", "tip_chamfer", "web_thickness", "rim_thickness"):
-            value = getattr(self, name)
-            require_number(name, value, "mm", at_least=0)
-            if 0 < value < LEAST_FEATURE:
+        require_fields(self)
+        for name in (name for name, field in schema_of(Body).items() if field.permitted is FEATURE):
+            if 0 < (value := getattr(self, name)) < LEAST_FEATURE:
                 raise ParameterError(name, value, f"must be 0 or at least {LEAST_FEATURE} mm", "mm")
-        object.__setattr__(self, "hub_side", as_choice("hub_side", self.hub_side, HubSide))
-        if self.rim_diameter is not None:
-            require_number("rim_diameter", self.rim_diameter, "mm", above=0)
-        require_number("end_chamfer_angle", self.end_chamfer_angle, "deg", at_least=5, at_most=85)
         for pair in (("keyway_width", "keyway_depth"), ("hub_diameter", "hub_length"), ("web_thickness", "rim_thickness")):
             self._check_both(*pair)
         self._check_keyway()

@@ -7,24 +7,22 @@ from __future__ import annotations
 
 import math
 
-from gearcad.errors import GeometryError, ParameterError, require_name, require_number, require_whole
+from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.geometry.body import Body
 from gearcad.geometry.derived import is_given
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.rack import BasicRack
+from gearcad.schema import require_fields
 
-__all__ = ["check_body", "check_diameters", "check_numbers", "check_tool"]
+__all__ = ["check_body", "check_numbers", "check_tool"]
 
 LEAST_RIM = 0.1
 """Least wall between bore, keyway or hub and the circle they must stay inside, in normal modules."""
 
 LEAST_HELIX = 1e-6
 """Smallest helix angle (degrees) of a helical gear; less moves a tooth by less than 2e-8 of the face width."""
-
-LARGEST_DIAMETER = 2e6
-"""Largest diameter that may be given (mm): no permitted teeth and module make a larger gear."""
 
 MOST_TWIST = 720.0
 """Largest twist of a tooth over the face width (degrees) that one screw surface spans to the accuracy promised."""
@@ -33,15 +31,9 @@ MOST_TWIST = 720.0
 def check_numbers(gear: GearData) -> None:
     """Each number by itself, and the width against module and lead."""
     require_name("name", gear.name)
-    require_whole("teeth", gear.teeth, at_least=3, at_most=2000)
-    require_number("normal_module", gear.normal_module, "mm", at_least=0.01, at_most=200)
-    require_number("face_width", gear.face_width, "mm", above=0, at_most=10000)
-    require_number("helix_angle", gear.helix_angle, "deg", at_least=-75, at_most=75)
+    require_fields(gear)
     if 0 < abs(gear.helix_angle) < LEAST_HELIX:
         raise ParameterError("helix_angle", gear.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
-    require_number("profile_shift", gear.profile_shift, at_least=-5, at_most=5)
-    require_number("tip_alteration", gear.tip_alteration, at_least=-5, at_most=5)
-    require_number("tooth_thinning", gear.tooth_thinning, "mm", at_least=0)
     for part, kind in (("rack", BasicRack), ("body", Body), ("modification", FlankModification)):
         if not isinstance(getattr(gear, part), kind):
             raise ParameterError(part, getattr(gear, part), f"must be a {kind.__name__}")
@@ -55,13 +47,6 @@ def check_numbers(gear: GearData) -> None:
             f"must be at most {at_most(MOST_TWIST / 360 * gear.lead)} mm ({MOST_TWIST:g} deg of twist)",
             "mm",
         )
-
-
-def check_diameters(gear: GearData) -> None:
-    """Tip and root circle by themselves, where they are given."""
-    for name, value in (("tip_diameter", gear.tip_diameter), ("root_diameter", gear.root_diameter)):
-        if is_given(value):
-            require_number(name, value, "mm", above=0, at_most=LARGEST_DIAMETER)
 
 
 def check_tool(gear: GearData) -> None:

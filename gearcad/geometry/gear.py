@@ -8,9 +8,9 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
 
-from gearcad.errors import InputError, plain_numbers
+from gearcad.errors import InputError
 from gearcad.geometry.derived import derive
-from gearcad.geometry.feasibility import check_body, check_diameters, check_numbers, check_tool
+from gearcad.geometry.feasibility import check_body, check_numbers, check_tool
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.inspection import Inspection
 from gearcad.geometry.modification import FlankForm, check_flanks
@@ -49,11 +49,9 @@ class Gear(GearData):
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        plain_numbers(self)
         check_numbers(self)
         derive(self, "tip_diameter", self.standard_tip_diameter)
         derive(self, "root_diameter", self.standard_root_diameter)
-        check_diameters(self)
         check_tool(self)
         try:
             self.profile  # noqa: B018 - built now, so that a gear that exists has teeth

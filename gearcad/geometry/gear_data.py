@@ -5,32 +5,41 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Annotated
 
 from gearcad.geometry.body import Body
 from gearcad.geometry.derived import NOT_GIVEN, is_given
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.rack import ISO53_A, BasicRack
+from gearcad.ranges import Range, Whole
+from gearcad.schema import Words
 
 __all__ = ["GearData"]
+
+
+_COEFFICIENT = Range("", -5, 5)
+
+_DIAMETER = Range("mm", 0, 2e6, ends="(]")
+"""Of circles that are given: no permitted teeth and module make a larger gear."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class GearData:
     """The fields of a `Gear`, unchecked, and sizes that need no outline of a tooth. Lengths in mm, angles in degrees."""
 
-    name: str = "gear"
-    teeth: int
-    normal_module: float
-    face_width: float
-    helix_angle: float = 0.0
-    profile_shift: float = 0.0
-    tip_alteration: float = 0.0
-    tooth_thinning: float = 0.0
+    name: Annotated[str, Words("name")] = "gear"
+    teeth: Annotated[int, Whole(3, 2000), Words("number of teeth", "z", "4.1")]
+    normal_module: Annotated[float, Range("mm", 0.01, 200), Words("normal module", "m_n", "4.2")]
+    face_width: Annotated[float, Range("mm", 0, 10000, ends="(]"), Words("face width", "b", "4.1")]
+    helix_angle: Annotated[float, Range("deg", -75, 75), Words("helix angle (right hand +)", "β", "4.2")] = 0.0
+    profile_shift: Annotated[float, _COEFFICIENT, Words("profile shift coefficient", "x", "4.2")] = 0.0
+    tip_alteration: Annotated[float, _COEFFICIENT, Words("tip alteration coefficient", "k", "4.5")] = 0.0
+    tooth_thinning: Annotated[float, Range("mm", 0, None), Words("tooth thinning (normal)", "A_sn", "7.3")] = 0.0
     rack: BasicRack = field(default=ISO53_A)
     body: Body = field(default=Body())
     modification: FlankModification = field(default=FlankModification())
-    tip_diameter: float = NOT_GIVEN
-    root_diameter: float = NOT_GIVEN
+    tip_diameter: Annotated[float, _DIAMETER, Words("tip diameter", "d_a", "4.5")] = NOT_GIVEN
+    root_diameter: Annotated[float, _DIAMETER, Words("root diameter", "d_f", "4.5")] = NOT_GIVEN
 
     @property
     def standard_tip_diameter(self) -> float:

@@ -5,14 +5,13 @@ Raises ParameterError or GeometryError, whose limits can be used as they are pri
 
 from __future__ import annotations
 
-from gearcad.errors import GeometryError, ParameterError, format_number, require_name, require_number
-from gearcad.geometry.derived import is_given
+from gearcad.errors import GeometryError, ParameterError, format_number, require_name
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.pair_data import PairData
 from gearcad.geometry.path import farthest_centre_distance
 from gearcad.geometry.shift import shift_sum_limit
-from gearcad.ranges import OFFSET
+from gearcad.schema import require_fields
 
 __all__ = ["check_centre_distance", "check_inputs", "check_mates", "check_shift_sum", "check_teeth"]
 
@@ -27,7 +26,7 @@ def check_inputs(pair: PairData) -> None:
     for role, gear in pair.gears.items():
         if not isinstance(gear, Gear):
             raise ParameterError(role.value, gear, "must be a Gear")
-    OFFSET.require("axial_offset", pair.axial_offset)
+    require_fields(pair)
     require_name("name", pair.name)
 
 
@@ -63,9 +62,7 @@ def check_shift_sum(pair: PairData) -> None:
 
 
 def check_centre_distance(pair: PairData) -> None:
-    """A number, beyond that of the base circles."""
-    if is_given(pair.centre_distance):
-        require_number("centre_distance", pair.centre_distance, "mm", above=0)
+    """Beyond that of the base circles."""
     least = (pair.pinion.base_diameter + pair.wheel.base_diameter) / 2
     if pair.centre_distance <= least:
         permitted = f"must be above {at_least(least)} mm, where the base circles touch"

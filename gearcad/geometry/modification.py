@@ -10,25 +10,28 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from enum import Enum
 from itertools import pairwise
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
-from gearcad.errors import GeometryError, as_choice, plain_numbers, require_number
+from gearcad.errors import GeometryError
 from gearcad.geometry.involute import tangent_length
 from gearcad.geometry.limits import at_most
 from gearcad.geometry.profile import ToothProfile
+from gearcad.ranges import Range
 from gearcad.reprs import concise
+from gearcad.schema import Words, require_fields
 
 __all__ = ["FlankForm", "FlankModification", "ReliefShape", "check_flanks"]
 
 
 _RELIEFS = ("tip_relief", "root_relief", "end_relief")
 
-_LARGEST = 1000.0
-"""Largest amount (um)."""
+_AMOUNT = Range("µm", -1000, 1000)
+_RELIEF = Range("µm", 0, 1000)
+_LENGTH = Range("mm", 0, None)
 
 _LEAST_LENGTH = 1e-3
 """Least length (mm) of a relief."""
@@ -69,34 +72,25 @@ class FlankModification:
     Raises ParameterError for one value, GeometryError for a relief without a length, and from `Gear` for what does not fit it.
     """
 
-    tip_relief: float = 0.0
-    tip_relief_length: float = 0.0
-    tip_relief_shape: ReliefShape = ReliefShape.LINEAR
-    root_relief: float = 0.0
-    root_relief_length: float = 0.0
-    root_relief_shape: ReliefShape = ReliefShape.LINEAR
-    profile_crowning: float = 0.0
-    pressure_angle_modification: float = 0.0
-    lead_crowning: float = 0.0
-    end_relief: float = 0.0
-    end_relief_length: float = 0.0
-    end_relief_shape: ReliefShape = ReliefShape.LINEAR
-    helix_angle_modification: float = 0.0
-    twist: float = 0.0
+    tip_relief: Annotated[float, _RELIEF, Words("tip relief", "C_αa", "6.2")] = 0.0
+    tip_relief_length: Annotated[float, _LENGTH, Words("tip relief, length of roll", "L_Cαa", "6.2")] = 0.0
+    tip_relief_shape: Annotated[ReliefShape, Words("tip relief, shape", "", "6.2")] = ReliefShape.LINEAR
+    root_relief: Annotated[float, _RELIEF, Words("root relief", "C_αf", "6.2")] = 0.0
+    root_relief_length: Annotated[float, _LENGTH, Words("root relief, length of roll", "L_Cαf", "6.2")] = 0.0
+    root_relief_shape: Annotated[ReliefShape, Words("root relief, shape", "", "6.2")] = ReliefShape.LINEAR
+    profile_crowning: Annotated[float, _AMOUNT, Words("profile crowning", "C_α", "6.2")] = 0.0
+    pressure_angle_modification: Annotated[float, _AMOUNT, Words("pressure angle modification", "C_Hα", "6.2")] = 0.0
+    lead_crowning: Annotated[float, _AMOUNT, Words("lead crowning", "C_β", "6.3")] = 0.0
+    end_relief: Annotated[float, _RELIEF, Words("end relief at both ends", "C_βI", "6.3")] = 0.0
+    end_relief_length: Annotated[float, _LENGTH, Words("end relief, length along the axis", "L_CβI", "6.3")] = 0.0
+    end_relief_shape: Annotated[ReliefShape, Words("end relief, shape", "", "6.3")] = ReliefShape.LINEAR
+    helix_angle_modification: Annotated[float, _AMOUNT, Words("helix angle modification", "C_Hβ", "6.3")] = 0.0
+    twist: Annotated[float, _AMOUNT, Words("twist of the flank", "S_α", "6.4")] = 0.0
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        plain_numbers(self)
-        for each in fields(self):
-            value = getattr(self, each.name)
-            if each.name.endswith("_shape"):
-                object.__setattr__(self, each.name, as_choice(each.name, value, ReliefShape))
-            elif each.name.endswith("_length"):
-                require_number(each.name, value, "mm", at_least=0)
-            else:
-                least = 0.0 if each.name.endswith("_relief") else -_LARGEST
-                require_number(each.name, value, "µm", at_least=least, at_most=_LARGEST)
+        require_fields(self)
         for name in _RELIEFS:
             length = getattr(self, f"{name}_length")
             if getattr(self, name) and length < _LEAST_LENGTH:

@@ -10,7 +10,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from gearcad.errors import plain_numbers
+from gearcad import symbols
 from gearcad.geometry.derived import derive, is_given
 from gearcad.geometry.helix import twist
 from gearcad.geometry.interference import FilletCut, fillet_cut
@@ -22,6 +22,7 @@ from gearcad.geometry.pose import Pose, wheel_pose
 from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear, Role
 from gearcad.reprs import concise
+from gearcad.schema import symbols_of
 
 __all__ = ["GearPair"]
 
@@ -52,7 +53,6 @@ class GearPair(PairData):
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        plain_numbers(self)
         check_inputs(self)
         check_mates(self)
         if not is_given(self.centre_distance):
@@ -176,7 +176,8 @@ class GearPair(PairData):
             yield Notice("fillet-interference", f"fillet interference: {text}")
 
     def _repr_html_(self) -> str:
-        figures = {name: getattr(self, name) for name in _SKETCHED}
+        written = symbols_of(GearPair) | symbols.PAIR
+        figures = [(written[name], getattr(self, name)) for name in _SKETCHED]
         return pair_html(self.name, self.gears, self.gears.map(lambda gear: gear.profile), self.wheel_pose(), figures)
 
     def to_dict(self) -> dict[str, Any]:

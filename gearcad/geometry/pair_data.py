@@ -5,15 +5,20 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from gearcad.geometry.derived import NOT_GIVEN
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.involute import involute
 from gearcad.geometry.shift import profile_shift_sum, zero_backlash_centre_distance
 from gearcad.per_gear import PerGear
+from gearcad.ranges import OFFSET, Range
+from gearcad.schema import Words
 
 __all__ = ["CommonWidth", "PairData"]
+
+
+_DISTANCE = Range("mm", 0, None, ends="(]")
 
 
 class CommonWidth(NamedTuple):
@@ -29,9 +34,9 @@ class PairData:
 
     pinion: Gear
     wheel: Gear
-    centre_distance: float = NOT_GIVEN
-    axial_offset: float = 0.0
-    name: str = "pair"
+    centre_distance: Annotated[float, _DISTANCE, Words("centre distance", "a", "5.2")] = NOT_GIVEN
+    axial_offset: Annotated[float, OFFSET, Words("axial offset of the wheel")] = 0.0
+    name: Annotated[str, Words("name")] = "pair"
 
     @property
     def gears(self) -> PerGear[Gear]:

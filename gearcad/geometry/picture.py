@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from html import escape
 from typing import NamedTuple
 
@@ -16,6 +16,7 @@ from gearcad.geometry.helix import twist
 from gearcad.geometry.pose import Pose
 from gearcad.geometry.profile import ToothProfile
 from gearcad.per_gear import PerGear, Role
+from gearcad.schema import symbols_of
 
 __all__ = ["gear_html", "pair_html"]
 
@@ -33,16 +34,22 @@ _FLAT = 'style="width:auto;border-collapse:collapse"'
 
 def gear_html(gear: GearData, profile: ToothProfile) -> str:
     """A picture of the gear from +z, and a table."""
-    rows = ((symbols.GEAR[name], [getattr(gear, name)]) for name in _OF_GEAR)
+    written = symbols_of(GearData) | symbols.GEAR
+    rows = ((written[name], [getattr(gear, name)]) for name in _OF_GEAR)
     return _html(gear.name, _svg([_Placed(gear, profile, Pose(0.0, 0.0, 0.0))]), [], rows)
 
 
 def pair_html(
-    name: str, gears: PerGear[GearData], profiles: PerGear[ToothProfile], wheel: Pose, figures: Mapping[str, float]
+    name: str,
+    gears: PerGear[GearData],
+    profiles: PerGear[ToothProfile],
+    wheel: Pose,
+    figures: Iterable[tuple[symbols.Symbol, float]],
 ) -> str:
-    """A picture of the pair in mesh from +z, the wheel at its pose, and a table with figures of the pair by their names."""
-    rows = [(symbols.GEAR[key], [getattr(gear, key) for gear in gears]) for key in _OF_GEAR]
-    rows += [(symbols.PAIR[key], [value]) for key, value in figures.items()]
+    """A picture of the pair in mesh from +z, the wheel at its pose, and a table with figures of the pair."""
+    written = symbols_of(GearData) | symbols.GEAR
+    rows = [(written[key], [getattr(gear, key) for gear in gears]) for key in _OF_GEAR]
+    rows += [(symbol, [value]) for symbol, value in figures]
     poses = PerGear(Pose(0.0, 0.0, 0.0), wheel)
     picture = _svg([_Placed(*each) for each in zip(gears, profiles, poses, strict=True)])
     return _html(name, picture, [role.value for role in Role], rows)

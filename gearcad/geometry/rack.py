@@ -8,12 +8,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Annotated, Literal
 
-from gearcad.errors import ParameterError, plain_numbers, require_number
+from gearcad.errors import ParameterError
+from gearcad.ranges import Range
 from gearcad.reprs import concise
+from gearcad.schema import Words, require_fields
 
 __all__ = ["ISO53_A", "ISO53_B", "ISO53_C", "ISO53_D", "NAMED_RACKS", "BasicRack"]
+
+
+_HEIGHT = Range("", 0, 5, ends="(]")
+_RADIUS = Range("", 0, 5)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,23 +30,17 @@ class BasicRack:
     Raises ParameterError for a single value out of range; what depends on the gear (shift, thinning) is checked there.
     """
 
-    pressure_angle: float = 20.0
-    addendum: float = 1.0
-    dedendum: float = 1.25
-    root_radius: float | Literal["full"] = 0.38
+    pressure_angle: Annotated[float, Range("deg", 5, 45), Words("normal pressure angle", "α_n", "ISO 53")] = 20.0
+    addendum: Annotated[float, _HEIGHT, Words("addendum of the rack", "h_aP*", "ISO 53")] = 1.0
+    dedendum: Annotated[float, _HEIGHT, Words("dedendum of the rack", "h_fP*", "ISO 53")] = 1.25
+    root_radius: Annotated[float | Literal["full"], _RADIUS, Words("root radius of the rack", "ρ_fP*", "ISO 53")] = 0.38
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        plain_numbers(self)
-        require_number("pressure_angle", self.pressure_angle, "deg", at_least=5, at_most=45)
-        require_number("addendum", self.addendum, above=0, at_most=5)
-        require_number("dedendum", self.dedendum, above=0, at_most=5)
-        if isinstance(self.root_radius, str):
-            if self.root_radius != "full":
-                raise ParameterError("root_radius", self.root_radius, 'must be a number at least 0, or "full"')
-        else:
-            require_number("root_radius", self.root_radius, at_least=0, at_most=5)
+        if isinstance(self.root_radius, str) and self.root_radius != "full":
+            raise ParameterError("root_radius", self.root_radius, 'must be a number at least 0, or "full"')
+        require_fields(self)
 
     def full_root_radius(self, dedendum: float | None = None, thinning: float = 0.0) -> float:
         """Largest root radius (in normal modules): the arc that touches both flanks and the bottom of the rack's space.

@@ -27,7 +27,6 @@ from gearcad.mounting import Mounting
 from gearcad.per_gear import PerGear, Role
 from gearcad.progress import Agenda, Progress
 from gearcad.stiffness.methods import METHODS
-from gearcad.symbols import DYNAMICS_RESULTS
 
 __all__ = ["Dynamics", "Study", "dynamics"]
 
@@ -38,6 +37,12 @@ _PAIR = {
     PairModel.MESH: ("inertias", "mesh stiffness", *_TRAIN),
     PairModel.CONTACT: ("inertias", "mesh stiffness", "campbell", "history"),
 }
+
+_FIGURES = (
+    "model stiffness_method mesh_stiffness_mean mesh_stiffness_tangent_mean pinion_inertia wheel_inertia tooth_stiffness"
+    " tooth_damping natural_frequency damping_ratio static_approach contact_ratio resonance_speed_iso6336"
+).split()
+"""What a line of a table takes from the document as it is."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,7 +66,7 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """What a line can hold of a pair: inertias and stiffness, its natural frequency, K_v at the speed and the highest."""
-        found = {name: document[name] for name in DYNAMICS_RESULTS if name in document}
+        found = {name: document[name] for name in _FIGURES if name in document}
         if document["model"] == PairModel.MESH.value:
             modes, course = document["modes"], document["course"]
             (kv,) = course["kv"]

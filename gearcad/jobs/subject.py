@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any, Unpack
 
 from gearcad.designs import Design, GearDesign, Inputs, PairDesign
-from gearcad.designs.kinds.geared import BESIDE
+from gearcad.designs.keys import BESIDE
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import textwrap
 
-from gearcad.columns import column_symbol
+from gearcad.designs.columns import column_symbol
 
 __all__ = ["axis_label", "mathtext", "plain", "wrapped"]
 

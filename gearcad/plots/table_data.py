@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gearcad import symbols
-from gearcad.columns import column_symbol
 from gearcad.designs.cells import plain_text
+from gearcad.designs.columns import column_symbol
+from gearcad.designs.keys import KEYS
 from gearcad.errors import ParameterError, SpecError, format_number
 
 if TYPE_CHECKING:
@@ -130,7 +131,7 @@ def _hint(asked: str, headings: Sequence[str]) -> str:
     if near := _near(asked, headings):
         return f"did you mean {' or '.join(near[:_MOST_SUGGESTED])}?"
     checked = any(heading.startswith("check.") for heading in headings)
-    if not checked and _near(asked, [f"check.{key}" for key in symbols.CHECK]):
+    if not checked and _near(asked, [f"check.{key}" for key in (*KEYS["check"], *symbols.CHECK)]):
         return "figures of a check are there after `gearcad batch --do check`"
     return "columns.csv beside the file explains them all"
 

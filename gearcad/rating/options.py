@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
-from gearcad.errors import as_choice, plain_numbers, require_whole
+from gearcad.errors import require_whole
 from gearcad.rating.editions import Edition
 from gearcad.rating.iso1328 import Accuracy, grades
 from gearcad.reprs import concise
+from gearcad.schema import Words, require_fields
 
 __all__ = ["RatingOptions"]
 
@@ -19,15 +21,13 @@ class RatingOptions:
     The grade decides on K_v and, from grade 4 on, on the root stress of deep teeth.
     """
 
-    standard: Edition = Edition.ISO_2006
-    accuracy: Accuracy = Accuracy.ISO_1995
-    accuracy_grade: int = 6
+    standard: Annotated[Edition, Words("standard of the rating")] = Edition.ISO_2006
+    accuracy: Annotated[Accuracy, Words("standard of the accuracy grade")] = Accuracy.ISO_1995
+    accuracy_grade: Annotated[int, Words("accuracy grade", "", "ISO 1328-1")] = 6
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        plain_numbers(self)
-        object.__setattr__(self, "standard", as_choice("standard", self.standard, Edition))
-        object.__setattr__(self, "accuracy", as_choice("accuracy", self.accuracy, Accuracy))
+        require_fields(self)
         first, last = grades(self.accuracy)
         require_whole("accuracy_grade", self.accuracy_grade, at_least=first, at_most=last)

@@ -11,6 +11,7 @@ from gearcad.cli import datasheet
 from gearcad.cli.datasheet import print_datasheet
 from gearcad.designs import GearDesign, read_spec
 from gearcad.designs.design import Design
+from gearcad.schema import symbols_of
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 
@@ -24,8 +25,8 @@ def sheet(design: Design, width: int = 80) -> str:
 def test_every_quantity_has_its_place() -> None:
     gear = {key for keys in datasheet._GEAR_BLOCKS.values() for key in keys.split()}
     pair = {key for keys in datasheet._PAIR_BLOCKS.values() for key in keys.split()} | set(datasheet._BOTH.split())
-    assert gear == set(symbols.GEAR) - {"name"}
-    assert pair == set(symbols.PAIR)
+    assert gear == {*symbols_of(Gear), *symbols.GEAR} - {"name"}
+    assert pair == {"centre_distance", "axial_offset", *symbols.PAIR}
 
 
 def test_pair_shows_both_gears_side_by_side_then_the_pair() -> None:

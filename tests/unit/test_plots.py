@@ -12,6 +12,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from gearcad import ParameterError, SpecError, symbols
+from gearcad.designs.keys import FIELDS
 from gearcad.plots import axis_label, plot_contours, plot_scatter, save_plot
 from gearcad.plots.table_data import Column, Points, read_points
 
@@ -201,8 +202,7 @@ def test_a_label_has_words_symbol_and_unit(key: str, label: str) -> None:
 
 def test_every_symbol_can_be_drawn() -> None:
     """A glyph that the font lacks is a warning of matplotlib, and mathtext that it cannot read an error."""
-    tables = {"pinion": symbols.GEAR, "pair": symbols.PAIR, "material": symbols.MATERIAL}
-    tables |= {"load": symbols.LOAD, "mounting": symbols.MOUNTING, "rating": symbols.RATING_OPTIONS}
+    tables = FIELDS | {"pinion": {*FIELDS["pinion"], *symbols.GEAR}, "pair": {*FIELDS["pair"], *symbols.PAIR}}
     keys = [f"{table}.{field}" for table, known in tables.items() for field in known]
     labels = [axis_label(key) for key in keys]
     assert not set(labels) & set(keys)

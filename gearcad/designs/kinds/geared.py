@@ -9,7 +9,7 @@ from typing import Any, TypedDict
 from gearcad.check.options import CheckOptions
 from gearcad.designs.design import Design
 from gearcad.designs.files import Where
-from gearcad.designs.keys import KEYS, explain_unknown_table
+from gearcad.designs.keys import BESIDE, KEYS, explain_unknown_table
 from gearcad.designs.spec import Spec
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.errors import SpecError, format_number, shown
@@ -19,17 +19,7 @@ from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.rating.options import RatingOptions
 
-__all__ = ["BESIDE", "GearedDesign", "Inputs", "beside_teeth", "require_tables"]
-
-BESIDE: dict[str, type[Any]] = {
-    "material": Material,
-    "load": Load,
-    "mounting": Mounting,
-    "check": CheckOptions,
-    "dynamics": DynamicsOptions,
-    "rating": RatingOptions,
-}
-"""What may stand beside the teeth, by the tables of a spec."""
+__all__ = ["GearedDesign", "Inputs", "beside_teeth", "require_tables"]
 
 
 class Inputs(TypedDict, total=False):

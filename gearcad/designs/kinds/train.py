@@ -5,36 +5,24 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field, fields
-from typing import Any, ClassVar, Self
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from gearcad.designs.design import Design, DesignKind, require_plain_name
 from gearcad.designs.files import Where
-from gearcad.dynamics.options import DynamicsOptions
+from gearcad.dynamics.options import OF_PAIRS, DynamicsOptions
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import InputError, SpecError, format_number, shown
+from gearcad.schema import schema_of
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 __all__ = ["TrainDesign"]
 
-_PARTS: dict[str, type[Any]] = {"inertia": Inertia, "shaft": Shaft, "mesh": Mesh}
+_PARTS: dict[str, type[DataclassInstance]] = {"inertia": Inertia, "shaft": Shaft, "mesh": Mesh}
 _LISTS = {"inertia": "inertias", "shaft": "shafts", "mesh": "meshes"}
-_WHOLE = ("teeth", "modes", "order", "speeds", "harmonics", "frequencies", "accuracy_grade", "seed")
-_OF_PAIRS = (
-    "model",
-    "stiffness",
-    "damping_ratio",
-    "pinion_inertia",
-    "wheel_inertia",
-    "pinion_bearing_stiffness",
-    "wheel_bearing_stiffness",
-    "bearing_damping",
-    "tooth_stiffness",
-    "tooth_damping",
-    "duration",
-    "sampling",
-)
-"""Keys of [dynamics] that a train has in its own parts, or has no use for."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +52,7 @@ class _Reader:
 
     def train(self, content: Any, default_name: str) -> Train:
         """The train of [train] and its parts."""
-        given = self._table(content, "train", (*(field.name for field in fields(Train)), *_LISTS))
+        given = self._table(content, "train", (*schema_of(Train), *_LISTS))
         for plural in _LISTS.values():
             if plural in given:
                 single = next(key for key, name in _LISTS.items() if name == plural)
@@ -74,31 +62,29 @@ class _Reader:
         given["torques"] = self._torques(given.pop("torques", {}))
         with self._blame("train"):
             require_plain_name(name)
-            return Train(name=name, **{key: _number(key, value) for key, value in given.items()}, **parts)
+            return Train(name=name, **_numbers(Train, given), **parts)
 
     def dynamics(self, content: Any) -> DynamicsOptions:
         """The options of [dynamics]."""
-        permitted = tuple(field.name for field in fields(DynamicsOptions) if field.name not in _OF_PAIRS)
+        permitted = tuple(key for key, field in schema_of(DynamicsOptions).items() if OF_PAIRS not in field.marks)
         chosen = self._table(content, "dynamics", permitted)
         with self._blame("dynamics"):
-            return DynamicsOptions(**{key: _number(key, value) for key, value in chosen.items()})
+            return DynamicsOptions(**_numbers(DynamicsOptions, chosen))
 
     def _parts(self, listed: Any, key: str) -> tuple[Any, ...]:
         """The inertias, shafts or meshes of a train."""
         if not isinstance(listed, list):
             raise SpecError(f"{self.where(f'train.{key}')}: train.{key}: must be headed [[train.{key}]], once for each")
         kind, found = _PARTS[key], []
-        names = tuple(field.name for field in fields(kind))
+        schema = schema_of(kind)
         for number, each in enumerate(listed):
             owner = f"train.{key}[{number}]"
-            given = self._table(each, owner, names)
+            given = self._table(each, owner, tuple(schema))
             with self._blame(owner, str(given.get("name", ""))):
-                missing = [
-                    field.name for field in fields(kind) if field.default is field.default_factory and field.name not in given
-                ]
+                missing = [name for name, field in schema.items() if field.required and name not in given]
                 if missing:
                     raise SpecError(f"{self.where(owner)}: {missing[0]} is missing in [[train.{key}]]")
-                found.append(kind(**{name: _number(name, value) for name, value in given.items()}))
+                found.append(kind(**_numbers(kind, given)))
         return tuple(found)
 
     def _torques(self, given: Any) -> dict[str, float]:
@@ -106,7 +92,7 @@ class _Reader:
             raise SpecError(
                 f"{self.where('train.torques')}: train.torques: must be a table: [train.torques], name = torque in N·m"
             )
-        return {name: _number(name, value) for name, value in given.items()}
+        return {name: _number(value, whole=False) for name, value in given.items()}
 
     def _table(self, content: Any, owner: str, permitted: tuple[str, ...]) -> dict[str, Any]:
         """The values of one table, none of them unknown."""
@@ -132,9 +118,13 @@ class _Reader:
             raise SpecError(text, f"{owner}.{field}") from error
 
 
-def _number(key: str, value: Any) -> Any:
+def _numbers(kind: type[DataclassInstance], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of a type's fields, with numbers as the fields have them."""
+    return {name: _number(value, whole=schema_of(kind)[name].whole) for name, value in given.items()}
+
+
+def _number(value: Any, *, whole: bool) -> Any:
     """Whole numbers as floats where floats are meant; lists as tuples."""
     if isinstance(value, list):
-        return tuple(_number(key, each) for each in value)
-    whole = isinstance(value, int) and not isinstance(value, bool)
-    return float(value) if whole and key not in _WHOLE else value
+        return tuple(_number(each, whole=whole) for each in value)
+    return float(value) if isinstance(value, int) and not isinstance(value, bool) and not whole else value

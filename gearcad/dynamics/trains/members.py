@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any
+from typing import Annotated, Any
 
-from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_name, require_number, require_whole
+from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.per_gear import PerGear
 from gearcad.ranges import (
     ANGULAR_DAMPING,
@@ -22,8 +22,10 @@ from gearcad.ranges import (
     STIFFNESS,
     TORSIONAL_STIFFNESS,
     Range,
+    Whole,
 )
 from gearcad.reprs import concise
+from gearcad.schema import Words, require_fields
 
 __all__ = ["GROUND", "Inertia", "Mesh", "Shaft", "StiffnessWave"]
 
@@ -43,16 +45,10 @@ class _Member:
 
     name: str
 
-    def _named(self) -> None:
-        """Plain numbers, and a name that an error can begin with."""
+    def _check_fields(self) -> None:
+        """A name that an error can begin with, and each field by itself."""
         require_name("name", self.name)
-        plain_numbers(self)
-
-    def _number(self, parameter: str, permitted: Range) -> None:
-        """Check one field, unless it is None."""
-        value = getattr(self, parameter)
-        if value is not None:
-            permitted.require(f"{self.name}.{parameter}", value)
+        require_fields(self, self.name)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,13 +56,12 @@ class Inertia(_Member):
     """A rigid body that turns: a gear, a motor, a load. `inertia` in kg·m². Raises ParameterError."""
 
     name: str
-    inertia: float
+    inertia: Annotated[float, INERTIA, Words("inertia", "J")]
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        self._named()
-        self._number("inertia", INERTIA)
+        self._check_fields()
         if self.name == GROUND:
             raise ParameterError("name", self.name, "is what does not turn: an inertia needs another name")
 
@@ -84,29 +79,20 @@ class Shaft(_Member):
     name: str
     start: str
     end: str
-    torsional_stiffness: float | None = None
-    length: float | None = None
-    diameter: float | None = None
-    inner_diameter: float = 0.0
-    shear_modulus: float = 80770.0
-    density: float = 7850.0
-    damping_ratio: float = 0.0
-    damping: float = 0.0
-    modes: int | None = None
+    torsional_stiffness: Annotated[float | None, TORSIONAL_STIFFNESS, Words("torsional stiffness")] = None
+    length: Annotated[float | None, LENGTH, Words("length")] = None
+    diameter: Annotated[float | None, LENGTH, Words("diameter")] = None
+    inner_diameter: Annotated[float, LENGTH._replace(least=0.0), Words("diameter of the bore")] = 0.0
+    shear_modulus: Annotated[float, MODULUS, Words("shear modulus", "G")] = 80770.0
+    density: Annotated[float, DENSITY, Words("density", "ρ")] = 7850.0
+    damping_ratio: Annotated[float, DAMPING_RATIO, Words("damping ratio of the modes of its line", "ζ")] = 0.0
+    damping: Annotated[float, ANGULAR_DAMPING, Words("damping of its twist")] = 0.0
+    modes: Annotated[int | None, Whole(1, 40), Words("elastic modes that its line keeps of it")] = None
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        self._named()
-        self._number("torsional_stiffness", TORSIONAL_STIFFNESS)
-        self._number("length", LENGTH)
-        self._number("diameter", LENGTH)
-        self._number("shear_modulus", MODULUS)
-        self._number("density", DENSITY)
-        self._number("damping_ratio", DAMPING_RATIO)
-        self._number("damping", ANGULAR_DAMPING)
-        if self.modes is not None:
-            require_whole(f"{self.name}.modes", self.modes, at_least=1, at_most=40)
+        self._check_fields()
         self._check_shape()
 
     def _check_shape(self) -> None:
@@ -120,7 +106,6 @@ class Shaft(_Member):
         for parameter in ("length", "diameter"):
             if getattr(self, parameter) is None:
                 raise ParameterError(f"{self.name}.{parameter}", None, "must be given, or else torsional_stiffness")
-        self._number("inner_diameter", LENGTH._replace(least=0.0))
         if self.diameter is not None and self.inner_diameter >= self.diameter:
             permitted = f"must be below diameter {self.diameter:g} mm"
             raise GeometryError(f"{self.name}.inner_diameter", self.inner_diameter, permitted, "mm")
@@ -146,35 +131,25 @@ class Mesh(_Member):
     name: str
     pinion: str
     wheel: str
-    base_radii: PerGear[float]
-    stiffness: float
-    teeth: int
-    damping: float | None = None
-    damping_ratio: float | None = None
-    variation: float = 0.0
-    shape: StiffnessWave = StiffnessWave.COSINE
-    contact_ratio: float | None = None
-    phase: float = 0.0
-    backlash: float | None = None
-    preload: float = 0.0
-    pitch_deviations: tuple[float, ...] = ()
-    internal: bool = False
+    base_radii: Annotated[PerGear[float], LENGTH, Words("base radii of pinion and wheel", "r_b")]
+    stiffness: Annotated[float, STIFFNESS, Words("mean stiffness along the line of action")]
+    teeth: Annotated[int, Whole(1, 100_000), Words("number of teeth of the pinion", "z_1")]
+    damping: Annotated[float | None, DAMPING, Words("damping along the line of action")] = None
+    damping_ratio: Annotated[float | None, DAMPING_RATIO, Words("damping ratio of the pair alone", "ζ")] = None
+    variation: Annotated[float, Range("", 0, 1, ends="[)"), Words("relative amplitude of the stiffness")] = 0.0
+    shape: Annotated[StiffnessWave, Words("how the stiffness varies over a tooth")] = StiffnessWave.COSINE
+    contact_ratio: Annotated[float | None, Range("", 1.0, 100.0), Words("contact ratio of a square wave", "ε_α")] = None
+    phase: Annotated[float, Range("", -1.0, 1.0), Words("delay of the stiffness, in tooth periods")] = 0.0
+    backlash: Annotated[float | None, BACKLASH, Words("backlash along the line of action")] = None
+    preload: Annotated[float, PRELOAD, Words("force that presses the flanks beside the load's")] = 0.0
+    pitch_deviations: Annotated[tuple[float, ...], DEVIATION, Words("pitch deviations of the pinion's teeth", "f_pt")] = ()
+    internal: Annotated[bool, Words("whether the wheel is a ring gear")] = False
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        self._named()
-        object.__setattr__(self, "shape", as_choice(f"{self.name}.shape", self.shape, StiffnessWave))
+        self._check_fields()
         object.__setattr__(self, "base_radii", _two_radii(self.name, self.base_radii))
-        require_whole(f"{self.name}.teeth", self.teeth, at_least=1, at_most=100_000)
-        self._number("stiffness", STIFFNESS)
-        self._number("damping", DAMPING)
-        self._number("damping_ratio", DAMPING_RATIO)
-        require_number(f"{self.name}.variation", self.variation, at_least=0, below=1)
-        self._number("contact_ratio", Range("", 1.0, 100.0))
-        self._number("phase", Range("", -1.0, 1.0))
-        self._number("backlash", BACKLASH)
-        self._number("preload", PRELOAD)
         object.__setattr__(self, "pitch_deviations", _deviations(self.name, self.pitch_deviations, self.teeth))
         if not isinstance(self.internal, bool):
             raise ParameterError(f"{self.name}.internal", self.internal, "must be true or false")
@@ -199,21 +174,17 @@ class Mesh(_Member):
 
 
 def _deviations(name: str, values: Any, teeth: int) -> tuple[float, ...]:
-    """Pitch deviations, checked: none, or one for each tooth."""
+    """Pitch deviations: none, or one for each tooth."""
     if not isinstance(values, list | tuple) or len(values) not in (0, teeth):
         count = len(values) if isinstance(values, list | tuple) else values
         raise ParameterError(
             f"{name}.pitch_deviations", count, f"must be {teeth} numbers in µm: one for each tooth of the pinion"
         )
-    for value in values:
-        DEVIATION.require(f"{name}.pitch_deviations", value)
     return tuple(float(value) for value in values)
 
 
 def _two_radii(name: str, values: Any) -> PerGear[float]:
-    """Base radii, checked."""
+    """Base radii: two of them."""
     if not isinstance(values, list | tuple) or len(values) != 2:
         raise ParameterError(f"{name}.base_radii", values, "must be two lengths in mm: of pinion and wheel")
-    for value in values:
-        LENGTH.require(f"{name}.base_radii", value)
     return PerGear(*map(float, values))

@@ -6,12 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
+from typing import Annotated
 
 from gearcad.dynamics.trains.graph import Graph
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
-from gearcad.errors import GeometryError, ParameterError, as_choice, plain_numbers, require_name, require_whole
-from gearcad.ranges import SPEED, TORQUE
+from gearcad.errors import GeometryError, ParameterError, require_name
+from gearcad.ranges import SPEED, TORQUE, Whole
 from gearcad.reprs import concise
+from gearcad.schema import Words, require_fields
 
 __all__ = ["Train", "TrainModel"]
 
@@ -41,27 +43,24 @@ class Train:
     """
 
     name: str = "train"
-    model: TrainModel = TrainModel.ELEMENTS
+    model: Annotated[TrainModel, Words("what is known of the shafts")] = TrainModel.ELEMENTS
     inertias: tuple[Inertia, ...]
     shafts: tuple[Shaft, ...] = ()
     meshes: tuple[Mesh, ...] = ()
     torques: Mapping[str, float] = field(default_factory=dict)
-    speed: float = 0.0
-    order: int = 12
+    speed: Annotated[float, SPEED, Words("speed of the first mesh's pinion", "n_1")] = 0.0
+    order: Annotated[int, Whole(2, 40), Words("degree of the polynomials on a shaft with mass")] = 12
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
         require_name("name", self.name)
-        plain_numbers(self)
-        object.__setattr__(self, "model", as_choice("model", self.model, TrainModel))
+        require_fields(self)
         for parameter in ("inertias", "shafts", "meshes"):
             object.__setattr__(self, parameter, tuple(getattr(self, parameter)))
         object.__setattr__(self, "torques", dict(self.torques))
         for inertia, torque in self.torques.items():
             TORQUE.require(f"torques.{inertia}", torque)
-        SPEED.require("speed", self.speed)
-        require_whole("order", self.order, at_least=2, at_most=40)
         self._graph.require_one_train(self.torques)
         if self.model is TrainModel.ISOLATED and not self.meshes:
             raise GeometryError("model", self.model, "a train without meshes has nothing that is left without shafts")

@@ -7,10 +7,11 @@ from typing import Any, NamedTuple
 
 from gearcad import symbols
 from gearcad.check.result import CheckResult
-from gearcad.geometry import GearPair
+from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.schema import symbols_of
 
 __all__ = ["Row", "gear_rows", "load_rows", "pair_rows", "rating_rows"]
 
@@ -41,21 +42,23 @@ def gear_rows(pair: GearPair, keys: str = _GEAR) -> list[Row]:
     """What describes the gears: their fields `keys`, and the modifications of their flanks."""
     gears = (pair.pinion, pair.wheel)
     values = [_flat(gear.to_dict() | {"modification": gear.modification.in_use}) for gear in gears]
-    present = [key for key in symbols.GEAR if key.startswith("modification.") and any(key in gear for gear in values)]
-    return [_row(symbols.GEAR[key], *(gear.get(key) for gear in values)) for key in (*keys.split(), *present)]
+    written = symbols_of(Gear) | symbols.GEAR
+    present = [key for key in written if key.startswith("modification.") and any(key in gear for gear in values)]
+    return [_row(written[key], *(gear.get(key) for gear in values)) for key in (*keys.split(), *present)]
 
 
 def pair_rows(pair: GearPair) -> list[Row]:
     """What describes the pair."""
     values = _flat(pair.to_dict())
-    return [_row(symbols.PAIR[key], values[key]) for key in _PAIR.split()]
+    written = symbols_of(GearPair) | symbols.PAIR
+    return [_row(written[key], values[key]) for key in _PAIR.split()]
 
 
 def load_rows(material: Material, load: Load, mounting: Mounting) -> list[Row]:
     """Material and load, and the mounting where it is not that of the drawing."""
-    rows = [(symbols.MATERIAL[key], value) for key, value in vars(material).items()]
-    rows += [(symbols.LOAD[key], value) for key, value in vars(load).items()]
-    rows += [(symbols.MOUNTING[key], value) for key, value in vars(mounting).items() if value]
+    rows = [(symbols_of(Material)[key], value) for key, value in vars(material).items()]
+    rows += [(symbols_of(Load)[key], value) for key, value in vars(load).items()]
+    rows += [(symbols_of(Mounting)[key], value) for key, value in vars(mounting).items() if value]
     return [_row(symbol, value) for symbol, value in rows if value is not None]
 
 

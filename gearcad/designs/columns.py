@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gearcad import symbols
+from gearcad.designs.keys import FIELDS
 from gearcad.per_gear import Role
 from gearcad.symbols import Symbol
 
@@ -16,36 +17,28 @@ _STATES = {
     "seconds": Symbol("", "s", "", "time to make the row"),
 }
 
-_CHOICES = {
-    "rack": Symbol("", "", "ISO 53", "named basic rack"),
-    "profile_shift_split": Symbol("", "", "", "how two automatic profile shifts share their sum"),
-}
-"""Keys of a spec whose numbers stand in other columns."""
+_INPUTS = {table: {key: field.symbol for key, field in fields.items()} for table, fields in FIELDS.items()}
 
-_GEAR = symbols.GEAR | _CHOICES
-
-_TABLES = {
-    "gear": _GEAR,
-    "pinion": _GEAR,
-    "wheel": _GEAR,
-    "pair": _GEAR | symbols.PAIR,
-    "material": symbols.MATERIAL,
-    "load": symbols.LOAD,
-    "mounting": symbols.MOUNTING,
+_COMPUTED = {
+    "gear": symbols.GEAR,
+    "pinion": symbols.GEAR,
+    "wheel": symbols.GEAR,
+    "pair": symbols.PAIR,
     "check": symbols.CHECK,
     "check.rating": symbols.RATING,
     "check.rating.pinion": symbols.GEAR_RATING,
     "check.rating.wheel": symbols.GEAR_RATING,
     "stiffness": symbols.STIFFNESS,
-    "dynamics": symbols.DYNAMICS | symbols.DYNAMICS_RESULTS,
+    "dynamics": symbols.DYNAMICS,
     "modify": symbols.MODIFY,
     "modify.before": symbols.MODIFY_FIGURES,
     "modify.after": symbols.MODIFY_FIGURES,
-    "modify.pinion": _GEAR,
-    "modify.wheel": _GEAR,
-    "rating": symbols.RATING_OPTIONS,
+    "modify.pinion": _INPUTS["pinion"],
+    "modify.wheel": _INPUTS["wheel"],
     "": _STATES,
 }
+
+_TABLES = _COMPUTED | {table: inputs | _COMPUTED.get(table, {}) for table, inputs in _INPUTS.items()}
 """By the beginning of the heading."""
 
 _NAMED = ("stiffness",)

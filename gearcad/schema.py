@@ -1,0 +1,150 @@
+"""The schema of inputs: what their types say of each field, which specs, tables, sheets, reports and checks all read here.
+
+A field says it in its annotation, `addendum: Annotated[float, Range("", 0, 5), Words("addendum of the rack", "h_aP*")] = 1.0`:
+what it can be (its type, and a Range, a Whole or a Choice), and how it is written. Its default is that of the dataclass.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields, is_dataclass
+from enum import Enum
+from functools import cache, cached_property
+from types import MappingProxyType, UnionType
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
+
+from gearcad.errors import as_choice, plain_numbers
+from gearcad.ranges import Choice, Member, Range, Whole
+from gearcad.symbols import Symbol
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+__all__ = ["FieldSchema", "Words", "require_fields", "schema_of", "symbols_of"]
+
+Permitted = Range | Whole | Choice | Member
+
+
+class Words(NamedTuple):
+    """How a field is written: plain words, the standard's symbol, and the clause (as in Symbol)."""
+
+    words: str
+    symbol: str = ""
+    source: str = ""
+
+
+@dataclass(frozen=True)
+class FieldSchema:
+    """What a type says of one of its fields: the members of its type, what is permitted, how it is written, and its marks.
+
+    One without a default is `required`; an `optional` one can be None, where it is absent or is to be derived.
+    """
+
+    name: str
+    members: tuple[Any, ...]
+    permitted: Permitted | None
+    symbol: Symbol
+    required: bool
+    optional: bool
+    marks: tuple[Any, ...]
+
+    @cached_property
+    def whole(self) -> bool:
+        """Whether its numbers are whole: 2 is 2.0 for all others."""
+        return int in self.members
+
+    @cached_property
+    def several(self) -> bool:
+        """Whether it can be several numbers."""
+        origins = map(get_origin, self.members)
+        return any(isinstance(origin, type) and issubclass(origin, tuple) for origin in origins)
+
+    @cached_property
+    def text(self) -> bool:
+        """Whether it is always a word."""
+        return all(member in (str, type(None)) or _is_enum(member) for member in self.members)
+
+    @cached_property
+    def words(self) -> tuple[str, ...]:
+        """Words that may stand for a number."""
+        return tuple(word for member in self.members if get_origin(member) is Literal for word in get_args(member))
+
+    @cached_property
+    def choices(self) -> type[Enum] | None:
+        """The enum whose member it is."""
+        return next(filter(_is_enum, self.members), None)
+
+    @cached_property
+    def part(self) -> type[DataclassInstance] | None:
+        """The type of a field that has fields of its own."""
+        return next((member for member in self.members if isinstance(member, type) and is_dataclass(member)), None)
+
+    def require(self, instance: DataclassInstance, owner: str) -> None:
+        """Check the value that a frozen instance has, and turn the name of an enum's member into it. Raises ParameterError."""
+        value, parameter = getattr(instance, self.name), f"{owner}.{self.name}" if owner else self.name
+        if (value is None and self.optional) or getattr(value, "derived", False) or _stands_in(value, self.words):
+            return
+        if self.choices is not None:
+            object.__setattr__(instance, self.name, as_choice(parameter, value, self.choices))
+        if self.permitted is None:
+            return
+        if not self.several:
+            self.permitted.require(parameter, value)
+        elif isinstance(value, list | tuple):
+            for each in value:
+                self.permitted.require(parameter, each)
+        elif float in self.members:  # what else is no list, its type explains
+            self.permitted.require(parameter, value)
+
+
+def _stands_in(value: Any, words: tuple[str, ...]) -> bool:
+    return isinstance(value, str) and value in words
+
+
+def _is_enum(member: Any) -> bool:
+    return isinstance(member, type) and issubclass(member, Enum)
+
+
+@cache
+def schema_of(kind: type[DataclassInstance]) -> Mapping[str, FieldSchema]:
+    """What a type says of its fields, by their names, in their order."""
+    hints = get_type_hints(kind, include_extras=True)
+    return MappingProxyType({each.name: _schema(each, hints[each.name]) for each in fields(kind)})
+
+
+def _schema(field: Any, hint: Any) -> FieldSchema:
+    said = hint.__metadata__ if get_origin(hint) is Annotated else ()
+    bare = hint.__origin__ if said else hint
+    members = get_args(bare) if get_origin(bare) in (Union, UnionType) else (bare,)
+    permitted = next((each for each in said if isinstance(each, Range | Whole | Choice | Member)), None)
+    words = next((each for each in said if isinstance(each, Words)), Words(""))
+    return FieldSchema(
+        name=field.name,
+        members=members,
+        permitted=permitted,
+        symbol=Symbol(words.symbol, permitted.unit if isinstance(permitted, Range) else "", words.source, words.words),
+        required=field.default is MISSING and field.default_factory is MISSING,
+        optional=type(None) in members or getattr(field.default, "derived", False),
+        marks=tuple(each for each in said if each is not permitted and each is not words),
+    )
+
+
+def symbols_of(kind: type[DataclassInstance]) -> dict[str, Symbol]:
+    """How the fields of a type are written, those of its parts behind a dot: `rack.root_radius`."""
+    found: dict[str, Symbol] = {}
+    for name, field in schema_of(kind).items():
+        if field.part is None:
+            found[name] = field.symbol
+        else:
+            found |= {f"{name}.{inner}": symbol for inner, symbol in symbols_of(field.part).items()}
+    return found
+
+
+def require_fields(instance: Any, owner: str = "") -> None:
+    """Turn numbers into Python's own and members' names into members, and check what fields can be by themselves.
+
+    Values that are derived, and None where it is permitted, are left alone. Raises ParameterError; `owner` leads its parameter.
+    """
+    plain_numbers(instance)
+    for field in schema_of(instance.__class__).values():
+        field.require(instance, owner)
