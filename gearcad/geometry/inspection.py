@@ -9,16 +9,24 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 from gearcad.errors import GeometryError, require_number, require_whole
 from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.notice import Notice
 
-__all__ = ["Inspection"]
+__all__ = ["ChordalThickness", "Inspection"]
 
 
 _FARTHEST_CENTRE = math.radians(75)
 """Largest pressure angle at the centre of a suggested ball: there its dimension is 3.9 times the base circle."""
+
+
+class ChordalThickness(NamedTuple):
+    """Along the chord of the reference circle in the normal section, and its height below the tip circle (mm)."""
+
+    thickness: float
+    height: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -147,8 +155,8 @@ class Inspection:
     # ------------------------------------------------------------------ in the normal section
 
     @property
-    def chordal_thickness(self) -> tuple[float, float]:
-        """Chordal thickness and chordal height (mm) on the reference circle, in the normal section.
+    def chordal_thickness(self) -> ChordalThickness:
+        """Chordal thickness and chordal height on the reference circle.
 
         Taken on the virtual gear of z_v = z/cos^3 beta teeth: s = z_v m_n sin(psi), h = h_a + z_v m_n (1 - cos psi)/2, with
         psi = s_n/(m_n z_v). The height is measured from the actual tip circle.
@@ -156,7 +164,7 @@ class Inspection:
         virtual = self.teeth / math.cos(math.radians(self.helix_angle)) ** 3
         half = self.normal_tooth_thickness / (self.normal_module * virtual)
         diameter = virtual * self.normal_module
-        return diameter * math.sin(half), self.addendum + diameter * (1 - math.cos(half)) / 2
+        return ChordalThickness(diameter * math.sin(half), self.addendum + diameter * (1 - math.cos(half)) / 2)
 
     # ------------------------------------------------------------------ what to know before measuring
 

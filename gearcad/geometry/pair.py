@@ -187,7 +187,7 @@ class GearPair(PairData):
             "centre_distance": self.centre_distance,
             "axial_offset": self.axial_offset,
             "common_width": self.common_width._asdict(),
-            **{name: list(value) if isinstance(value, tuple) else value for name, value in derived.items()},
+            **{name: list(value) if isinstance(value, PerGear) else value for name, value in derived.items()},
             "path_of_contact": self.path_of_contact._asdict(),
             "contact_line_lengths": self.contact_line_lengths._asdict(),
             "warnings": list(self.warnings),
