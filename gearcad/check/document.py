@@ -7,11 +7,9 @@ from dataclasses import asdict
 from typing import Any
 
 from gearcad.check.result import CheckResult
-from gearcad.check.solid.document import load_distribution, over_face
-from gearcad.check.solid.result import SolidCheck
 from gearcad.contact.shared.extremes import Extreme
 
-__all__ = ["check_document"]
+__all__ = ["check_document", "reported_document"]
 
 
 def check_document(result: CheckResult) -> dict[str, Any]:
@@ -24,16 +22,19 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "material": asdict(result.material),
         "options": asdict(result.options),
         "body": result.bodies,
-        **_of_model(result),
+        "mesh": {role.value: body.mesh_document for role, body in result.cycle.model.bodies.items()},
+        **result.own_document,
         "positions": len(result.cycle.positions),
         "mesh_cycle": _cycle(result),
         "summary": result.summary.to_dict(),
         "not_evaluated": result.summary.missing,
         "extremes": {name: _extreme(of) for name, of in result.summary.extremes.items()},
         "torque_sweep": [point.to_dict() for point in result.sweep],
+        "torque_trends": result.trends.to_dict(),
         "rating": result.rating.to_dict(),
         "convergence": [each.to_dict() for each in result.convergence],
         "comparisons": [comparison.to_dict() for comparison in result.comparisons],
+        "explanations": result.explanations.to_dict(),
         "warnings": list(result.warnings),
         "numerics": result.numerics.value,
         "strength": result.strength.value,
@@ -41,19 +42,16 @@ def check_document(result: CheckResult) -> dict[str, Any]:
     }
 
 
+def reported_document(result: CheckResult) -> dict[str, Any]:
+    """The same with all that a report shows: also the mesh stiffness by other methods, which takes part of the check's time."""
+    return check_document(result) | {"stiffness_methods": result.stiffness_methods.to_dict()}
+
+
 def _extreme(of: Extreme | None) -> dict[str, float | None] | None:
     """Value, roll angle, and what the positions may miss of it (relative; null where nothing is known of that)."""
     if of is None:
         return None
     return {"value": of.value, "roll_angle": of.roll_angle, "error": of.error if math.isfinite(of.error) else None}
-
-
-def _of_model(result: CheckResult) -> dict[str, Any]:
-    """What only one of the models has to tell."""
-    mesh = {"mesh": {role.value: body.mesh_document for role, body in result.cycle.model.bodies.items()}}
-    if isinstance(result, SolidCheck):
-        return {**mesh, "load_distribution": load_distribution(result.cycle), "face": over_face(result.cycle)}
-    return mesh
 
 
 def _cycle(result: CheckResult) -> dict[str, Any]:

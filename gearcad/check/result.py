@@ -2,32 +2,47 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from functools import cached_property
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple
 
 from gearcad.check.comparison import Comparison, Subject, Verdict, verdict
 from gearcad.check.convergence import Convergence
+from gearcad.check.explanation import Explanations
+from gearcad.check.load_share import LoadShare
 from gearcad.check.options import CheckOptions, Model
-from gearcad.check.summary import Summary
-from gearcad.check.sweep import SweepPoint
+from gearcad.check.stiffness import StiffnessMethods, stiffness_methods
+from gearcad.check.summary import Summary, root_peaks
+from gearcad.check.sweep import SweepPoint, SweepTrends
 from gearcad.check.task import CheckTask
-from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.contact.shared.loaded import Cycle, LoadedPosition, RootStress
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.per_gear import PerGear
 from gearcad.rating import Rating
+from gearcad.stiffness import StiffnessMethod
 
 __all__ = ["CheckResult"]
 
 
+class MeanLag(NamedTuple):
+    """How far the wheel lags behind the pinion on the mean, and what each gear gives of it (µm along the line of action)."""
+
+    whole: float
+    parts: PerGear[float]
+
+
 @dataclass(frozen=True, kw_only=True)
-class CheckResult:
+class CheckResult(ABC):
     """A task, and everything that its check found out."""
 
     task: CheckTask
-    cycle: PlaneCycle | SolidCycle
+    cycle: Cycle
     summary: Summary
     sweep: tuple[SweepPoint, ...]
     convergence: tuple[Convergence, ...]
@@ -75,6 +90,70 @@ class CheckResult:
     def rating(self) -> Rating:
         """By ISO 6336 or DIN 3990, Method B."""
         return self.task.rating
+
+    # ------------------------------------------------------------------ over the mesh
+
+    @property
+    def single_positions(self) -> int:
+        """How many of the even positions have one pair of teeth in contact."""
+        return sum(len(position.contacts) == 1 for position in self.cycle.positions)
+
+    @property
+    def mean_lag(self) -> MeanLag:
+        """The transmission error on the mean."""
+        whole, parts = (self.cycle.mean(name)[0] for name in ("transmission_error", "approach_parts"))
+        return MeanLag(float(whole), PerGear(*(1000 * parts).tolist()))
+
+    @property
+    def bending(self) -> PerGear[bool]:
+        """Whether the rim of each gear bends."""
+        return self.task.body.supports(self.pair).map(lambda support: support.bends)
+
+    @cached_property
+    def load_share(self) -> LoadShare:
+        """Of one pair of teeth while it goes through the mesh."""
+        return LoadShare.of(self.cycle)
+
+    @cached_property
+    def root_positions(self) -> PerGear[LoadedPosition[Any]]:
+        """Where the root tension of each gear is greatest."""
+        return PerGear.each(self.cycle.worst_position)
+
+    @property
+    def root_peaks(self) -> PerGear[RootStress]:
+        """The greatest root tension of each gear."""
+        return root_peaks(self.cycle)
+
+    @property
+    def trends(self) -> SweepTrends:
+        """How the figures go with the torque."""
+        return SweepTrends.of(self.sweep)
+
+    @property
+    @abstractmethod
+    def explanations(self) -> Explanations[Any]:
+        """Why finite elements and the standard differ."""
+
+    @cached_property
+    def stiffness_methods(self) -> StiffnessMethods:
+        """The mesh stiffness by the check's own model beside closed forms; solved when it is first asked for."""
+        return stiffness_methods(self.task, self._as_method, len(self.cycle.positions))
+
+    @abstractmethod
+    def _as_method(self, mounting: Mounting) -> StiffnessMethod:
+        """The bodies of the check as a method of mesh stiffness, for the pair as it is mounted."""
+
+    # ------------------------------------------------------------------ files and documents
+
+    @property
+    def own_document(self) -> dict[str, Any]:
+        """What `check.json` has of this model only."""
+        return {}
+
+    @property
+    def stress_files(self) -> Mapping[str, Callable[[Path], None]]:
+        """What writes stress fields to a path, by the names of files; there are none in the plane."""
+        return {}
 
     # ------------------------------------------------------------------ the verdict
 

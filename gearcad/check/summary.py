@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple, TypedDict
 
 from gearcad.check.extremes import Extremes
-from gearcad.contact.shared.loaded import Cycle
+from gearcad.contact.shared.loaded import Cycle, RootStress
 from gearcad.per_gear import PerGear
 
-__all__ = ["CommonFigures", "Figures", "Summary", "by_name", "common_figures", "figures"]
+__all__ = ["CommonFigures", "Figures", "Summary", "by_name", "common_figures", "figures", "root_peaks"]
 
 _ABOUT = ("missing", "extremes", "mean_error")
 
@@ -83,10 +83,15 @@ class Figures(NamedTuple):
     root_tension: PerGear[float]
 
 
+def root_peaks(cycle: Cycle) -> PerGear[RootStress]:
+    """The greatest root tension of each gear."""
+    return PerGear.each(lambda role: cycle.worst_position(role).tension.pick(role))
+
+
 def figures(cycle: Cycle) -> Figures:
     """Mean mesh stiffness, greatest interior pressure and root tensions of a cycle."""
     worst = cycle.worst_contact
-    tension = PerGear.each(lambda role: cycle.worst_position(role).tension.pick(role).stress)
+    tension = root_peaks(cycle).map(lambda peak: peak.stress)
     return Figures(float(cycle.mean("stiffness")[0]), worst[1].interior_pressure if worst else None, tension)
 
 

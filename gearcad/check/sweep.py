@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,7 +12,7 @@ from gearcad.check.summary import by_name, figures
 from gearcad.contact.shared.loaded import Cycle
 from gearcad.per_gear import PerGear
 
-__all__ = ["SweepPoint", "sweep_point"]
+__all__ = ["SweepPoint", "SweepTrends", "sweep_point"]
 
 
 class SweepPoint(NamedTuple):
@@ -29,6 +31,58 @@ class SweepPoint(NamedTuple):
     def to_dict(self) -> dict[str, Any]:
         """As `check.json` has it."""
         return by_name(self._asdict())
+
+
+class SweepTrends(NamedTuple):
+    """How the figures of a sweep go with the torque: its `points` in rising order."""
+
+    points: tuple[SweepPoint, ...]
+
+    @classmethod
+    def of(cls, sweep: Iterable[SweepPoint]) -> SweepTrends:
+        """Of the points in any order."""
+        return cls(tuple(sorted(sweep, key=lambda point: point.torque)))
+
+    @property
+    def first(self) -> SweepPoint:
+        """That of the least torque."""
+        return self.points[0]
+
+    @property
+    def last(self) -> SweepPoint:
+        """That of the greatest torque."""
+        return self.points[-1]
+
+    @property
+    def pressure_everywhere(self) -> bool:
+        """False if all contacts are near edges at some torque."""
+        return all(point.contact_pressure is not None for point in self.points)
+
+    @property
+    def pressure_exponent(self) -> float | None:
+        """Power of the torque with which the greatest pressure grows; None where it is missing, or of a single torque."""
+        found = [point.contact_pressure for point in self.points if point.contact_pressure is not None]
+        return self._exponent(found) if self.pressure_everywhere else None
+
+    @property
+    def root_exponents(self) -> PerGear[float] | None:
+        """Powers of the torque with which root tensions grow; None of a single torque."""
+        powers = [self._exponent(tensions) for tensions in zip(*(point.root_tension for point in self.points), strict=True)]
+        known = [power for power in powers if power is not None]
+        return PerGear(*known) if len(known) == len(powers) else None
+
+    def _exponent(self, values: Sequence[float]) -> float | None:
+        """From the least torque to the greatest; None if they are one."""
+        low, high = self.first.torque, self.last.torque
+        return math.log(values[-1] / values[0]) / math.log(high / low) if high > low else None
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `check.json` has it."""
+        roots = self.root_exponents
+        return {
+            "contact_pressure_exponent": self.pressure_exponent,
+            "root_tension_exponents": roots._asdict() if roots is not None else None,
+        }
 
 
 def sweep_point(cycle: Cycle) -> SweepPoint:

@@ -2,42 +2,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar, Unpack
 
-from gearcad.check.document import check_document
+from gearcad.check.document import check_document, reported_document
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult
 from gearcad.check.run import check_pair, expected_check
-from gearcad.check.solid.result import SolidCheck
 from gearcad.designs import Design, Inputs, PairDesign
 from gearcad.geometry import GearPair
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
-from gearcad.per_gear import PerGear, Role
 from gearcad.progress import Expected, Progress
 
 __all__ = ["Check", "check"]
 
 _NO_LOAD = "without it there is no stress"
 
-_FIELDS = PerGear("stress_pinion.vtu", "stress_wheel.vtu")
-
 
 @dataclass(frozen=True, kw_only=True)
 class Check(Job[PairDesign, CheckResult]):
-    """The structural check of a pair; `model` ("2d" or "3d") wins over that of the design's own [check]."""
+    """The structural check of a pair; `model` ("2d" or "3d") wins over that of the design's own [check].
+
+    Without `report` there is check.json alone, and it has not what takes time for the report only.
+    """
 
     verb = "check"
     accepts = (PairDesign,)
     why = "a single gear has nothing to press against"
-    sometimes: ClassVar[tuple[str, ...]] = _FIELDS
+    sometimes: ClassVar[tuple[str, ...]] = ("stress_pinion.vtu", "stress_wheel.vtu")
 
     model: str | None = None
+    report: bool = True
 
     def _run(self, design: PairDesign, progress: Progress | None) -> CheckResult:
         load, material, options = design.loaded(_NO_LOAD), design.material or Material(), self._options(design)
@@ -54,7 +55,10 @@ class Check(Job[PairDesign, CheckResult]):
 
     def document(self, result: CheckResult) -> dict[str, Any]:
         """What check.json holds: stiffness in N/(mm µm) of common face width, transmission error in µm, stresses in MPa."""
-        return check_document(result)
+        return reported_document(result) if self.report else check_document(result)
+
+    def for_row(self, _design: Design, _parts: Collection[str]) -> Check:
+        return replace(self, report=False)
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """The verdict, the summary and the rating."""
@@ -63,26 +67,16 @@ class Check(Job[PairDesign, CheckResult]):
 
     def files(self, result: CheckResult) -> dict[str, Writer]:
         """check.json, the report, and of solid bodies the stresses in the most stressed tooth of each gear."""
-        found: dict[str, Writer] = {
-            "check.json": partial(self.write_document, result),
-            "report.html": partial(_write_report, result),
-        }
-        if isinstance(result, SolidCheck):
-            found |= {name: partial(_write_field, result, role) for role, name in _FIELDS.items()}
-        return found
+        document: dict[str, Writer] = {"check.json": partial(self.write_document, result)}
+        if not self.report:
+            return document
+        return {**document, "report.html": partial(_write_report, result), **result.stress_files}
 
 
 def _write_report(result: CheckResult, path: Path) -> None:
     from gearcad.report import write_report
 
     write_report(result, result.pair.name, path)
-
-
-def _write_field(result: SolidCheck, role: Role, path: Path) -> None:
-    from gearcad.contact.solid.field import shown_stress, worst_field, write_vtu
-
-    field = worst_field(result.cycle, role)
-    write_vtu(field, path, shown_stress(result.cycle, role, field))
 
 
 def check(

@@ -96,12 +96,12 @@ def plot_transmission_error(result: CheckResult, ax: Axes | None = None) -> Axes
     """How far the wheel lags under load over one base pitch, and what each gear gives of it; all about their means."""
     axes = prepared(ax, _ROLL, "along the line of action, less the mean, in µm")
     cycle = result.cycle
-    curves = [("transmission error", cycle.course("transmission_error"), cycle.mean("transmission_error")[0], DARK, "-", 1.5)]
-    parts, means = 1000 * cycle.course("approach_parts"), 1000 * cycle.mean("approach_parts")[0]
-    for (gear, colour, _), part, mean in zip(GEARS, parts.T, means, strict=True):
+    curves = [("transmission error", cycle.course("transmission_error"), result.mean_lag.whole, DARK, "-", 1.5)]
+    parts = 1000 * cycle.course("approach_parts")
+    for (gear, colour, _), part, mean in zip(GEARS, parts.T, result.mean_lag.parts, strict=True):
         curves.append((f"part of the {gear}", part, mean, colour, "--", 1.2))
     for words, values, mean, colour, style, width in curves:
-        label = f"{words}, mean {short(float(mean))} µm"
+        label = f"{words}, mean {short(mean)} µm"
         axes.plot(cycle.course("roll_angle"), values - mean, color=colour, linestyle=style, linewidth=width, label=label)
     legend_above(axes, 2)
     return axes
@@ -112,11 +112,11 @@ def plot_root_stress(result: CheckResult, ax: Axes | None = None) -> Axes:
     axes = prepared(ax, _ROLL, "root stress in MPa")
     angles = result.cycle.course("roll_angle")
     standard = r"$\sigma_{F0}$" if result.load.application_factor == 1 else r"$\sigma_{F0} K_A$"
-    for gear, (words, colour, _) in enumerate(GEARS):
+    for role, (words, colour, _) in GEARS.items():
         for name, style in (("tension", "-"), ("compression", "--")):
-            stresses = [getattr(position, name)[gear].stress for position in result.cycle.every]
+            stresses = [getattr(position, name).pick(role).stress for position in result.cycle.every]
             axes.plot(angles, stresses, color=colour, linestyle=style, label=f"{words}, {name}")
-        reference = result.rating.root_stresses[gear]
+        reference = result.rating.root_stresses.pick(role)
         axes.axhline(reference, color=colour, linestyle=":", linewidth=1.4, label=f"{words}, {standard} = {reference:.0f} MPa")
     draw_limit(axes, result.material.root_limit)
     axes.axhline(0, color=MARKED, linewidth=0.8)

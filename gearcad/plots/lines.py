@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearcad.arrays import Bools, Floats
+from gearcad.arrays import Floats
 from gearcad.check.solid.result import SolidCheck
-from gearcad.check.solid.summary import middle_contacts
-from gearcad.per_gear import PerGear, Role
+from gearcad.per_gear import Role
 from gearcad.plots.check import PATH, mark_path
 from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, new_figure, prepared, short
 
@@ -18,8 +17,6 @@ if TYPE_CHECKING:
     from matplotlib.tri import Triangulation
 
 __all__ = [
-    "Cells",
-    "loaded_cells",
     "plot_contact_pattern",
     "plot_harmonics",
     "plot_line_loads",
@@ -40,61 +37,13 @@ _GAP = 3.0
 _ACROSS = "across the face, from the middle of the common width, in mm"
 
 
-class Cells(NamedTuple):
-    """Cells of all lines of all positions (n,): places on the line of action (mm from T1) and across the common width (mm),
-    roll lengths and heights on pinion and wheel (mm), line load (N/mm), pressure (MPa).
-
-    `interior` cells are away from all edges; at those `on_edge` the edge of a tip faces the other's flank.
-    """
-
-    place: Floats
-    across: Floats
-    rolls: PerGear[Floats]
-    heights: PerGear[Floats]
-    line_load: Floats
-    pressure: Floats
-    interior: Bools
-    on_edge: Bools
-
-    def only(self, chosen: Bools) -> Cells:
-        """Some of the cells."""
-        return Cells(
-            self.place[chosen],
-            self.across[chosen],
-            self.rolls.map(lambda each: each[chosen]),
-            self.heights.map(lambda each: each[chosen]),
-            self.line_load[chosen],
-            self.pressure[chosen],
-            self.interior[chosen],
-            self.on_edge[chosen],
-        )
-
-
-def loaded_cells(result: SolidCheck) -> Cells:
-    """All of a cycle."""
-    contacts = [contact for position in result.cycle.every for contact in position.contacts]
-    lines = [contact.line for contact in contacts]
-    pinion, wheel = (np.concatenate([line.places.pick(role) for line in lines], axis=1) for role in Role)
-    return Cells(
-        np.concatenate([line.nominal for line in lines]),
-        np.concatenate([line.across for line in lines]),
-        PerGear(pinion[0], wheel[0]),
-        PerGear(pinion[1], wheel[1]),
-        np.concatenate([contact.line_loads for contact in contacts]),
-        np.concatenate([contact.pressures for contact in contacts]),
-        np.concatenate([contact.interior for contact in contacts]),
-        np.concatenate([line.on_edge for line in lines]),
-    )
-
-
 def plot_line_loads(result: SolidCheck, ax: Axes | None = None) -> Axes:
     """Line load over the plane of action, and the lines of contact of the position with the greatest pressure, or load."""
     axes = new_figure().subplots() if ax is None else ax
-    cells = loaded_cells(result)
+    cells = result.cells
     cells = cells.only(~cells.on_edge | (cells.line_load > 0))
     _map(axes, cells.place, cells.across, cells.line_load, result.summary.line_load_max, "line load in N/mm")
-    position, _ = result.cycle.worst_contact or result.cycle.heaviest_contact
-    for contact in position.contacts:
+    for contact in result.shown.position.contacts:
         axes.plot(contact.line.nominal, contact.line.across, color="white", linewidth=1.2, linestyle="--")
     axes.set_xlabel(PATH)
     axes.set_ylabel("across the face in mm")
@@ -108,7 +57,7 @@ def plot_contact_pattern(result: SolidCheck, role: Role, ax: Axes | None = None)
     Contact of edges is left out.
     """
     axes = new_figure().subplots() if ax is None else ax
-    cells, own = loaded_cells(result), result.pair.gears.pick(role)
+    cells, own = result.cells, result.pair.gears.pick(role)
     cells = cells.only(~cells.on_edge)
     _map(
         axes,
@@ -121,8 +70,8 @@ def plot_contact_pattern(result: SolidCheck, role: Role, ax: Axes | None = None)
     form = own.flank_form
     z, roll = np.array([0, 1, 1, 0, 0]) * form.width, np.array([0, 0, 1, 1, 0]) * (form.last - form.first) + form.first
     axes.plot(z, roll, color=DARK, linewidth=1.2, label=f"flank of the {role.value}, tip above")
-    low, high = result.cycle.model.common_heights(role)
-    for height, words in ((low, "ends of the common width"), (high, None)):
+    root = result.along_face.roots.pick(role)
+    for height, words in ((root.low, "ends of the common width"), (root.high, None)):
         axes.axvline(height, color=MARKED, linestyle=":", linewidth=1.2, label=words)
     axes.set_xlabel("along the axis, z in mm")
     axes.set_ylabel("roll length in mm")
@@ -161,8 +110,7 @@ def _joined(x: Floats, y: Floats) -> Triangulation:
 def plot_lines_share(result: SolidCheck, ax: Axes | None = None) -> Axes:
     """Part of the load that a pair of teeth carries, over the place where its line of contact crosses the middle."""
     axes = prepared(ax, PATH, "share of the load")
-    contacts = middle_contacts(result.cycle)
-    axes.plot([each.place for each in contacts], [each.share for each in contacts], color=SERIES[0], label="finite elements")
+    axes.plot(result.load_share.places, result.load_share.shares, color=SERIES[0], label="finite elements")
     axes.set_ylim(0, 1.05)
     mark_path(axes, result.pair)
     legend_above(axes, 1)
@@ -183,10 +131,9 @@ def plot_harmonics(result: SolidCheck, ax: Axes | None = None) -> Axes:
 def plot_load_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
     """Load per width over the face width, mean of the cycle, with its own mean."""
     axes = prepared(ax, _ACROSS, "load per width in N/mm")
-    across, load = result.cycle.load_along_face
-    factor = result.summary.face_load_factor
-    axes.step(across, load, where="mid", color=SERIES[0], label="mean of all positions")
-    mean = float(load.mean())
+    along, factor = result.along_face, result.summary.face_load_factor
+    axes.step(along.across, along.load, where="mid", color=SERIES[0], label="mean of all positions")
+    mean = along.mean
     axes.axhline(mean, color=DARK, linestyle="--", linewidth=1.2, label=f"over the width: {short(mean)} N/mm")
     axes.axhline(factor * mean, color=DARK, linestyle=":", linewidth=1.2, label=rf"$K_{{H\beta}}$ = {factor:.3f}")
     axes.set_ylim(bottom=0)
@@ -197,15 +144,13 @@ def plot_load_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
 def plot_root_along_face(result: SolidCheck, ax: Axes | None = None) -> Axes:
     """Greatest root tension of the cycle along the face of both gears; what stands out beyond the common width is pale."""
     axes, part = prepared(ax, _ACROSS, "root tension in MPa"), result.rating.edition.part(3)
-    for role, (words, colour, marker) in zip(Role, GEARS, strict=True):
-        heights, stress = result.cycle.root_along_face(role)
-        low, high = result.cycle.model.common_heights(role)
-        across = heights - (low + high) / 2
+    for role, (words, colour, marker) in GEARS.items():
+        root = result.along_face.roots.pick(role)
         factor = result.summary.root_face_load_factor.pick(role)
-        axes.plot(across, stress, color=colour, linewidth=1.0, alpha=0.4)
-        inside = (heights >= low) & (heights <= high)
+        axes.plot(root.across, root.stress, color=colour, linewidth=1.0, alpha=0.4)
+        inside = root.common
         label = rf"{words}, $K_{{F\beta}}$ = {factor:.2f}"
-        axes.plot(across[inside], stress[inside], color=colour, marker=marker, markersize=3.5, label=label)
+        axes.plot(root.across[inside], root.stress[inside], color=colour, marker=marker, markersize=3.5, label=label)
         standard = result.rating.root_stresses.pick(role)
         axes.axhline(standard, color=colour, linestyle=":", linewidth=1.4, label=f"{words}, {part}: {standard:.0f} MPa")
     axes.set_ylim(bottom=0)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from gearcad.per_gear import PerGear
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -23,7 +25,7 @@ __all__ = [
     "short",
 ]
 
-GEARS = (("pinion", "#0072b2", "o"), ("wheel", "#d55e00", "s"))
+GEARS = PerGear(("pinion", "#0072b2", "o"), ("wheel", "#d55e00", "s"))
 """Name, colour and marker of the gears. Colours are those of Okabe and Ito, which the colour-blind can tell apart."""
 
 SERIES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#333333")

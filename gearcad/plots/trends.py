@@ -65,5 +65,5 @@ def plot_convergence(result: CheckResult, ax: Axes | None = None) -> Axes:
 
 def _swept(result: CheckResult, name: str) -> tuple[Floats, Floats]:
     """Torques (N·m) in rising order, and a quantity at each; NaN where there is none."""
-    points = sorted(result.sweep, key=lambda point: point.torque)
+    points = result.trends.points
     return np.array([point.torque for point in points]), np.array([getattr(point, name) for point in points], float)

@@ -9,12 +9,12 @@ from collections.abc import Container
 from datetime import date
 from importlib import metadata
 from itertools import count
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gearcad import __version__
 from gearcad.output import source_date
 from gearcad.plots.paper import short
+from gearcad.report.sentences import templates
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -32,7 +32,7 @@ def page_html(template: str, design_name: str, **values: Any) -> str:
     """The page without links to elsewhere: pictures and styles are inside. Its date is that of `source_date`, or today."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    loader = FileSystemLoader(_templates())
+    loader = FileSystemLoader(templates())
     environment = Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=StrictUndefined)
     environment.filters |= {"short": short, "indexed": _indexed, "finished": _finished}
     fixed = source_date()
@@ -75,10 +75,3 @@ def _indexed(text: str) -> Markup:
     from markupsafe import Markup, escape
 
     return Markup(re.sub(r"_([^\s*/,;)]+)", r"<sub>\1</sub>", str(escape(text))))
-
-
-def _templates() -> Path:
-    """The wheel carries the templates inside the package; a checkout has them beside it."""
-    package = Path(__file__).parent.parent
-    installed = package / "templates"
-    return installed if installed.is_dir() else package.parent / "templates"

@@ -14,11 +14,11 @@ from support.checks import NASTY_NAME, small_check
 
 from gearcad import __version__
 from gearcad.check.comparison import Role
+from gearcad.check.plane.explanation import root_at_single_contact
 from gearcad.per_gear import PerGear
 from gearcad.plots.paper import short
 from gearcad.report import report_html, write_report
-from gearcad.report.check import report as write
-from gearcad.report.check.reasons_plane import root_at_single_contact
+from gearcad.report.check.plane import PlaneSections
 
 _PICTURES = 14
 
@@ -61,8 +61,8 @@ def test_narrow_screens_scroll_tables_and_not_the_page(document, text):
 
 
 def test_says_when_and_with_what_it_was_made(monkeypatch):
-    monkeypatch.setattr(write, "section_of_check", lambda _result: "not wanted here")
-    monkeypatch.setattr(write, "make_figures", lambda _result: [])
+    monkeypatch.setattr(PlaneSections, "stiffness", "not wanted here")
+    monkeypatch.setattr(PlaneSections, "figures", [])
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
     document = lxml.html.document_fromstring(report_html(small_check(), "dated"))
     made = document.xpath("string(//footer)").strip()
@@ -107,7 +107,7 @@ def test_verdict_comes_first_and_names_what_failed(document):
 
 
 def test_passes_where_every_gate_does(monkeypatch):
-    monkeypatch.setattr(write, "section_of_check", lambda _result: "pairs like <this> have none")
+    monkeypatch.setattr(PlaneSections, "stiffness", "pairs like <this> have none")
     inside = tuple(each for each in small_check().comparisons if each.quantity != "contact pressure")
     document = lxml.html.document_fromstring(report_html(replace(small_check(), comparisons=inside), "good"))
     verdict = document.xpath("//div")[0]
@@ -157,7 +157,7 @@ def test_reasons_separate_sharing_width_and_fillet(document):
     result = small_check()
     pinion, wheel = (item.text_content() for item in document.xpath("//h3[text()='Root stress']/following-sibling::ul[1]/li"))
     for role, reason in PerGear(pinion, wheel).items():
-        alone, found = root_at_single_contact(result, role), result.summary.root_tension.pick(role)
+        alone, found = root_at_single_contact(result.cycle, role), result.summary.root_tension.pick(role)
         assert f"finite elements have {short(alone)} MPa" in reason
         assert f"sharing the load makes {100 * (found / alone - 1):+.1f} %" in reason
     # Only the pinion is wider than the common width.
@@ -166,7 +166,7 @@ def test_reasons_separate_sharing_width_and_fillet(document):
 
 
 def test_a_single_torque_shows_no_trend(monkeypatch):
-    monkeypatch.setattr(write, "section_of_check", lambda _result: "not wanted here")
+    monkeypatch.setattr(PlaneSections, "stiffness", "not wanted here")
     captions = report_html(replace(small_check(), sweep=small_check().sweep[:1]), "one")
     assert "Only 302 N·m was asked for" in captions
     assert "to the power" not in captions

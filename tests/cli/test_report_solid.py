@@ -16,7 +16,6 @@ from support.checks import NASTY_NAME, small_solid_check
 from gearcad.check import comparison
 from gearcad.per_gear import PerGear, Role
 from gearcad.plots.paper import short
-from gearcad.plots.tooth import tooth_surface
 from gearcad.report import report_html
 
 _FIGURES, _VIEWS, _PORTRAIT = 14, 2, 1
@@ -76,7 +75,7 @@ def test_a_view_holds_the_surface_of_the_tooth(document: lxml.html.HtmlElement, 
     figure = PerGear(*document.xpath("//figure[@class='tooth']")).pick(role)
     assert [child.tag for child in figure][:2] == ["canvas", "img"]  # where there is no WebGL the picture stays
     data = json.loads(figure.xpath("./script[@type='application/json']")[0].text)
-    surface = tooth_surface(small_solid_check(), role)
+    surface = small_solid_check().tooth_surfaces.pick(role)
 
     def unpacked(name: str, kind: str) -> np.ndarray:
         return np.frombuffer(base64.b64decode(data[name], validate=True), kind)

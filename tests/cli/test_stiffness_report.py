@@ -182,7 +182,7 @@ def test_a_check_is_a_method_among_the_others(check: object) -> None:
     assert isinstance(checked, CheckResult)
     # The pair of a check is as mounted: whatever the mounting changes must not be changed again.
     result = replace(checked, task=replace(checked.task, mounting=replace(checked.mounting, centre_distance_change=0.1)))
-    found = stiffness.section_of_check(result)
+    found = stiffness.section_of_check(result.stiffness_methods)
     assert isinstance(found, stiffness.StiffnessSection)
     solid = result.model.value == "3d"
     for row, name in zip(found.rows[:-1], CLOSED_FORMS, strict=True):
@@ -209,5 +209,6 @@ def test_a_check_without_other_methods_says_why(monkeypatch: pytest.MonkeyPatch)
     def fail(*_given: object, **_named: object) -> None:
         raise error
 
-    monkeypatch.setattr(stiffness, "compare_methods", fail)
-    assert stiffness.section_of_check(small_check()) == str(error)
+    monkeypatch.setattr("gearcad.check.stiffness.compare_methods", fail)
+    methods = replace(small_check()).stiffness_methods  # of a copy that was not asked before
+    assert stiffness.section_of_check(methods) == methods.to_dict()["reason"] == str(error)

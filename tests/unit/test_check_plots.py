@@ -17,15 +17,7 @@ from gearcad.plots.check import (
     plot_transmission_error,
 )
 from gearcad.plots.paper import new_figure, short
-from gearcad.plots.stresses import (
-    depth_stresses,
-    hertz_contact,
-    plot_contact_zone,
-    plot_depth_profile,
-    plot_fillets,
-    plot_stress_field,
-    worst_fields,
-)
+from gearcad.plots.stresses import plot_contact_zone, plot_depth_profile, plot_fillets, plot_stress_field
 from gearcad.plots.trends import plot_convergence, plot_sweep_pressure, plot_sweep_stiffness
 
 _ALL = (
@@ -155,14 +147,13 @@ def test_fillets_peak_where_the_check_says():
 
 def test_depth_profile_is_hertz_below_an_ellipse_of_pressure():
     result = small_check()
-    _, contact = result.cycle.worst_contact
-    depth = contact.hertz_half_width * np.array([0.05, 0.3, 0.7, 1.5, 4.0])
-    found, hertz = depth_stresses(result, contact, depth), hertz_contact(result, contact).stresses(depth)
+    contact, profile = result.shown.contact, result.depth_profile
+    deep = profile.found.depth >= 0.05 * contact.hertz_half_width
     for name in ("sigma_x", "sigma_y", "sigma_z", "largest_shear", "von_mises"):
-        wanted = getattr(hertz, name)
-        assert getattr(found, name) == pytest.approx(wanted, abs=_PRESSURE_CELLS * contact.hertz_pressure)
-    drawn = line(plot_depth_profile(result), "von Mises")
-    assert drawn[1] == pytest.approx(depth_stresses(result, contact, drawn[0]).von_mises)
+        found, wanted = getattr(profile.found, name)[deep], getattr(profile.hertz, name)[deep]
+        assert found == pytest.approx(wanted, abs=_PRESSURE_CELLS * contact.hertz_pressure)
+    depth, mises = line(plot_depth_profile(result), "von Mises")
+    assert (depth == profile.found.depth).all() and (mises == profile.found.von_mises).all()
 
 
 def test_sweep_is_drawn_in_the_order_of_torques():
@@ -220,7 +211,7 @@ def test_field_resolves_the_contact():
     result = small_check()
     _, contact = result.cycle.worst_contact
     alone = result.summary.von_mises_half_plane
-    for gear, fields in enumerate(np.array_split(np.array(worst_fields(result), dtype=object), 2)):
+    for gear, fields in enumerate(np.array_split(np.array(result.stress_field.fields, dtype=object), 2)):
         middle = fields[1]
         deepest = middle.points[np.argmax(middle.von_mises)]
         centre, frame = contact_frame(result.cycle, contact)

@@ -29,7 +29,7 @@ from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.output import json_text
 from gearcad.report import report_html
-from gearcad.report.check import report as write
+from gearcad.report.check.sections import CheckSections
 
 LIMITS = Material(name="tin", contact_limit=1e6, root_limit=1e6, yield_strength=1e6)
 """Limits that no stress here exceeds: a figure that is not there is not below them."""
@@ -96,7 +96,7 @@ def test_gates_without_a_figure_fail_and_say_why(overloaded: object) -> None:
 
 @pytest.mark.parametrize("overloaded", [overloaded_plane, pytest.param(overloaded_solid, marks=pytest.mark.long)])
 def test_the_report_says_what_is_not_there(overloaded: object, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(write, "section_of_check", lambda _result: "none here")
+    monkeypatch.setattr(CheckSections, "stiffness", "none here")
     result: CheckResult = overloaded()  # type: ignore[operator]
     text = lxml.html.document_fromstring(report_html(result, "absurd")).text_content()
     assert "peak contact pressure: not evaluated: at none of" in text or isinstance(result, SolidCheck)

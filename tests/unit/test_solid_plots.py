@@ -10,13 +10,11 @@ from support.checks import small_solid_check
 
 from gearcad import Material
 from gearcad.check.face import face_factors
-from gearcad.check.solid.summary import middle_contacts
 from gearcad.contact.solid.field import nodal_stress, worst_field
 from gearcad.meshing.outline import Side
 from gearcad.per_gear import Role
 from gearcad.plots.check import plot_mesh_stiffness, plot_root_stress, plot_transmission_error
 from gearcad.plots.lines import (
-    loaded_cells,
     plot_contact_pattern,
     plot_harmonics,
     plot_line_loads,
@@ -25,7 +23,7 @@ from gearcad.plots.lines import (
     plot_root_along_face,
 )
 from gearcad.plots.paper import new_figure
-from gearcad.plots.tooth import plot_tooth, tooth_surface, viewed
+from gearcad.plots.tooth import plot_tooth, viewed
 
 _ALL = (
     plot_line_loads,
@@ -38,7 +36,7 @@ _ALL = (
     plot_mesh_stiffness,
     plot_transmission_error,
     plot_root_stress,
-    lambda result, ax: plot_tooth(tooth_surface(result, Role.PINION), ax),
+    lambda result, ax: plot_tooth(result.tooth_surfaces.pinion, ax),
 )
 
 _FILLET = 0.06
@@ -66,7 +64,7 @@ def test_pattern_lies_inside_the_outline_and_ends_at_the_greatest_pressure():
         z, roll = line(axes, "flank")
         form = own.flank_form
         assert (z.min(), z.max(), roll.min(), roll.max()) == (0, own.face_width, form.first, form.last)
-        cells = loaded_cells(result)
+        cells = result.cells
         inside = ~cells.on_edge
         rolls = cells.rolls.pick(role)[inside]
         assert (rolls > form.first - 1e-9).all() and (rolls < form.last + 1e-9).all()
@@ -76,7 +74,7 @@ def test_pattern_lies_inside_the_outline_and_ends_at_the_greatest_pressure():
 def test_cells_lie_on_the_line_of_action():
     """A flank's roll length is the distance from its base tangent point: both add up to the whole line."""
     result = small_solid_check()
-    cells = loaded_cells(result)
+    cells = result.cells
     inside = ~cells.on_edge
     whole = result.pair.centre_distance * math.sin(math.radians(result.pair.working_transverse_pressure_angle))
     assert cells.rolls[0][inside] == pytest.approx(cells.place[inside], abs=1e-9)
@@ -87,7 +85,7 @@ def test_share_is_that_of_every_contact():
     result = small_solid_check()
     places, shares = line(plot_lines_share(result), "finite elements")
     assert sorted(shares) == sorted(c.share for position in result.cycle.every for c in position.contacts)
-    assert list(places) == sorted(places) == [each.place for each in middle_contacts(result.cycle)]
+    assert list(places) == sorted(places) == sorted(c.line.middle for _, c in result.cycle.contacts)
 
 
 def test_load_along_the_face_carries_everything():
@@ -156,7 +154,7 @@ def test_field_has_the_stress_of_the_fillet(role):
 @pytest.mark.parametrize("role", Role)
 def test_surface_is_closed_and_looks_outward(role):
     result = small_solid_check()
-    surface = tooth_surface(result, role)
+    surface = result.tooth_surfaces.pick(role)
     edges = np.sort(surface.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     assert set(np.unique(edges, axis=0, return_counts=True)[1]) == {2}
     corners = surface.points[surface.triangles]

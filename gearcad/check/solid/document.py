@@ -1,4 +1,4 @@
-"""What check.json tells of solid bodies only: the load along every line of contact, and load and stress along the face."""
+"""What check.json tells of every line of contact of solid bodies."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ from typing import Any
 
 from gearcad.contact.solid.contact import SolidPairContact
 from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.per_gear import Role
 
-__all__ = ["load_distribution", "over_face"]
+__all__ = ["load_distribution"]
 
 
 def load_distribution(cycle: SolidCycle) -> list[list[dict[str, Any]]]:
@@ -31,13 +30,3 @@ def _line(contact: SolidPairContact) -> dict[str, Any]:
         "on_edge": line.on_edge.tolist(),
         "interior": contact.interior.tolist(),
     }
-
-
-def over_face(cycle: SolidCycle) -> dict[str, Any]:
-    """Load per width (N/mm, transverse), mean of all positions, over the common face width; each gear's root tension over z."""
-    across, load = cycle.load_along_face
-    face: dict[str, Any] = {"across": across.tolist(), "load": load.tolist()}
-    for role in Role:
-        heights, stress = cycle.root_along_face(role)
-        face[role.value] = {"height": heights.tolist(), "root_tension": stress.tolist()}
-    return face

@@ -17,7 +17,7 @@ from gearcad.contact.solid.cycle import SolidCycle, SolidPosition
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating import LineContact
 
-__all__ = ["MiddleContact", "SolidSummary", "WorstPlace", "middle_contacts", "summarise_solid", "worst_place"]
+__all__ = ["SolidSummary", "WorstPlace", "summarise_solid", "worst_place"]
 
 
 _HARMONICS = 5
@@ -56,32 +56,12 @@ class WorstPlace(NamedTuple):
         return float(self.contact.between(values, self.place))
 
 
-class MiddleContact(NamedTuple):
-    """Where a line of contact crosses the middle of the common face width: the place (mm from T1) on the line of action."""
-
-    place: float
-    share: float
-    pressure: float
-    half_width: float
-
-
 def worst_place(cycle: SolidCycle) -> WorstPlace | None:
     """Where the greatest pressure is; None if no place is away from the edges."""
     if (worst := cycle.worst_contact) is None:
         return None
     position, contact = worst
     return WorstPlace(position, contact, float(contact.inside[contact.between(contact.pressures, contact.inside).argmax()]))
-
-
-def middle_contacts(cycle: SolidCycle) -> list[MiddleContact]:
-    """All contacts of the cycle in the order in which one pair of teeth goes through them; 0 where the middle is unloaded."""
-    found = []
-    for position in cycle.every:
-        for contact in position.contacts:
-            across = contact.line.across
-            pressure, width = (float(np.interp(0, across, of, 0, 0)) for of in (contact.pressures, contact.half_widths))
-            found.append(MiddleContact(contact.place, contact.share, pressure, width))
-    return sorted(found)
 
 
 def summarise_solid(cycle: SolidCycle, single: float) -> SolidSummary:

@@ -8,15 +8,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearcad.check.result import CheckResult
-from gearcad.check.solid.result import SolidCheck
+from gearcad.check.solid.pictures import ToothSurface
 from gearcad.per_gear import Role
 from gearcad.plots.paper import short
-from gearcad.plots.tooth import COLOUR_MAP, PITCH, YAW, ToothSurface, plot_tooth, tooth_surface
-from gearcad.report.check import captions_solid
+from gearcad.plots.tooth import COLOUR_MAP, PITCH, YAW, plot_tooth
 from gearcad.report.check.figures import picture_address
 
-__all__ = ["ToothView", "tooth_views"]
+__all__ = ["ToothView", "tooth_view"]
 
 _COLOURS = 256
 _STOPS = 9
@@ -34,20 +32,15 @@ class ToothView(NamedTuple):
     caption: str
 
 
-def tooth_views(result: CheckResult) -> list[ToothView]:
-    """One of each gear, for solid bodies; none in the plane."""
-    return [_view(result, role) for role in Role] if isinstance(result, SolidCheck) else []
-
-
-def _view(result: SolidCheck, role: Role) -> ToothView:
-    surface = tooth_surface(result, role)
+def tooth_view(surface: ToothSurface, role: Role, caption: str) -> ToothView:
+    """That of a gear."""
     return ToothView(
         title=f"Stress in a tooth of the {role.value}",
         address=picture_address(partial(plot_tooth, surface), "png"),
         data=_data(surface),
         colours=[f"rgb({red}, {green}, {blue})" for red, green, blue in _colours(_STOPS)],
         legend=[short(round(part * surface.most)) for part in (0.0, 0.25, 0.5, 0.75, 1.0)],
-        caption=captions_solid.tooth_view(result, role),
+        caption=caption,
     )
 
 

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from gearcad.check.plane.result import PlaneCheck
-from gearcad.check.result import CheckResult
-from gearcad.check.solid.result import SolidCheck
-from gearcad.contact.plane.elasticity import Plane
-from gearcad.errors import GearcadError
+from gearcad.check.stiffness import StiffnessMethods
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
 from gearcad.plots.paper import short
@@ -19,16 +14,8 @@ from gearcad.plots.stiffness import divided, parts_inches, plot_load_dependence,
 from gearcad.report.check.figures import Picture, figure_address, pair_picture, picture_address
 from gearcad.report.check.tables import gear_rows, load_rows, pair_rows
 from gearcad.report.page import page_html
-from gearcad.stiffness import (
-    CLOSED_FORMS,
-    METHODS,
-    PlaneStrainContact,
-    PlaneStressContact,
-    SolidContact,
-    StiffnessComparison,
-    StiffnessMethod,
-    compare_methods,
-)
+from gearcad.stiffness.comparison import StiffnessComparison
+from gearcad.stiffness.methods import METHODS
 
 __all__ = ["StiffnessSection", "section_of_check", "stiffness_html", "write_stiffness_report"]
 
@@ -85,36 +72,9 @@ def stiffness_html(comparison: StiffnessComparison, design_name: str) -> str:
     )
 
 
-def section_of_check(result: CheckResult) -> StiffnessSection | str:
+def section_of_check(methods: StiffnessMethods) -> StiffnessSection | str:
     """The model of a check beside the closed forms; why not, where they cannot be had."""
-    from threadpoolctl import threadpool_limits
-
-    mounting = replace(result.mounting, centre_distance_change=0.0)  # the pair is as mounted already
-    try:
-        closed = compare_methods(
-            result.pair, result.material, result.load, CLOSED_FORMS, body=result.options.body, mounting=mounting
-        )
-        # Positions and torque of the check itself: solid bodies know what they answer there.
-        with threadpool_limits(1):
-            own = _own_method(result, mounting)(result.load, len(result.cycle.positions))
-    except GearcadError as error:
-        return str(error)
-    return _section(replace(closed, cycles=(*closed.cycles, own)))
-
-
-def _own_method(result: CheckResult, mounting: Mounting) -> StiffnessMethod:
-    """The model of a check as a method."""
-    given: dict[str, Any] = {
-        "pair": result.pair,
-        "material": result.material,
-        "body": result.options.body,
-        "mounting": mounting,
-        "bodies": result.cycle.model,
-    }
-    if isinstance(result, SolidCheck):
-        return SolidContact(**given)
-    assert isinstance(result, PlaneCheck)  # there are two
-    return (PlaneStressContact if result.options.plane_state is Plane.STRESS else PlaneStrainContact)(**given)
+    return _section(methods.comparison) if methods.comparison is not None else methods.reason
 
 
 def _section(comparison: StiffnessComparison) -> StiffnessSection:
