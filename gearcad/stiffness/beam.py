@@ -36,7 +36,7 @@ class BeamMethod(SliceMethod):
 
     @cached_property
     def teeth(self) -> PerGear[BeamTooth]:
-        """Those of both gears."""
+        """The teeth of both gears as beams."""
         return PerGear(*map(BeamTooth.from_gear, self.mounted.gears))
 
     def single(self, lengths: Floats, load: Load) -> SinglePair:

@@ -171,22 +171,25 @@ class SolidContact(ContactMethod):
     bodies: SolidPair | None = field(default=None, repr=False)
     """Those of a check, if there was one, for the sign of torque that it had; else they are made."""
 
-    @cached_property
-    def _models(self) -> dict[bool, SolidPair]:
-        return {}
-
     def model(self, torque: float) -> SolidPair:
         """The bodies, condensed; under a negative torque on the pinion those of the mirrored pair."""
         if self.bodies is not None:
             return self.bodies
-        left = torque > 0
-        if left not in self._models:
-            mounting = replace(self.mounting, centre_distance_change=0.0)
-            pair, share = loaded_left(self.mounted, torque), self._bodies.seconds / self.expected.seconds
-            self._models[left] = solid_pair(
-                pair, self.material, body=self.body, mounting=mounting, tell=lambda done: self.tell(share * done)
-            )
-        return self._models[left]
+        return self._loaded_left if torque > 0 else self._loaded_right
+
+    @cached_property
+    def _loaded_left(self) -> SolidPair:
+        return self._made(1.0)
+
+    @cached_property
+    def _loaded_right(self) -> SolidPair:
+        return self._made(-1.0)
+
+    def _made(self, torque: float) -> SolidPair:
+        """The bodies for the sign of a torque."""
+        mounting, share = replace(self.mounting, centre_distance_change=0.0), self._bodies.seconds / self.expected.seconds
+        pair = loaded_left(self.mounted, torque)
+        return solid_pair(pair, self.material, body=self.body, mounting=mounting, tell=lambda done: self.tell(share * done))
 
     @cached_property
     def _bodies(self) -> Expected:

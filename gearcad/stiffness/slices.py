@@ -113,7 +113,7 @@ class Slices:
             roll_angle=roll,
             mesh_stiffness=total,
             tangent_stiffness=self._over_width(single.tangent_stiffness, at).sum(0),
-            pairs=tuple(pair for pair, of in zip(pairs, used, strict=True) if of),
+            pairs=tuple(pair for pair, touches in zip(pairs, used, strict=True) if touches),
             load_share=(stiffness / total)[used].T,
             compliance_parts=parts,
             single_stiffness=float(alone.max()),

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from gearcad.contact.solid.line_contact import Responses, half_widths
 from gearcad.contact.solid.pair import SolidPair
 from gearcad.geometry import FlankForm, GearPair, ReliefShape
 from gearcad.mounting import Mounting
-from gearcad.per_gear import PerGear
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating.hertz import peak_pressure
 
 __all__ = ["AMOUNTS", "Condition", "Outcomes", "Variants", "with_amounts"]
@@ -74,7 +75,7 @@ class Outcomes:
 
     @classmethod
     def from_figures(cls, figures: Floats) -> Outcomes:
-        """Those of `figures`."""
+        """From what `figures` puts side by side."""
         return cls(*np.split(figures, 3, axis=-1))
 
     @property
@@ -103,16 +104,18 @@ class Outcomes:
 
 def with_amounts(pair: GearPair, amounts: Floats, shape: ReliefShape) -> GearPair:
     """The pair with the amounts (6,) of a variant. Raises GeometryError where they do not fit the gears."""
-    changed = {}
-    for owner in ("pinion", "wheel"):
-        gear = getattr(pair, owner)
-        given = {
-            name.partition(".")[2]: float(value)
-            for name, value in zip(AMOUNTS, amounts, strict=True)
-            if name.startswith(owner) and not (name.endswith("_length") and value == 0)
-        }
-        changed[owner] = replace(gear, modification=replace(gear.modification, **given, tip_relief_shape=shape))
-    return replace(pair, **changed)
+    pinion, wheel = (
+        replace(gear, modification=replace(gear.modification, **_given(amounts, role), tip_relief_shape=shape))
+        for role, gear in pair.gears.items()
+    )
+    return replace(pair, pinion=pinion, wheel=wheel)
+
+
+def _given(amounts: Floats, role: Role) -> dict[str, Any]:
+    """The amounts (6,) of a gear's modification by name, without the length of a relief that has none."""
+    named = (name.split(".") for name in AMOUNTS)
+    own = {name: value for (owner, name), value in zip(named, amounts.tolist(), strict=True) if owner == role.value}
+    return {name: value for name, value in own.items() if value or not name.endswith("_length")}
 
 
 @dataclass(frozen=True)
@@ -220,7 +223,7 @@ class Variants:
         mounting = condition.mounted(self.roomy.mounting)
         # All lines, and all places beside them, at once: what costs is how often numpy is called.
         places = np.concatenate([np.array(places_beside(line, self.plain, mounting)) for line in given.lines], axis=-1)
-        one, other = (places[:, gear].swapaxes(0, 1).reshape(2, -1) for gear in (0, 1))
+        one, other = (each.swapaxes(0, 1).reshape(2, -1) for each in np.moveaxis(places, 1, 0))
         depths = (pinion.taken_back(*one) + wheel.taken_back(*other)).reshape(len(amounts), len(places), -1)
         found = [
             line_gap(line, self.plain, mounting, self.roomy.helix, each.swapaxes(0, 1))

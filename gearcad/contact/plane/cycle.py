@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 
@@ -101,7 +100,7 @@ class PlanePairContact(PairContact):
 
 @dataclass(frozen=True)
 class PlanePosition(LoadedPosition[PlanePairContact]):
-    """A position of the plane model."""
+    """One position of two sections."""
 
     @property
     def interior_contacts(self) -> tuple[PlanePairContact, ...]:
@@ -111,9 +110,7 @@ class PlanePosition(LoadedPosition[PlanePairContact]):
 
 @dataclass(frozen=True)
 class PlaneCycle(LoadedCycle[PlanePair, PlanePosition, PlanePairContact]):
-    """That of the plane model."""
-
-    default_positions: ClassVar[int] = 60
+    """Two sections over one base pitch; forces, stiffness and pressures are those of the common face width, all alike."""
 
     def solve(self, angle: float) -> PlanePosition:
         """The position at a roll angle (deg). Raises SolverError."""

@@ -102,7 +102,7 @@ class EngagedPair:
 
     @property
     def base_radius(self) -> float:
-        """The pinion's (mm)."""
+        """r_b of the pinion (mm)."""
         return self.pair.pinion.base_diameter / 2
 
     def force(self, torque: float) -> float:

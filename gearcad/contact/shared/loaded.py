@@ -1,4 +1,4 @@
-"""What a mesh under load is, whatever the model: contacts, root stresses, a position, and the positions of one base pitch."""
+"""Engaged gears under load, whatever the model: contacts, root stresses, a position, and the positions of one base pitch."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter, itemgetter
-from typing import Any, ClassVar, Generic, Self, TypeAlias, TypeVar
+from typing import Any, Generic, Self, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -79,7 +79,7 @@ C = TypeVar("C", bound=PairContact, covariant=True)
 
 @dataclass(frozen=True)
 class LoadedPosition(ABC, Generic[C]):
-    """One position of a mesh under load: approach and each gear's part of it along the line of action (mm).
+    """One position of engaged gears under load: approach and each gear's part of it along the line of action (mm).
 
     `rigid_approach` (mm) is what of the approach needs no load: until teeth touch whose flanks are modified or out of place.
     `force` is the normal force in the transverse section (N per mm of common face width), `torques` (N m) act on the hubs.
@@ -132,21 +132,18 @@ class LoadedCycle(ABC, Generic[M, P, C]):
     positions: tuple[P, ...] = ()
     between: tuple[P, ...] = ()
 
-    default_positions: ClassVar[int]
-
     @classmethod
     def run(
         cls,
         model: M,  # type: ignore[misc]  # a class method does not go through an instance
         torque: float,
-        count: int = 0,
+        count: int,
         progress: Callable[[int, int], None] = lambda _done, _all: None,
     ) -> Self:
-        """Solve `count` positions (0: the model's usual number) over one base pitch. Raises SolverError."""
+        """Solve `count` positions over one base pitch. Raises SolverError."""
         cycle, positions = cls(model, torque), []
-        angles = model.roll_angles(count or cls.default_positions).tolist()
-        for done, angle in enumerate(angles):
-            progress(done, len(angles))
+        for done, angle in enumerate(model.roll_angles(count).tolist()):
+            progress(done, count)
             positions.append(cycle.solve(angle))
         return replace(cycle, positions=tuple(positions))
 

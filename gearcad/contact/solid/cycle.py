@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 
@@ -53,9 +52,7 @@ class SolidPosition(LoadedPosition[SolidPairContact]):
 
 @dataclass(frozen=True)
 class SolidCycle(LoadedCycle[SolidPair, SolidPosition, SolidPairContact]):
-    """That of solid gears."""
-
-    default_positions: ClassVar[int] = 24
+    """Solid gears over one base pitch: also how load and root stress are spread over the face width."""
 
     def solve(self, angle: float) -> SolidPosition:
         """The position at a roll angle (deg). Raises SolverError."""

@@ -76,7 +76,7 @@ class SolidField:
 
     @property
     def von_mises(self) -> Floats:
-        """(n,) in MPa."""
+        """Von Mises stress (n,) at the points in MPa."""
         xx, yy, zz, xy, yz, zx = self.stress.T
         squares = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
         result: Floats = np.sqrt(squares / 2 + 3 * (xy**2 + yz**2 + zx**2))

@@ -52,7 +52,7 @@ class Grid:
 
     @property
     def places(self) -> Places:
-        """All of them."""
+        """Roll lengths and heights (rows x columns,) of all places, column by column."""
         return np.tile(self.lengths, len(self.heights)), np.repeat(self.heights, len(self.lengths))
 
 

@@ -189,7 +189,7 @@ class SolidFillets(NamedTuple):
 
 
 def solid_fillets(body: SolidCompliance) -> SolidFillets:
-    """Those of a body."""
+    """The fillets of tooth 0 of a body, and its bore."""
     bore = SolidFillet(body, Side.INNER) if body.body.sector.free else None
     return SolidFillets(SolidFillet(body, Side.LEFT_FILLET), SolidFillet(body, Side.RIGHT_FILLET), bore)
 
