@@ -62,6 +62,8 @@ if TYPE_CHECKING:
     from gearcad.load import Load
     from gearcad.material import Material
     from gearcad.mounting import Mounting
+    from gearcad.notice import Notice
+    from gearcad.per_gear import PerGear
     from gearcad.verbs import *  # noqa: F403 - that of each verb
 
 __all__ = [
@@ -80,7 +82,9 @@ __all__ = [
     "Load",
     "Material",
     "Mounting",
+    "Notice",
     "ParameterError",
+    "PerGear",
     "ReliefShape",
     "ShiftSplit",
     "SolverError",
@@ -102,7 +106,7 @@ if not TYPE_CHECKING:
     __getattr__ = lazily(
         __name__,
         __all__,
-        ("errors", "geometry", "load", "material", "mounting"),
+        ("errors", "notice", "per_gear", "geometry", "load", "material", "mounting"),
         ("batch", "check", "contact", "designs", "dynamics", "jobs", "rating", "solids", "stiffness"),
         {"read": "designs.read_spec", **{verb: f"jobs.{verb}.{verb}" for verb in VERBS}},
     )

@@ -61,4 +61,4 @@ def build(
     else:
         click.echo("".join(f"{file}\n" for file in files), nl=False)
     if not quiet:
-        echo_warnings(design.warnings, err=True)
+        echo_warnings(design.notices, err=True)

@@ -43,7 +43,7 @@ def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> Non
 
 def _show(_name: str, study: Study) -> None:
     click.echo("\n".join(_lines(study)))
-    echo_warnings(study.warnings)
+    echo_warnings(study.notices)
 
 
 def _lines(study: Study) -> list[str]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from gearcad.cli.progress import job_progress
+from gearcad.notice import Notice
 
 if TYPE_CHECKING:
     from gearcad.jobs.job import Job
@@ -43,26 +44,30 @@ def folder_of(output: Path | None, name: str) -> Path:
 def perform(
     job: Job[Any, Result], spec: Path, output: Path | None, show: Callable[[str, Result], None], *, as_json: bool, quiet: bool
 ) -> Result:
-    """Do a job on the design of a spec, write its files, and print its document, or what `show` does and the files."""
+    """Do a job on the design of a spec, write its files, and print its document, or what `show` prints and the files.
+
+    Warnings about the design that the result does not have itself follow on stderr.
+    """
     from gearcad.designs import read_spec
-    from gearcad.output import json_text
 
     design = read_spec(spec)
     with job_progress(shown=not quiet, expected=None if quiet else job.expected(design)) as progress:
         result = job.run(design, progress)
     files = job.write(result, folder_of(output, design.name))
     if as_json:
-        click.echo(json_text(job.document(result)), nl=False)
+        click.echo(next(file for file in files if file.name == f"{job.verb}.json").read_text(encoding="utf-8"), nl=False)
     else:
         show(design.name, result)
         click.echo("".join(f"{file}\n" for file in files), nl=False)
     if not quiet:
-        echo_warnings(design.warnings, err=True)
+        told = [str(notice) for notice in job.notices(result)]
+        beside = [notice for notice in design.notices if not any(each.endswith(notice.text) for each in told)]
+        echo_warnings(beside, err=True)
     return result
 
 
-def echo_warnings(texts: tuple[str, ...], *, err: bool = False) -> None:
-    """What to know before trusting a result, a line each: among the results, or on stderr beside them."""
+def echo_warnings(notices: Iterable[Notice | str], *, err: bool = False) -> None:
+    """What to know, a line each: among results what is about them, on stderr what is about the design."""
     colour = False if os.environ.get("NO_COLOR") else None  # None: where it is a terminal
-    for text in texts:
+    for text in dict.fromkeys(map(str, notices)):
         click.secho(f"Warning: {text}", fg="yellow", err=err, color=colour)

@@ -68,7 +68,7 @@ def modify(
     else:
         click.echo("\n".join([*_lines(proposal), str(path)]))
     if not quiet:
-        echo_warnings((*design.warnings, *proposal.warnings), err=True)
+        echo_warnings((*design.notices, *proposal.notices), err=True)
 
 
 def _lines(proposal: Proposal) -> list[str]:

@@ -70,7 +70,7 @@ def _show(_name: str, comparison: StiffnessComparison) -> None:
     from gearcad.stiffness import METHODS
 
     click.echo("\n".join(_table(comparison)))
-    echo_warnings(tuple(f"{METHODS[cycle.method].title}: {note}" for cycle in comparison.cycles for note in cycle.notes))
+    echo_warnings(comparison.notices)
     for name, reason in comparison.left_out.items():
         click.echo(f"{METHODS[name].title}: left out: {reason}")
 

@@ -11,6 +11,7 @@ from typing import Any, ClassVar, Self, TypeVar
 from gearcad.designs.files import Where
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear, GearPair
+from gearcad.notice import Notice, texts
 from gearcad.reprs import concise
 
 __all__ = ["LONGEST_NAME", "LONGEST_NAME_IN_BYTES", "Design", "DesignKind", "not_accepted", "require_plain_name"]
@@ -68,9 +69,14 @@ class Design(ABC):
         return self.gears
 
     @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What an engineer should know before making this."""
+        return tuple(notice.within(name) for name, each in self.described.items() for notice in each.notices)
+
+    @property
     def warnings(self) -> tuple[str, ...]:
-        """What an engineer should know before making this, each led by what it is about."""
-        return tuple(f"{name}: {text}" for name, each in self.described.items() for text in each.warnings)
+        """The notices in words, each led by what it is about."""
+        return texts(self.notices)
 
     def accepted(self, *kinds: type[Accepted], why: str) -> Accepted:
         """The design, if it is of one of these kinds. Raises ParameterError that ends with why no other will do."""

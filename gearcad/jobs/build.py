@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -15,6 +15,7 @@ from gearcad.geometry import Gear, GearPair
 from gearcad.jobs.data import Data
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
+from gearcad.notice import Notice
 from gearcad.progress import Progress
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.files.formats import formats_minding
@@ -60,6 +61,9 @@ class Build(Job[GearedDesign, GearedDesign]):
     def document(self, result: GearedDesign) -> dict[str, Any]:
         """Whose files these are; `--json` tells of them."""
         return {"kind": "build", "name": result.name, "gearcad": __version__}
+
+    def notices(self, result: GearedDesign) -> Sequence[Notice]:
+        return result.notices
 
     def files(self, result: GearedDesign) -> dict[str, Writer]:
         """Every file of the design, quickest first."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -18,6 +18,7 @@ from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.notice import Notice
 from gearcad.progress import Expected, Progress
 
 __all__ = ["Check", "check"]
@@ -59,6 +60,9 @@ class Check(Job[PairDesign, CheckResult]):
 
     def for_row(self, _design: Design, _parts: Collection[str]) -> Check:
         return replace(self, report=False)
+
+    def notices(self, result: CheckResult) -> Sequence[Notice | str]:
+        return result.notices
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """The verdict, the summary and the rating."""

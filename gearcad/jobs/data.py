@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Unpack
 
@@ -10,6 +11,7 @@ from gearcad.geometry import Gear, GearPair
 from gearcad.jobs.job import Job
 from gearcad.jobs.subject import as_design
 from gearcad.load import Load
+from gearcad.notice import Notice
 from gearcad.progress import Progress
 
 __all__ = ["Data", "data"]
@@ -30,6 +32,9 @@ class Data(Job[GearedDesign, GearedDesign]):
     def document(self, result: GearedDesign) -> dict[str, Any]:
         """What data.json holds: inputs and derived properties under their field names (mm, degrees)."""
         return result.to_dict()
+
+    def notices(self, result: GearedDesign) -> Sequence[Notice]:
+        return result.notices
 
 
 def data(subject: Design | GearPair | Gear, load: Load | None = None, **inputs: Unpack[Inputs]) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -24,6 +25,7 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
+from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
 from gearcad.progress import Agenda, Progress
 from gearcad.stiffness.methods import METHODS
@@ -63,6 +65,9 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
     def document(self, result: Study) -> dict[str, Any]:
         """What dynamics.json holds: everything but the long arrays."""
         return {"kind": "dynamics", "name": result.name, "gearcad": __version__, **result.to_dict()}
+
+    def notices(self, result: Study) -> Sequence[Notice]:
+        return result.notices
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """What a line can hold of a pair: inertias and stiffness, its natural frequency, K_v at the speed and the highest."""

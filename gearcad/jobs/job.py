@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, fields
 from enum import Enum
@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Generic, TypeVar, cast
 
 from gearcad.designs.design import Design
+from gearcad.notice import Notice
 from gearcad.output import json_text, staged_files
 from gearcad.progress import Agenda, Expected, Progress
 
@@ -62,6 +63,10 @@ class Job(ABC, Generic[Accepted, Result]):
     @abstractmethod
     def document(self, result: Result) -> dict[str, Any]:
         """What VERB.json holds, and `--json` prints."""
+
+    def notices(self, _result: Result) -> Sequence[Notice | str]:
+        """What to know before trusting a result."""
+        return ()
 
     def files(self, result: Result) -> dict[str, Writer]:
         """The names of a result's files, in the order in which they are made, and what writes each."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Unpack
 
@@ -24,6 +25,7 @@ from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.notice import Notice
 from gearcad.progress import Agenda, Progress
 from gearcad.ranges import STRENGTH, TORQUE
 
@@ -107,6 +109,9 @@ class Modify(Job[PairDesign, Proposal]):
     def document(self, result: Proposal) -> dict[str, Any]:
         """What modify.json holds: µm, MPa, mm of roll; the changes under their keys of a spec."""
         return {"kind": "modify", "name": result.name, "gearcad": __version__, **result.to_dict()}
+
+    def notices(self, result: Proposal) -> Sequence[Notice]:
+        return result.notices
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """The modifications, and what the mesh comes to without and with them."""

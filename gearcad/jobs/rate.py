@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Unpack
 
@@ -11,6 +12,7 @@ from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.notice import Notice
 from gearcad.progress import Progress
 from gearcad.rating.rate import Rating
 from gearcad.rating.rate import rate as rate_pair
@@ -35,8 +37,16 @@ class Rate(Job[PairDesign, Rating]):
         """Values under their symbols, those of one gear under "pinion" and "wheel"; `gearcad.symbols.RATING` has the words."""
         return {"kind": "rate", **result.to_dict()}
 
+    def notices(self, result: Rating) -> Sequence[Notice]:
+        return result.notices
+
     def files(self, _result: Rating) -> dict[str, Writer]:
-        """None yet: a rating has no document of its own on disk."""
+        """None: a rating is not written by itself yet."""
+        return {}
+
+    @property
+    def parts(self) -> dict[str, dict[str, Any]]:
+        """None, as it has no files."""
         return {}
 
 

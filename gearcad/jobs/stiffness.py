@@ -17,6 +17,7 @@ from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.notice import Notice
 from gearcad.progress import Expected, Progress
 from gearcad.stiffness.comparison import StiffnessComparison, compare_methods, expected_methods
 from gearcad.stiffness.curves import curves_csv
@@ -72,6 +73,9 @@ class Stiffness(Job[PairDesign, StiffnessComparison]):
     def document(self, result: StiffnessComparison) -> dict[str, Any]:
         """What stiffness.json holds: N/µm, per face width N/(mm µm), degrees, µm."""
         return {"kind": "stiffness", "name": result.pair.name, "gearcad": __version__, **result.to_dict(self.fourier)}
+
+    def notices(self, result: StiffnessComparison) -> Sequence[Notice]:
+        return result.notices
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """Of each method the figures over one base pitch; its notes, and why others are left out, are warnings."""

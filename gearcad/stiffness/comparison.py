@@ -16,6 +16,7 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
+from gearcad.notice import Notice, texts
 from gearcad.progress import Agenda, Expected, Progress
 from gearcad.stiffness.method import StiffnessMethod
 from gearcad.stiffness.methods import METHODS
@@ -73,6 +74,16 @@ class StiffnessComparison:
     def bodies(self) -> dict[str, str]:
         """How each body is taken, in words."""
         return self.body.describe(self.pair)
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know before trusting a method with this pair."""
+        return tuple(notice.within(METHODS[cycle.method].title) for cycle in self.cycles for notice in cycle.notices)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
 
     def to_dict(self, harmonics: int = 0) -> dict[str, Any]:
         """The document of `stiffness.json`, with so many Fourier coefficients of each curve."""
