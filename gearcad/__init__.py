@@ -40,6 +40,8 @@ A class for each in `gearcad.jobs` writes the files of a result: `gearcad.jobs.c
 
 from __future__ import annotations
 
+from gearcad.version import __version__
+
 TYPE_CHECKING = False  # as in guard.py
 if TYPE_CHECKING:
     from gearcad.designs import read_spec as read
@@ -93,8 +95,6 @@ __all__ = [
     "__version__",
     "read",
 ]
-
-__version__ = "0.1.0"
 
 if not TYPE_CHECKING:
     import sys

@@ -11,9 +11,9 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
-from gearcad import __version__
 from gearcad.batch.worker import close_workers, isolated
 from gearcad.errors import GearcadError, ParameterError, require_whole
+from gearcad.version import __version__
 
 __all__ = ["ClusterLostError", "Pool", "available_cores", "open_pool"]
 

@@ -13,6 +13,7 @@ from gearcad.errors import ParameterError
 from gearcad.geometry import Gear, GearPair
 from gearcad.notice import Notice, texts
 from gearcad.reprs import concise
+from gearcad.version import __version__
 
 __all__ = ["LONGEST_NAME", "LONGEST_NAME_IN_BYTES", "Design", "DesignKind", "not_accepted", "require_plain_name"]
 
@@ -86,8 +87,6 @@ class Design(ABC):
 
     def to_dict(self) -> dict[str, Any]:
         """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
-        from gearcad import __version__
-
         document: dict[str, Any] = {"kind": self.kind.value, "name": self.name, "gearcad": __version__}
         return document | {name: each.to_dict() for name, each in self.described.items()}
 

@@ -8,7 +8,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from gearcad import __version__
 from gearcad.designs import Design, GearDesign, GearedDesign, PairDesign
 from gearcad.errors import GeometryError, ParameterError, as_choice
 from gearcad.geometry import Gear, GearPair
@@ -20,6 +19,7 @@ from gearcad.progress import Progress
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.files.formats import formats_minding
 from gearcad.solids.files.products import GearProduct, PairProduct
+from gearcad.version import __version__
 
 __all__ = ["Build", "build"]
 

@@ -10,7 +10,6 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from gearcad import __version__
 from gearcad.check.options import CheckOptions
 from gearcad.designs import Design, Inputs, PairDesign, TrainDesign
 from gearcad.dynamics.options import DynamicsOptions, PairModel
@@ -29,6 +28,7 @@ from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
 from gearcad.progress import Agenda, Progress
 from gearcad.stiffness.methods import METHODS
+from gearcad.version import __version__
 
 __all__ = ["Dynamics", "Study", "dynamics"]
 

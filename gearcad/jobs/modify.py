@@ -8,7 +8,6 @@ from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 
-from gearcad import __version__
 from gearcad.arrays import Floats
 from gearcad.check.options import CheckOptions, Model
 from gearcad.contact.optimum.search import Found, Search, conditions
@@ -28,6 +27,7 @@ from gearcad.mounting import Mounting
 from gearcad.notice import Notice
 from gearcad.progress import Agenda, Progress
 from gearcad.ranges import STRENGTH, TORQUE
+from gearcad.version import __version__
 
 __all__ = ["Modify", "modify", "unmirrored"]
 

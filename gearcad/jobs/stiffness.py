@@ -8,7 +8,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Unpack
 
-from gearcad import __version__
 from gearcad.check.options import CheckOptions
 from gearcad.designs import Design, Inputs, PairDesign
 from gearcad.errors import ParameterError, require_whole
@@ -23,6 +22,7 @@ from gearcad.stiffness.comparison import StiffnessComparison, compare_methods, e
 from gearcad.stiffness.curves import curves_csv
 from gearcad.stiffness.methods import METHODS
 from gearcad.symbols import STIFFNESS
+from gearcad.version import __version__
 
 __all__ = ["Stiffness", "stiffness"]
 

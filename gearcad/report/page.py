@@ -11,10 +11,10 @@ from importlib import metadata
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
-from gearcad import __version__
 from gearcad.output import source_date
 from gearcad.plots.paper import short
 from gearcad.report.sentences import templates
+from gearcad.version import __version__
 
 if TYPE_CHECKING:
     from markupsafe import Markup

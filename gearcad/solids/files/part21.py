@@ -6,6 +6,7 @@ import re
 from datetime import datetime
 
 from gearcad.output import source_date
+from gearcad.version import __version__
 
 __all__ = ["header", "string"]
 
@@ -34,8 +35,6 @@ def _run(run: str) -> str:
 
 def header(name: str, preprocessor: str, schema: str) -> str:
     """The header section of what is called `name`: by gearcad, of nobody, at SOURCE_DATE_EPOCH or else in the year 2000."""
-    from gearcad import __version__
-
     stamp = (source_date() or _NO_DATE).strftime("%Y-%m-%dT%H:%M:%S")
     of = [string(text) for text in (name, stamp, preprocessor, f"gearcad {__version__}", schema)]
     return (
