@@ -1,85 +1,83 @@
-"""A spec with other values: its own text, line by line, with comments and order kept."""
+"""A spec with other values: its own text, with comments and layout kept (by tomlkit)."""
 
 from __future__ import annotations
 
-import re
 import tomllib
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping
+from operator import itemgetter
+from typing import TYPE_CHECKING, Any
 
-from gearcad.designs.lines import find_lines
 from gearcad.errors import SpecError
 
-__all__ = ["edit_spec"]
+if TYPE_CHECKING:
+    from tomlkit.container import Container
+    from tomlkit.items import AbstractTable, Item
 
-_VALUE = r"""("[^"\n]*"|'[^'\n]*'|[^#,}\s]+)"""
+__all__ = ["edit_spec"]
 
 
 def edit_spec(text: str, values: Mapping[str, float | str], notes: Mapping[str, str] | None = None) -> str:
     """The text of a spec with values under their dotted keys, such as "pinion.modification.tip_relief".
 
-    A value that is there is replaced; a key that is not comes to the end of its table, with a note behind it if it has one.
-    Raises SpecError for a layout that cannot be edited.
+    A value that is there is replaced; a key that is not comes to the end of its table (a name to its head), with a note behind
+    it if it has one. Raises SpecError for a layout that cannot be edited.
     """
+    import tomlkit
+
     newline = "\r\n" if "\r\n" in text else "\n"
-    lines = text.replace("\r\n", "\n").rstrip("\n").split("\n")
-    for key, value in values.items():
-        comment = f"  # {notes[key]}" if notes and key in notes else ""
-        lines = _replaced(lines, key, _written(value)) or _inserted(lines, key, _written(value), comment) or lines
-    edited = newline.join([*lines, ""])
+    edited = text if text.endswith("\n") else text + newline
+    try:
+        for key, value in values.items():
+            item = tomlkit.item(value)
+            item.trivia.trail = newline
+            if notes and key in notes:
+                item.trivia.comment_ws, item.trivia.comment = "  ", f"# {notes[key]}"
+            document = tomlkit.parse(edited)  # anew for each: what is put in between is found in its place
+            _put(document, key.split("."), item)
+            edited = document.as_string()
+    except (KeyError, tomlkit.exceptions.TOMLKitError) as error:
+        raise _uneditable(values) from error
     _require_edited(text, edited, values)
     return edited
 
 
-def _written(value: float | str) -> str:
-    return f'"{value}"' if isinstance(value, str) else repr(float(value))
+def _put(document: Container, path: list[str], item: Item) -> None:
+    """Replace the value under a path, or put a new one in the innermost of the tables around it that is there."""
+    import tomlkit
+
+    around = sorted(_tables_around(document, path), key=itemgetter(0, 1, 2))
+    if not around:
+        raise KeyError(path[0])
+    inside, *_, table = around[-1]  # of equals the last
+    rest, keys = path[inside:], table.value.body
+    if len(rest) == 1 and rest[0] in table.value:
+        table.value[rest[0]] = item.unwrap()
+        return
+    end = max((at for at, (key, each) in enumerate(keys, 1) if key is not None and not _has_header(key, each)), default=0)
+    at = 0 if rest == ["name"] else end
+    if isinstance(table, tomlkit.items.InlineTable):
+        item.trivia.indent = " " if at else ""
+    keys.insert(at, (tomlkit.key(rest), item))
 
 
-def _replaced(lines: list[str], key: str, value: str) -> list[str] | None:
-    """With the value of a key that is there."""
-    number = find_lines("\n".join(lines)).get(key)
-    if number is None:
-        return None
-    name = re.escape(key.rpartition(".")[2])
-    edited = re.sub(rf"""(\b{name}["']?\s*=\s*){_VALUE}""", lambda found: found[1] + value, lines[number - 1], count=1)
-    return [*lines[: number - 1], edited, *lines[number:]]
+def _tables_around(container: Container, path: list[str], inside: int = 1) -> Iterator[tuple[int, bool, bool, AbstractTable]]:
+    """Tables around the end of a path, one of which may stand in several places.
+
+    With each: how far it is inside, whether it has the next key, and whether it is more than the beginning of others' names.
+    """
+    from tomlkit.items import AbstractTable, Table
+
+    for key, item in container.body:
+        if key is not None and key.key == path[0] and isinstance(item, AbstractTable) and len(path) > 1:
+            yield inside, path[1] in item.value, not (isinstance(item, Table) and item.is_super_table()), item
+            yield from _tables_around(item.value, path[1:], inside + 1)
 
 
-def _inserted(lines: list[str], key: str, value: str, comment: str) -> list[str] | None:
-    """With a new key: in the innermost of the tables around it that is there, or beside its dotted sisters."""
-    known = find_lines("\n".join(lines))
-    table, rest = key.rpartition(".")[0], key.rpartition(".")[2]
-    while table:
-        number = known.get(table)
-        if number is not None and lines[number - 1].lstrip().startswith("["):
-            at = number if rest == "name" else _end(lines, number)
-            return [*lines[:at], f"{rest} = {value}{comment}", *lines[at:]]
-        if number is not None:
-            return [*lines[: number - 1], _in_braces(lines[number - 1], f"{rest} = {value}"), *lines[number:]]
-        table, _, last = table.rpartition(".")
-        rest = f"{last}.{rest}"
-    sisters = [number for name, number in known.items() if name.startswith(key.partition(".")[0] + ".")]
-    at = max(sisters, default=0)
-    return [*lines[:at], f"{key} = {value}{comment}", *lines[at:]] if sisters else None
+def _has_header(key: Any, item: Any) -> bool:
+    """Whether an entry of a table is a table with a header of its own, which ends the keys of the one around it."""
+    from tomlkit.items import AoT, Table
 
-
-def _end(lines: list[str], header: int) -> int:
-    """How many lines there are up to the last key of the table whose header is line `header`."""
-    end = header
-    for number in range(header, len(lines)):
-        content = lines[number].strip()
-        if content.startswith("["):
-            break
-        if content and not content.startswith("#"):
-            end = number + 1
-    return end
-
-
-def _in_braces(line: str, entry: str) -> str:
-    """An inline table with one more entry."""
-    before, brace, after = line.rpartition("}")
-    joint = "" if before.rstrip().endswith("{") else ", "
-    return f"{before.rstrip()}{joint}{entry}{brace}{after}"
+    return isinstance(item, AoT) or (isinstance(item, Table) and not key.is_dotted())
 
 
 def _require_edited(text: str, edited: str, values: Mapping[str, float | str]) -> None:
@@ -96,5 +94,11 @@ def _require_edited(text: str, edited: str, values: Mapping[str, float | str]) -
     except tomllib.TOMLDecodeError:
         same = False
     if not same:
-        wanted = ", ".join(f"{key} = {_written(value)}" for key, value in values.items())
-        raise SpecError(f"the layout of the spec cannot be edited; write by hand: {wanted}")
+        raise _uneditable(values)
+
+
+def _uneditable(values: Mapping[str, float | str]) -> SpecError:
+    import tomlkit
+
+    wanted = ", ".join(f"{key} = {tomlkit.item(value).as_string()}" for key, value in values.items())
+    return SpecError(f"the layout of the spec cannot be edited; write by hand: {wanted}")

@@ -81,7 +81,23 @@ KEY = "pinion.modification.tip_relief"
         ("pinion.teeth = 20\n[wheel]\n", "pinion.teeth = 20\npinion.modification.tip_relief = 7.0\n[wheel]\n"),
         ("pinion = {teeth = 20}\n", "pinion = {teeth = 20, modification.tip_relief = 7.0}\n"),
         ("[pinion]\r\nteeth = 20\r\n", "[pinion]\r\nteeth = 20\r\nmodification.tip_relief = 7.0\r\n"),
+        (
+            "[pinion]\nmodification.tip_relief = 1\nz = 2\nmodification.twist = 3\n",
+            "[pinion]\nmodification.tip_relief = 7.0\nz = 2\nmodification.twist = 3\n",
+        ),
         ('[pinion]\nmodification."tip_relief" = 1\n', '[pinion]\nmodification."tip_relief" = 7.0\n'),
+        (
+            "pinion = {modification = {tip_relief = 3}, z = 2}\n",
+            "pinion = {modification = {tip_relief = 7.0}, z = 2}\n",
+        ),
+        (
+            '[pinion]\nname = """\n[wheel]\n"""\nteeth = 20\n',
+            '[pinion]\nname = """\n[wheel]\n"""\nteeth = 20\nmodification.tip_relief = 7.0\n',
+        ),
+        (
+            "[pinion.body]\nbore = 9\n[wheel]\nteeth = 20\n[pinion]\nteeth = 20\n# end\n",
+            "[pinion.body]\nbore = 9\n[wheel]\nteeth = 20\n[pinion]\nteeth = 20\nmodification.tip_relief = 7.0\n# end\n",
+        ),
         ("[check]\ntorques = [\n  1,\n]\n[pinion]", "[check]\ntorques = [\n  1,\n]\n[pinion]\nmodification.tip_relief = 7.0\n"),
     ],
 )
@@ -97,11 +113,10 @@ def test_a_name_comes_first_in_its_table() -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "pinion = {modification = {tip_relief = 3}, teeth = 20}\n",
-        '[pinion]\nname = """\n[wheel]\n"""\nteeth = 20\n',
         "[wheel]\nteeth = 20\n",
+        "[[pinion]]\nteeth = 20\n",
     ],
-    ids=["tables in a table", "a header in a text", "no such table"],
+    ids=["no such table", "several of its name"],
 )
 def test_what_cannot_be_edited_is_said_and_not_spoilt(text: str) -> None:
     with pytest.raises(SpecError, match=r"write by hand: pinion\.modification\.tip_relief = 7\.0"):
