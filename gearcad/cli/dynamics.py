@@ -11,10 +11,10 @@ from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
 
 if TYPE_CHECKING:
-    from gearcad.dynamics.charts.kv import KvChart
-    from gearcad.dynamics.pair_study import ContactStudy
-    from gearcad.dynamics.study import TrainStudy
-    from gearcad.dynamics.trains.modes import NaturalModes
+    from gearcad.dynamics.charts.chart import KvChart
+    from gearcad.dynamics.pair_result import ContactStudy
+    from gearcad.dynamics.train_result import TrainStudy
+    from gearcad.dynamics.trains.eigenmodes import NaturalModes
     from gearcad.jobs.dynamics import Study
 
 __all__ = ["dynamics"]
@@ -48,8 +48,8 @@ def _show(_name: str, study: Study) -> None:
 
 def _lines(study: Study) -> list[str]:
     """What was found out, in a few lines."""
-    from gearcad.dynamics.pair_study import ContactStudy, PairStudy
-    from gearcad.dynamics.study import ModalStudy
+    from gearcad.dynamics.pair_result import ContactStudy, PairStudy
+    from gearcad.dynamics.train_result import ModalStudy
 
     if isinstance(study, ContactStudy):
         return _contact_lines(study)

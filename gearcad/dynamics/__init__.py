@@ -5,8 +5,10 @@ from __future__ import annotations
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from gearcad.dynamics.options import DynamicsOptions
-    from gearcad.dynamics.pair_study import ContactStudy, PairStudy, study_contact, study_pair
-    from gearcad.dynamics.study import ModalStudy, TrainStudy, study_modes, study_train
+    from gearcad.dynamics.pair import study_contact, study_pair
+    from gearcad.dynamics.pair_result import ContactStudy, PairStudy
+    from gearcad.dynamics.train import study_modes, study_train
+    from gearcad.dynamics.train_result import ModalStudy, TrainStudy
     from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft, StiffnessWave
     from gearcad.dynamics.trains.train import Train, TrainModel
 else:
@@ -31,4 +33,6 @@ __all__ = [
 ]
 
 if not TYPE_CHECKING:
-    __getattr__ = lazily(__name__, __all__, ("options", "trains.members", "trains.train", "study", "pair_study"))
+    __getattr__ = lazily(
+        __name__, __all__, ("options", "trains.members", "trains.train", "train_result", "pair_result", "train", "pair")
+    )

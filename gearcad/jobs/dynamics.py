@@ -13,8 +13,10 @@ import numpy as np
 from gearcad.check.options import CheckOptions
 from gearcad.designs import Design, Inputs, PairDesign, TrainDesign
 from gearcad.dynamics.options import DynamicsOptions, PairModel
-from gearcad.dynamics.pair_study import ContactStudy, PairStudy, study_contact, study_pair
-from gearcad.dynamics.study import ModalStudy, TrainStudy, study_modes, study_train
+from gearcad.dynamics.pair import study_contact, study_pair
+from gearcad.dynamics.pair_result import ContactStudy, PairStudy
+from gearcad.dynamics.train import study_modes, study_train
+from gearcad.dynamics.train_result import ModalStudy, TrainStudy
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair

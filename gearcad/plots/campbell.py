@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearcad.dynamics.tooth_springs.campbell import CampbellStudy
-from gearcad.dynamics.tooth_springs.pair_history import TimeHistory
+from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
+from gearcad.dynamics.tooth_springs.history import TimeHistory
 from gearcad.plots.paper import DARK, MARKED, SERIES, new_figure, prepared, short
 
 if TYPE_CHECKING:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
-from gearcad.dynamics.charts.kv import KvChart
-from gearcad.dynamics.study import TrainStudy
+from gearcad.dynamics.charts.chart import KvChart
+from gearcad.dynamics.train_result import TrainStudy
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.plots.labels import plain
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, PALE, SERIES, legend_above, new_figure, prepared
@@ -26,7 +26,6 @@ __all__ = [
     "plot_cycle",
     "plot_factors",
     "plot_shaft_overload",
-    "shafts_with_reference",
 ]
 
 
@@ -50,15 +49,9 @@ _WIDE = 20.0
 _LEAST_TEETH, _MOST_TEETH = 3.0, 24.0
 """Tooth periods that a course shows: shorter ones come again, longer ones are cut."""
 
-_FELT = 0.02
-"""Share of a mode's potential energy that the meshes must hold for half its frequency to be named as well."""
 
-
-def plot_factors(study: TrainStudy, ax: Axes | None = None, frequencies: Sequence[float] = ()) -> Axes:
-    """K_v of every mesh over speed: running up, down dashed, with jumps; where tooth frequencies meet natural ones.
-
-    `frequencies` (Hz) are drawn in the place of the modes', where the charts are those of a system with others.
-    """
+def plot_factors(study: TrainStudy, ax: Axes | None = None) -> Axes:
+    """K_v of every mesh over speed: running up, down dashed, with jumps; where tooth frequencies meet natural ones."""
     axes = prepared(ax, _SPEED, "dynamic factor $K_{\\mathrm{v}}$")
     up, down = study.up, study.down
     if up.standard is not None:
@@ -74,7 +67,7 @@ def plot_factors(study: TrainStudy, ax: Axes | None = None, frequencies: Sequenc
     _set_height(axes, [chart for chart in (up, down) if chart is not None])
     _shade_unstable(axes, study)
     _mark_parting(axes, study)
-    _mark_modes(axes, _mode_lines(study, frequencies))
+    _mark_modes(axes, _mode_lines(study))
     if study.speeds[0] <= abs(study.train.speed) <= study.speeds[-1]:
         axes.plot(abs(study.train.speed), 0, "^", color=DARK, transform=axes.get_xaxis_transform(), label="speed asked for")
     _finish(axes, study)
@@ -84,7 +77,7 @@ def plot_factors(study: TrainStudy, ax: Axes | None = None, frequencies: Sequenc
 def plot_shaft_overload(study: TrainStudy, ax: Axes | None = None) -> Axes:
     """Greatest torque of every shaft over its static one, where it has one, over speed."""
     axes = prepared(ax, _SPEED, "greatest torque over the static one")
-    kept = shafts_with_reference(study)
+    kept = study.up.referred_shafts
     for shaft in kept:
         colour, words = SERIES[shaft % len(SERIES)], plain(study.up.shaft_names[shaft])
         axes.plot(study.speeds, study.up.shaft_factors[:, shaft], color=colour, linewidth=1.4, label=words)
@@ -96,11 +89,6 @@ def plot_shaft_overload(study: TrainStudy, ax: Axes | None = None) -> Axes:
         axes.set_yscale("log")
     _finish(axes, study)
     return axes
-
-
-def shafts_with_reference(study: TrainStudy) -> list[int]:
-    """Shafts that have an overload: the others carry nothing at rest."""
-    return [shaft for shaft, column in enumerate(study.up.shaft_factors.T) if np.isfinite(column).all()]
 
 
 def _set_height(axes: Axes, charts: list[KvChart]) -> None:
@@ -150,23 +138,14 @@ def _ranges(speeds: Floats, marked: NDArray[np.bool_]) -> list[tuple[float, floa
     return [(float(edges[start]), float(edges[end])) for start, end in turns.reshape(-1, 2)]
 
 
-def _mode_lines(study: TrainStudy, frequencies: Sequence[float]) -> dict[float, tuple[str, str]]:
-    """Name and colour by speed (rpm) at which a tooth frequency is a natural frequency, or half of one that bends teeth."""
-    modes = study.modes
-    found: dict[float, tuple[str, str]] = {}
-    if frequencies:
-        known = [(number, part) for number, each in enumerate(frequencies, 1) if each for part in (1, 2)]
-        speeds = [np.array([60 * frequencies[number - 1] / study.train.meshes[0].teeth / part]) for number, part in known]
-    else:
-        felt = modes.potential_meshes.sum(axis=1) > _FELT
-        known = [(mode + 1, part) for mode in range(modes.rigid, len(modes)) for part in ((1, 2) if felt[mode] else (1,))]
-        speeds = [modes.rpm[number - 1] / part for number, part in known]
+def _mode_lines(study: TrainStudy) -> dict[float, tuple[str, str]]:
+    """Name and colour of the speeds (rpm) at which tooth frequencies meet natural frequencies, or half of them."""
     # Where meshes have frequencies of their own, a line has the colour of the mesh that meets the mode there.
     several = len({mesh.frequency_ratio for mesh in study.excitation.meshes}) > 1
-    for (number, part), each in zip(known, speeds, strict=True):
-        for mesh, speed in enumerate(each.tolist()):
-            words = f"$f_{{{number}}}$" + ("/2" if part == 2 else "")
-            found.setdefault(round(speed, 6), (words, SERIES[mesh % len(SERIES)] if several else MARKED))
+    found: dict[float, tuple[str, str]] = {}
+    for each in study.mode_speeds:
+        words = f"$f_{{{each.mode}}}$" + ("/2" if each.part == 2 else "")
+        found.setdefault(round(each.speed, 6), (words, SERIES[each.mesh % len(SERIES)] if several else MARKED))
     return found
 
 

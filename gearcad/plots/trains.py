@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.members import GROUND, Shaft
-from gearcad.dynamics.trains.modes import NaturalModes
 from gearcad.dynamics.trains.train import Train
 from gearcad.plots.labels import plain
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, SERIES, new_figure, prepared, short

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from support.responses import VARIATION, cosine, oscillator, preloaded, two_stages
 
-from gearcad.dynamics.charts.kv import KvChart, kv_chart
+from gearcad.dynamics.charts.chart import KvChart
+from gearcad.dynamics.charts.kv import kv_chart
 from gearcad.dynamics.excitation.mesh_curves import square_stiffness
 from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
 from gearcad.dynamics.response.branch import trace

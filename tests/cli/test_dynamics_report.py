@@ -12,12 +12,14 @@ from matplotlib.figure import Figure
 
 from gearcad import Gear, GearPair, Load, Material
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.dynamics.pair_study import ContactStudy, PairStudy, study_contact, study_pair
-from gearcad.dynamics.study import TrainStudy, study_train
+from gearcad.dynamics.pair import study_contact, study_pair
+from gearcad.dynamics.pair_result import ContactStudy, PairStudy
+from gearcad.dynamics.train import study_train
+from gearcad.dynamics.train_result import TrainStudy
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft, StiffnessWave
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.plots.paper import short
-from gearcad.plots.speeds import plot_course, plot_cycle, plot_factors, plot_shaft_overload, shafts_with_reference
+from gearcad.plots.speeds import plot_course, plot_cycle, plot_factors, plot_shaft_overload
 from gearcad.plots.trains import plot_energies, plot_shapes
 from gearcad.report import write_dynamics_report
 from gearcad.report.dynamics.tables import MOST_PEAKS, peak_table, shaft_table
@@ -169,7 +171,7 @@ def test_bars_of_energy_fill_up_to_the_whole(train: TrainStudy) -> None:
 
 def test_without_shafts_there_are_none_in_the_pictures() -> None:
     study = study_train(two_wheels(TrainModel.ISOLATED), DynamicsOptions(speeds=30, speed_from=2000.0))
-    assert shafts_with_reference(study) == [] and len(plot_course(study).axes) == 2
+    assert study.up.referred_shafts == [] and len(plot_course(study).axes) == 2
     assert {row[-2] for row in shaft_table(study).rows} == {"–"}
     assert len(plot_shapes(study.train, study.modes).axes[0].lines) == 1 + 2 * 3 + 2  # the axis, inertias, and meshes
 

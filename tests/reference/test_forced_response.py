@@ -17,7 +17,8 @@ from support.responses import STIFFNESS, VARIATION, cosine, isolated, oscillator
 from gearcad.dynamics.charts.kv import kv_chart
 from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffness
 from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
-from gearcad.dynamics.response.branch import Direction, trace
+from gearcad.dynamics.response.branch import trace
+from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.response.floquet import floquet_multipliers, monodromy
 from gearcad.dynamics.response.linear import periodic_response
 from gearcad.dynamics.trains.system import System

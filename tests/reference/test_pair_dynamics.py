@@ -14,9 +14,11 @@ import pytest
 from scipy.linalg import expm
 from support.pairs import THESIS_SPEEDS, Witness, thesis_model, thesis_pair
 
-from gearcad.dynamics.tooth_springs.campbell import CampbellStudy, campbell
+from gearcad.dynamics.tooth_springs.campbell import campbell
+from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.tooth_springs.contact_model import ContactZone
-from gearcad.dynamics.tooth_springs.pair_history import Start, time_history
+from gearcad.dynamics.tooth_springs.history import Start
+from gearcad.dynamics.tooth_springs.motion import time_history
 
 PRINTED = 0.5 / 489
 """Relative: the thesis prints 489 Hz."""

@@ -13,11 +13,13 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from support.responses import MOMENT, VARIATION, cosine, isolated, oscillator, two_stages
 
-from gearcad.dynamics.charts.kv import ForceDefinition, kv_chart
+from gearcad.dynamics.charts.chart import ForceDefinition
+from gearcad.dynamics.charts.kv import kv_chart
 from gearcad.dynamics.excitation.deviations import ToothDeviations, TransmissionError, random_deviations, tooth_errors
 from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffness, cycle_stiffness, square_stiffness
 from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation, cycle_excitation
-from gearcad.dynamics.response.branch import Direction, sweep, trace
+from gearcad.dynamics.response.branch import sweep, trace
+from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.response.floquet import floquet_multipliers, growth
 from gearcad.dynamics.response.linear import harmonic_orders, periodic_response
 from gearcad.dynamics.response.transient import integrate

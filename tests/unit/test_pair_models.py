@@ -14,9 +14,10 @@ import pytest
 from support.pairs import thesis_model
 
 from gearcad import Gear, GearPair, GeometryError, ParameterError
-from gearcad.dynamics.tooth_springs.campbell import CampbellStudy, campbell
+from gearcad.dynamics.tooth_springs.campbell import campbell
+from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.tooth_springs.contact_model import ContactZone, disc_inertia
-from gearcad.dynamics.tooth_springs.pair_history import time_history
+from gearcad.dynamics.tooth_springs.motion import time_history
 from gearcad.dynamics.tooth_springs.spectra import amplitude_spectrum
 
 ROUNDING = 1e-13

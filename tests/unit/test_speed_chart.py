@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from support.responses import cosine, isolated, oscillator, preloaded, two_stages
 
 from gearcad.designs import read_spec
-from gearcad.dynamics.charts.kv import KvChart, kv_chart
+from gearcad.dynamics.charts.chart import KvChart
+from gearcad.dynamics.charts.kv import kv_chart
 from gearcad.dynamics.charts.over_speed import OverSpeed, over_speed
 from gearcad.dynamics.charts.speed_curves import LEFT_OUT, SpeedCurves
 from gearcad.dynamics.excitation.deviations import TransmissionError
@@ -24,7 +25,7 @@ from gearcad.dynamics.response.branch import trace
 from gearcad.dynamics.response.krylov import solve_all
 from gearcad.dynamics.response.linear import periodic_response
 from gearcad.dynamics.response.transient import integrate
-from gearcad.dynamics.study import study_modes, study_train
+from gearcad.dynamics.train import study_modes, study_train
 from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import GeometryError

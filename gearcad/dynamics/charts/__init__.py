@@ -4,7 +4,8 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from gearcad.dynamics.charts.kv import ForceDefinition, KvChart, kv_chart
+    from gearcad.dynamics.charts.chart import ForceDefinition, KvChart
+    from gearcad.dynamics.charts.kv import kv_chart
     from gearcad.dynamics.charts.over_speed import OverSpeed
 else:
     from gearcad.lazy import lazily
@@ -17,4 +18,4 @@ __all__ = [
 ]
 
 if not TYPE_CHECKING:
-    __getattr__ = lazily(__name__, __all__, ("kv", "over_speed"))
+    __getattr__ = lazily(__name__, __all__, ("chart", "kv", "over_speed"))

@@ -3,104 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from enum import Enum
-from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.charts.chart import ForceDefinition, KvChart
 from gearcad.dynamics.response.flexibility import StaticState
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import GeometryError, ParameterError, as_choice
-from gearcad.notice import Notice, texts
+from gearcad.notice import Notice
 from gearcad.rating.dynamic_factor import DynamicFactor
 
-__all__ = ["ForceDefinition", "KvChart", "Peak", "chart_of", "extremes", "idle_shafts", "kv_chart", "torque_references"]
+__all__ = ["chart_of", "extremes", "idle_shafts", "kv_chart", "torque_references"]
 
 
 _BLOCK = 2_000_000
 """Samples that one block of speeds may have at a time."""
 
-_PROMINENCE = 0.005
-"""How far K_v must fall on both sides of a peak that counts as a resonance."""
-
-
 _IDLE, _IDLE_MOSTLY = 50.0, 3.0
 """A shaft whose torque exceeds its static one so many times, and at half of the speeds still so many times, carries nothing at
 rest that a factor could refer to: one that only resonates is quiet at most speeds."""
-
-
-class ForceDefinition(Enum):
-    """Which force between the teeth K_v compares with the static one."""
-
-    SPRING = "spring"
-    """k(t) (y - e): (2.3) of J. Osinski's paper."""
-    WITH_DAMPING = "with damping"
-    """k(t) (y - e) + c (y' - e')."""
-
-
-class Peak(NamedTuple):
-    """A resonance: circular tooth frequency of the first mesh (1/s), and the factor there."""
-
-    frequency: float
-    factor: float
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class KvChart:
-    """Overload over `frequencies` (s,): circular tooth frequencies of the first mesh (1/s).
-
-    `factors` (s, m) is K_v of each mesh: greatest force over a period, by the `definition`, over the `static_forces` (m,) in N,
-    both of the flanks that carry; `least` (s, m) is the least over the static one, negative where flanks pull or those behind
-    them touch. `shaft_factors` (s, n) is the
-    greatest torque, in the sense of the static one, over the `shaft_references` (n,) in N·m; nan in shafts that are neither
-    loaded at rest nor have a reference. `standard` (s,) is K_v of ISO 6336-1:2006, Method B, of the pair of the first mesh.
-    """
-
-    frequencies: Floats
-    definition: ForceDefinition
-    factors: Floats
-    least: Floats
-    static_forces: Floats
-    shaft_factors: Floats
-    shaft_references: Floats
-    standard: Floats | None
-    stable: NDArray[np.bool_]
-    mesh_names: tuple[str, ...]
-    shaft_names: tuple[str, ...]
-    notices: tuple[Notice, ...]
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What to know before trusting it, in words."""
-        return texts(self.notices)
-
-    def peaks(self, mesh: int = 0) -> list[Peak]:
-        """Resonances of a mesh, in order of frequency: maxima of K_v that stand out from both sides."""
-        from scipy.signal import find_peaks
-
-        found, _ = find_peaks(self.factors[:, mesh], prominence=_PROMINENCE)
-        return [Peak(float(self.frequencies[i]), float(self.factors[i, mesh])) for i in found]
-
-    def to_dict(self) -> dict[str, Any]:
-        """As `dynamics.json` has it: 1/s, N, N·m; no value (null) where a shaft has no factor."""
-        shafts = [[None if np.isnan(value) else float(value) for value in row] for row in self.shaft_factors.T]
-        return {
-            "frequency": self.frequencies.tolist(),
-            "definition": self.definition.value,
-            "kv": dict(zip(self.mesh_names, self.factors.T.tolist(), strict=True)),
-            "least_force": dict(zip(self.mesh_names, (self.least * self.static_forces).T.tolist(), strict=True)),
-            "static_force": dict(zip(self.mesh_names, self.static_forces.tolist(), strict=True)),
-            "shaft_overload": dict(zip(self.shaft_names, shafts, strict=True)),
-            "peaks": {name: [each._asdict() for each in self.peaks(j)] for j, name in enumerate(self.mesh_names)},
-            "kv_iso6336": None if self.standard is None else self.standard.tolist(),
-            "stable": self.stable.tolist(),
-            "warnings": list(self.warnings),
-            "notices": [notice.to_dict() for notice in self.notices],
-        }
 
 
 def kv_chart(

@@ -10,13 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearcad.arrays import Bools, Floats
-from gearcad.dynamics.charts.kv import KvChart, chart_of, idle_shafts, kv_chart
+from gearcad.dynamics.charts.chart import KvChart
+from gearcad.dynamics.charts.kv import chart_of, idle_shafts, kv_chart
 from gearcad.dynamics.charts.notices import fixed_harmonics, hardly_damped, left_out, not_looked_for, standstill, stuck
 from gearcad.dynamics.charts.parting import MOST_ROUNDS, Parted, parted
 from gearcad.dynamics.charts.refine import speeds_between
 from gearcad.dynamics.charts.speed_curves import SpeedCurves, Told
 from gearcad.dynamics.excitation.meshes import Excitation
-from gearcad.dynamics.response.branch import Direction
+from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.response.floquet import UNSTABLE, growth
 from gearcad.dynamics.response.linear import periodic_response
 from gearcad.dynamics.response.notices import instability, parting

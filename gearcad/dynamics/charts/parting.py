@@ -10,10 +10,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gearcad.arrays import Bools, Complexes, Floats, Indices
-from gearcad.dynamics.charts.kv import ForceDefinition, extremes
+from gearcad.dynamics.charts.chart import ForceDefinition
+from gearcad.dynamics.charts.kv import extremes
 from gearcad.dynamics.charts.refine import speeds_between
 from gearcad.dynamics.charts.speed_curves import SpeedCurves, Told
-from gearcad.dynamics.response.branch import Branch, Direction, trace
+from gearcad.dynamics.response.branch import Branch, trace
+from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.response.linear import harmonic_orders
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.errors import SolverError

@@ -12,7 +12,8 @@ from functools import cached_property
 import numpy as np
 
 from gearcad.arrays import Bools, Complexes, Floats, Indices
-from gearcad.dynamics.charts.kv import ForceDefinition, extremes, torque_references
+from gearcad.dynamics.charts.chart import ForceDefinition
+from gearcad.dynamics.charts.kv import extremes, torque_references
 from gearcad.dynamics.charts.resonances import FELT, Resonances, quasi_static_forces, resonances, settled
 from gearcad.dynamics.response.driven import Driven
 from gearcad.dynamics.response.flexibility import turns_and_torques

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from gearcad.dynamics.response.branch import Branch, Direction, sweep, trace
+    from gearcad.dynamics.response.branch import Branch, sweep, trace
+    from gearcad.dynamics.response.direction import Direction
     from gearcad.dynamics.response.floquet import floquet_multipliers, growth, monodromy
     from gearcad.dynamics.response.linear import periodic_response
     from gearcad.dynamics.response.periodic import PeriodicResponse
@@ -27,4 +28,4 @@ __all__ = [
 ]
 
 if not TYPE_CHECKING:
-    __getattr__ = lazily(__name__, __all__, ("periodic", "linear", "branch", "floquet", "transient"))
+    __getattr__ = lazily(__name__, __all__, ("direction", "periodic", "linear", "branch", "floquet", "transient"))

@@ -7,7 +7,6 @@ The damping of a mesh acts also where its flanks have parted (the oil stays). SI
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from enum import Enum
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,6 +15,7 @@ from gearcad.arrays import Bools, Complexes, Floats, Indices
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.response.balance import Balance
 from gearcad.dynamics.response.continuation import Arc, follow
+from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.response.flexibility import at_orders, both_sides, turns_and_torques
 from gearcad.dynamics.response.floquet import UNSTABLE, growth
 from gearcad.dynamics.response.linear import checked_frequencies, harmonic_orders, periodic_response
@@ -24,14 +24,7 @@ from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import ParameterError, SolverError, as_choice
 
-__all__ = ["Branch", "Direction", "sweep", "trace"]
-
-
-class Direction(Enum):
-    """How the speed changes in a sweep."""
-
-    UP = "up"
-    DOWN = "down"
+__all__ = ["Branch", "sweep", "trace"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from gearcad.dynamics.tooth_springs.campbell import CampbellStudy
+    from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
     from gearcad.dynamics.tooth_springs.contact_model import ContactModel, ContactZone, disc_inertia
-    from gearcad.dynamics.tooth_springs.pair_history import Start, TimeHistory, time_history
+    from gearcad.dynamics.tooth_springs.history import Start, TimeHistory
+    from gearcad.dynamics.tooth_springs.motion import time_history
     from gearcad.dynamics.tooth_springs.spectra import Spectrum, amplitude_spectrum
 else:
     from gearcad.lazy import lazily
@@ -24,4 +25,4 @@ __all__ = [
 ]
 
 if not TYPE_CHECKING:
-    __getattr__ = lazily(__name__, __all__, ("contact_model", "spectra", "pair_history", "campbell"))
+    __getattr__ = lazily(__name__, __all__, ("contact_model", "spectra", "history", "motion", "campbell_study"))

@@ -1,116 +1,27 @@
-"""The Campbell study of a pair: spectra of its motion over a range of speeds, and which speeds are chaotic."""
+"""The Campbell study of a pair: its motion at each speed, on all cores."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.tooth_springs.contact_model import ContactModel
-from gearcad.dynamics.tooth_springs.pair_history import Start, checked_samples, time_history
-from gearcad.dynamics.tooth_springs.spectra import Peak, Spectrum
+from gearcad.dynamics.tooth_springs.history import Start
+from gearcad.dynamics.tooth_springs.motion import checked_samples, time_history
 from gearcad.errors import ParameterError, require_number
-from gearcad.notice import Notice, texts
 
-__all__ = ["CampbellStudy", "campbell"]
+__all__ = ["campbell"]
 
 
 HIGHEST_FREQUENCY = 15000.0
 """Default end of the spectra (Hz): twice the tooth frequency of the thesis's fastest speed, and more."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class CampbellStudy:
-    """Amplitudes (s, m) over speeds (s,) of the pinion in rpm and frequencies (m,) in Hz; `duration` in s, `sampling` in Hz.
-
-    `pinion_speed` is in rad/s, `approach` of the flanks in µm; both spectra cover the whole time, the first column is the mean.
-    `mean_approach` and `greatest_approach` (s,) in µm, `out_of_contact` (share of the time) and `growth` of a disturbance (1/s)
-    are those of the second half; `deepest` (s,) is the greatest approach in the whole time, the start from y = 0 included.
-    `chaotic` (s,) are the speeds at which a disturbance loses more than 6 digits (`digits_lost`): only statistics count there.
-    """
-
-    model: ContactModel
-    speeds: Floats
-    duration: float
-    sampling: float
-    frequency: Floats
-    pinion_speed: Floats
-    approach: Floats
-    mean_approach: Floats
-    greatest_approach: Floats
-    deepest: Floats
-    out_of_contact: Floats
-    growth: Floats
-    digits_lost: Floats
-    chaotic: NDArray[np.bool_]
-
-    def spectrum(self, speed: float) -> Spectrum:
-        """Of the pinion's speed at one of the speeds (rpm)."""
-        return Spectrum(self.frequency, self.pinion_speed[self._index(speed)])
-
-    def peaks(self, speed: float, count: int = 6) -> tuple[Peak, ...]:
-        """Highest peaks of the pinion's speed (Hz, rad/s) at one of the speeds (rpm)."""
-        return self.spectrum(speed).peaks(count)
-
-    def tooth_frequencies(self, harmonic: int = 1) -> Floats:
-        """(s,) i z_1 n/60 in Hz."""
-        return self.model.tooth_frequency(1.0, harmonic) * self.speeds
-
-    @property
-    def natural_frequencies(self) -> dict[str, float]:
-        """Lines of the diagram (Hz): with one pair, and with the mean number of pairs, which is met at high speed."""
-        found = {"one pair": self.model.natural_frequency()}
-        if self.model.contact_ratio != 1.0:
-            found["mean stiffness"] = self.model.natural_frequency(self.model.contact_ratio)
-        return found
-
-    @property
-    def notices(self) -> tuple[Notice, ...]:
-        """Those of the model, and what the motion adds to them."""
-        found = list(self.model.notices)
-        worst = int(np.argmax(self.deepest))
-        if 1e-3 * self.deepest[worst] > self.model.normal_module:
-            text = (
-                f"the flanks penetrate by up to {1e-3 * self.deepest[worst]:.4g} mm (at {self.speeds[worst]:g} rpm), more than"
-                f" the module of {self.model.normal_module:g} mm: no teeth do that"
-            )
-            found.append(Notice("deep-penetration", text))
-        if self.chaotic.any():
-            listed = ", ".join(f"{speed:g}" for speed in self.speeds[self.chaotic])
-            text = f"chaotic at {listed} rpm: spectra there change with the last digit of any input, statistics do not"
-            found.append(Notice("chaotic", text))
-        return tuple(found)
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """The notices in words."""
-        return texts(self.notices)
-
-    def to_dict(self) -> dict[str, Any]:
-        """A row per speed, for JSON; the spectra themselves are arrays."""
-        names = ("mean_approach", "greatest_approach", "deepest", "out_of_contact", "growth", "digits_lost", "chaotic")
-        return {
-            "duration": self.duration,
-            "sampling": self.sampling,
-            "natural_frequencies": self.natural_frequencies,
-            "speeds": self.speeds.tolist(),
-            **{name: getattr(self, name).tolist() for name in names},
-            "peaks": [[list(peak) for peak in self.peaks(speed)] for speed in self.speeds],
-            "warnings": list(self.warnings),
-            "notices": [notice.to_dict() for notice in self.notices],
-        }
-
-    def _index(self, speed: float) -> int:
-        found = np.flatnonzero(np.isclose(self.speeds, speed, rtol=1e-12, atol=1e-9))
-        if len(found) == 0:
-            raise ParameterError("speed", speed, "must be one of the study's speeds", "rpm")
-        return int(found[0])
 
 
 class _Row(NamedTuple):

@@ -141,6 +141,12 @@ class ContactModel:
         return one * other / (one + other)
 
     @property
+    def pinion_share(self) -> float:
+        """Part of the approach that is the pinion's: m_2/(m_1 + m_2)."""
+        one, other = self.masses
+        return other / (one + other)
+
+    @property
     def contact_ratio(self) -> float:
         """Mean number of engaged pairs, 1 in the simple model."""
         if self.zone is ContactZone.ONE_PAIR:

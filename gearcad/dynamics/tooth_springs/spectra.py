@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike
 from gearcad.arrays import Floats
 from gearcad.errors import ParameterError, require_number, require_whole
 
-__all__ = ["Peak", "Spectrum", "amplitude_spectrum"]
+__all__ = ["SpectralPeak", "Spectrum", "amplitude_spectrum"]
 
 
-class Peak(NamedTuple):
+class SpectralPeak(NamedTuple):
     """A local maximum of a spectrum: frequency in Hz, amplitude in the unit of the signal."""
 
     frequency: float
@@ -28,7 +28,7 @@ class Spectrum:
     frequency: Floats
     amplitude: Floats
 
-    def peaks(self, count: int = 6, *, distance: float = 20.0, above: float = 5.0) -> tuple[Peak, ...]:
+    def peaks(self, count: int = 6, *, distance: float = 20.0, above: float = 5.0) -> tuple[SpectralPeak, ...]:
         """The highest local maxima, highest first, at least `distance` Hz apart and above a frequency (Hz)."""
         from scipy.signal import find_peaks
 
@@ -37,7 +37,7 @@ class Spectrum:
         places, _ = find_peaks(self.amplitude, distance=bins)
         places = [place for place in places if self.frequency[place] > above]
         highest = sorted(places, key=lambda place: (-self.amplitude[place], place))[:count]
-        return tuple(Peak(float(self.frequency[place]), float(self.amplitude[place])) for place in highest)
+        return tuple(SpectralPeak(float(self.frequency[place]), float(self.amplitude[place])) for place in highest)
 
 
 def amplitude_spectrum(signal: ArrayLike, sampling: float, highest: float | None = None) -> Spectrum:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from gearcad.dynamics.trains.eigenmodes import NaturalModes
     from gearcad.dynamics.trains.lines import lines_of
     from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft, StiffnessWave
-    from gearcad.dynamics.trains.modes import NaturalModes, count_below, natural_modes
+    from gearcad.dynamics.trains.modes import count_below, natural_modes
     from gearcad.dynamics.trains.parts import static_forces
     from gearcad.dynamics.trains.six_dof import PairOnBearings
     from gearcad.dynamics.trains.system import System
@@ -32,4 +33,4 @@ __all__ = [
 ]
 
 if not TYPE_CHECKING:
-    __getattr__ = lazily(__name__, __all__, ("members", "train", "system", "parts", "lines", "six_dof", "modes"))
+    __getattr__ = lazily(__name__, __all__, ("members", "train", "system", "parts", "lines", "six_dof", "eigenmodes", "modes"))

@@ -19,8 +19,6 @@ from gearcad.dynamics.trains.shafts import (
     clamped_modes_below,
     dynamic_inertia,
     dynamic_stiffness,
-    shaft_inertia,
-    shaft_stiffness,
 )
 from gearcad.errors import SolverError
 
@@ -86,7 +84,7 @@ def dynamic_train(parts: Parts, *, massless: bool = False) -> DynamicTrain:
     nodes = len(parts.inertias)
     pieces, joined, matrices, free = [], [], [], list(parts.free)
     for place, (shaft, (start, end)) in enumerate(zip(parts.shafts, parts.ends.tolist(), strict=True)):
-        k, inertia = shaft_stiffness(shaft), 0.0 if massless else shaft_inertia(shaft)
+        k, inertia = shaft.stiffness, 0.0 if massless else shaft.inertia
         if not inertia:
             pieces.append((place, 0))
             joined.append((start, end))

@@ -9,7 +9,7 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.dynamics.trains.members import Mesh
 from gearcad.dynamics.trains.parts import Parts, parts_of
-from gearcad.dynamics.trains.shafts import element_matrices, shaft_inertia, shaft_stiffness
+from gearcad.dynamics.trains.shafts import element_matrices
 from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train, TrainModel
 
@@ -81,11 +81,11 @@ def _elements(parts: Parts, train: Train) -> list[_Element]:
     """Of every shaft, a spring where it has no mass; coordinates inside shafts come after those of the inertias."""
     result, size = [], len(parts.inertias)
     for shaft, ends in zip(parts.shafts, parts.ends, strict=True):
-        mass = 0.0 if train.model is TrainModel.MASSLESS else shaft_inertia(shaft)
+        mass = 0.0 if train.model is TrainModel.MASSLESS else shaft.inertia
         order = train.order if mass else 1
         index = np.concatenate([ends, np.arange(size, size + order - 1)])
         size += order - 1
-        result.append(_Element(index, *element_matrices(shaft_stiffness(shaft), mass, order)))
+        result.append(_Element(index, *element_matrices(shaft.stiffness, mass, order)))
     return result
 
 
@@ -137,7 +137,7 @@ def _system(parts: Parts, elements: list[_Element], squares: Floats, modes: Floa
     omega = np.sqrt(squares)
     per_omega = np.divide(1.0, omega, out=np.zeros_like(omega), where=omega > 0)
     for s, (shaft, element) in enumerate(zip(parts.shafts, elements, strict=True)):
-        local, stiffness = element.of(modes), shaft_stiffness(shaft)
+        local, stiffness = element.of(modes), shaft.stiffness
         torques[:, s] = stiffness * (local[1] - local[0])
         # Twice the strain energy of the shaft in each mode: its share in the line's damping.
         energy = np.einsum("in,ij,jn->n", local, element.stiffness, local)

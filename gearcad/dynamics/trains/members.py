@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 from typing import Annotated, Any
@@ -114,6 +115,28 @@ class Shaft(_Member):
     def held(self) -> bool:
         """Whether one end does not turn."""
         return GROUND in (self.start, self.end)
+
+    @property
+    def stiffness(self) -> float:
+        """G I_p / L (N·m/rad)."""
+        if self.torsional_stiffness is not None:
+            return self.torsional_stiffness
+        assert self.length is not None
+        return self.shear_modulus * 1e6 * self._polar_moment / (self.length / 1000)
+
+    @property
+    def inertia(self) -> float:
+        """rho I_p L about the axis (kg·m²); 0 for a shaft that is given by its stiffness."""
+        if self.torsional_stiffness is not None:
+            return 0.0
+        assert self.length is not None
+        return self.density * self._polar_moment * self.length / 1000
+
+    @property
+    def _polar_moment(self) -> float:
+        """Of the section (m^4)."""
+        assert self.diameter is not None
+        return math.pi / 32 * ((self.diameter / 1000) ** 4 - (self.inner_diameter / 1000) ** 4)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.exact import SPLIT, DynamicTrain, dynamic_train, natural_frequencies, natural_shapes
 from gearcad.dynamics.trains.lines import Lines, lines_of
 from gearcad.dynamics.trains.parts import parts_of
@@ -16,60 +16,11 @@ from gearcad.dynamics.trains.shafts import dynamic_inertia, dynamic_stiffness, t
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.errors import ParameterError, require_number, require_whole
 
-__all__ = ["NaturalModes", "count_below", "natural_modes"]
+__all__ = ["count_below", "natural_modes"]
 
 
 _NEXT = 1 + 1e-9
 """A frequency so much higher counts the mode itself; rounding of elements is below."""
-
-
-@dataclass(frozen=True, eq=False)
-class NaturalModes:
-    """n natural modes of a train at the mean stiffness of its meshes, without damping, by rising frequency.
-
-    `frequency` (n,) in Hz, `circular` in 1/s; `rpm` (n, m) is the speed of the train (of its first mesh's pinion) at which the
-    tooth frequency of each mesh meets the mode. `shape` (n, i) are turns of the inertias in rad, scaled to a modal mass of
-    1 kg·m²; the first inertia that turns at least half as far as any turns positively. `shaft_shape` (n, s, p) are turns at
-    `places` (p,), 0 ... 1 from start to end of every shaft; `approach` (n, m) is that of the flanks in mm, positive as the mean
-    torques press them. `kinetic_inertias` (n, i) and `kinetic_shafts` (n, s) are shares in the kinetic energy,
-    `potential_shafts` (n, s) and `potential_meshes` (n, m) in the potential energy. Each pair sums up to 1, but the first
-    `rigid` modes, at 0 Hz, have no potential energy. `missed` counts the natural frequencies below the highest of these that
-    the train has besides, with the full mass of its shafts unless the model leaves it away.
-    """
-
-    frequency: Floats
-    circular: Floats
-    rpm: Floats
-    shape: Floats
-    places: Floats
-    shaft_shape: Floats
-    approach: Floats
-    kinetic_inertias: Floats
-    kinetic_shafts: Floats
-    potential_shafts: Floats
-    potential_meshes: Floats
-    inertias: tuple[str, ...]
-    shafts: tuple[str, ...]
-    meshes: tuple[str, ...]
-    rigid: int
-    missed: int
-
-    def __post_init__(self) -> None:
-        for each in fields(self):
-            value = getattr(self, each.name)
-            if isinstance(value, np.ndarray):
-                value.flags.writeable = False
-
-    def __len__(self) -> int:
-        return len(self.frequency)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain lists, under the names of the fields."""
-        values = {each.name: getattr(self, each.name) for each in fields(self)}
-        return {
-            name: value.tolist() if isinstance(value, np.ndarray) else list(value) if isinstance(value, tuple) else value
-            for name, value in values.items()
-        }
 
 
 def natural_modes(train: Train, *, count: int | None = None, up_to: float | None = None, points: int = 21) -> NaturalModes:

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from gearcad.arrays import Floats
 from gearcad.dynamics.trains.graph import turning_pieces
 from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
-from gearcad.dynamics.trains.shafts import shaft_stiffness
 from gearcad.dynamics.trains.train import Train, TrainModel
 
 __all__ = ["Parts", "parts_of", "static_forces"]
@@ -114,7 +113,7 @@ def _mesh_forces(parts: Parts) -> Floats:
     for shaft, ends in zip(parts.shafts, parts.ends, strict=True):
         twist = np.zeros(len(k))
         twist[[end for end in ends if end >= 0]] = [sign for end, sign in zip(ends, (-1.0, 1.0), strict=True) if end >= 0]
-        k += shaft_stiffness(shaft) * np.outer(twist, twist)
+        k += shaft.stiffness * np.outer(twist, twist)
     turns = parts.free / np.linalg.norm(parts.free, axis=0)
     k += np.trace(k) / len(k) * turns @ turns.T
     result: Floats = parts.stiffness * (parts.approach.T @ np.linalg.solve(k, parts.torque))

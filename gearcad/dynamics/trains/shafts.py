@@ -8,43 +8,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearcad.arrays import Floats
-from gearcad.dynamics.trains.members import Shaft
 
 __all__ = [
     "clamped_modes_below",
     "dynamic_inertia",
     "dynamic_stiffness",
     "element_matrices",
-    "shaft_inertia",
-    "shaft_stiffness",
     "twist_between",
     "twist_shapes",
 ]
 
 Each = float | Floats
 """Of one shaft at one frequency, or arrays of them."""
-
-
-def _polar_moment(shaft: Shaft) -> float:
-    """Of the section (m^4)."""
-    assert shaft.diameter is not None
-    return math.pi / 32 * ((shaft.diameter / 1000) ** 4 - (shaft.inner_diameter / 1000) ** 4)
-
-
-def shaft_stiffness(shaft: Shaft) -> float:
-    """G I_p / L (N m/rad)."""
-    if shaft.torsional_stiffness is not None:
-        return shaft.torsional_stiffness
-    assert shaft.length is not None
-    return shaft.shear_modulus * 1e6 * _polar_moment(shaft) / (shaft.length / 1000)
-
-
-def shaft_inertia(shaft: Shaft) -> float:
-    """rho I_p L about the axis (kg m^2); 0 for a shaft that is given by its stiffness."""
-    if shaft.torsional_stiffness is not None:
-        return 0.0
-    assert shaft.length is not None
-    return shaft.density * _polar_moment(shaft) * shaft.length / 1000
 
 
 # ---------------------------------------------------------------------- elements

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from gearcad.dynamics.pair_study import ContactStudy, PairStudy
-from gearcad.dynamics.study import ModalStudy, TrainStudy
+from gearcad.dynamics.pair_result import ContactStudy, PairStudy
+from gearcad.dynamics.train_result import ModalStudy, TrainStudy
 from gearcad.plots.paper import short
-from gearcad.plots.speeds import shafts_with_reference
 from gearcad.plots.trains import MOST_SHAPES
 from gearcad.report.dynamics.tables import factor_text
 from gearcad.stiffness import METHODS
@@ -36,11 +33,10 @@ def energies(study: TrainStudy | ModalStudy) -> str:
     """Caption of the modal energies."""
     modes = study.modes
     text = "Where a mode has its energy: bodies that move, and springs that give way. "
-    elastic = modes.potential_meshes[modes.rigid :]
-    if elastic.size:
-        mode = int(elastic.sum(axis=1).argmax())
+    if modes.most_toothed is not None:
+        mode, share = modes.most_toothed
         text += (
-            f"The teeth hold most in mode {mode + modes.rigid + 1}, {100 * elastic[mode].sum():.0f} %: only modes that bend "
+            f"The teeth hold most in mode {mode + 1}, {100 * share:.0f} %: only modes that bend "
             "teeth are excited by them, and feel their damping."
         )
     return text
@@ -73,18 +69,16 @@ def factors(study: TrainStudy) -> str:
 
 def greatest(study: TrainStudy) -> str:
     """The greatest K_v of all meshes, up and down."""
-    charts = [("", study.up)] if study.down is None else [(", running up", study.up), (", running down", study.down)]
-    sense, chart = max(charts, key=lambda each: float(each[1].factors.max()))
-    row, mesh = np.unravel_index(int(chart.factors.argmax()), chart.factors.shape)
-    where = f" in {chart.mesh_names[mesh]}" if len(chart.mesh_names) > 1 else ""
-    last = "" if chart.stable[row] else ", where the motion is unstable"
-    value = factor_text(float(chart.factors.max()))
-    return f"Its greatest value is {value}{where} at {short(study.speeds[row])} rpm{sense}{last}."
+    found = study.greatest
+    where = f" in {found.mesh}" if len(study.up.mesh_names) > 1 else ""
+    sense = f", running {found.direction.value}" if found.direction is not None else ""
+    last = "" if found.stable else ", where the motion is unstable"
+    return f"Its greatest value is {factor_text(found.factor)}{where} at {short(found.speed)} rpm{sense}{last}."
 
 
 def shaft_overload(study: TrainStudy) -> str:
     """Caption of the overload of shafts."""
-    kept = set(shafts_with_reference(study))
+    kept = set(study.up.referred_shafts)
     out = [name for number, name in enumerate(study.up.shaft_names) if number not in kept]
     text = "Greatest torque of a shaft, in the sense of the static one, over the static one"
     text += "; dashed running down. " if study.down is not None else ". "
@@ -97,10 +91,9 @@ def course(study: TrainStudy) -> str:
     """Caption of the course at one speed."""
     of = study.course
     why = "the speed asked for, or the nearest of the chart" if study.train.speed else "where K_v of the first mesh is greatest"
-    row = int(np.abs(study.speeds - of.speed).argmin())
     text = f"At {short(of.speed)} rpm of the first pinion ({why}). "
     text += "The force is that of springs and dampers, which act also where flanks have parted; K_v counts the springs only. "
-    if not study.up.stable[row]:
+    if not study.course_lasts:
         text += "This motion is unstable and would not last. "
     return text
 

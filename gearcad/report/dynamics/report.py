@@ -7,8 +7,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gearcad.dynamics.pair_study import ContactStudy, PairStudy
-from gearcad.dynamics.study import ModalStudy, TrainStudy
+from gearcad.dynamics.pair_result import ContactStudy, PairStudy
+from gearcad.dynamics.train_result import ModalStudy, TrainStudy
 from gearcad.dynamics.trains.train import TrainModel
 from gearcad.plots.campbell import plot_campbell, plot_motion, plot_spectrum
 from gearcad.plots.speeds import (
@@ -17,13 +17,12 @@ from gearcad.plots.speeds import (
     plot_cycle,
     plot_factors,
     plot_shaft_overload,
-    shafts_with_reference,
 )
 from gearcad.plots.trains import energies_inches, plot_energies, plot_shapes, shapes_inches
 from gearcad.report.check.figures import Picture, figure_address, pair_picture, picture_address
 from gearcad.report.check.tables import gear_rows, pair_rows
 from gearcad.report.dynamics import captions
-from gearcad.report.dynamics.rows import contact_rows, natural_frequencies, pair_dynamics_rows
+from gearcad.report.dynamics.rows import contact_rows, pair_dynamics_rows
 from gearcad.report.dynamics.tables import (
     MOST_PEAKS,
     inertia_table,
@@ -117,7 +116,6 @@ def _train_html(study: TrainStudy, name: str) -> str:
 def _pair_html(study: PairStudy, name: str) -> str:
     of = study.study
     curve = picture_address(partial(plot_cycle, study.cycle), "svg")
-    frequencies = () if study.bearings is None else natural_frequencies(study.bearings)
     return page_html(
         "dynamics_pair.html",
         name,
@@ -130,8 +128,8 @@ def _pair_html(study: PairStudy, name: str) -> str:
         rows=pair_dynamics_rows(study),
         curve=Picture("Mesh stiffness", curve, captions.cycle(study)),
         most=MOST_PEAKS,
-        peaks=peak_table(of, frequencies),
-        speed_figures=_speed_figures(of, frequencies),
+        peaks=peak_table(of),
+        speed_figures=_speed_figures(of),
         warnings=study.warnings,
     )
 
@@ -155,11 +153,11 @@ def _contact_html(study: ContactStudy, name: str) -> str:
     )
 
 
-def _speed_figures(study: TrainStudy, frequencies: tuple[float, ...] = ()) -> list[Picture]:
+def _speed_figures(study: TrainStudy) -> list[Picture]:
     """Over speed and at one speed; none that would show nothing."""
-    chart = picture_address(partial(plot_factors, study, frequencies=frequencies), "svg", _WIDE)
+    chart = picture_address(partial(plot_factors, study), "svg", _WIDE)
     found = [Picture("Dynamic factor over speed", chart, captions.factors(study))]
-    if shafts_with_reference(study):
+    if study.up.referred_shafts:
         address = picture_address(partial(plot_shaft_overload, study), "svg", _WIDE)
         found.append(Picture("Overload of the shafts over speed", address, captions.shaft_overload(study)))
     found.append(_figure("Course at one speed", partial(plot_course, study), course_inches(study), captions.course(study)))

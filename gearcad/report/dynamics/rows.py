@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from gearcad.dynamics.pair_study import ContactStudy, PairStudy
+from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.trains.six_dof import PairOnBearings
 from gearcad.plots.paper import short
 from gearcad.report.check.tables import Row
 from gearcad.stiffness import METHODS
 
-__all__ = ["contact_rows", "natural_frequencies", "pair_dynamics_rows"]
+__all__ = ["contact_rows", "pair_dynamics_rows"]
 
 _NONE = "–"  # an en dash where there is no value
-
-_ROUNDING = 1e-6
-"""Part of the highest frequency below which a frequency is rounding: its square is a 1e-12th."""
 
 
 def pair_dynamics_rows(study: PairStudy) -> list[Row]:
@@ -45,19 +42,13 @@ def pair_dynamics_rows(study: PairStudy) -> list[Row]:
 
 
 def _bearing_rows(of: PairOnBearings) -> list[Row]:
-    listed = ", ".join(short(each) for each in natural_frequencies(of) if each)
+    listed = ", ".join(short(each) for each in of.frequencies() if each)
     return [
         Row("mass", "m", tuple(map(short, of.masses)), "kg", ""),
         Row("stiffness of the bearings", "", tuple(short(each[0]) for each in of.bearing_stiffness), "N/µm", "across the axis"),
         Row("damping of a bearing", "", (short(of.bearing_damping),), "N·s/m", ""),
         Row("natural frequencies on bearings", "f_2 to f_6", (listed,), "Hz", "besides 0 Hz: turns as a whole"),
     ]
-
-
-def natural_frequencies(of: PairOnBearings) -> tuple[float, ...]:
-    """Of a pair on bearings (Hz); that of its free turning is 0, which rounding does not know."""
-    found = of.frequencies()
-    return tuple(each if each > _ROUNDING * found[-1] else 0.0 for each in found)
 
 
 def contact_rows(study: ContactStudy) -> list[Row]:

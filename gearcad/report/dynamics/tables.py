@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-import numpy as np
-
-from gearcad.dynamics.study import ModalStudy, TrainStudy
-from gearcad.dynamics.tooth_springs.campbell import CampbellStudy
+from gearcad.dynamics.charts.findings import MetMode
+from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
+from gearcad.dynamics.train_result import ModalStudy, TrainStudy
+from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.members import Mesh, Shaft, StiffnessWave
-from gearcad.dynamics.trains.modes import NaturalModes
-from gearcad.dynamics.trains.shafts import shaft_inertia, shaft_stiffness
 from gearcad.dynamics.trains.train import TrainModel
 from gearcad.plots.paper import short
 
@@ -28,12 +26,6 @@ __all__ = [
 ]
 
 _NONE = "–"  # an en dash where there is no value
-
-_NEAR = 0.04
-"""How far a resonance may be from a natural frequency whose name it gets: damping and parting flanks move it."""
-
-_NAMED = 8
-"""Harmonics of a tooth frequency that give a resonance its name: beyond, each lies near the next."""
 
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
@@ -73,20 +65,16 @@ def shaft_table(study: TrainStudy | ModalStudy) -> Table:
     rows = []
     for shaft in study.train.shafts:
         overload = _overload(study, shaft) if isinstance(study, TrainStudy) else ()
-        mass = 0.0 if study.train.model is TrainModel.MASSLESS else shaft_inertia(shaft)
-        fixed = (f"{shaft.start}, {shaft.end}", short(shaft_stiffness(shaft)), _or_none(mass), _shaft_damping(shaft))
+        mass = 0.0 if study.train.model is TrainModel.MASSLESS else shaft.inertia
+        fixed = (f"{shaft.start}, {shaft.end}", short(shaft.stiffness), _or_none(mass), _shaft_damping(shaft))
         rows.append((_shaft_words(shaft), *fixed, *overload))
     return Table((*heads, "at rest, N·m", "overload", "at rpm") if charted else heads, rows, 2)
 
 
 def _overload(study: TrainStudy, shaft: Shaft) -> tuple[str, ...]:
     """Torque at rest, greatest overload and its speed, where the chart has them."""
-    chart = study.up
-    own = chart.shaft_names.index(shaft.name) if shaft.name in chart.shaft_names else None
-    if own is None or not np.isfinite(chart.shaft_factors[:, own]).all():
-        return _NONE, _NONE, _NONE
-    row = int(chart.shaft_factors[:, own].argmax())
-    return tuple(map(short, (chart.shaft_references[own], chart.shaft_factors[row, own], study.speeds[row])))
+    found = study.shaft_overloads.get(shaft.name)
+    return (_NONE,) * 3 if found is None else tuple(map(short, (found.torque, found.factor, found.speed)))
 
 
 def _shaft_words(shaft: Shaft) -> str:
@@ -147,73 +135,39 @@ def mode_table(modes: NaturalModes) -> Table:
         rigid = mode < modes.rigid
         speeds = [_NONE if rigid else short(speed) for speed in modes.rpm[mode]]
         shares = [_NONE if rigid else f"{100 * share:.1f}" for share in modes.potential_meshes[mode]]
-        name = f"{mode + 1}, turns as a whole" if rigid else f"{mode + 1}, {_greatest(modes, mode)}"
+        name = f"{mode + 1}, turns as a whole" if rigid else f"{mode + 1}, most in {' and '.join(modes.leading_parts[mode])}"
         rows.append((name, short(modes.frequency[mode]), short(modes.circular[mode]), *speeds, *shares))
     return Table(tuple(heads), rows)
 
 
-def _greatest(modes: NaturalModes, mode: int) -> str:
-    """Which parts move most and give way most."""
-    moving = _named(modes.inertias, modes.kinetic_inertias[mode]) + _named(modes.shafts, modes.kinetic_shafts[mode], "shaft ")
-    bent = _named(modes.shafts, modes.potential_shafts[mode], "shaft ")
-    bent += _named(modes.meshes, modes.potential_meshes[mode], "mesh ")
-    names = dict.fromkeys(max(each)[1] for each in (moving, bent))
-    return f"most in {' and '.join(names)}"
-
-
-def _named(names: tuple[str, ...], shares: np.ndarray, kind: str = "") -> list[tuple[float, str]]:
-    return [
-        (float(share), name if name.startswith(kind.strip()) else kind + name)
-        for name, share in zip(names, shares, strict=True)
-    ]
-
-
-def peak_table(study: TrainStudy, frequencies: Sequence[float] = ()) -> Table:
-    """Resonances of every mesh in the charts, by speed; `frequencies` (Hz) stand for those of the modes if given."""
-    natural = 2 * np.pi * np.array(frequencies) if frequencies else study.modes.circular
+def peak_table(study: TrainStudy) -> Table:
+    """Resonances of every mesh in the charts, of each the highest, by speed."""
     heads = ("mesh", "near", "pinion, rpm", "tooth frequency, Hz", "1/s", "K_v")
     rows = []
-    for mesh, name in enumerate(study.up.mesh_names):
-        senses: dict[tuple[float, float], list[str]] = {}
-        for sense, chart in (("up", study.up), ("down", study.down)):
-            for peak in chart.peaks(mesh) if chart is not None else ():
-                senses.setdefault((peak.frequency, round(peak.factor, 3)), []).append(sense)
-        highest = sorted(senses.items(), key=lambda item: -item[0][1])[:MOST_PEAKS]
-        for (frequency, factor), each in sorted(highest):
-            own = _ratio(study, mesh) * frequency
-            numbers = (float(study.rpm(np.array(frequency))), own / (2 * np.pi), own)
-            words = name if study.down is None else f"{name}, running {' and '.join(each)}"
-            last = "" if study.up.stable[study.up.frequencies == frequency].all() else ", unstable"
-            rows.append((words, _near(study, natural, mesh, frequency) + last, *map(short, numbers), factor_text(factor)))
+    for name in study.up.mesh_names:
+        own = [each for each in study.resonances if each.mesh == name]
+        highest = sorted(own, key=lambda each: -each.factor)[:MOST_PEAKS]
+        for each in sorted(highest, key=lambda each: (each.frequency, each.factor)):
+            senses = " and ".join(direction.value for direction in each.directions)
+            words = f"{name}, running {senses}" if senses else name
+            last = "" if each.stable else ", unstable"
+            numbers = map(short, (each.speed, each.tooth_frequency, each.tooth_circular))
+            rows.append((words, _met(each.met) + last, *numbers, factor_text(each.factor)))
     return Table(heads, rows, 2)
+
+
+def _met(mode: MetMode | None) -> str:
+    """A natural frequency by its number: f₂, or f₂/3 where the third harmonic meets it."""
+    if mode is None:
+        return _NONE
+    name = "f" + str(mode.mode).translate(_LOWERED)
+    owner = f" of {mode.mesh}" if mode.mesh else ""
+    return f"{name}{owner}" if mode.harmonic == 1 else f"{name}/{mode.harmonic}{owner}"
 
 
 def factor_text(factor: float) -> str:
     """K_v: three decimals of what is of interest."""
     return f"{factor:.3f}" if factor < 10 else short(factor)
-
-
-def _ratio(study: TrainStudy, mesh: int) -> float:
-    return float(study.excitation.meshes[mesh].frequency_ratio)
-
-
-def _near(study: TrainStudy, natural: np.ndarray, mesh: int, frequency: float) -> str:
-    """The natural frequency that the lowest harmonic of a tooth frequency (1/s of the first mesh) meets there."""
-    found = [
-        (harmonic, abs(harmonic * _ratio(study, other) * frequency / circular - 1), mode + 1, other)
-        for other in range(len(study.excitation.meshes))
-        for harmonic in range(1, _NAMED + 1)
-        for mode, circular in enumerate(natural)
-        if circular
-    ]
-    near = [each for each in found if each[1] < _NEAR]
-    if not near:
-        return _NONE
-    # Its own teeth before those of another mesh.
-    harmonic, _, mode, other = min(near, key=lambda each: (each[0], each[3] != mesh, each[1]))
-    of = "" if _ratio(study, other) == _ratio(study, mesh) else f" of {study.up.mesh_names[other]}"
-    name = "f" + str(mode).translate(_LOWERED)
-    return f"{name}{of}" if harmonic == 1 else f"{name}/{harmonic}{of}"
 
 
 def speed_table(study: CampbellStudy) -> Table:

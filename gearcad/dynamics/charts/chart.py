@@ -1,0 +1,94 @@
+"""KvChart: how much the load between the teeth and in the shafts exceeds the static one, over speed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearcad.arrays import Floats
+from gearcad.notice import Notice, texts
+
+__all__ = ["FactorPeak", "ForceDefinition", "KvChart"]
+
+
+_PROMINENCE = 0.005
+"""How far K_v must fall on both sides of a peak that counts as a resonance."""
+
+
+class ForceDefinition(Enum):
+    """Which force between the teeth K_v compares with the static one."""
+
+    SPRING = "spring"
+    """k(t) (y - e): (2.3) of J. Osinski's paper."""
+    WITH_DAMPING = "with damping"
+    """k(t) (y - e) + c (y' - e')."""
+
+
+class FactorPeak(NamedTuple):
+    """A resonance: circular tooth frequency of the first mesh (1/s), and the factor there."""
+
+    frequency: float
+    factor: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class KvChart:
+    """Overload over `frequencies` (s,): circular tooth frequencies of the first mesh (1/s).
+
+    `factors` (s, m) is K_v of each mesh: greatest force over a period, by the `definition`, over the `static_forces` (m,) in N,
+    both of the flanks that carry; `least` (s, m) is the least over the static one, negative where flanks pull or those behind
+    them touch. `shaft_factors` (s, n) is the
+    greatest torque, in the sense of the static one, over the `shaft_references` (n,) in N·m; nan in shafts that are neither
+    loaded at rest nor have a reference. `standard` (s,) is K_v of ISO 6336-1:2006, Method B, of the pair of the first mesh.
+    """
+
+    frequencies: Floats
+    definition: ForceDefinition
+    factors: Floats
+    least: Floats
+    static_forces: Floats
+    shaft_factors: Floats
+    shaft_references: Floats
+    standard: Floats | None
+    stable: NDArray[np.bool_]
+    mesh_names: tuple[str, ...]
+    shaft_names: tuple[str, ...]
+    notices: tuple[Notice, ...]
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What to know before trusting it, in words."""
+        return texts(self.notices)
+
+    def peaks(self, mesh: int = 0) -> list[FactorPeak]:
+        """Resonances of a mesh, in order of frequency: maxima of K_v that stand out from both sides."""
+        from scipy.signal import find_peaks
+
+        found, _ = find_peaks(self.factors[:, mesh], prominence=_PROMINENCE)
+        return [FactorPeak(float(self.frequencies[i]), float(self.factors[i, mesh])) for i in found]
+
+    @property
+    def referred_shafts(self) -> list[int]:
+        """Shafts that have an overload: the others carry nothing at rest."""
+        return [shaft for shaft, column in enumerate(self.shaft_factors.T) if np.isfinite(column).all()]
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it: 1/s, N, N·m; no value (null) where a shaft has no factor."""
+        shafts = [[None if np.isnan(value) else float(value) for value in row] for row in self.shaft_factors.T]
+        return {
+            "frequency": self.frequencies.tolist(),
+            "definition": self.definition.value,
+            "kv": dict(zip(self.mesh_names, self.factors.T.tolist(), strict=True)),
+            "least_force": dict(zip(self.mesh_names, (self.least * self.static_forces).T.tolist(), strict=True)),
+            "static_force": dict(zip(self.mesh_names, self.static_forces.tolist(), strict=True)),
+            "shaft_overload": dict(zip(self.shaft_names, shafts, strict=True)),
+            "peaks": {name: [each._asdict() for each in self.peaks(j)] for j, name in enumerate(self.mesh_names)},
+            "kv_iso6336": None if self.standard is None else self.standard.tolist(),
+            "stable": self.stable.tolist(),
+            "warnings": list(self.warnings),
+            "notices": [notice.to_dict() for notice in self.notices],
+        }

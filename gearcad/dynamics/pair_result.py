@@ -1,0 +1,142 @@
+"""What was found out about a pair of gears by itself: as a mesh of varying stiffness, or as springs between its teeth."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from gearcad.arrays import Floats
+from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
+from gearcad.dynamics.tooth_springs.contact_model import ContactModel
+from gearcad.dynamics.tooth_springs.history import TimeHistory
+from gearcad.dynamics.train_result import TrainStudy
+from gearcad.dynamics.trains.six_dof import PairOnBearings
+from gearcad.geometry import GearPair
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.notice import Notice, texts
+from gearcad.per_gear import PerGear
+
+__all__ = ["ContactStudy", "PairStudy"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PairStudy:
+    """A pair as mounted, its mesh cycle and inertias (kg·m²), and the study of both as a train of one mesh.
+
+    With `bearings` the charts are those of six degrees of freedom; the natural modes are still those of the turning alone.
+    `unrated` says why K_v of ISO 6336-1 is missing, "" if it is not.
+    """
+
+    pair: GearPair
+    cycle: MeshCycle
+    inertias: PerGear[float]
+    study: TrainStudy
+    bearings: PairOnBearings | None
+    unrated: str = ""
+
+    def __repr__(self) -> str:
+        return f"<PairStudy of {self.pair.name!r}: {self.study!r}>"
+
+    @property
+    def name(self) -> str:
+        """Of the pair."""
+        return self.pair.name
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know before trusting it."""
+        factor = self.study.method_b
+        unrated = Notice("no-standard-factor", f"no K_v of ISO 6336-1: {self.unrated}")
+        standard = factor.notices if factor is not None else (unrated,)
+        return (*self.study.notices, *self.cycle.notices, *self._full_discs(), *standard)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+    def _full_discs(self) -> Iterator[Notice]:
+        """Of gears with a web whose inertia nobody gave."""
+        for role, gear in self.pair.gears.items():
+            if gear.body.web_thickness and self.study.options.inertias.pick(role) is None:
+                own = role.value
+                text = f"the {own}'s moment of inertia is that of a full disc, without its web; {own}_inertia gives another"
+                yield Notice("full-disc", text)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it."""
+        return {
+            "model": "mesh",
+            "stiffness_method": self.cycle.method,
+            "mesh_stiffness_mean": self.cycle.mean,
+            "mesh_stiffness_tangent_mean": self.cycle.tangent_mean,
+            "pinion_inertia": self.inertias.pinion,
+            "wheel_inertia": self.inertias.wheel,
+            "frequencies_on_bearings": None if self.bearings is None else list(self.bearings.frequencies()),
+            **{key: value for key, value in self.study.to_dict().items() if key != "model"},
+            "warnings": list(self.warnings),
+            "notices": [notice.to_dict() for notice in self.notices],
+        }
+
+    def arrays(self) -> dict[str, Floats]:
+        """As the .npz file has them."""
+        return self.study.arrays()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ContactStudy:
+    """A pair as mounted, its contact model, the Campbell study of it and the time history at one speed."""
+
+    pair: GearPair
+    model: ContactModel
+    study: CampbellStudy
+    history: TimeHistory
+
+    def __repr__(self) -> str:
+        return f"<ContactStudy of {self.pair.name!r}: {len(self.study.speeds)} speeds up to {self.study.speeds.max():.6g} rpm>"
+
+    @property
+    def name(self) -> str:
+        """Of the pair."""
+        return self.pair.name
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know before trusting it."""
+        return self.study.notices
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it."""
+        model = self.model
+        return {
+            "model": "contact",
+            "tooth_stiffness": model.pair_stiffness,
+            "tooth_damping": model.damping,
+            "pinion_inertia": model.inertias.pinion,
+            "wheel_inertia": model.inertias.wheel,
+            "natural_frequency": model.natural_frequency(),
+            "damping_ratio": model.damping_ratio,
+            "static_approach": model.static_approach,
+            "contact_ratio": model.contact_ratio,
+            "campbell": self.study.to_dict(),
+            "history_speed": self.history.speed,
+        }
+
+    def arrays(self) -> dict[str, Floats]:
+        """As the .npz file has them."""
+        return {
+            "speed": self.study.speeds,
+            "frequency": self.study.frequency,
+            "pinion_speed_amplitude": self.study.pinion_speed,
+            "approach_amplitude": self.study.approach,
+            "history_time": self.history.time,
+            "history_approach": self.history.approach,
+            "history_pinion_speed": self.history.pinion_speed,
+            "history_wheel_speed": self.history.wheel_speed,
+        }

@@ -1,0 +1,237 @@
+"""What was found out about a train: modes, charts over speed, the course at one speed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gearcad.arrays import Floats
+from gearcad.dynamics.charts.chart import KvChart
+from gearcad.dynamics.charts.findings import (
+    ChartResonance,
+    Charts,
+    GreatestFactor,
+    ModeSpeed,
+    ShaftOverload,
+    chart_resonances,
+    greatest_factor,
+    mode_speeds,
+    shaft_overloads,
+)
+from gearcad.dynamics.excitation.meshes import Excitation
+from gearcad.dynamics.options import DynamicsOptions
+from gearcad.dynamics.response.direction import Direction
+from gearcad.dynamics.trains.eigenmodes import NaturalModes
+from gearcad.dynamics.trains.system import System
+from gearcad.dynamics.trains.train import Train, TrainModel
+from gearcad.notice import Notice, texts
+from gearcad.rating.dynamic_factor import DynamicFactor
+
+__all__ = ["Course", "ModalStudy", "TrainStudy"]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Course:
+    """One speed (rpm of the first pinion) over the common period: `turn` (t,) in tooth periods of the first mesh.
+
+    `approach` (t, m) of the flanks in µm, `force` (t, m) in N with that of the dampers, `shaft_torque` (t, n) in N·m; `kv` (m,)
+    is K_v of each mesh there.
+    """
+
+    speed: float
+    kv: Floats
+    turn: Floats
+    approach: Floats
+    force: Floats
+    shaft_torque: Floats
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it."""
+        return {name: value if isinstance(value, float) else value.tolist() for name, value in vars(self).items()}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ModalStudy:
+    """A train without meshes: nothing shakes it, but it has its natural modes."""
+
+    train: Train
+    options: DynamicsOptions
+    modes: NaturalModes
+
+    @property
+    def name(self) -> str:
+        """Of the train."""
+        return self.train.name
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know before trusting it."""
+        return _missed(self.train, self.modes)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it: no chart, no course."""
+        return {
+            "model": self.train.model.value,
+            "modes": self.modes.to_dict(),
+            "warnings": list(self.warnings),
+            "notices": [notice.to_dict() for notice in self.notices],
+        }
+
+    def arrays(self) -> dict[str, Floats]:
+        """As the .npz file has them."""
+        return _mode_arrays(self.modes)
+
+
+def _missed(train: Train, modes: NaturalModes) -> tuple[Notice, ...]:
+    """That the model has fewer natural frequencies than the train."""
+    if not modes.missed or train.model is TrainModel.MODES:
+        return ()
+    text = (
+        f"natural frequencies below the highest listed that this model does not have: {modes.missed}; "
+        'the model "exact" has them all'
+    )
+    return (Notice("missed-frequencies", text),)
+
+
+def _mode_arrays(modes: NaturalModes) -> dict[str, Floats]:
+    return {
+        "mode_frequency": modes.frequency,
+        "mode_shape": modes.shape,
+        "shaft_places": modes.places,
+        "shaft_shape": modes.shaft_shape,
+    }
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class TrainStudy:
+    """What was found out about a train: `up` and, where flanks may part, `down` are charts over the same rising speeds.
+
+    `other_frequencies` (Hz) are those of the system of the charts, where it has others than the modes; `method_b` is K_v by
+    ISO 6336-1. `found` is what the calculation itself has to say: `notices` are also those of the charts and modes.
+    """
+
+    train: Train
+    options: DynamicsOptions
+    system: System
+    excitation: Excitation
+    modes: NaturalModes
+    other_frequencies: tuple[float, ...]
+    up: KvChart
+    down: KvChart | None
+    jumps: tuple[Floats, Floats]
+    course: Course
+    found: tuple[Notice, ...]
+    method_b: DynamicFactor | None
+
+    def __repr__(self) -> str:
+        return f"<TrainStudy of {self.train.name!r}: {len(self.speeds)} speeds up to {self.speeds.max():.6g} rpm>"
+
+    @property
+    def name(self) -> str:
+        """Of the train."""
+        return self.train.name
+
+    @property
+    def speeds(self) -> Floats:
+        """Of the charts (s,): rpm of the first mesh's pinion."""
+        return self.rpm(self.up.frequencies)
+
+    def rpm(self, frequencies: ArrayLike) -> Floats:
+        """Speed of the first mesh's pinion at circular tooth frequencies of that mesh (1/s)."""
+        result: Floats = np.asarray(frequencies, float) * 30 / (math.pi * self.train.meshes[0].teeth)
+        return result
+
+    @property
+    def jump_speeds(self) -> dict[Direction, Floats]:
+        """Speeds (rpm) at which vibration jumps, running up and running down."""
+        return {direction: self.rpm(jumps) for direction, jumps in zip(Direction, self.jumps, strict=True)}
+
+    # ------------------------------------------------------------------ at a glance
+
+    @property
+    def charts(self) -> Charts:
+        """Both charts, as findings are made of them."""
+        ratios = tuple(float(mesh.frequency_ratio) for mesh in self.excitation.meshes)
+        return Charts(self.speeds, self.up, self.down, ratios)
+
+    @cached_property
+    def greatest(self) -> GreatestFactor:
+        """The greatest K_v of all meshes, up and down."""
+        return greatest_factor(self.charts)
+
+    @cached_property
+    def resonances(self) -> tuple[ChartResonance, ...]:
+        """Maxima of K_v in the charts, mesh by mesh, with the natural frequencies that they meet."""
+        others = 2 * np.pi * np.array(self.other_frequencies)
+        return chart_resonances(self.charts, others if self.other_frequencies else self.modes.circular)
+
+    @cached_property
+    def shaft_overloads(self) -> dict[str, ShaftOverload]:
+        """Of the shafts that carry something at rest, by name."""
+        return {each.shaft: each for each in shaft_overloads(self.charts)}
+
+    @property
+    def mode_speeds(self) -> tuple[ModeSpeed, ...]:
+        """Speeds at which tooth frequencies are natural ones, or half of those that bend teeth."""
+        return mode_speeds(self.modes, self.train.meshes[0].teeth, self.other_frequencies)
+
+    @property
+    def course_lasts(self) -> bool:
+        """Whether the motion at the speed of the chart next to that of the course is stable."""
+        return bool(self.up.stable[int(np.abs(self.speeds - self.course.speed).argmin())])
+
+    # ------------------------------------------------------------------ documents
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know before trusting it."""
+        down = self.down.notices if self.down is not None else ()
+        return tuple(dict.fromkeys((*self.found, *self.up.notices, *down, *_missed(self.train, self.modes))))
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it; frequencies in Hz and 1/s, speeds in rpm."""
+        return {
+            "model": self.train.model.value,
+            "modes": self.modes.to_dict(),
+            "speed": self.speeds.tolist(),
+            "chart": self.up.to_dict(),
+            "chart_down": None if self.down is None else self.down.to_dict(),
+            **{f"jumps_{direction.value}": speeds.tolist() for direction, speeds in self.jump_speeds.items()},
+            "resonance_speed_iso6336": None if self.method_b is None else self.method_b.resonance_speed,
+            "course": self.course.to_dict(),
+            "greatest": self.greatest.to_dict(),
+            "resonances": [each.to_dict() for each in self.resonances],
+            "shaft_overloads": [each._asdict() for each in self.shaft_overloads.values()],
+            "warnings": list(self.warnings),
+            "notices": [notice.to_dict() for notice in self.notices],
+        }
+
+    def arrays(self) -> dict[str, Floats]:
+        """As the .npz file has them."""
+        found = {
+            "speed": self.speeds,
+            "kv": self.up.factors,
+            "shaft_overload": self.up.shaft_factors,
+            **_mode_arrays(self.modes),
+            **{f"course_{name}": np.asarray(value) for name, value in vars(self.course).items()},
+        }
+        if self.down is not None:
+            found["kv_down"] = self.down.factors
+        if self.up.standard is not None:
+            found["kv_iso6336"] = self.up.standard
+        return found

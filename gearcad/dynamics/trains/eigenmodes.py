@@ -1,0 +1,90 @@
+"""NaturalModes: the natural frequencies of a train, the shapes of its modes, and where their energy is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from gearcad.arrays import Floats
+
+__all__ = ["NaturalModes"]
+
+
+@dataclass(frozen=True, eq=False)
+class NaturalModes:
+    """n natural modes of a train at the mean stiffness of its meshes, without damping, by rising frequency.
+
+    `frequency` (n,) in Hz, `circular` in 1/s; `rpm` (n, m) is the speed of the train (of its first mesh's pinion) at which the
+    tooth frequency of each mesh meets the mode. `shape` (n, i) are turns of the inertias in rad, scaled to a modal mass of
+    1 kg·m²; the first inertia that turns at least half as far as any turns positively. `shaft_shape` (n, s, p) are turns at
+    `places` (p,), 0 ... 1 from start to end of every shaft; `approach` (n, m) is that of the flanks in mm, positive as the mean
+    torques press them. `kinetic_inertias` (n, i) and `kinetic_shafts` (n, s) are shares in the kinetic energy,
+    `potential_shafts` (n, s) and `potential_meshes` (n, m) in the potential energy. Each pair sums up to 1, but the first
+    `rigid` modes, at 0 Hz, have no potential energy. `missed` counts the natural frequencies below the highest of these that
+    the train has besides, with the full mass of its shafts unless the model leaves it away.
+    """
+
+    frequency: Floats
+    circular: Floats
+    rpm: Floats
+    shape: Floats
+    places: Floats
+    shaft_shape: Floats
+    approach: Floats
+    kinetic_inertias: Floats
+    kinetic_shafts: Floats
+    potential_shafts: Floats
+    potential_meshes: Floats
+    inertias: tuple[str, ...]
+    shafts: tuple[str, ...]
+    meshes: tuple[str, ...]
+    rigid: int
+    missed: int
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+
+    def __len__(self) -> int:
+        return len(self.frequency)
+
+    @property
+    def leading_parts(self) -> tuple[tuple[str, ...], ...]:
+        """Of each elastic mode, in words, what moves most and what gives way most: one part where both are the same."""
+        return tuple(() if mode < self.rigid else self._leading(mode) for mode in range(len(self)))
+
+    @property
+    def most_toothed(self) -> tuple[int, float] | None:
+        """The mode (from 0) whose potential energy is most in the teeth, and their share; None without elastic ones."""
+        shares = self.potential_meshes[self.rigid :]
+        if not shares.size:
+            return None
+        mode = int(shares.sum(axis=1).argmax())
+        return mode + self.rigid, float(shares[mode].sum())
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain lists, under the names of the fields, and the leading parts."""
+        values = {each.name: getattr(self, each.name) for each in fields(self)}
+        plain = {
+            name: value.tolist() if isinstance(value, np.ndarray) else list(value) if isinstance(value, tuple) else value
+            for name, value in values.items()
+        }
+        return {**plain, "leading_parts": [list(names) for names in self.leading_parts]}
+
+    def _leading(self, mode: int) -> tuple[str, ...]:
+        moving = _shared(self.inertias, self.kinetic_inertias[mode]) + _shared(self.shafts, self.kinetic_shafts[mode], "shaft ")
+        bent = _shared(self.shafts, self.potential_shafts[mode], "shaft ")
+        bent += _shared(self.meshes, self.potential_meshes[mode], "mesh ")
+        return tuple(dict.fromkeys(max(each)[1] for each in (moving, bent)))
+
+
+def _shared(names: tuple[str, ...], shares: Floats, kind: str = "") -> list[tuple[float, str]]:
+    """Shares in an energy, with the names of what has them, of which the kind is a part."""
+    return [
+        (float(share), name if name.startswith(kind.strip()) else kind + name)
+        for name, share in zip(names, shares, strict=True)
+    ]
