@@ -48,7 +48,7 @@ _Limit = float | tuple[float, float] | None
 
 @dataclass(frozen=True, kw_only=True)
 class Material:
-    """Linear elastic material. `youngs_modulus` and the limits in MPa, `density` in kg/m^3.
+    """Linear elastic material. `youngs_modulus` and the limits in MPa, `density` in kg/m³.
 
     `contact_limit` and `root_limit` are allowable stresses, or the range (low, high) in which that of the material lies;
     None gives no verdict. `group` says how flanks run in, and `contact_endurance_limit` (sigma_H_lim, MPa) how much where

@@ -134,12 +134,12 @@ class MeshCycle:
 
     @property
     def secant_per_width(self) -> float:
-        """Mean secant stiffness per face width (N/(mm µm)): C_y_beta of ISO 6336-1."""
+        """Mean secant stiffness per face width (N/(mm·µm)): C_y_beta of ISO 6336-1."""
         return self.mean / self.width
 
     @property
     def tangent_per_width(self) -> float:
-        """Mean tangent stiffness per face width (N/(mm µm)): C_y_alpha of ISO 6336-1."""
+        """Mean tangent stiffness per face width (N/(mm·µm)): C_y_alpha of ISO 6336-1."""
         return self.tangent_mean / self.width
 
     @property
@@ -175,7 +175,7 @@ class MeshCycle:
         return FourierSeries(float(self.weights @ values), np.cos(turns) @ weighted, np.sin(turns) @ weighted)
 
     def to_dict(self) -> dict[str, Any]:
-        """Figures and curves as `stiffness.json` has them: N/µm, µm/N, µm, degrees; per face width N/(mm µm)."""
+        """Figures and curves as `stiffness.json` has them: N/µm, µm/N, µm, degrees; per face width N/(mm·µm)."""
         course: dict[str, Any] = (
             {}
             if self.mean_only

@@ -52,7 +52,7 @@ class Compared(Explanation):
 
 @dataclass(frozen=True, kw_only=True)
 class StiffnessExplanation(Explanation):
-    """Stiffness in N/(mm µm) of common face width: the `mean` of the mesh and the greatest of a `single` pair of teeth.
+    """Stiffness in N/(mm·µm) of common face width: the `mean` of the mesh and the greatest of a `single` pair of teeth.
 
     `rim_depths`: how far below the root circle each body is flexible (normal modules), `approach_shares` its part of the
     approach. `specific_load` (N/mm) is F_t K_A/b, `low_load_factor` what it leaves of the standard's stiffness, `sweep_least`

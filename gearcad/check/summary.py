@@ -28,7 +28,7 @@ def by_name(values: Mapping[str, Any]) -> dict[str, Any]:
 
 @dataclass(frozen=True, kw_only=True)
 class Summary:
-    """What every model tells: stiffness in N/(mm µm) of common face width, stresses in MPa, transmission error in µm.
+    """What every model tells: stiffness in N/(mm·µm) of common face width, stresses in MPa, transmission error in µm.
 
     `contact_pressure` is the greatest away from the edges of the flanks, `von_mises` the greatest below that contact,
     `von_mises_depth` (mm) below the flank. `corner_positions` counts positions where the edge of a tip touches, whose pressure

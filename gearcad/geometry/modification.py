@@ -60,7 +60,7 @@ class ReliefShape(Enum):
 
 @dataclass(frozen=True, kw_only=True)
 class FlankModification:
-    """Modifications of both flanks of every tooth. Amounts in um, positive takes material off; lengths in mm. ISO 21771.
+    """Modifications of both flanks of every tooth. Amounts in µm, positive takes material off; lengths in mm. ISO 21771.
 
     `tip_relief` C_alpha_a at the tip form circle, nothing `tip_relief_length` of roll below it; `root_relief` C_alpha_f the
     same from the root form circle up. `profile_crowning` C_alpha at both ends of the profile, a parabola with nothing in its

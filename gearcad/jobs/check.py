@@ -55,7 +55,7 @@ class Check(Job[PairDesign, CheckResult]):
         return replace(design.check or CheckOptions(), model=self.model)
 
     def document(self, result: CheckResult) -> dict[str, Any]:
-        """What check.json holds: stiffness in N/(mm µm) of common face width, transmission error in µm, stresses in MPa."""
+        """What check.json holds: stiffness in N/(mm·µm) of common face width, transmission error in µm, stresses in MPa."""
         return reported_document(result) if self.report else check_document(result)
 
     def for_row(self, _design: Design, _parts: Collection[str]) -> Check:

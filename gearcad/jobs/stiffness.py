@@ -71,7 +71,7 @@ class Stiffness(Job[PairDesign, StiffnessComparison]):
         return expected_methods(pair, material, self.methods, body=body, mounting=design.mounting, positions=self.positions)
 
     def document(self, result: StiffnessComparison) -> dict[str, Any]:
-        """What stiffness.json holds: N/µm, per face width N/(mm µm), degrees, µm."""
+        """What stiffness.json holds: N/µm, per face width N/(mm·µm), degrees, µm."""
         return {"kind": "stiffness", "name": result.pair.name, "gearcad": __version__, **result.to_dict(self.fourier)}
 
     def notices(self, result: StiffnessComparison) -> Sequence[Notice]:

@@ -58,7 +58,7 @@ class ContactMethod(StiffnessMethod):
 
     @abstractmethod
     def _single(self, torque: float) -> float:
-        """Greatest stiffness of one pair alone (N/(mm µm))."""
+        """Greatest stiffness of one pair alone (N/(mm·µm))."""
 
     def _cycle(self, load: Load, count: int) -> MeshCycle:
         torque, force = math.copysign(self.torque(load), load.torque), self.force(load)

@@ -39,13 +39,13 @@ class SinglePair:
 
     @property
     def stiffness(self) -> Floats:
-        """k (n,) in N/(mm µm)."""
+        """k (n,) in N/(mm·µm)."""
         result: Floats = 1 / np.sum(list(self.parts.values()), axis=0)
         return result
 
     @property
     def tangent_stiffness(self) -> Floats:
-        """dF/ddelta (n,) in N/(mm µm)."""
+        """dF/ddelta (n,) in N/(mm·µm)."""
         result: Floats = 1 / (1 / self.stiffness - self.tangent_less)
         return result
 

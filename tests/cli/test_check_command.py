@@ -180,7 +180,7 @@ def test_modified_and_misaligned_gears_are_checked_as_far_as_a_plane_goes(here: 
     document = json.loads((here / "output/pair/check.json").read_text(encoding="utf-8"))
     report = (here / "output/pair/report.html").read_text(encoding="utf-8")
     assert document["mounting"]["pinion_pitch_error"] == 4.0
-    # The middle pair stands proud: unloaded it would be 4 um ahead, and loaded it is still less behind than without.
+    # The middle pair stands proud: unloaded it would be 4 µm ahead, and loaded it is still less behind than without.
     plain = run("check", spec(SPUR), "--quiet", "--json")
     errors = [max(each["mesh_cycle"]["transmission_error"]) for each in (document, json.loads(plain.stdout))]
     assert errors[0] < errors[1]

@@ -102,7 +102,7 @@ def test_reasons_tell_width_unevenness_and_the_rest(document: lxml.html.HtmlElem
         assert f"= {uneven:.3f} times the mean along the common width, {short(mean)} MPa" in item.text_content()
         assert f"What remains, {100 * (mean / standard - 1):+.1f} %" in item.text_content()
     (lines,) = document.xpath("//h3[text()='Load along the lines of contact']/following-sibling::ul[1]")
-    # 10 um of the mounting, less what 6 um of the right-hand pinion's steeper helix turn the gap back.
+    # 10 µm of the mounting, less what 6 µm of the right-hand pinion's steeper helix turn the gap back.
     assert "for Fβy = 4 µm" in lines.text_content()
     assert f"KHβ = {result.summary.face_load_factor:.3f}" in lines.text_content()
 

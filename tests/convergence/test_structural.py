@@ -46,7 +46,7 @@ def cycle(
 
 
 class Figures(NamedTuple):
-    """Mean stiffness (N/(mm um)), greatest root tension and compression of both gears (MPa), range of the approach (mm)."""
+    """Mean stiffness (N/(mm·µm)), greatest root tension and compression of both gears (MPa), range of the approach (mm)."""
 
     stiffness: float
     tension: tuple[float, float]
@@ -82,7 +82,7 @@ def assert_agree(hybrid: PlaneCycle, brute: PlaneCycle, *, stiffness: float, roo
 @pytest.mark.long
 @pytest.mark.parametrize("body", [BodyModel(), THREE_TEETH], ids=["full rings", "3 teeth"])
 def test_hybrid_is_the_converged_brute_force(body: BodyModel) -> None:
-    """Flank edges of 8 um, a ninth of the half width: 0.1 % of stiffness, 0.5 % of root stress and of transmission error.
+    """Flank edges of 8 µm, a ninth of the half width: 0.1 % of stiffness, 0.5 % of root stress and of transmission error.
 
     Position by position too, where no corner touches: there both depend on the mesh of the corner.
     """
@@ -103,7 +103,7 @@ def test_hybrid_is_the_converged_brute_force(body: BodyModel) -> None:
 
 
 def test_hybrid_is_near_a_coarser_brute_force() -> None:
-    """Flank edges of 18 um, a quarter of the half width: it is itself 0.3 % off in stiffness, 0.5 % in the range."""
+    """Flank edges of 18 µm, a quarter of the half width: it is itself 0.3 % off in stiffness, 0.5 % in the range."""
     assert_agree(
         cycle(THREE_TEETH, 8),
         cycle(THREE_TEETH, 8, brute_sizes(0.012), nodal_compliance),

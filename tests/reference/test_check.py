@@ -59,7 +59,7 @@ def summary(of: PlaneCycle) -> PlaneSummary:
 
 
 def test_full_rings() -> None:
-    """224.8 N/um over b = 10, and root stresses of 150.9 and 157.6 MPa."""
+    """224.8 N/µm over b = 10, and root stresses of 150.9 and 157.6 MPa."""
     found = summary(cycle())
     assert 10 * found.mesh_stiffness_mean == pytest.approx(224.8, rel=TRIAL)
     assert found.root_tension == pytest.approx((150.9, 157.6), rel=TRIAL)
@@ -86,7 +86,7 @@ def test_what_the_body_does_to_the_stiffness(teeth: int, cuts: Cuts, change: flo
     ("plane", "mean", "largest", "smallest"), [(Plane.STRAIN, 323, 377, 226), (Plane.STRESS, 300, 351, 210)]
 )
 def test_bodies_clamped_below_the_root(plane: Plane, mean: float, largest: float, smallest: float) -> None:
-    """Alm's bodies: 323/377/226 N/um in plane strain, 300/351/210 in plane stress: mean, largest, and of a single pair.
+    """Alm's bodies: 323/377/226 N/µm in plane strain, 300/351/210 in plane stress: mean, largest, and of a single pair.
 
     The last is the smallest of the cycle, next to the pitch point; the stiffest place of a pair alone has 233 and 216.
     """

@@ -104,7 +104,7 @@ def test_against_time_integration(frequency: float) -> None:
 
 @pytest.mark.parametrize(("phase", "expected"), [(0.0, [34.3, 1.52, 13.9]), (180.0, [10.7, 21.2, 4.95])])
 def test_two_stages_in_and_out_of_phase(phase: float, expected: list[float]) -> None:
-    """Half range of the first mesh (µm) at the three upper natural frequencies; c1 = c3 = c5 = 1 N m s/rad of (3.1)."""
+    """Half range of the first mesh (µm) at the three upper natural frequencies; c1 = c3 = c5 = 1 N·m·s/rad of (3.1)."""
     shape = CosineStiffness(variation=VARIATION)
     excitation = Excitation(meshes=(MeshExcitation(stiffness=shape), MeshExcitation(stiffness=shape, phase=phase)))
     response = periodic_response(two_stages(), excitation, [9971, 16559, 24976], harmonics=5)

@@ -71,7 +71,7 @@ def test_figures_beside_iso_6336(pair, whole: SolidCycle) -> None:  # type: igno
 def test_rings_of_four_modules(pair) -> None:  # type: ignore[no-untyped-def]
     """ISO's stiffness is that of usual bodies: with 4 m_n below the teeth it is met within 12 %.
 
-    The trials of the method had 14.64 N/(mm um) there, with neither finer meshes nor tip edges that touch.
+    The trials of the method had 14.64 N/(mm·µm) there, with neither finer meshes nor tip edges that touch.
     """
     inner = pair.pair.gears.map(lambda gear: gear.root_diameter - 8 * gear.normal_module)
     found = cycle_of(pair.pair, BodyModel(inner_diameters=inner)).values("stiffness").mean()

@@ -16,7 +16,7 @@ from support.exact import distance_to_section, solid_volume
 from gearcad import BasicRack, Body, Gear
 from gearcad.solids import gear_solid, write_step
 
-FLANK_TOLERANCE = 1e-5  # mm: the promise is 0.01 um
+FLANK_TOLERANCE = 1e-5  # mm: the promise is 0.01 µm
 FITTED = 1e-6  # mm: what a section is fitted to; misses of this size would show a fault in the construction
 VOLUME_TOLERANCE = 1e-7  # 0.1 ppm
 

@@ -23,7 +23,7 @@ from gearcad import BasicRack, Gear
 from gearcad.geometry.modification import FlankModification
 from gearcad.solids import gear_solid, write_step
 
-ON_FLANK = 1e-6  # mm: what section and sweep together are fitted to; the promise is 0.01 um
+ON_FLANK = 1e-6  # mm: what section and sweep together are fitted to; the promise is 0.01 µm
 VOLUME_TOLERANCE = 1e-7  # of the whole volume: what the kernel's own integration reaches
 EDGE = 1e-6  # mm: radii this close to a circle are on it
 

@@ -37,17 +37,17 @@ def _over_teeth(gear: Gear, weight: Callable[[float], float], *breaks: float) ->
 
 
 def section_area(gear: Gear) -> float:
-    """Area of the transverse section without a bore (mm^2), by quadrature of the half tooth angle over the radius."""
+    """Area of the transverse section without a bore (mm²), by quadrature of the half tooth angle over the radius."""
     return math.pi * gear.root_diameter**2 / 4 + _over_teeth(gear, lambda radius: 1.0)
 
 
 def toothed_volume(gear: Gear) -> float:
-    """Volume of the toothed part without bore and end chamfers (mm^3)."""
+    """Volume of the toothed part without bore and end chamfers (mm³)."""
     return section_area(gear) * gear.face_width
 
 
 def chamfered_volume(gear: Gear) -> float:
-    """Volume that both end chamfers take away (mm^3): twice the integral of the cone's depth over the section."""
+    """Volume that both end chamfers take away (mm³): twice the integral of the cone's depth over the section."""
     tangent = math.tan(math.radians(gear.body.end_chamfer_angle))
     start, root = gear.tip_diameter / 2 - gear.body.end_chamfer * tangent, gear.root_diameter / 2
 
@@ -59,7 +59,7 @@ def chamfered_volume(gear: Gear) -> float:
 
 
 def solid_volume(gear: Gear) -> float:
-    """Volume of the whole gear (mm^3): teeth, less end chamfers, with hubs, less bore and keyway through everything."""
+    """Volume of the whole gear (mm³): teeth, less end chamfers, with hubs, less bore and keyway through everything."""
     body, opening = gear.body, 0.0
     if body.bore:
         radius, half = body.bore / 2, body.keyway_width / 2

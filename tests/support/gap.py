@@ -34,7 +34,7 @@ def _rolls(gear: Gear) -> tuple[float, float]:
 
 
 def _relief(amount: float, length: float, shape: ReliefShape, from_end: Floats) -> Floats:
-    """Of a relief at distances from the end where it is deepest (um)."""
+    """Of a relief at distances from the end where it is deepest (µm)."""
     if not amount:
         return np.zeros_like(from_end)
     linear = np.interp(from_end, [0.0, length], [1.0, 0.0])

@@ -91,7 +91,7 @@ def unturned(gear: Gear, points: Floats) -> Floats:
 
 
 def removed_volume(gear: Gear) -> float:
-    """Volume (mm^3) that the modifications take off: the integral of (left and right depth)/r_b R dR dz over the teeth.
+    """Volume (mm³) that the modifications take off: the integral of (left and right depth)/r_b R dR dz over the teeth.
 
     Gauss points on pieces between all corners of the depth and of the end chamfers.
     """

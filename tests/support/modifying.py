@@ -38,7 +38,7 @@ AMOUNTS = {
     "helix_angle_modification": 9.0,
     "twist": 12.0,
 }
-"""Of each modification (um)."""
+"""Of each modification (µm)."""
 
 
 def modified(gear: Gear, *names: str, **others: object) -> Gear:

@@ -26,7 +26,7 @@ def thesis_pair(**changes: float) -> GearPair:
 
 
 def thesis_model(pair: GearPair | None = None, **changes: Any) -> ContactModel:
-    """Table 3.1: k = 400 000 N/m, b = 4 kg/s, M_1 = 10 N m, discs of 7250 kg/m^3 with the reference diameters."""
+    """Table 3.1: k = 400 000 N/m, b = 4 kg/s, M_1 = 10 N·m, discs of 7250 kg/m³ with the reference diameters."""
     pair = pair or thesis_pair()
     inertias = [disc_inertia(gear.reference_diameter, gear.face_width, 7250.0) for gear in (pair.pinion, pair.wheel)]
     given = {"inertias": tuple(inertias), "pair_stiffness": 0.4, "damping": 4.0, "torque": 10.0}

@@ -51,7 +51,7 @@ def isolated() -> System:
 
 
 def two_stages(shaft_damping: float = 1.0) -> System:
-    """The paper's two-stage train (3.1)-(3.5) with k3 = 1e7 N m/rad, k = 7.5e8 N/m; moments +M on gear 1, -M on gear 4."""
+    """The paper's two-stage train (3.1)-(3.5) with k3 = 1e7 N·m/rad, k = 7.5e8 N/m; moments +M on gear 1, -M on gear 4."""
     radius, inertia, k_1, k_3, k_5, half = 0.0902, 0.0446, 1e5, 1e7, 921.0, 2**-0.5
     gears = np.array([[1, 0, 0, 0], [0, half, half, 0], [0, half, -half, 0], [0, 0, 0, 1]]).T / np.sqrt(inertia)
     return System(

@@ -109,7 +109,7 @@ def test_across_moves_the_parabola_of_the_gap() -> None:
 
 @pytest.mark.parametrize("part", [0.1, 0.5, 0.9])
 def test_the_plane_gap_agrees(part: float) -> None:
-    """Of spur gears, in the middle of the common face width: the depths over the curves, to 0.01 um."""
+    """Of spur gears, in the middle of the common face width: the depths over the curves, to 0.01 µm."""
     made = pair(0.0, ALL, offset=3.0)
     path = made.path_of_contact
     length = path.A + part * (path.E - path.A)

@@ -105,7 +105,7 @@ def test_balls_touch_the_exact_flanks(gear: Gear) -> None:
     between = 2 * centre * (math.cos(math.pi / (2 * gear.teeth)) if gear.teeth % 2 else 1.0)
     assert gear.inspection.over_balls(ball) == pytest.approx(
         between + ball, abs=2e-8, rel=0
-    )  # Nelder-Mead: 1e-15 mm^2 over ball/2
+    )  # Nelder-Mead: 1e-15 mm² over ball/2
     assert gear.inspection.ball_contact_diameter(ball) == pytest.approx(touching, abs=1e-5)
     assert gear.form_diameter < touching < gear.tip_form_diameter
     # The ball is that which touches at d + 2 x m_n, rounded up to two digits, so it touches a little further out.

@@ -130,7 +130,7 @@ def test_sides_join_into_one_outline_around_the_section(mesh: SectorMesh) -> Non
 
 
 def element_area(points: Any, triangles: Any) -> float:
-    """Area (mm^2) of quadratic triangles: each straight one, and two thirds of what its mid-side nodes bulge."""
+    """Area (mm²) of quadratic triangles: each straight one, and two thirds of what its mid-side nodes bulge."""
     a, b, c, *mids = (points[triangles[:, k]] for k in range(6))
     corners = (a, b, c)
 

@@ -21,7 +21,7 @@ ROLL = LAST - FIRST
 
 
 def depth(length: float, z: float, *, left: bool = True, gear: Gear = GEAR, **amounts: Any) -> float:
-    """How far a flank of the gear with these modifications is taken back, in um."""
+    """How far a flank of the gear with these modifications is taken back, in µm."""
     form = replace(gear, modification=FlankModification(**amounts)).flank_form
     return 1000 * float(form.depth(length, z, left=left))
 

@@ -65,7 +65,7 @@ def test_patch_of_constant_stress(mesh: SectorMesh, elasticity: PlaneElasticity)
 
 
 def _area(mesh: SectorMesh) -> float:
-    """mm^2, by the same elements: a divergence of 1 under a bulk modulus that is known."""
+    """mm², by the same elements: a divergence of 1 under a bulk modulus that is known."""
     from skfem import Basis, ElementTriP2, MeshTri2
 
     basis = Basis(MeshTri2(mesh.points.T, mesh.triangles.T), ElementTriP2(), intorder=4)

@@ -363,7 +363,7 @@ RELIEF = FlankModification(tip_relief=20.0, tip_relief_length=1.2)
 def test_tip_relief_is_added_to_the_gap() -> None:
     """Nothing is taken off below its start, all of it at the tip, and the gap grows by just that.
 
-    Of what has been taken back 20 um, the point that now lies at a place comes from 20 um of roll nearer to the root.
+    Of what has been taken back 20 µm, the point that now lies at a place comes from 20 µm of roll nearer to the root.
     """
     line = line_of_action(modified(RELIEF))
     pinion, wheel = line.flanks
@@ -473,7 +473,7 @@ def test_flanks_too_hollow_to_touch_inside_have_no_reduced_radius() -> None:
 
 
 def test_a_gap_that_all_flanks_have_costs_no_stiffness() -> None:
-    """Lead crowning in a plane model, seen off its middle: the same teeth, 4 um later."""
+    """Lead crowning in a plane model, seen off its middle: the same teeth, 4 µm later."""
     plain, late = (
         plane_pair(replace(modified(wheel=of), axial_offset=2.5), STEEL, body=SMALL)
         for of in (FlankModification(), FlankModification(lead_crowning=64.0))

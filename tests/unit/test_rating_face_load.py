@@ -30,7 +30,7 @@ def test_values_by_hand(misalignment: float, stiffness: float, load: float, widt
 
 @pytest.mark.parametrize("misalignment", [1.0, 7.0, 18.0, 35.0, 200.0])
 def test_a_row_of_springs_has_that_factor(misalignment: float) -> None:
-    """Springs of 16 N/(mm µm) under flanks that stand off by up to F_beta: pressed together until they carry the load."""
+    """Springs of 16 N/(mm·µm) under flanks that stand off by up to F_beta: pressed together until they carry the load."""
     stiffness, mean = 16.0, 150.0
     stand_off = misalignment * (np.arange(20_000) + 0.5) / 20_000
 

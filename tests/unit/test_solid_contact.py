@@ -100,7 +100,7 @@ MOUNTINGS = (
     Mounting(pinion_pitch_error=6, wheel_pitch_error=-2, centre_distance_change=0.15),
 )
 GAP = 1e-4
-"""mm: 0.1 um; the gap is taken along the normal of the exact flanks, and nearest places to second order in slopes."""
+"""mm: 0.1 µm; the gap is taken along the normal of the exact flanks, and nearest places to second order in slopes."""
 
 EDGE = 3e-3
 """The same at the edge of a tip: where it stands is that of the exact flanks as drawn."""

@@ -95,7 +95,7 @@ class Found:
 
 @dataclass(frozen=True)
 class Search:
-    """Variants between `low` and `high` (6,) under a torque (N m).
+    """Variants between `low` and `high` (6,) under a torque (N·m).
 
     `plain` is what becomes of the flanks without reliefs and crowning, their helix angle made up for a misalignment.
     """

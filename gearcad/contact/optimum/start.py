@@ -44,7 +44,7 @@ _LONGEST = 0.5
 
 
 def start_search(model: SolidPair, torque: float, shape: ReliefShape) -> Search:
-    """Prepare a search at a torque (N m) for a model whatever its own tip relief and crowning; the helix angle is modified
+    """Prepare a search at a torque (N·m) for a model whatever its own tip relief and crowning; the helix angle is modified
     only against a misalignment of its mounting.
     """
     nothing = np.zeros(len(AMOUNTS))

@@ -46,7 +46,7 @@ _SHORT = 1e-6
 
 @dataclass(frozen=True)
 class Condition:
-    """What a variant is loaded with: torque (N m on the pinion), and deviations (µm) added to those of the mounting."""
+    """What a variant is loaded with: torque (N·m on the pinion), and deviations (µm) added to those of the mounting."""
 
     torque: float
     misalignment: float = 0.0
@@ -198,7 +198,7 @@ class Variants:
         return tuple(found)
 
     def force(self, torque: float) -> float:
-        """Normal force (N) at a torque (N m)."""
+        """Normal force (N) at a torque (N·m)."""
         return self.roomy.force(torque) * self.roomy.width / math.cos(self.roomy.helix)
 
     def outcomes(self, amounts: Floats, condition: Condition) -> Outcomes:

@@ -84,7 +84,7 @@ def solve_contact(pairs: tuple[ContactPair, ...], bodies: PerGear[PlaneComplianc
 def compliance_matrix(pairs: tuple[ContactPair, ...], body: PlaneCompliance, role: Role) -> Floats:
     """Displacement of a gear's flank over cell i, times its width, by the pressure on cell j.
 
-    (n, n) in mm^2/MPa.
+    (n, n) in mm²/MPa.
     """
     matrix = np.block([[_block(moved, loaded, body, role) for loaded in pairs] for moved in pairs])
     result: Floats = (matrix + matrix.T) / 2

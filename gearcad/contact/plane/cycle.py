@@ -152,7 +152,7 @@ def root_loads(contacts: tuple[PlanePairContact, ...], role: Role) -> list[list[
 
 
 def _hub_torque(model: PlanePair, contacts: tuple[PlanePairContact, ...], role: Role) -> float:
-    """Torque (N m) that the loads put on a gear's hub."""
+    """Torque (N·m) that the loads put on a gear's hub."""
     body = model.bodies.pick(role)
     return sum(body.hub_torque(contact.centre(role)) * contact.force for contact in contacts) * model.width / 1000
 

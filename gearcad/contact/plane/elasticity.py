@@ -58,7 +58,7 @@ def stiffness_matrix(mesh: SectorMesh, elasticity: PlaneElasticity, elements: Wh
 
 
 def mass_matrix(mesh: SectorMesh, elements: Wholes | None = None) -> Any:
-    """Integral of N^T N (scipy CSR, mm^2) over the mesh or some of its elements, dofs as those of the stiffness."""
+    """Integral of N^T N (scipy CSR, mm²) over the mesh or some of its elements, dofs as those of the stiffness."""
     from skfem import BilinearForm
     from skfem.helpers import dot
 

@@ -68,7 +68,7 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         return rigid_approach(self.line, self.roll_length(roll_angle), single=single)
 
     def solve(self, roll_angle: float, torque: float, *, single: bool = False) -> ContactSolution:
-        """The contact at a roll angle (deg) and torque (N m); `single` lets no other pair of teeth touch.
+        """The contact at a roll angle (deg) and torque (N·m); `single` lets no other pair of teeth touch.
 
         Raises SolverError, and GeometryError where nothing can touch.
         """
@@ -97,7 +97,7 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         return solve_contact(pairs, self.bodies, force)
 
     def single_stiffness(self, torque: float, count: int = _SINGLE) -> float:
-        """Greatest stiffness (N/(mm um)) of one pair of teeth alone, at `count` places of its path of contact."""
+        """Greatest stiffness (N/(mm·µm)) of one pair of teeth alone, at `count` places of its path of contact."""
         lengths = np.linspace(*self.pair.usable_path, count + 2)[1:-1]
         approaches = [
             self.solve(angle, torque, single=True).approach - self.rigid_approach(angle, single=True)
@@ -118,7 +118,7 @@ def plane_pair(
 ) -> PlanePair:
     """Mesh, assemble, factorise and `solve` both gears. Raises SolverError, ParameterError and GeometryError.
 
-    The pair is taken as it is mounted; `pitch_error` (um) is how far the flanks of its middle pair of teeth stand proud.
+    The pair is taken as it is mounted; `pitch_error` (µm) is how far the flanks of its middle pair of teeth stand proud.
     """
     elasticity, body, sizes = PlaneElasticity(material, plane), body or BodyModel(), sizes or MeshSizes()
     # As many neighbours as can touch at once, with one more place for a corner that touches early or late.

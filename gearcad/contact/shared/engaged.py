@@ -106,7 +106,7 @@ class EngagedPair:
         return self.pair.pinion.base_diameter / 2
 
     def force(self, torque: float) -> float:
-        """Normal force in the transverse section (N per mm of common width) at a torque on the pinion (N m)."""
+        """Normal force in the transverse section (N per mm of common width) at a torque on the pinion (N·m)."""
         return abs(torque) * 1000 / self.base_radius / self.width
 
     def require_narrow_contact(self, torque: float, modulus: float) -> None:
@@ -165,4 +165,4 @@ class FlexiblePair(EngagedPair, ABC, Generic[Body]):
 
     @abstractmethod
     def single_stiffness(self, torque: float) -> float:
-        """Greatest stiffness (N/(mm um)) of one pair of teeth alone, over its path of contact, at a torque (N m)."""
+        """Greatest stiffness (N/(mm·µm)) of one pair of teeth alone, over its path of contact, at a torque (N·m)."""

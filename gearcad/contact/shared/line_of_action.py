@@ -33,7 +33,7 @@ LEAST_LENGTH = 0.01
 """Least roll length (mm per mm of normal module) at which a flank still has a curvature to speak of."""
 
 _SAMPLES = 1201
-"""Places on a pair of flanks among which the nearest is sought: 5 um apart on teeth of module 2, 0.001 um of the gap."""
+"""Places on a pair of flanks among which the nearest is sought: 5 µm apart on teeth of module 2, 0.001 µm of the gap."""
 
 
 @dataclass(frozen=True)
@@ -125,7 +125,7 @@ class LineOfAction:
 def line_of_action(pair: GearPair, pitch_error: float = 0.0) -> LineOfAction:
     """The line of action of a pair in the transverse section through the middle of its common face width.
 
-    `pitch_error` (um) is how far the flanks of the middle pair of teeth stand proud, both together.
+    `pitch_error` (µm) is how far the flanks of the middle pair of teeth stand proud, both together.
     """
     middle = pair.common_width.offset
     pinion = TransverseFlank(pair.pinion.flank_form, pair.pinion.face_width / 2 + middle)

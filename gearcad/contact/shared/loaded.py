@@ -82,7 +82,7 @@ class LoadedPosition(ABC, Generic[C]):
     """One position of engaged gears under load: approach and each gear's part of it along the line of action (mm).
 
     `rigid_approach` (mm) is what of the approach needs no load: until teeth touch whose flanks are modified or out of place.
-    `force` is the normal force in the transverse section (N per mm of common face width), `torques` (N m) act on the hubs.
+    `force` is the normal force in the transverse section (N per mm of common face width), `torques` (N·m) act on the hubs.
     `tension` and `compression` are the greatest of the roots, `bore_tension` (MPa) that of a bore that nothing keeps round.
     """
 
@@ -99,7 +99,7 @@ class LoadedPosition(ABC, Generic[C]):
 
     @property
     def stiffness(self) -> float:
-        """N/(mm um): normal force over the approach under load, per mm of common face width."""
+        """N/(mm·µm): normal force over the approach under load, per mm of common face width."""
         return self.force / ((self.approach - self.rigid_approach) * 1000)
 
     @property
@@ -125,7 +125,7 @@ P = TypeVar("P", bound=LoadedPosition[Any], covariant=True)
 
 @dataclass(frozen=True)
 class LoadedCycle(ABC, Generic[M, P, C]):
-    """Positions evenly over one base pitch at one torque (N m on the pinion), and those `between` them at extremes."""
+    """Positions evenly over one base pitch at one torque (N·m on the pinion), and those `between` them at extremes."""
 
     model: M
     torque: float

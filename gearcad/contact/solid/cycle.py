@@ -78,7 +78,7 @@ class SolidCycle(LoadedCycle[SolidPair, SolidPosition, SolidPairContact]):
 
     @property
     def harmonics(self) -> Floats:
-        """Amplitudes (um) of the transmission error at the tooth frequency and its multiples."""
+        """Amplitudes (µm) of the transmission error at the tooth frequency and its multiples."""
         error = self.values("transmission_error")
         spectrum = np.fft.rfft(error) / len(error)
         result: Floats = 2 * np.abs(spectrum[1 : (len(error) - 1) // 2 + 1])
@@ -137,7 +137,7 @@ def tooth_loads(model: SolidPair, contacts: tuple[SolidPairContact, ...], role: 
 
 
 def _hub_torque(body: SolidCompliance, loads: list[ToothForces]) -> float:
-    """Torque (N m) that the loads put on the hub."""
+    """Torque (N·m) that the loads put on the hub."""
     return float(sum(force @ -body.torques for _, force in loads)) / 1000
 
 

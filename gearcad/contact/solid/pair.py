@@ -146,7 +146,7 @@ class SolidPair(FlexiblePair[SolidCompliance]):
         return found
 
     def solve(self, roll_angle: float, torque: float, *, single: bool = False) -> LineSolution:
-        """The contact at a roll angle (deg) and torque (N m); `single` lets no other pair of teeth touch.
+        """The contact at a roll angle (deg) and torque (N·m); `single` lets no other pair of teeth touch.
 
         Raises SolverError, and GeometryError where nothing can touch.
         """
@@ -161,11 +161,11 @@ class SolidPair(FlexiblePair[SolidCompliance]):
             farthest *= 2
 
     def farthest(self, torque: float) -> float:
-        """Gap of the exact flanks (mm) beyond which nothing is taken to touch at a torque (N m) but for very soft bodies."""
+        """Gap of the exact flanks (mm) beyond which nothing is taken to touch at a torque (N·m) but for very soft bodies."""
         return math.ceil((self.force(torque) / _SOFT + self._deviation) / _STEP) * _STEP
 
     def single_stiffness(self, torque: float, count: int = _SINGLE) -> float:
-        """Greatest stiffness (N/(mm um)) of one pair of teeth alone, at `count` places while its line crosses the flanks."""
+        """Greatest stiffness (N/(mm·µm)) of one pair of teeth alone, at `count` places while its line crosses the flanks."""
         (first, last), reach = self.pair.usable_path, self.width * abs(math.tan(self.helix)) / 2
         lengths = np.linspace(first - reach, last + reach, count + 2)[1:-1]
         solved = (self.solve(angle, torque, single=True) for angle in self.roll_angle(lengths).tolist())

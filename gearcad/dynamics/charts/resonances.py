@@ -42,7 +42,7 @@ class Resonances:
 
 
 def resonances(system: System, static: StaticState, references: Floats) -> Resonances:
-    """`references` (s,) in N m are the torques that shafts are held against, nan where there is none."""
+    """`references` (s,) in N·m are the torques that shafts are held against, nan where there is none."""
     squares, modes = np.linalg.eigh(system.stiffness_matrix())
     kept = squares > 1e-9 * squares.max()
     squares, modes = squares[kept], modes[:, kept]

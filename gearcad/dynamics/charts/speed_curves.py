@@ -49,7 +49,7 @@ _APART = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Told:
-    """At `frequencies` (s,): `most` and `least` (s, m) forces (N) of the flanks that carry, `torques` (s, n) in N m.
+    """At `frequencies` (s,): `most` and `least` (s, m) forces (N) of the flanks that carry, `torques` (s, n) in N·m.
 
     `left_out` (s,) bounds the share that harmonics left out have in them: infinite where no balance was found.
     """

@@ -19,7 +19,7 @@ class PeriodicResponse(Driven):
 
     Coefficients over the common period belong to the orders `harmonics` (q,), from 0 on: `approach_coefficients` (s, q, m) of
     the approach y of the flanks (m), `inertia_coefficients` (s, q, i) of turns (rad), `torque_coefficients` (s, q, n) of shaft
-    torques (N m). `stable` (s,): whether a small disturbance dies away. `jumps`: frequencies at which a sweep went over to
+    torques (N·m). `stable` (s,): whether a small disturbance dies away. `jumps`: frequencies at which a sweep went over to
     another branch. `notices` say what to know before trusting it.
     """
 
@@ -50,7 +50,7 @@ class PeriodicResponse(Driven):
         return self._course(self.inertia_coefficients[which], count)
 
     def shaft_torques(self, which: slice = slice(None), count: int | None = None) -> Floats:
-        """(s, t, n) in N m."""
+        """(s, t, n) in N·m."""
         return self._course(self.torque_coefficients[which], count)
 
     def spring_forces(self, which: slice = slice(None), count: int | None = None) -> Floats:

@@ -49,7 +49,7 @@ class Transient(Driven):
 
     @property
     def shaft_torques(self) -> Floats:
-        """(t, s) in N m."""
+        """(t, s) in N·m."""
         return self.modal @ self.system.shaft_torques
 
     @property

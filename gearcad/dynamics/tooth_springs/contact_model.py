@@ -35,7 +35,7 @@ class ContactZone(Enum):
 
 
 def disc_inertia(diameter: float, width: float, density: float) -> float:
-    """J = pi/32 d^4 b rho in kg·m² of a full disc (mm, mm, kg/m^3): Uhlir (3.4) with the reference diameter."""
+    """J = pi/32 d^4 b rho in kg·m² of a full disc (mm, mm, kg/m³): Uhlir (3.4) with the reference diameter."""
     for name, value, unit in (("diameter", diameter, "mm"), ("width", width, "mm"), ("density", density, "kg/m^3")):
         require_number(name, value, unit, above=0)
     return math.pi / 32 * (1e-3 * diameter) ** 4 * 1e-3 * width * density

@@ -158,7 +158,7 @@ def _system(parts: Parts, elements: list[_Element], squares: Floats, modes: Floa
 
 
 def _mesh_damping(parts: Parts, column: int, mesh: Mesh) -> float:
-    """2 zeta sqrt(k m) with m the inertias of the pair alone, reduced to the line of action (N s/m)."""
+    """2 zeta sqrt(k m) with m the inertias of the pair alone, reduced to the line of action (N·s/m)."""
     if mesh.damping_ratio is None:
         return mesh.damping or 0.0
     compliance = float(np.sum(parts.approach[:, column] ** 2 / parts.inertia))

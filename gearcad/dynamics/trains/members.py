@@ -134,7 +134,7 @@ class Shaft(_Member):
 
     @property
     def _polar_moment(self) -> float:
-        """Of the section (m^4)."""
+        """Of the section (m⁴)."""
         assert self.diameter is not None
         return math.pi / 32 * ((self.diameter / 1000) ** 4 - (self.inner_diameter / 1000) ** 4)
 

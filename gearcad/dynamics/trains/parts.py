@@ -22,7 +22,7 @@ _NO_FORCE = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """`inertia` (i,) in kg m², `approach` (i, m) in m/rad of each mesh, `stiffness` (m,) in N/m, `torque` (i,) in N m on each
+    """`inertia` (i,) in kg·m², `approach` (i, m) in m/rad of each mesh, `stiffness` (m,) in N/m, `torque` (i,) in N·m on each
     inertia, of preloads too. `free` (i, r): speeds of each of r pieces that no shaft holds."""
 
     inertias: tuple[Inertia, ...]

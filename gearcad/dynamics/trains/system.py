@@ -20,8 +20,8 @@ class System:
 
     z (n,) are coordinates of the shaft lines' own modes, of modal mass 1; a line that is not held has modes with squares 0.
     `mesh` (n, m) gives the approach y of the flanks along the line of action (m) in each of m meshes, positive where they
-    press; `inertias` (n, i) the turn of each inertia (rad), `shaft_torques` (n, s) the torque in each shaft (N m). `load` (n,)
-    are the mean torques on the inertias; `stiffness` (m,) the mean of k_j (N/m), `mesh_damping` (m,) c_j (N s/m).
+    press; `inertias` (n, i) the turn of each inertia (rad), `shaft_torques` (n, s) the torque in each shaft (N·m). `load` (n,)
+    are the mean torques on the inertias; `stiffness` (m,) the mean of k_j (N/m), `mesh_damping` (m,) c_j (N·s/m).
     """
 
     squares: Floats

@@ -28,7 +28,7 @@ _TALL = (6.6, 4.8)
 
 
 class _Row(NamedTuple):
-    """A method in the table; stiffness in N/µm, per width in N/(mm µm), deviation in %."""
+    """A method in the table; stiffness in N/µm, per width in N/(mm·µm), deviation in %."""
 
     title: str
     holds: str

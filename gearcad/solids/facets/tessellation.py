@@ -43,7 +43,7 @@ class Facets:
 
     @property
     def volume(self) -> float:
-        """Enclosed volume in mm^3."""
+        """Enclosed volume in mm³."""
         a, b, c = (self.vertices[self.faces[:, corner]] for corner in range(3))
         return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
 
