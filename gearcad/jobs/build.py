@@ -127,6 +127,8 @@ def build(
     Raises ParameterError or GeometryError for wrong input, a folder that cannot be written too, SolverError where the CAD
     kernel fails.
     """
+    if isinstance(formats, str) or not isinstance(formats, Iterable):
+        raise ParameterError("formats", formats, 'must be a list of formats, such as ["step"]')
     wanted = tuple(as_choice("format", each, Format) for each in formats)
     options = FileOptions(chord_error=chord_error, bracket=bracket, circles=circles)
     job = Build(formats=wanted, options=options)

@@ -45,8 +45,8 @@ class Stiffness(Job[PairDesign, StiffnessComparison]):
     fourier: int = 0
 
     def __post_init__(self) -> None:
-        if isinstance(self.methods, str):
-            raise ParameterError("methods", self.methods, "must be a list of names")
+        if isinstance(self.methods, str) or not isinstance(self.methods, Sequence) or not self.methods:
+            raise ParameterError("methods", self.methods, 'must be a list of names, such as ["iso6336"]')
         if self.fourier != 0:
             fewest = min(
                 (self.positions or METHODS[name].default_positions for name in self.methods if name in METHODS), default=0

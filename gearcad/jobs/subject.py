@@ -25,7 +25,8 @@ def as_design(subject: Design | GearPair | Gear, load: Load | None = None, **inp
     given: dict[str, Any] = {**inputs, "load": load} if load is not None else {**inputs}
     for name, value in given.items():
         if not hasattr(subject, name):
-            raise ParameterError(name, value, f"is nothing that a {subject.kind.value} has")
+            known = ", ".join(each for each in BESIDE if hasattr(subject, each))
+            raise ParameterError(name, value, f"is nothing that a {subject.kind.value} has; it has {known}")
         if value is not None and not isinstance(value, BESIDE[name]):
             raise ParameterError(name, value, f"must be a {BESIDE[name].__name__}")
     return replace(subject, **given)

@@ -147,6 +147,16 @@ def test_a_job_without_a_load_or_on_something_else_is_one_line(verb: str) -> Non
         job(FZG_C, load, material="steel")
 
 
+def test_what_is_permitted_beside_the_load_is_said() -> None:
+    with pytest.raises(ParameterError, match="has; it has material, load, mounting, check, dynamics, rating$"):
+        gearcad.check(FZG_C, Load(torque=60), chek=CheckOptions())
+    for methods in ("iso6336", [], 5):
+        with pytest.raises(ParameterError, match=r"^methods = .*: must be a list of names"):
+            gearcad.stiffness(FZG_C, Load(torque=60), methods=methods)
+    with pytest.raises(ParameterError, match=r"^formats = 'step': must be a list of formats"):
+        gearcad.build(FZG_C, "nowhere", "step")
+
+
 def test_every_job_has_a_class_and_a_function_of_its_name() -> None:
     assert list(JOBS) == list(VERBS)
     for verb, job in JOBS.items():
