@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from enum import Enum
 from typing import Any
 
-__all__ = ["Comparison", "Role", "Subject", "Verdict", "against", "at_most", "verdict"]
+__all__ = ["Comparison", "ComparisonRole", "Subject", "Verdict", "agrees", "at_most", "beside", "verdict"]
 
 
-class Role(Enum):
+class ComparisonRole(Enum):
     """A gate decides the verdict; information does not."""
 
     GATE = "gate"
@@ -39,7 +39,7 @@ class Verdict(Enum):
     NOT_JUDGED = "not judged"
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Comparison:
     """`computed` and `reference` in `unit`; `tolerance` is relative, 0.01 for 1 %, None where the reference is a limit.
 
@@ -53,8 +53,8 @@ class Comparison:
     tolerance: float | None
     unit: str
     source: str
-    role: Role
-    subject: Subject
+    role: ComparisonRole = field(kw_only=True)
+    subject: Subject = field(kw_only=True)
     note: str = ""
     reason: str = ""
 
@@ -95,36 +95,40 @@ class Comparison:
 
 def verdict(comparisons: Iterable[Comparison], subject: Subject) -> Verdict:
     """What the gates about a subject say: one that is not passed, or could not be evaluated, fails it."""
-    gates = [each for each in comparisons if each.role is Role.GATE and each.subject is subject]
+    gates = [each for each in comparisons if each.role is ComparisonRole.GATE and each.subject is subject]
     if not gates:
         return Verdict.NOT_JUDGED
     return Verdict.PASSED if all(each.passed for each in gates) else Verdict.FAILED
 
 
-def against(
+def agrees(
     quantity: str,
     computed: float | None,
     reference: float | None,
     tolerance: float,
     unit: str,
     source: str,
-    role: Role,
     note: str = "",
     reason: str = "",
 ) -> Comparison:
-    """A comparison with a value: as a gate of the numerics, as information of the standard."""
-    return Comparison(
-        quantity=quantity,
-        computed=computed,
-        reference=reference,
-        tolerance=tolerance,
-        unit=unit,
-        source=source,
-        role=role,
-        subject=Subject.NUMERICS if role is Role.GATE else Subject.STANDARD,
-        note=note,
-        reason=reason,
-    )
+    """A gate of the numerics: a value that its reference has too."""
+    gate, numerics = ComparisonRole.GATE, Subject.NUMERICS
+    return Comparison(quantity, computed, reference, tolerance, unit, source, note, reason, role=gate, subject=numerics)
+
+
+def beside(
+    quantity: str,
+    computed: float | None,
+    reference: float | None,
+    band: float,
+    unit: str,
+    source: str,
+    note: str = "",
+    reason: str = "",
+) -> Comparison:
+    """Information: a value beside the standard's, which leaves other things out."""
+    information, standard = ComparisonRole.INFORMATION, Subject.STANDARD
+    return Comparison(quantity, computed, reference, band, unit, source, note, reason, role=information, subject=standard)
 
 
 def at_most(
@@ -134,19 +138,9 @@ def at_most(
     unit: str,
     source: str,
     note: str = "",
-    subject: Subject = Subject.NUMERICS,
     reason: str = "",
+    *,
+    subject: Subject = Subject.NUMERICS,
 ) -> Comparison:
     """A gate that is a limit."""
-    return Comparison(
-        quantity=quantity,
-        computed=computed,
-        reference=limit,
-        tolerance=None,
-        unit=unit,
-        source=source,
-        role=Role.GATE,
-        subject=subject,
-        note=note,
-        reason=reason,
-    )
+    return Comparison(quantity, computed, limit, None, unit, source, note, reason, role=ComparisonRole.GATE, subject=subject)

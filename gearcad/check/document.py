@@ -36,6 +36,7 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "comparisons": [comparison.to_dict() for comparison in result.comparisons],
         "explanations": result.explanations.to_dict(),
         "warnings": list(result.warnings),
+        "notices": [notice.to_dict() for notice in result.notices],
         "numerics": result.numerics.value,
         "strength": result.strength.value,
         "passed": result.passed,

@@ -3,40 +3,39 @@
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
-from gearcad.contact.plane.cycle import PlanePosition
 from gearcad.contact.shared.extremes import Extreme, Quantity
+from gearcad.contact.shared.loaded import LoadedPosition
 from gearcad.contact.solid.cycle import SolidPosition
+from gearcad.per_gear import PerGear, Role
 
 __all__ = ["PLANE", "PRESSURE", "ROOTS", "SOLID", "STRESSES", "Extremes"]
 
-_Position: TypeAlias = PlanePosition | SolidPosition
+_Position: TypeAlias = LoadedPosition[Any]
 _Quantities: TypeAlias = tuple[Quantity[_Position], ...]
 
 Extremes: TypeAlias = dict[str, Extreme | None]
 """By name; None for what has no value at any position."""
 
-_GEARS = ("pinion", "wheel")
+
+def _tension(role: Role) -> Quantity[_Position]:
+    return Quantity(f"root_tension_{role.value}", lambda position: position.tension.pick(role).stress)
 
 
-def _tension(gear: int) -> Quantity[_Position]:
-    return Quantity(f"root_tension_{_GEARS[gear]}", lambda position: position.tension[gear].stress)
+def _compression(role: Role) -> Quantity[_Position]:
+    return Quantity(f"root_compression_{role.value}", lambda position: position.compression.pick(role).stress, least=True)
 
 
-def _compression(gear: int) -> Quantity[_Position]:
-    return Quantity(f"root_compression_{_GEARS[gear]}", lambda position: position.compression[gear].stress, least=True)
-
-
-def _bore(gear: int) -> Quantity[_Position]:
+def _bore(role: Role) -> Quantity[_Position]:
     def tension(position: _Position) -> float:
-        found = position.bore_tension[gear]
+        found = position.bore_tension.pick(role)
         return math.nan if found is None else found
 
-    return Quantity(f"bore_tension_{_GEARS[gear]}", tension)
+    return Quantity(f"bore_tension_{role.value}", tension)
 
 
-ROOTS: _Quantities = (_tension(0), _tension(1))
+ROOTS: _Quantities = PerGear.each(_tension)
 PRESSURE: Quantity[_Position] = Quantity("contact_pressure", lambda position: position.contact_pressure)
 STRESSES: _Quantities = (*ROOTS, PRESSURE)
 
@@ -48,6 +47,6 @@ _COURSES: _Quantities = (
 )
 """What goes up and down over the mesh, and is told by how far it does."""
 
-PLANE: _Quantities = (*STRESSES, _compression(0), _compression(1), _bore(0), _bore(1), *_COURSES)
+PLANE: _Quantities = (*STRESSES, *PerGear.each(_compression), *PerGear.each(_bore), *_COURSES)
 SOLID: tuple[Quantity[SolidPosition], ...] = (*PLANE, Quantity("line_load_max", lambda position: position.line_load))
 """All that a summary tells."""

@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from gearcad.check.comparison import Comparison, Role, Subject, against, at_most
+from gearcad.check.comparison import Comparison, Subject, agrees, at_most, beside
 from gearcad.check.convergence import LEAST_ORDER, Convergence
 from gearcad.check.extremes import PRESSURE, ROOTS
-from gearcad.check.rim import bending_notes
+from gearcad.check.rim import bending_limits, bending_notes, rim_gates
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
 from gearcad.contact.shared.loaded import Cycle
 
-__all__ = ["farness", "material_limits", "mesh_errors", "reactions", "sampling", "standards"]
+__all__ = ["compare_common", "farness", "standards"]
 
 _REACTION = 0.005
 """Torque on a hub against that applied: interpolation between unit loads, not equilibrium, makes up what is missing."""
@@ -22,23 +22,47 @@ _SAMPLING = 0.002
 """What positions may miss of a stress."""
 
 
+def compare_common(
+    task: CheckTask,
+    cycle: Cycle,
+    summary: Summary,
+    convergence: tuple[Convergence, ...],
+    *,
+    equilibrium: str,
+    errors: tuple[float, ...],
+    flicker: float = _SAMPLING,
+) -> Iterator[Comparison]:
+    """Gates first.
+
+    `equilibrium` says where torques on the hubs are held against those applied, `errors` are what the mesh may do to each
+    quantity, `flicker` is what positions may miss of a pressure.
+    """
+    yield from _reactions(cycle, equilibrium)
+    yield from _mesh_errors(convergence, errors, summary)
+    yield from _sampling(summary, flicker)
+    yield from rim_gates(task)
+    yield from _material_limits(task, summary)
+    yield from bending_limits(task, summary)
+    yield from standards(task, summary)
+
+
 def farness(computed: float, expected: float) -> float:
     """Relative distance; infinite for what is no number, which is the worst of all."""
     found = abs(computed / expected - 1)
     return found if math.isfinite(found) else math.inf
 
 
-def reactions(cycle: Cycle, source: str) -> Iterator[Comparison]:
+def _reactions(cycle: Cycle, source: str) -> Iterator[Comparison]:
     """Torques (N·m) on the hubs, position by position, against those applied, where they differ most."""
     model = cycle.model
     force = model.force(cycle.torque) * model.width / 1000
     for role, body in model.bodies.items():
         applied = force * body.flank.base_radius
         worst = max((position.torques.pick(role) for position in cycle.every), key=lambda torque: farness(torque, applied))
-        yield against(f"torque reaction of the {role.value}", worst, applied, _REACTION, "N·m", source, Role.GATE)
+        yield agrees(f"torque reaction of the {role.value}", worst, applied, _REACTION, "N·m", source)
 
 
-def mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...], summary: Summary) -> Iterator[Comparison]:
+def _mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...], summary: Summary) -> Iterator[Comparison]:
     """The estimated error of each quantity, by mesh and positions together, against what it may be (relative)."""
     for each, limit in zip(convergence, limits, strict=bool(convergence)):
         unclear = "the changes from mesh to mesh show no order"
@@ -50,7 +74,7 @@ def mesh_errors(convergence: tuple[Convergence, ...], limits: tuple[float, ...],
         yield at_most(f"discretisation error, {each.quantity}", told, 100 * limit, "%", source, note)
 
 
-def sampling(summary: Summary, of_pressure: float = _SAMPLING) -> Iterator[Comparison]:
+def _sampling(summary: Summary, of_pressure: float) -> Iterator[Comparison]:
     """What the positions may miss of the stresses that are told, against what they may (relative)."""
     errors = summary.sampling_error
     for words, names, limit in (("root stresses", ROOTS, _SAMPLING), ("contact pressure", (PRESSURE,), of_pressure)):
@@ -66,7 +90,7 @@ def sampling(summary: Summary, of_pressure: float = _SAMPLING) -> Iterator[Compa
         )
 
 
-def material_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
+def _material_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
     """What the material gives a limit for."""
     material = task.material
     deep = f"{summary.von_mises_depth:.3g} mm deep" if summary.von_mises_depth is not None else ""
@@ -81,7 +105,7 @@ def material_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
             note += f"; the limit of this material lies between {limit[0]:g} and {limit[1]:g} MPa, and the lower one counts"
             limit = limit[0]
         if limit is not None:
-            yield at_most(words, value, limit, "MPa", f"limit of {material.name}", note, Subject.STRENGTH, reason)
+            yield at_most(words, value, limit, "MPa", f"limit of {material.name}", note, reason, subject=Subject.STRENGTH)
 
 
 def standards(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
@@ -89,25 +113,16 @@ def standards(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
     edition = task.rating.edition
     root, stiffness = task.options.root_band / 100, task.options.stiffness_band / 100
     sharing = "ISO puts the whole load on one pair of teeth at its outer point; the FE shares it, and sees the true fillet"
-    widths = task.rating.roots.map(lambda root: root.width)
-    for owner, value, reference, width, bent in zip(
-        ("pinion", "wheel"), summary.root_tension, task.rating.root_stresses, widths, bending_notes(task, summary), strict=True
-    ):
-        source = f"sigma_F0, {edition.dated_part(3)} Method B, over b = {width:.4g} mm"
-        yield against(f"root stress, {owner}", value, reference, root, "MPa", source, Role.INFORMATION, sharing + bent)
+    notes = bending_notes(task, summary)
+    for role, rating in task.rating.roots.items():
+        source = f"sigma_F0, {edition.dated_part(3)} Method B, over b = {rating.width:.4g} mm"
+        value, reference = summary.root_tension.pick(role), task.rating.root_stresses.pick(role)
+        yield beside(f"root stress, {role.value}", value, reference, root, "MPa", source, sharing + notes.pick(role))
+    standard = task.rating.stiffness
     body = "ISO's discs are stiffer or softer than this body; see how the bodies are held"
-    for words, value, reference, source in (
-        (
-            "mean mesh stiffness",
-            summary.mesh_stiffness_mean,
-            task.rating.stiffness.mesh_alpha,
-            f"c_gamma_alpha, {edition.dated_part(1)} Method B",
-        ),
-        (
-            "single stiffness",
-            summary.single_stiffness,
-            task.rating.stiffness.single,
-            f"c', {edition.dated_part(1)} Method B",
-        ),
+    for words, value, reference, symbol in (
+        ("mean mesh stiffness", summary.mesh_stiffness_mean, standard.mesh_alpha, "c_gamma_alpha"),
+        ("single stiffness", summary.single_stiffness, standard.single, "c'"),
     ):
-        yield against(words, value, reference, stiffness, "N/(mm µm)", source, Role.INFORMATION, body)
+        source = f"{symbol}, {edition.dated_part(1)} Method B"
+        yield beside(words, value, reference, stiffness, "N/(mm µm)", source, body)

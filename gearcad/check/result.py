@@ -23,6 +23,7 @@ from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
 from gearcad.rating import Rating
 from gearcad.stiffness import StiffnessMethod
@@ -47,7 +48,7 @@ class CheckResult(ABC):
     sweep: tuple[SweepPoint, ...]
     convergence: tuple[Convergence, ...]
     comparisons: tuple[Comparison, ...]
-    warnings: tuple[str, ...]
+    notices: tuple[Notice, ...]
 
     model: ClassVar[Model]
 
@@ -197,7 +198,14 @@ class CheckResult(ABC):
             strength += f"; not judged, no limit given: {', '.join(self.without_limit)}"
         return f"numerics {numerics}; strength {strength}"
 
+    # ------------------------------------------------------------------ what to know before trusting it
+
     @property
-    def notices(self) -> tuple[str, ...]:
-        """What to know before trusting the check: its own warnings, and those of the rating."""
-        return (*self.warnings, *(f"rating: {warning}" for warning in self.rating.warnings))
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+    @property
+    def all_notices(self) -> tuple[Notice, ...]:
+        """Its own, and those of the rating."""
+        return (*self.notices, *(notice.within("rating") for notice in self.rating.notices))

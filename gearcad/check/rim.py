@@ -11,9 +11,11 @@ from gearcad.check.task import CheckTask
 from gearcad.contact.shared.holding import Hold, Support, rim_ratio
 from gearcad.errors import format_number
 from gearcad.geometry import Gear
+from gearcad.notice import Notice
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating.iso6336_3 import RIM_LIMIT
 
-__all__ = ["bending_limits", "bending_notes", "rim_gates", "rim_warnings"]
+__all__ = ["bending_limits", "bending_notes", "rim_gates", "rim_notices"]
 
 _SAME = 1e-9
 """mm: radii that do not differ."""
@@ -24,7 +26,7 @@ _SOURCE = "s_R/h_t from 1.2 on, ISO 6336-3:2006 clause 9"
 class _Rim(NamedTuple):
     """The rim of one gear: its support, and its thickness over the tooth depth as it is modelled."""
 
-    owner: str
+    role: Role
     gear: Gear
     support: Support
     radius: float
@@ -43,14 +45,12 @@ class _Rim(NamedTuple):
     @property
     def words(self) -> str:
         thickness = self.ratio * (self.gear.tip_diameter - self.gear.root_diameter) / 2
-        return f"the {self.owner}'s rim ({thickness:.3g} mm, {self.ratio:.3g} tooth depths)"
+        return f"the {self.role.value}'s rim ({thickness:.3g} mm, {self.ratio:.3g} tooth depths)"
 
 
-def _rims(task: CheckTask) -> Iterator[_Rim]:
-    body, pair = task.body, task.pair
-    gears = zip(("pinion", "wheel"), (pair.pinion, pair.wheel), body.supports(pair), body.inner_radii(pair), strict=True)
-    for owner, gear, support, radius in gears:
-        yield _Rim(owner, gear, support, radius)
+def _rims(task: CheckTask) -> PerGear[_Rim]:
+    supports, radii, gears = task.body.supports(task.pair), task.body.inner_radii(task.pair), task.pair.gears
+    return PerGear.each(lambda role: _Rim(role, gears.pick(role), supports.pick(role), radii.pick(role)))
 
 
 def rim_gates(task: CheckTask) -> Iterator[Comparison]:
@@ -58,12 +58,12 @@ def rim_gates(task: CheckTask) -> Iterator[Comparison]:
     for rim in _rims(task):
         if rim.stiffened:
             yield at_most(
-                f"tooth depth over rim, {rim.owner}",
+                f"tooth depth over rim, {rim.role.value}",
                 1 / rim.ratio if rim.ratio > 0 else None,
                 1 / RIM_LIMIT,
                 "",
                 _SOURCE,
-                f'a rim as thin as that bends, which a rigid bore keeps it from: {rim.owner}_support = "free"',
+                f'a rim as thin as that bends, which a rigid bore keeps it from: {rim.role.value}_support = "free"',
                 reason="nothing is left of the rim",
             )
 
@@ -72,51 +72,56 @@ def bending_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
     """Where a rim bends, its roots are compressed more than stretched, and its bore is stretched too."""
     limit = task.material.root_limit
     least = limit[0] if isinstance(limit, tuple) else limit
-    for gear, rim in enumerate(_rims(task)):
+    for role, rim in _rims(task).items():
         if least is None or not rim.support.bends:
             continue
         for words, value, note in (
-            ("root compression", abs(summary.root_compression[gear]), "where a rim bends it changes sign"),
-            ("tension on the bore", summary.bore_tension[gear], "where the rim bends"),
+            ("root compression", abs(summary.root_compression.pick(role)), "where a rim bends it changes sign"),
+            ("tension on the bore", summary.bore_tension.pick(role), "where the rim bends"),
         ):
             source = f"limit of {task.material.name}"
-            yield at_most(f"{words}, {rim.owner}", value, least, "MPa", source, note, Subject.STRENGTH)
+            yield at_most(f"{words}, {rim.role.value}", value, least, "MPa", source, note, subject=Subject.STRENGTH)
 
 
-def bending_notes(task: CheckTask, summary: Summary) -> tuple[str, str]:
+def bending_notes(task: CheckTask, summary: Summary) -> PerGear[str]:
     """What the comparison of each gear's root tension with the standard's has to add where the rim bends."""
-    notes = [
-        f"; the rim bends: Y_B = {rating.rim_thickness_factor:.3g} raises ISO's tension, in the FE it is the compression "
-        f"({compression:.0f} MPa) that rises"
-        if rim.support.bends
-        else ""
-        for rim, rating, compression in zip(_rims(task), task.rating.roots, summary.root_compression, strict=True)
-    ]
-    return notes[0], notes[1]
+
+    def note(rim: _Rim) -> str:
+        factor, compression = task.rating.roots.pick(rim.role).rim_thickness_factor, summary.root_compression.pick(rim.role)
+        return (
+            f"; the rim bends: Y_B = {factor:.3g} raises ISO's tension, in the FE it is the compression "
+            f"({compression:.0f} MPa) that rises"
+        )
+
+    return _rims(task).map(lambda rim: note(rim) if rim.support.bends else "")
 
 
-def rim_warnings(task: CheckTask, summary: Summary) -> Iterator[str]:
+def rim_notices(task: CheckTask, summary: Summary) -> Iterator[Notice]:
     """How a thin rim is taken, and what is evaluated of it."""
-    for gear, rim in enumerate(_rims(task)):
+    for rim in _rims(task):
+        owner, hold = rim.role.value, rim.support.hold
         if rim.support.bends:
-            tension, compression = summary.root_tension[gear], summary.root_compression[gear]
-            bore = summary.bore_tension[gear]
-            teeth = "all its teeth" if not task.body.solid else "its loaded teeth"
-            yield (
-                f"{rim.words} bends: its bore is {rim.support.words} {format_number(_bore(task, gear))} mm; root tension "
-                f"({tension:.0f} MPa) and compression ({compression:.0f} MPa) are the greatest of {teeth}, the tension "
-                f"on its bore is {bore or 0:.0f} MPa"
-            )
-        elif rim.ratio < RIM_LIMIT and rim.support.hold is Hold.RIGID:
-            yield f'{rim.words} is held rigidly, which keeps it from bending; {rim.owner}_support = "free" lets it'
-        elif rim.support.hold is Hold.SHAFT:
-            yield f"the {rim.owner} is bonded to its shaft: a fit that opens under load is softer"
-        if rim.support.hold is Hold.KEY:
-            yield (
-                f"the {rim.owner}'s stresses are those with the key under the worst of all teeth; its stiffness is that of a "
-                "bore without key, and the notch of the keyway is not in the section"
+            yield Notice("thin-rim", _bending(rim, task, summary))
+        elif rim.ratio < RIM_LIMIT and hold is Hold.RIGID:
+            text = f'{rim.words} is held rigidly, which keeps it from bending; {owner}_support = "free" lets it'
+            yield Notice("rigid-rim", text)
+        elif hold is Hold.SHAFT:
+            yield Notice("bonded-shaft", f"the {owner} is bonded to its shaft: a fit that opens under load is softer")
+        if hold is Hold.KEY:
+            yield Notice(
+                "key",
+                f"the {owner}'s stresses are those with the key under the worst of all teeth; its stiffness is that of a "
+                "bore without key, and the notch of the keyway is not in the section",
             )
 
 
-def _bore(task: CheckTask, gear: int) -> float:
-    return round(2 * task.body.inner_radii(task.pair)[gear], 4)
+def _bending(rim: _Rim, task: CheckTask, summary: Summary) -> str:
+    tension, compression, bore = (
+        each.pick(rim.role) for each in (summary.root_tension, summary.root_compression, summary.bore_tension)
+    )
+    teeth = "its loaded teeth" if task.body.solid else "all its teeth"
+    return (
+        f"{rim.words} bends: its bore is {rim.support.words} {format_number(round(2 * rim.radius, 4))} mm; root tension "
+        f"({tension:.0f} MPa) and compression ({compression:.0f} MPa) are the greatest of {teeth}, the tension "
+        f"on its bore is {bore or 0:.0f} MPa"
+    )

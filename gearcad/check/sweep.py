@@ -8,11 +8,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gearcad.check.convergence import FEW_POSITIONS
+from gearcad.check.extremes import STRESSES
 from gearcad.check.summary import by_name, figures
 from gearcad.contact.shared.loaded import Cycle
 from gearcad.per_gear import PerGear
 
-__all__ = ["SweepPoint", "SweepTrends", "sweep_point"]
+__all__ = ["SweepPoint", "SweepTrends", "sweep_point", "sweep_points"]
 
 
 class SweepPoint(NamedTuple):
@@ -94,3 +96,9 @@ def sweep_point(cycle: Cycle) -> SweepPoint:
     force = model.force(cycle.torque) * model.width
     stiffness = PerGear(*(force * radii**2 / turns / 1000).tolist())
     return SweepPoint(abs(cycle.torque), few.mesh_stiffness, few.contact_pressure, few.root_tension, stiffness)
+
+
+def sweep_points(cycle: Cycle, torques: Iterable[float]) -> tuple[SweepPoint, ...]:
+    """Those of a cycle's model at torques (N·m)."""
+    cycles = (type(cycle).run(cycle.model, torque, FEW_POSITIONS) for torque in torques)
+    return tuple(sweep_point(each.searched(STRESSES)) for each in cycles)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
-from gearcad.check.comparison import Comparison, Role
+from gearcad.check.comparison import Comparison, ComparisonRole
 from gearcad.cli.job import echo_warnings
+from gearcad.notice import texts
 
 if TYPE_CHECKING:
     from gearcad.check.result import CheckResult
@@ -48,14 +49,14 @@ def print_verdict(name: str, result: CheckResult) -> None:
     for text, style in lines:
         # Soft wrap: a narrow window may break a line, but never cut a number.
         console.print(Text(text, style=style), soft_wrap=True)
-    echo_warnings(result.notices)
+    echo_warnings(texts(result.all_notices))
     verdict = f"{name} at {result.torque:g} N·m: {result.verdict}"
     console.print(Text(verdict, style="bold green" if result.passed else "bold red"), soft_wrap=True)
 
 
 def _row(of: Comparison) -> _Line:
     """A comparison; a limit is told by how much of it is used up."""
-    gate = of.role is Role.GATE
+    gate = of.role is ComparisonRole.GATE
     word = ("ok" if of.passed else "FAILED") if gate else ("in band" if of.passed else "OUTSIDE" if of.evaluated else "-")
     if of.deviation is None:
         deviation = "-"

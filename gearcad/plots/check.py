@@ -14,8 +14,6 @@ from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, l
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from gearcad.contact.plane.cycle import PlanePairContact
-
 __all__ = [
     "PATH",
     "mark_path",
@@ -37,7 +35,7 @@ def plot_contact_pressure(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     Near the ends of the flanks there is no line: there the pressure is that of an edge. Contact of a corner is marked below.
     """
     axes = prepared(ax, PATH, "peak pressure in MPa")
-    contacts = _along_path(result)
+    contacts = result.contacts_along_path
     lengths = np.array([contact.place for contact in contacts])
     inside = np.array([contact.interior for contact in contacts])
     corner = np.array([contact.edge for contact in contacts])
@@ -63,7 +61,7 @@ def plot_contact_pressure(result: PlaneCheck, ax: Axes | None = None) -> Axes:
 def plot_load_share(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     """Part of the load that a pair of teeth carries along the path of contact, contact of corners beyond it included."""
     axes = prepared(ax, PATH, "share of the load")
-    contacts = _along_path(result)
+    contacts = result.contacts_along_path
     lengths = np.array([contact.place for contact in contacts])
     shares = np.array([contact.share for contact in contacts])
     corner = np.array([contact.edge for contact in contacts])
@@ -122,12 +120,6 @@ def plot_root_stress(result: CheckResult, ax: Axes | None = None) -> Axes:
     axes.axhline(0, color=MARKED, linewidth=0.8)
     legend_above(axes, 3)
     return axes
-
-
-def _along_path(result: PlaneCheck) -> list[PlanePairContact]:
-    """All contacts of the cycle in the order in which one pair of teeth goes through them."""
-    contacts = [contact for position in result.cycle.every for contact in position.contacts]
-    return sorted(contacts, key=lambda contact: contact.place)
 
 
 def mark_path(axes: Axes, pair: GearPair) -> None:

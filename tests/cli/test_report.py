@@ -13,7 +13,7 @@ import pytest
 from support.checks import NASTY_NAME, small_check
 
 from gearcad import __version__
-from gearcad.check.comparison import Role
+from gearcad.check.comparison import ComparisonRole
 from gearcad.check.plane.explanation import root_at_single_contact
 from gearcad.per_gear import PerGear
 from gearcad.plots.paper import short
@@ -87,11 +87,11 @@ def test_nasty_names_stay_text(document, text):
 
 def test_holds_every_comparison_with_its_verdict_in_words(document):
     rows = [[cell.text_content() for cell in row] for row in document.xpath("//tr[@class]")]
-    wanted = sorted(small_check().comparisons, key=lambda each: each.role is not Role.GATE)
+    wanted = sorted(small_check().comparisons, key=lambda each: each.role is not ComparisonRole.GATE)
     assert [row[0] for row in rows] == [each.quantity for each in wanted]
     for row, each in zip(rows, wanted, strict=True):
         assert row[1:4] == [short(each.computed), short(each.reference), each.unit]
-        words = ("passed", "NOT PASSED") if each.role is Role.GATE else ("in the band", "outside the band")
+        words = ("passed", "NOT PASSED") if each.role is ComparisonRole.GATE else ("in the band", "outside the band")
         assert row[6] == words[not each.passed]
         assert row[7].startswith(each.source) and row[7].endswith(each.note)
 
@@ -101,7 +101,7 @@ def test_verdict_comes_first_and_names_what_failed(document):
     assert verdict.get("class") == "verdict bad"
     said = "Numerics passed; strength failed; not judged, no limit given: von Mises stress below the flank."
     assert verdict.text_content().strip().startswith(said)
-    failed = [each.quantity for each in small_check().comparisons if each.role is Role.GATE and not each.passed]
+    failed = [each.quantity for each in small_check().comparisons if each.role is ComparisonRole.GATE and not each.passed]
     assert failed == ["contact pressure"]
     assert verdict.xpath(".//ul")[0].text_content().strip().startswith("contact pressure: ")
 

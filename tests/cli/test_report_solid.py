@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from support.checks import NASTY_NAME, small_solid_check
 
-from gearcad.check import comparison
+from gearcad.check.comparison import ComparisonRole
 from gearcad.per_gear import PerGear, Role
 from gearcad.plots.paper import short
 from gearcad.report import report_html
@@ -59,11 +59,11 @@ def test_nasty_names_stay_text(document: lxml.html.HtmlElement, text: str) -> No
 
 def test_holds_every_comparison(document: lxml.html.HtmlElement) -> None:
     rows = [[cell.text_content() for cell in row] for row in document.xpath("//tr[@class]")]
-    wanted = sorted(small_solid_check().comparisons, key=lambda each: each.role is not comparison.Role.GATE)
+    wanted = sorted(small_solid_check().comparisons, key=lambda each: each.role is not ComparisonRole.GATE)
     assert [row[:4] for row in rows] == [
         [each.quantity, short(each.computed), short(each.reference), each.unit] for each in wanted
     ]
-    failed = [each.quantity for each in wanted if each.role is comparison.Role.GATE and not each.passed]
+    failed = [each.quantity for each in wanted if each.role is ComparisonRole.GATE and not each.passed]
     tensions = small_solid_check().summary.root_tension._asdict()
     overloaded = [f"root stress, {gear}" for gear, tension in tensions.items() if tension > 300.0]
     # The pinion's bore of 28 mm leaves a rim of 1.1 tooth depths, which three teeth between held cuts do not bend.

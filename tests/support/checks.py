@@ -21,6 +21,7 @@ from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.geometry import FlankModification
+from gearcad.notice import Notice
 from gearcad.per_gear import PerGear
 from support.coarse import coarse_model
 
@@ -62,7 +63,7 @@ def small_check() -> PlaneCheck:
         sweep=sweep,
         convergence=convergence,
         comparisons=compare_plane(task, cycle, summary, convergence),
-        warnings=("a warning with <b>tags</b>",),
+        notices=(Notice("test", "a warning with <b>tags</b>"),),
     )
 
 
@@ -94,5 +95,5 @@ def small_solid_check() -> SolidCheck:
         sweep=sweep,
         convergence=convergence,
         comparisons=compare_solid(task, cycle, summary, convergence),
-        warnings=("a warning with <b>tags</b>",),
+        notices=(Notice("test", "a warning with <b>tags</b>"),),
     )

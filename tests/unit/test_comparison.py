@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
 from support.checks import small_check
 
 from gearcad import Load, Material
-from gearcad.check.comparison import Comparison, Role, Subject, Verdict, against, at_most, verdict
+from gearcad.check.comparison import Comparison, Subject, Verdict, agrees, at_most, beside, verdict
 from gearcad.cli.verdict import print_verdict
+from gearcad.notice import Notice
 from gearcad.output import json_text
 
 
@@ -19,13 +21,13 @@ def gate(computed: float | None, subject: Subject = Subject.NUMERICS, reason: st
 
 
 @pytest.mark.parametrize("computed", [None, math.nan, math.inf, -math.inf])
-@pytest.mark.parametrize("role", Role)
-def test_what_is_no_number_is_never_passed(computed: float | None, role: Role) -> None:
+@pytest.mark.parametrize("against", [agrees, beside])
+def test_what_is_no_number_is_never_passed(computed: float | None, against: Callable[..., Comparison]) -> None:
     for each in (
         gate(computed),
-        against("pressure", computed, 5.0, 1.0, "MPa", "Hertz", role),
-        against("pressure", 5.0, computed, 1.0, "MPa", "Hertz", role),
-        against("pressure", 5.0, 0.0, 1.0, "MPa", "Hertz", role),
+        against("pressure", computed, 5.0, 1.0, "MPa", "Hertz"),
+        against("pressure", 5.0, computed, 1.0, "MPa", "Hertz"),
+        against("pressure", 5.0, 0.0, 1.0, "MPa", "Hertz"),
     ):
         document = each.to_dict()
         assert (each.passed, each.evaluated, document["passed"], document["evaluated"]) == (False,) * 4
@@ -37,14 +39,14 @@ def test_what_is_no_number_is_never_passed(computed: float | None, role: Role) -
 
 def test_gates_are_passed_up_to_their_bounds() -> None:
     assert gate(100.0).passed and not gate(math.nextafter(100.0, 200.0)).passed
-    assert against("pressure", 101.0, 100.0, 0.0101, "MPa", "Hertz", Role.GATE).passed
-    assert not against("pressure", 98.9, 100.0, 0.01, "MPa", "Hertz", Role.GATE).passed
+    assert agrees("pressure", 101.0, 100.0, 0.0101, "MPa", "Hertz").passed
+    assert not agrees("pressure", 98.9, 100.0, 0.01, "MPa", "Hertz").passed
     assert gate(100.0).reason == ""
 
 
 def test_verdicts_keep_numerics_and_strength_apart() -> None:
     good, bad = gate(1.0), gate(None, Subject.STRENGTH)
-    outside = against("root stress", 9.0, 1.0, 0.1, "MPa", "ISO 6336", Role.INFORMATION)
+    outside = beside("root stress", 9.0, 1.0, 0.1, "MPa", "ISO 6336")
     assert verdict([good, bad, outside], Subject.NUMERICS) is Verdict.PASSED
     assert verdict([good, bad, outside], Subject.STRENGTH) is Verdict.FAILED
     assert verdict([good, outside], Subject.STRENGTH) is Verdict.NOT_JUDGED
@@ -85,9 +87,9 @@ def test_one_line_tells_what_was_judged(gates: list[Comparison], material: Mater
 
 def test_the_screen_keeps_columns_apart_and_tells_the_use_of_limits(capsys: pytest.CaptureFixture[str]) -> None:
     result = replace(small_check(), task=replace(small_check().task, load=Load(torque=30200.0)))
-    huge = against("root stress, wheel", -2.0594e5, 4.0592e14, 0.25, "MPa", "ISO 6336", Role.INFORMATION)
-    silent = against("peak contact pressure", None, None, 0.01, "MPa", "Hertz", Role.GATE, reason="no contact is inside")
-    changed = replace(result, comparisons=(gate(87.25), silent, huge), warnings=("the rim is thin",))
+    huge = beside("root stress, wheel", -2.0594e5, 4.0592e14, 0.25, "MPa", "ISO 6336")
+    silent = agrees("peak contact pressure", None, None, 0.01, "MPa", "Hertz", reason="no contact is inside")
+    changed = replace(result, comparisons=(gate(87.25), silent, huge), notices=(Notice("thin-rim", "the rim is thin"),))
     print_verdict("pair", changed)
     lines = capsys.readouterr().out.splitlines()
     rows = [line.split(maxsplit=1) for line in lines[:4]]

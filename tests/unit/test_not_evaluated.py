@@ -13,8 +13,9 @@ from support.checks import small_check, small_solid_check
 from support.coarse import coarse_model
 
 from gearcad import Load, Material
-from gearcad.check.comparison import Role, Verdict
+from gearcad.check.comparison import ComparisonRole, Verdict
 from gearcad.check.document import check_document
+from gearcad.check.notices import common_notices
 from gearcad.check.plane.judge import compare_plane
 from gearcad.check.plane.result import PlaneCheck
 from gearcad.check.plane.summary import PlaneSummary, summarise_plane
@@ -24,7 +25,6 @@ from gearcad.check.solid.result import SolidCheck
 from gearcad.check.solid.summary import SolidSummary, summarise_solid
 from gearcad.check.summary import Summary
 from gearcad.check.sweep import sweep_point
-from gearcad.check.warnings import general_warnings
 from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.output import json_text
@@ -82,15 +82,19 @@ def test_a_pressure_that_no_contact_has_is_absent() -> None:
 @pytest.mark.parametrize("overloaded", [overloaded_plane, overloaded_solid])
 def test_gates_without_a_figure_fail_and_say_why(overloaded: object) -> None:
     result: CheckResult = overloaded()  # type: ignore[operator]
-    silent = {each.quantity: each for each in result.comparisons if each.role is Role.GATE and not each.evaluated}
+    silent = {each.quantity: each for each in result.comparisons if each.role is ComparisonRole.GATE and not each.evaluated}
     wanted = {"sampling error of the contact pressure", "contact pressure", "von Mises stress below the flank"}
     wanted |= {"peak contact pressure", "half width of contact"} if isinstance(result, PlaneCheck) else set()
     assert set(silent) == wanted
     assert all("half widths" in each.reason and not each.passed for each in silent.values())
     assert (result.numerics, result.strength, result.passed) == (Verdict.FAILED, Verdict.FAILED, False)
     # Both root stresses are there, and below their limit.
-    assert all(each.passed for each in result.comparisons if each.quantity.startswith("root stress") and each.role is Role.GATE)
-    warnings = list(general_warnings(result.task, result.cycle, result.summary))
+    assert all(
+        each.passed
+        for each in result.comparisons
+        if each.quantity.startswith("root stress") and each.role is ComparisonRole.GATE
+    )
+    warnings = list(map(str, common_notices(result.task, result.cycle, result.summary)))
     assert any("the root stress is" in text and "linear elasticity means little" in text for text in warnings)
 
 

@@ -9,7 +9,7 @@ from support.checks import small_check
 
 from gearcad import Body, Gear, GearPair, Material
 from gearcad.check.judge import standards
-from gearcad.check.plane.run import plane_warnings
+from gearcad.check.plane.run import plane_notices
 from gearcad.check.summary import Figures, figures
 from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle
@@ -18,6 +18,7 @@ from gearcad.contact.plane.pair import plane_pair
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
 from gearcad.load import Load
+from gearcad.notice import texts
 from gearcad.rating import Edition, RatingOptions
 from gearcad.stiffness import PlaneStrainContact, PlaneStressContact, StrainEnergy
 
@@ -38,13 +39,17 @@ def fzg(pinion_width: float, wheel_width: float) -> GearPair:
     return GearPair(pinion=pinion, wheel=wheel)
 
 
+def plane_texts(task: CheckTask, elasticity: PlaneElasticity) -> tuple[str, ...]:
+    return texts(plane_notices(task, elasticity))
+
+
 def test_a_face_thinner_than_its_teeth_is_told() -> None:
-    thin, wide = plane_warnings(task_of(fzg(14.0, 7.0)), STRAIN)
+    thin, wide = plane_texts(task_of(fzg(14.0, 7.0)), STRAIN)
     assert thin.startswith("the wheel's face width of 7 mm is below its tooth thickness, 7.63 mm: so thin a body is nearer to ")
     assert "up to 9 % too stiff" in thin
     assert wide.startswith("the pinion is 14 mm wide, and the plane model has the 7 mm in mesh; by ISO 6336-3 14 mm carry")
-    assert list(plane_warnings(task_of(fzg(14.0, 14.0)), STRAIN)) == []
-    (pressure,) = plane_warnings(task_of(fzg(5.0, 5.0)), STRESS)
+    assert plane_texts(task_of(fzg(14.0, 14.0)), STRAIN) == ()
+    (pressure,) = plane_texts(task_of(fzg(5.0, 5.0)), STRESS)
     assert pressure == "plane stress: the contact itself stays in plane strain, where its pressure is up to 4.8 % higher"
 
 
@@ -59,13 +64,13 @@ def test_methods_in_plane_strain_tell_a_thin_face() -> None:
 
 def test_a_wider_root_is_told() -> None:
     """16 mm on 14 mm: ISO's root carries on all of it, at most m_n on either side; by the standard asked for."""
-    (found,) = plane_warnings(task_of(fzg(16.0, 14.0)), STRAIN)
+    (found,) = plane_texts(task_of(fzg(16.0, 14.0)), STRAIN)
     assert found == (
         "the pinion is 16 mm wide, and the plane model has the 14 mm in mesh; by ISO 6336-3 16 mm carry at its root, with 12 % "
         "less stress; --model 3d has the whole width"
     )
     german = task_of(fzg(14.0, 40.0), rating_options=RatingOptions(standard=Edition.DIN_1987))
-    (found,) = plane_warnings(german, STRAIN)
+    (found,) = plane_texts(german, STRAIN)
     assert "the wheel is 40 mm wide" in found and "by DIN 3990-3 23 mm carry" in found
     source = next(each.source for each in standards(german, small_check().summary) if each.quantity == "root stress, wheel")
     assert source == "sigma_F0, DIN 3990-3:1987 Method B, over b = 23 mm"

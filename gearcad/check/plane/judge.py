@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from operator import attrgetter, itemgetter
 
-from gearcad.check.comparison import Comparison, Role, against
+from gearcad.check.comparison import Comparison, agrees
 from gearcad.check.convergence import Convergence
-from gearcad.check.judge import farness, material_limits, mesh_errors, reactions, sampling, standards
+from gearcad.check.judge import compare_common, farness
 from gearcad.check.plane.summary import PlaneSummary
-from gearcad.check.rim import bending_limits, rim_gates
 from gearcad.check.task import CheckTask
-from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact
+from gearcad.contact.plane.cycle import PlaneCycle
 
 __all__ = ["compare_plane"]
 
@@ -23,36 +23,24 @@ def compare_plane(
     task: CheckTask, cycle: PlaneCycle, summary: PlaneSummary, convergence: tuple[Convergence, ...]
 ) -> tuple[Comparison, ...]:
     """All comparisons, gates first."""
-    return (
-        *_hertz(cycle, summary),
-        *reactions(cycle, "equilibrium: the torque that is applied through the teeth"),
-        *mesh_errors(convergence, 3 * (_DISCRETISATION,), summary),
-        *sampling(summary),
-        *rim_gates(task),
-        *material_limits(task, summary),
-        *bending_limits(task, summary),
-        *standards(task, summary),
-    )
+    equilibrium = "equilibrium: the torque that is applied through the teeth"
+    common = compare_common(task, cycle, summary, convergence, equilibrium=equilibrium, errors=3 * (_DISCRETISATION,))
+    return (*_hertz(cycle, summary), *common)
 
 
 def _hertz(cycle: PlaneCycle, summary: PlaneSummary) -> Iterator[Comparison]:
     """Peak pressure and half width against two cylinders under the load carried, where they are furthest apart."""
     contacts = list(cycle.interior_contacts)
     source = "Hertz: two cylinders of the flanks' curvature under the load that this pair of teeth carries"
-
-    def deviation(of: tuple[object, PlanePairContact], name: str, reference: str) -> float:
-        computed, expected = float(getattr(of[1], name)), float(getattr(of[1], reference))
-        return farness(computed, expected)
-
-    for words, name, reference, unit in (
-        ("peak contact pressure", "peak_pressure", "hertz_pressure", "MPa"),
-        ("half width of contact", "half_width", "hertz_half_width", "mm"),
+    for words, computed, reference, unit in (
+        ("peak contact pressure", attrgetter("peak_pressure"), attrgetter("hertz_pressure"), "MPa"),
+        ("half width of contact", attrgetter("half_width"), attrgetter("hertz_half_width"), "mm"),
     ):
         if not contacts:
-            reason = summary.missing["contact_pressure"]
-            yield against(words, None, None, _HERTZ, unit, source, Role.GATE, reason=reason)
+            yield agrees(words, None, None, _HERTZ, unit, source, reason=summary.missing["contact_pressure"])
             continue
-        position, contact = max(contacts, key=lambda of: deviation(of, name, reference))
+        found = [(farness(computed(contact), reference(contact)), position, contact) for position, contact in contacts]
+        _, position, contact = max(found, key=itemgetter(0))
         note = f"the worst of {len(contacts)} interior contacts, at roll angle {position.roll_angle:.2f} deg"
-        reason = "its pressures have no width to tell" if math.isnan(getattr(contact, name)) else ""
-        yield against(words, getattr(contact, name), getattr(contact, reference), _HERTZ, unit, source, Role.GATE, note, reason)
+        reason = "its pressures have no width to tell" if math.isnan(computed(contact)) else ""
+        yield agrees(words, computed(contact), reference(contact), _HERTZ, unit, source, note, reason)

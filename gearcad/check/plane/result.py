@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from operator import attrgetter
 from typing import ClassVar
 
 from gearcad.check.explanation import Explanations, explain_stiffness
@@ -14,7 +15,7 @@ from gearcad.check.plane.pictures import DepthProfile, FilletCurves, Shown, Stre
 from gearcad.check.plane.summary import PlaneSummary
 from gearcad.check.result import CheckResult
 from gearcad.check.shown import shown_contact
-from gearcad.contact.plane.cycle import PlaneCycle
+from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact
 from gearcad.contact.plane.elasticity import Plane
 from gearcad.mounting import Mounting
 from gearcad.per_gear import PerGear
@@ -38,6 +39,11 @@ class PlaneCheck(CheckResult):
             stiffness=explain_stiffness(self.task, self.cycle, self.summary, self.sweep),
             root_stress=explain_roots(self.task, self.cycle, self.summary, self.load_share),
         )
+
+    @property
+    def contacts_along_path(self) -> list[PlanePairContact]:
+        """All contacts of the cycle in the order in which one pair of teeth goes through them."""
+        return sorted((contact for _, contact in self.cycle.contacts), key=attrgetter("place"))
 
     @property
     def hertz_deviation(self) -> float | None:

@@ -5,24 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from gearcad.check.convergence import FACTORS, FEW_POSITIONS, three_meshes
-from gearcad.check.extremes import PLANE, ROOTS, STRESSES
+from gearcad.check.extremes import PLANE, ROOTS
+from gearcad.check.notices import common_notices
 from gearcad.check.options import Model
 from gearcad.check.plane.judge import compare_plane
 from gearcad.check.plane.result import PlaneCheck
 from gearcad.check.plane.summary import summarise_plane
-from gearcad.check.rim import rim_warnings
-from gearcad.check.sweep import sweep_point
+from gearcad.check.sweep import sweep_points
 from gearcad.check.task import CheckTask
-from gearcad.check.warnings import corner_warnings, general_warnings
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.elasticity import PlaneElasticity
 from gearcad.contact.plane.limits import plane_pressure, thin_faces
 from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.meshing import MeshSizes
-from gearcad.notice import texts
+from gearcad.notice import Notice
 from gearcad.progress import Agenda
 
-__all__ = ["PLANE_MEMORY", "PLANE_STEPS", "check_plane", "plane_warnings"]
+__all__ = ["PLANE_MEMORY", "PLANE_STEPS", "check_plane", "plane_notices"]
 
 _WORTH_A_WORD = 0.01
 """How much wider than the mesh a root carries before it is told."""
@@ -43,15 +42,10 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     tell("convergence")
     convergence = three_meshes(_refined(task, model)) if task.options.refines else ()
     tell("torque sweep")
-    sweep = tuple(sweep_point(PlaneCycle.run(model, torque, FEW_POSITIONS).searched(STRESSES)) for torque in task.torques)
+    sweep = sweep_points(cycle, task.torques)
     tell("rating")
     comparisons = compare_plane(task, cycle, summary, convergence)
-    warnings = (
-        *general_warnings(task, cycle, summary),
-        *rim_warnings(task, summary),
-        *corner_warnings(cycle, summary),
-        *plane_warnings(task, model.pinion.elasticity),
-    )
+    notices = (*common_notices(task, cycle, summary), *plane_notices(task, model.pinion.elasticity))
     return PlaneCheck(
         task=task,
         cycle=cycle,
@@ -59,7 +53,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
         sweep=sweep,
         convergence=convergence,
         comparisons=comparisons,
-        warnings=warnings,
+        notices=notices,
     )
 
 
@@ -76,28 +70,31 @@ def _refined(task: CheckTask, middle: PlanePair) -> Iterator[PlaneCycle]:
         yield PlaneCycle.run(model, task.torque, FEW_POSITIONS).searched(ROOTS)
 
 
-def plane_warnings(task: CheckTask, elasticity: PlaneElasticity) -> Iterator[str]:
+def plane_notices(task: CheckTask, elasticity: PlaneElasticity) -> Iterator[Notice]:
     """What a plane does not know of these bodies."""
-    yield from texts((*thin_faces(task.pair, elasticity), *plane_pressure(elasticity)))
+    yield from thin_faces(task.pair, elasticity)
+    yield from plane_pressure(elasticity)
     yield from _wider_gears(task)
     yield from _left_out(task)
 
 
-def _wider_gears(task: CheckTask) -> Iterator[str]:
+def _wider_gears(task: CheckTask) -> Iterator[Notice]:
     """Gears whose root carries over more than the common width."""
     common = task.pair.common_width.width
     for role, rating in task.rating.roots.items():
         own = task.pair.gears.pick(role).face_width
         if rating.width > (1 + _WORTH_A_WORD) * common:
             carry = f"by {task.rating.edition.part(3)} {rating.width:.4g} mm carry at its root"
-            yield (
+            yield Notice(
+                "wider-root",
                 f"the {role.value} is {own:.4g} mm wide, and the plane model has the {common:.4g} mm in mesh; {carry}, "
-                f"with {100 * (1 - common / rating.width):.2g} % less stress; --model 3d has the whole width"
+                f"with {100 * (1 - common / rating.width):.2g} % less stress; --model 3d has the whole width",
             )
 
 
-def _left_out(task: CheckTask) -> list[str]:
-    gears = (("pinion", task.pair.pinion), ("wheel", task.pair.wheel))
-    left_out = [f"the {name}'s modifications along the face width" for name, gear in gears if gear.modification.along_face]
+def _left_out(task: CheckTask) -> Iterator[Notice]:
+    along = [role for role, gear in task.pair.gears.items() if gear.modification.along_face]
+    left_out = [f"the {role.value}'s modifications along the face width" for role in along]
     left_out += ["the misalignment"] if task.mounting.tilted else []
-    return [f"the plane model leaves out {' and '.join(left_out)}; --model 3d has them"] if left_out else []
+    if left_out:
+        yield Notice("left-out", f"the plane model leaves out {' and '.join(left_out)}; --model 3d has them")

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from gearcad.check.comparison import Comparison, Role, against
+from gearcad.check.comparison import Comparison, beside
 from gearcad.check.convergence import Convergence
 from gearcad.check.face import face_factors
-from gearcad.check.judge import material_limits, mesh_errors, reactions, sampling, standards
-from gearcad.check.rim import bending_limits, rim_gates
+from gearcad.check.judge import compare_common
 from gearcad.check.solid.summary import SolidSummary
 from gearcad.check.task import CheckTask
 from gearcad.contact.solid.cycle import SolidCycle
@@ -28,18 +27,9 @@ def compare_solid(
     task: CheckTask, cycle: SolidCycle, summary: SolidSummary, convergence: tuple[Convergence, ...]
 ) -> tuple[Comparison, ...]:
     """All comparisons, gates first."""
-    source = f"equilibrium: the torque that is applied through the teeth, at the worst of {len(cycle.every)} positions"
-    return (
-        *reactions(cycle, source),
-        *mesh_errors(convergence, _ERRORS, summary),
-        *sampling(summary, _FLICKER),
-        *rim_gates(task),
-        *material_limits(task, summary),
-        *bending_limits(task, summary),
-        *standards(task, summary),
-        *_contact(task, summary),
-        *_face(task, summary),
-    )
+    equilibrium = f"equilibrium: the torque that is applied through the teeth, at the worst of {len(cycle.every)} positions"
+    common = compare_common(task, cycle, summary, convergence, equilibrium=equilibrium, errors=_ERRORS, flicker=_FLICKER)
+    return (*common, *_contact(task, summary), *_face(task, summary))
 
 
 def _contact(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
@@ -54,26 +44,24 @@ def _contact(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
         ("contact pressure at the pitch point", "contact_pressure_pitch_point", nominal, "sigma_H0", middle),
     ):
         value, source, reason = getattr(summary, key), f"{source}, {standard} Method B", summary.missing.get(key, "")
-        yield against(words, value, reference, band, "MPa", source, Role.INFORMATION, note, reason)
+        yield beside(words, value, reference, band, "MPa", source, note, reason)
     lengths = task.pair.contact_line_lengths
-    yield against(
+    yield beside(
         "mean length of the lines of contact",
         summary.contact_length_mean,
         lengths.mean,
         band,
         "mm",
         "epsilon_alpha b/cos beta_b",
-        Role.INFORMATION,
         "the FE counts cells that carry: bent teeth touch early and late, and modified or misaligned flanks not everywhere",
     )
-    yield against(
+    yield beside(
         "greatest line load",
         summary.line_load_max,
         rating.normal_force * rating.application_factor / lengths.minimum,
         band,
         "N/mm",
         "F_bn over the least length of the lines of contact",
-        Role.INFORMATION,
         "rigid gears, load even along all lines, where these are shortest: the FE is above it by how uneven the load is",
         summary.missing.get("line_load_max", ""),
     )
@@ -92,4 +80,4 @@ def _face(task: CheckTask, summary: SolidSummary) -> Iterator[Comparison]:
         ("face load factor K_Fbeta, pinion", summary.root_face_load_factor.pinion, factors.root),
         ("face load factor K_Fbeta, wheel", summary.root_face_load_factor.wheel, factors.root),
     ):
-        yield against(words, value, reference, band, "", source, Role.INFORMATION, note)
+        yield beside(words, value, reference, band, "", source, note)

@@ -6,18 +6,18 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from gearcad.check.convergence import FEW_POSITIONS, SOLID_FACTORS, three_solid_meshes
-from gearcad.check.extremes import ROOTS, SOLID, STRESSES
+from gearcad.check.extremes import ROOTS, SOLID
+from gearcad.check.notices import common_notices
 from gearcad.check.options import Model
-from gearcad.check.rim import rim_warnings
 from gearcad.check.solid.expected import BODIES, COARSER, CYCLE, FINER, RATING, SWEEP, sizes_of
 from gearcad.check.solid.judge import compare_solid
 from gearcad.check.solid.result import SolidCheck
 from gearcad.check.solid.summary import SolidSummary, summarise_solid
-from gearcad.check.sweep import sweep_point
+from gearcad.check.sweep import sweep_points
 from gearcad.check.task import CheckTask
-from gearcad.check.warnings import corner_warnings, general_warnings
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, loaded_left, solid_pair
+from gearcad.notice import Notice
 from gearcad.progress import Agenda, Share
 
 __all__ = ["check_solid"]
@@ -38,16 +38,11 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     cycle = SolidCycle.run(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
     summary = summarise_solid(cycle, model.single_stiffness(task.torque))
     agenda(SWEEP)
-    sweep = tuple(sweep_point(SolidCycle.run(model, torque, FEW_POSITIONS).searched(STRESSES)) for torque in task.torques)
+    sweep = sweep_points(cycle, task.torques)
     convergence = three_solid_meshes(_refined(task, model, agenda)) if task.options.refines else ()
     agenda(RATING)
     comparisons = compare_solid(task, cycle, summary, convergence)
-    warnings = (
-        *general_warnings(task, cycle, summary),
-        *rim_warnings(task, summary),
-        *corner_warnings(cycle, summary),
-        *_edge_warnings(cycle, summary),
-    )
+    notices = (*common_notices(task, cycle, summary), *_edge_notices(cycle, summary))
     return SolidCheck(
         task=task,
         cycle=cycle,
@@ -55,7 +50,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
         sweep=sweep,
         convergence=convergence,
         comparisons=comparisons,
-        warnings=warnings,
+        notices=notices,
     )
 
 
@@ -77,12 +72,11 @@ def _few(model: SolidPair, task: CheckTask) -> SolidCycle:
     return SolidCycle.run(model, task.torque, FEW_POSITIONS).searched(ROOTS)
 
 
-def _edge_warnings(cycle: SolidCycle, summary: SolidSummary) -> list[str]:
-    greatest = max(float(contact.pressures.max()) for position in cycle.every for contact in position.contacts)
-    if summary.contact_pressure is not None and greatest < _EDGE_RATIO * summary.contact_pressure:
-        return []
-    return [
-        f"beside the edges of the flanks the pressure is up to {greatest:.0f} MPa, by Hertz's formula, which no edge fits; "
-        "it is "
-        "left out of the verdict; reliefs and crowning would lower it"
-    ]
+def _edge_notices(cycle: SolidCycle, summary: SolidSummary) -> Iterator[Notice]:
+    greatest = max(float(contact.pressures.max()) for _, contact in cycle.contacts)
+    if summary.contact_pressure is None or greatest >= _EDGE_RATIO * summary.contact_pressure:
+        yield Notice(
+            "edge-pressure",
+            f"beside the edges of the flanks the pressure is up to {greatest:.0f} MPa, by Hertz's formula, which no edge fits; "
+            "it is left out of the verdict; reliefs and crowning would lower it",
+        )

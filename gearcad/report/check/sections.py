@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, TypeVar
 
-from gearcad.check.comparison import Comparison, Role
+from gearcad.check.comparison import Comparison, ComparisonRole
 from gearcad.check.result import CheckResult
 from gearcad.plots.check import plot_mesh_stiffness, plot_root_stress, plot_transmission_error
 from gearcad.plots.paper import short
@@ -62,22 +62,22 @@ class CheckSections(ABC, Generic[Checked]):
     @property
     def gates(self) -> list[ComparisonRow]:
         """What decides."""
-        return [_row(each) for each in self.result.comparisons if each.role is Role.GATE]
+        return [_row(each) for each in self.result.comparisons if each.role is ComparisonRole.GATE]
 
     @property
     def information(self) -> list[ComparisonRow]:
         """What does not decide."""
-        return [_row(each) for each in self.result.comparisons if each.role is Role.INFORMATION]
+        return [_row(each) for each in self.result.comparisons if each.role is ComparisonRole.INFORMATION]
 
     @property
     def failed(self) -> list[ComparisonRow]:
         """Gates that are not passed."""
-        return [_row(each) for each in self.result.comparisons if each.role is Role.GATE and not each.passed]
+        return [_row(each) for each in self.result.comparisons if each.role is ComparisonRole.GATE and not each.passed]
 
     @property
     def outside(self) -> list[ComparisonRow]:
         """Information outside its band."""
-        found = (each for each in self.result.comparisons if each.role is Role.INFORMATION)
+        found = (each for each in self.result.comparisons if each.role is ComparisonRole.INFORMATION)
         return [_row(each) for each in found if each.evaluated and not each.passed]
 
     # ------------------------------------------------------------------ why they differ
@@ -173,7 +173,7 @@ def _common(title: str, draw: Callable[[Axes], Axes], caption: str, of: object) 
 
 
 def _row(comparison: Comparison) -> ComparisonRow:
-    gate = comparison.role is Role.GATE
+    gate = comparison.role is ComparisonRole.GATE
     if comparison.passed:
         word = "passed" if gate else "in the band"
     else:
