@@ -18,6 +18,7 @@ __all__ = [
     "MODIFY",
     "MODIFY_FIGURES",
     "PAIR",
+    "PER_GEAR",
     "RATING",
     "STIFFNESS",
     "Symbol",
@@ -85,6 +86,9 @@ PAIR = {
     "contact_line_lengths.mean": Symbol("", "mm", "5.4", "contact lines, mean total length"),
     "contact_line_lengths.maximum": Symbol("", "mm", "5.4", "contact lines, greatest total length"),
 }
+
+PER_GEAR = ("working_pitch_diameters", "active_root_diameters", "tip_clearances")
+"""Keys of PAIR that pinion and wheel each have."""
 
 RATING = {
     "edition": Symbol("", "", "", "standard"),

@@ -22,15 +22,12 @@ from gearcad.errors import GearcadError, OutputError, SpecError
 from gearcad.jobs.job import Job
 from gearcad.output import UNWRITABLE, unwritable
 from gearcad.per_gear import PerGear
+from gearcad.symbols import PER_GEAR
 
 __all__ = ["Record", "Status", "Task", "check_rows", "make_row"]
 
 _HOPELESS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.ENOENT)
 """Errors of the target that every other row would meet too."""
-
-
-_PER_GEAR = ("working_pitch_diameters", "tip_clearances", "active_root_diameters")
-"""What a pair has of pinion and wheel each."""
 
 
 class Status(Enum):
@@ -191,7 +188,7 @@ def _flat(document: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any
             yield from _flat(value, f"{prefix}{key}.")
         elif key in ("warnings", "notices") or not prefix:
             continue
-        elif prefix == "pair." and key in _PER_GEAR:
+        elif prefix == "pair." and key in PER_GEAR:
             yield from ((f"{prefix}{key}.{role.value}", of) for role, of in PerGear(*value).items())
         elif isinstance(value, list):
             yield prefix + key, tuple(value)

@@ -39,9 +39,6 @@ _GEAR_BLOCKS = {
 _PLACED = {"name", *" ".join(_GEAR_BLOCKS.values()).split()}
 _GEAR_BLOCKS["Teeth"] += "".join(f" {key}" for key in _OF_GEAR if key not in _PLACED)
 
-_BOTH = "working_pitch_diameters active_root_diameters tip_clearances"
-"""Fields of a pair that hold one value for the pinion and one for the wheel."""
-
 _PAIR_BLOCKS = {
     "Mesh": "gear_ratio centre_distance reference_centre_distance axial_offset working_transverse_pressure_angle"
     " profile_shift_sum zero_backlash_shift_sum tip_alteration circumferential_backlash normal_backlash",
@@ -91,7 +88,7 @@ def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
     for title, keys in _GEAR_BLOCKS.items():
         rows = [(_OF_GEAR[key], [_shown(values, key) for values in gears.values()]) for key in keys.split()]
         if title == "Diameters" and pair:
-            rows += [(_OF_PAIR[key], [_value(value) for value in pair[key]]) for key in _BOTH.split()]
+            rows += [(_OF_PAIR[key], [_value(value) for value in pair[key]]) for key in symbols.PER_GEAR]
         yield from _block(title, [row for row in rows if set(row[1]) != {_ABSENT}], with_source)
     for title, keys in _PAIR_BLOCKS.items() if pair else ():
         yield from _block(title, [(_OF_PAIR[key], [_value(pair[key])]) for key in keys.split()], with_source)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from gearcad.errors import GeometryError, InputError, ParameterError, format_number
 from gearcad.geometry import Gear, GearPair, ShiftSplit, profile_shift_sum, split_profile_shift, zero_backlash_centre_distance
-from gearcad.per_gear import PerGear
+from gearcad.per_gear import PerGear, Role
 
 __all__ = ["AUTO", "make_gears", "resolve_profile_shifts", "resolve_tip_alterations"]
 
@@ -21,119 +21,115 @@ _FOLLOWING = ("profile_shift", "tip_alteration", "tip_diameter", "root_diameter"
 """What of a gear may follow from the centre distance."""
 
 GearInputs = Mapping[str, Any]
-"""Keyword arguments of Gear, where `profile_shift` and `tip_alteration` may still be "auto"."""
+"""Keyword arguments of a Gear, where `profile_shift` and `tip_alteration` may still be "auto"."""
 
 
 def resolve_profile_shifts(
-    pinion: GearInputs, wheel: GearInputs, centre_distance: float | None, split: ShiftSplit | None
-) -> tuple[float, float]:
-    """Profile shifts (x_1, x_2) with each "auto" replaced.
+    gears: PerGear[GearInputs], centre_distance: float | None, split: ShiftSplit | None
+) -> PerGear[float]:
+    """Profile shifts x with each "auto" replaced.
 
     One "auto" takes the rest of the sum that meshes without backlash at `centre_distance` (mm; thinning then gives the
     backlash). Two share the sum by `split` (None: equal specific sliding). Raises GeometryError where no shift can do it,
     and ParameterError for a number that is not permitted whatever the shifts are; parameters are led by their gear.
     """
-    shifts = [gear.get("profile_shift", 0.0) for gear in (pinion, wheel)]
-    _require_sound_numbers(pinion, wheel)
-    automatic = [shift == AUTO for shift in shifts]
-    if split is not None and not all(automatic):
+    shifts: PerGear[Any] = gears.map(lambda gear: gear.get("profile_shift", 0.0))
+    _require_sound_numbers(gears)
+    automatic = [role for role, shift in shifts.items() if shift == AUTO]
+    if split is not None and len(automatic) < len(Role):
         raise GeometryError("profile_shift_split", split, 'needs profile_shift = "auto" on both gears')
-    if not any(automatic):
-        return shifts[0], shifts[1]
+    if not automatic:
+        return shifts
     if centre_distance is None:
-        owner = "pinion" if automatic[0] else "wheel"
-        raise GeometryError(f"{owner}.profile_shift", AUTO, "needs centre_distance in [pair]")
-    if not _mate(pinion, wheel):
-        return 0.0, 0.0  # GearPair refuses them, and says why
-    total = profile_shift_sum(**_common(pinion, wheel), centre_distance=centre_distance)
-    if all(automatic):
-        return _shared(total, pinion, wheel, centre_distance, split or ShiftSplit.EQUAL_SPECIFIC_SLIDING)
-    return (total - shifts[1], shifts[1]) if automatic[0] else (shifts[0], total - shifts[0])
+        raise GeometryError(f"{automatic[0].value}.profile_shift", AUTO, "needs centre_distance in [pair]")
+    if not _mate(gears):
+        return PerGear(0.0, 0.0)  # GearPair refuses them, and says why
+    total = profile_shift_sum(**_sizes(gears), centre_distance=centre_distance)
+    if len(automatic) == len(Role):
+        return _shared(total, gears, centre_distance, split or ShiftSplit.EQUAL_SPECIFIC_SLIDING)
+    return PerGear.each(lambda role: total - shifts.pick(role.mate) if role in automatic else shifts.pick(role))
 
 
-def resolve_tip_alterations(
-    pinion: GearInputs, wheel: GearInputs, shifts: tuple[float, float], centre_distance: float | None
-) -> tuple[float, float]:
-    """Tip alterations (k_1, k_2), in normal modules, with each "auto" (the default) replaced.
+def resolve_tip_alterations(gears: PerGear[GearInputs], shift_sum: float, centre_distance: float | None) -> PerGear[float]:
+    """Tip alterations k, in normal modules, with each "auto" (the default) replaced.
 
     k = (a - a_d)/m_n - (x_1 + x_2), never positive (DIN 3960). `centre_distance` None stands for the one without backlash.
     A gear whose tip diameter is given has none.
     """
-    keeping = _clearance_keeping(pinion, wheel, sum(shifts), centre_distance) if _mate(pinion, wheel) else 0.0
+    keeping = _clearance_keeping(gears, shift_sum, centre_distance) if _mate(gears) else 0.0
 
     def of(gear: GearInputs) -> float:
         value: Any = gear.get("tip_alteration", AUTO)
         automatic = 0.0 if "tip_diameter" in gear else keeping
         return automatic if value == AUTO else float(value)
 
-    return of(pinion), of(wheel)
+    return gears.map(of)
 
 
-def make_gears(
-    gears: Mapping[str, GearInputs], automatic: Mapping[str, Container[str]], centre_distance: float | None
-) -> dict[str, Gear]:
+def make_gears(gears: PerGear[GearInputs], automatic: PerGear[Collection[str]], centre_distance: float | None) -> PerGear[Gear]:
     """Both gears from their resolved inputs, of which `automatic` names those that stood as "auto".
 
     Raises InputError: of the gear, its parameter led by the gear, or of the centre distance (mm) if that is what made it fail.
     """
-    made = {}
-    for owner, inputs in gears.items():
+
+    def made(role: Role) -> Gear:
+        inputs = gears.pick(role)
         try:
-            made[owner] = Gear(**inputs)
+            return Gear(**inputs)
         except InputError as error:
-            fault = error.within(owner)
-            own = error.parameter in inputs and error.parameter not in automatic[owner]
+            own = error.parameter in inputs and error.parameter not in automatic.pick(role)
             if centre_distance is None or own or error.parameter not in _FOLLOWING:
-                raise fault from error
-            raise _led_back(fault, gears, automatic, centre_distance) from error
-    return made
+                raise error.within(role.value) from error
+            raise _led_back(error.within(role.value), gears, automatic, centre_distance) from error
+
+    return PerGear(*map(made, Role))
 
 
 def _led_back(
-    fault: InputError,
-    gears: Mapping[str, GearInputs],
-    automatic: Mapping[str, Container[str]],
-    centre_distance: float,
+    fault: InputError, gears: PerGear[GearInputs], automatic: PerGear[Collection[str]], centre_distance: float
 ) -> InputError:
     """The fault of a gear as one of the centre distance (mm), if it is one: tips that are not shortened tell."""
-    made = {}
-    for each, inputs in gears.items():
+    made = []
+    for role, inputs in gears.items():
+        unshortened = {"tip_alteration": 0.0} if "tip_alteration" in automatic.pick(role) else {}
         try:
-            made[each] = Gear(**{**inputs, "tip_alteration": 0.0} if "tip_alteration" in automatic[each] else inputs)
+            made.append(Gear(**{**inputs, **unshortened}))
         except InputError as error:
-            if "profile_shift" not in automatic[each]:
-                return error.within(each)
+            if "profile_shift" not in automatic.pick(role):
+                return error.within(role.value)
     try:
-        if len(made) == len(gears):
-            GearPair(pinion=made["pinion"], wheel=made["wheel"], centre_distance=centre_distance)
+        if len(made) == len(Role):
+            pinion, wheel = made
+            GearPair(pinion=pinion, wheel=wheel, centre_distance=centre_distance)
     except InputError as error:
         if error.parameter == "centre_distance":
             return error
     unit = f" {fault.unit}" if fault.unit else ""
-    asked = sum(inputs["profile_shift"] for inputs in gears.values())
-    shifted = any("profile_shift" in fields for fields in automatic.values())
-    asks = f"asks for x1 + x2 = {asked:.6g} and " if shifted else ""
+    asked = sum(gears.map(lambda inputs: inputs["profile_shift"]))
+    asks = f"asks for x1 + x2 = {asked:.6g} and " if any("profile_shift" in names for names in automatic) else ""
     makes = f"{asks}makes {fault.parameter} = {format_number(fault.value)}{unit}, which {fault.permitted}"
     return GeometryError("centre_distance", centre_distance, makes, "mm")
 
 
-def _common(pinion: GearInputs, wheel: GearInputs) -> dict[str, Any]:
+def _sizes(gears: PerGear[GearInputs]) -> dict[str, Any]:
+    """What the formulas of profile shift and centre distance want to know of both gears, as GearPair has it."""
     return {
-        "normal_module": pinion["normal_module"],
-        "teeth": PerGear(pinion["teeth"], wheel["teeth"]),
-        "helix_angle": pinion.get("helix_angle", 0.0),
-        "pressure_angle": pinion["rack"].pressure_angle,
+        "normal_module": gears.pinion["normal_module"],
+        "teeth": gears.map(lambda gear: gear["teeth"]),
+        "helix_angle": gears.pinion.get("helix_angle", 0.0),
+        "pressure_angle": gears.pinion["rack"].pressure_angle,
     }
 
 
-def _mate(pinion: GearInputs, wheel: GearInputs) -> bool:
-    sizes = [(gear["normal_module"], gear["rack"].pressure_angle) for gear in (pinion, wheel)]
-    return all(abs(one - other) <= _SAME for one, other in zip(*sizes, strict=True))
+def _mate(gears: PerGear[GearInputs]) -> bool:
+    """Whether both have one module and one pressure angle."""
+    pinion, wheel = gears.map(lambda gear: (gear["normal_module"], gear["rack"].pressure_angle))
+    return all(abs(one - other) <= _SAME for one, other in zip(pinion, wheel, strict=True))
 
 
-def _require_sound_numbers(pinion: GearInputs, wheel: GearInputs) -> None:
+def _require_sound_numbers(gears: PerGear[GearInputs]) -> None:
     """Find single values out of range before any formula meets them; what depends on the shift is judged later."""
-    for owner, gear in (("pinion", pinion), ("wheel", wheel)):
+    for role, gear in gears.items():
         trial = {name: value for name, value in gear.items() if name != "tip_diameter"}
         for automatic in ("profile_shift", "tip_alteration"):
             if trial.get(automatic) == AUTO:
@@ -141,37 +137,36 @@ def _require_sound_numbers(pinion: GearInputs, wheel: GearInputs) -> None:
         try:
             Gear(**trial)
         except ParameterError as error:
-            raise error.within(owner) from error
+            raise error.within(role.value) from error
         except GeometryError:
             continue
 
 
-def _shared(
-    total: float, pinion: GearInputs, wheel: GearInputs, centre_distance: float, split: ShiftSplit
-) -> tuple[float, float]:
+def _shared(total: float, gears: PerGear[GearInputs], centre_distance: float, split: ShiftSplit) -> PerGear[float]:
     """Split the shift sum; equal sliding looks at the tips, so their alteration and chamfer count."""
     if split is ShiftSplit.EQUAL_SPECIFIC_SLIDING:
-        for owner, gear in (("pinion", pinion), ("wheel", wheel)):
+        for role, gear in gears.items():
             if "tip_diameter" in gear:
                 permitted = "leaves no equal sliding to find: give the profile shifts, or another profile_shift_split"
-                raise GeometryError(f"{owner}.tip_diameter", gear["tip_diameter"], permitted, "mm")
-    altered = resolve_tip_alterations(pinion, wheel, (total, 0.0), centre_distance)
-    rises = (
-        gear["rack"].addendum + change - gear["body"].tip_chamfer / gear["normal_module"]
-        for gear, change in zip((pinion, wheel), altered, strict=True)
-    )
-    addenda = PerGear(*rises)
-    return split_profile_shift(total, split, **_common(pinion, wheel), centre_distance=centre_distance, addenda=addenda)
+                raise GeometryError(f"{role.value}.tip_diameter", gear["tip_diameter"], permitted, "mm")
+    altered = resolve_tip_alterations(gears, total, centre_distance)
+
+    def addendum(role: Role) -> float:
+        gear = gears.pick(role)
+        return float(gear["rack"].addendum + altered.pick(role) - gear["body"].tip_chamfer / gear["normal_module"])
+
+    addenda = PerGear.each(addendum)
+    return split_profile_shift(total, split, **_sizes(gears), centre_distance=centre_distance, addenda=addenda)
 
 
-def _clearance_keeping(pinion: GearInputs, wheel: GearInputs, shift_sum: float, centre_distance: float | None) -> float:
+def _clearance_keeping(gears: PerGear[GearInputs], shift_sum: float, centre_distance: float | None) -> float:
     """k that keeps the rack's tip clearance at the given, or else the backlash-free, centre distance."""
-    module: float = pinion["normal_module"]
-    common = _common(pinion, wheel)
+    sizes = _sizes(gears)
+    module: float = sizes["normal_module"]
     if centre_distance is None:
         try:
-            centre_distance = zero_backlash_centre_distance(**common, shift_sum=shift_sum)
+            centre_distance = zero_backlash_centre_distance(**sizes, shift_sum=shift_sum)
         except GeometryError:
             return 0.0  # no such centre distance: GearPair says so
-    reference: float = module * sum(common["teeth"]) / math.cos(math.radians(common["helix_angle"])) / 2
+    reference: float = module * sum(sizes["teeth"]) / math.cos(math.radians(sizes["helix_angle"])) / 2
     return min((centre_distance - reference) / module - shift_sum, 0.0)

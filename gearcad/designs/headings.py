@@ -6,12 +6,10 @@ from collections.abc import Iterable, Sequence
 
 from gearcad.designs.cells import RawCell, plain_text
 from gearcad.designs.design import DesignKind
-from gearcad.designs.keys import COLUMNS, explain_unknown_column, nearest_table
+from gearcad.designs.keys import COLUMNS, MAIN_TABLES, explain_unknown_column, nearest_table
 from gearcad.errors import SpecError, shown
 
 __all__ = ["column_letter", "kinds_of", "read_headings"]
-
-_OF_A_PAIR = ("pair", "pinion", "wheel")
 
 
 def column_letter(index: int) -> str:
@@ -27,8 +25,7 @@ def column_letter(index: int) -> str:
 def kinds_of(keys: Iterable[str]) -> set[DesignKind]:
     """What full keys can make; none of [material] and [load] makes anything."""
     owners = {key.partition(".")[0] for key in keys}
-    kinds = {DesignKind.GEAR} if "gear" in owners else set()
-    return kinds | {DesignKind.PAIR} if owners.intersection(_OF_A_PAIR) else kinds
+    return {kind for kind, tables in MAIN_TABLES.items() if owners.intersection(tables)}
 
 
 def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:

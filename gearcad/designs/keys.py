@@ -8,11 +8,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 from gearcad.check.options import CheckOptions
+from gearcad.designs.design import DesignKind
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.geometry import Gear, GearPair, ShiftSplit
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
+from gearcad.per_gear import Role
 from gearcad.rating.options import RatingOptions
 from gearcad.schema import FieldSchema, Words, schema_of
 
@@ -26,6 +28,7 @@ __all__ = [
     "FIELDS",
     "KEYS",
     "LISTS",
+    "MAIN_TABLES",
     "PARTS",
     "SHARED",
     "TEXTS",
@@ -41,6 +44,9 @@ Cell = int | float | str | tuple[float, ...]
 
 PARTS = tuple(name for name, field in schema_of(Gear).items() if field.part is not None)
 """Fields of a gear that have fields of their own."""
+
+MAIN_TABLES = {DesignKind.GEAR: ("gear",), DesignKind.PAIR: ("pair", *(role.value for role in Role))}
+"""The tables without which a spec makes no gear, and no pair."""
 
 BESIDE: dict[str, type[DataclassInstance]] = {
     "material": Material,

@@ -16,10 +16,12 @@ from gearcad.designs.files import Where, require_sane_tables
 from gearcad.designs.keys import COUNTS, FIELDS, KEYS, PARTS, SHARED, explain_unknown_key
 from gearcad.errors import InputError, ParameterError, SpecError, format_number, shown
 from gearcad.geometry import NAMED_RACKS, BasicRack, Body, FlankModification
+from gearcad.per_gear import Role
 
 __all__ = ["Given", "Spec"]
 
 _DERIVED = ("tip_diameter", "root_diameter", "centre_distance")
+_ROLES = tuple(role.value for role in Role)
 
 Simple = TypeVar("Simple")
 
@@ -65,16 +67,16 @@ class Spec:
 
     def _explained(self, error: InputError, owner: str) -> SpecError:
         field = error.parameter
-        if field.startswith(("pinion.", "wheel.")):
+        if field.partition(".")[0] in _ROLES:
             owner, _, field = field.partition(".")
         # The profile knows the chamfer, not whose it is.
         field = "body.tip_chamfer" if field == "tip_chamfer" else field
         permitted = error.permitted
-        if owner in ("pinion", "wheel") and field in ("profile_shift", "tip_alteration") and isinstance(error, ParameterError):
+        if owner in _ROLES and field in ("profile_shift", "tip_alteration") and isinstance(error, ParameterError):
             permitted += f', or "{AUTO}"'
         given = self.values.get(f"{owner}.{field}")
         if given is None and error.value is None:
-            shared = " (here or in [pair])" if owner in ("pinion", "wheel") and field in SHARED else ""
+            shared = " (here or in [pair])" if owner in _ROLES and field in SHARED else ""
             key = f"{owner}.{field}"
             return SpecError(f"{self.where(key)}: {key} is missing: {permitted}{shared}", key)
         if given is None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import lru_cache
 
 from gearcad.designs.design import DesignKind
-from gearcad.designs.keys import SHARED, Cell
+from gearcad.designs.keys import MAIN_TABLES, SHARED, Cell
 from gearcad.designs.reader import design_from_tables
 from gearcad.errors import GeometryError, SpecError
 
@@ -17,7 +17,7 @@ Where = Callable[[str], str]
 _REQUIRED: dict[str, Cell] = {"teeth": 20, "normal_module": 2.0, "face_width": 20.0}
 """What a gear cannot do without, and values that fit each other."""
 
-_GEARS = {DesignKind.GEAR: ("gear",), DesignKind.PAIR: ("pinion", "wheel")}
+_GEARS = {kind: tuple(table for table in tables if table != "pair") for kind, tables in MAIN_TABLES.items()}
 _SOUND = {
     kind: {f"{owner}.{field}": value for owner in owners for field, value in _REQUIRED.items()}
     for kind, owners in _GEARS.items()
@@ -26,8 +26,7 @@ _SOUND = {
 
 def nested(values: Mapping[str, Cell], kind: DesignKind) -> dict[str, dict[str, Cell]]:
     """Values under their full keys as one mapping per table of a spec; the tables of the kind are there even if empty."""
-    owners = ("gear",) if kind is DesignKind.GEAR else ("pair", "pinion", "wheel")
-    tables: dict[str, dict[str, Cell]] = {owner: {} for owner in owners}
+    tables: dict[str, dict[str, Cell]] = {owner: {} for owner in MAIN_TABLES[kind]}
     for key, value in values.items():
         owner, _, field = key.partition(".")
         tables.setdefault(owner, {})[field] = value
@@ -37,7 +36,7 @@ def nested(values: Mapping[str, Cell], kind: DesignKind) -> dict[str, dict[str, 
 def fault_alone(key: str, value: Cell, where: Where) -> SpecError | None:
     """What is wrong with a value whatever the others are; `where` locates a key for the message."""
     owner, _, field = key.partition(".")
-    kind = DesignKind.PAIR if owner in ("pair", "pinion", "wheel") else DesignKind.GEAR
+    kind = DesignKind.PAIR if owner in MAIN_TABLES[DesignKind.PAIR] else DesignKind.GEAR
     others = _SOUND[kind] | ({"load.torque": 1.0} if owner == "load" else {})
     if owner == "pair":
         # What the gears have of their own would win.

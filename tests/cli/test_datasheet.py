@@ -24,7 +24,7 @@ def sheet(design: Design, width: int = 80) -> str:
 
 def test_every_quantity_has_its_place() -> None:
     gear = {key for keys in datasheet._GEAR_BLOCKS.values() for key in keys.split()}
-    pair = {key for keys in datasheet._PAIR_BLOCKS.values() for key in keys.split()} | set(datasheet._BOTH.split())
+    pair = {key for keys in datasheet._PAIR_BLOCKS.values() for key in keys.split()} | set(symbols.PER_GEAR)
     assert gear == {*symbols_of(Gear), *symbols.GEAR} - {"name"}
     assert pair == {"centre_distance", "axial_offset", *symbols.PAIR}
 

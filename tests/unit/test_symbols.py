@@ -13,6 +13,7 @@ from gearcad.designs.columns import column_symbol
 from gearcad.designs.keys import COLUMNS
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
+from gearcad.per_gear import PerGear
 from gearcad.rating import RatingOptions
 from gearcad.schema import schema_of, symbols_of
 
@@ -33,7 +34,9 @@ def test_every_field_of_a_gear_has_a_symbol_and_every_symbol_a_field() -> None:
 def test_every_field_of_a_pair_has_a_symbol_and_every_symbol_a_field() -> None:
     gear = Gear(teeth=20, normal_module=2.0, face_width=10.0)
     inputs = {name for name, field in schema_of(GearPair).items() if field.part is None} - {"name"}
-    assert _keys(GearPair(pinion=gear, wheel=gear).to_dict()) == {*inputs, *symbols.PAIR}
+    pair = GearPair(pinion=gear, wheel=gear)
+    assert _keys(pair.to_dict()) == {*inputs, *symbols.PAIR}
+    assert {key for key in symbols.PAIR if isinstance(getattr(pair, key, None), PerGear)} == set(symbols.PER_GEAR)
 
 
 def test_every_figure_of_a_check_has_a_symbol() -> None:

@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass
 from typing import Any, TypedDict
 
 from gearcad.check.options import CheckOptions
-from gearcad.designs.design import Design
+from gearcad.designs.design import Design, DesignKind
 from gearcad.designs.files import Where
-from gearcad.designs.keys import BESIDE, KEYS, explain_unknown_table
+from gearcad.designs.keys import BESIDE, KEYS, MAIN_TABLES, explain_unknown_table
 from gearcad.designs.spec import Spec
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.errors import SpecError, format_number, shown
@@ -67,7 +67,7 @@ def require_tables(tables: Mapping[str, Any], where: Where) -> None:
             raise SpecError(f"{where(table)}: {shown(table)}: {explain_unknown_table(table)}")
         if not isinstance(content, Mapping):
             raise SpecError(f"{where(table)}: {table} = {format_number(content)}: must be a table, headed [{table}]")
-    for other in ("pair", "pinion", "wheel"):
+    for other in MAIN_TABLES[DesignKind.PAIR]:
         if "gear" in tables and other in tables:
             raise SpecError(f"{where(other)}: [{other}] cannot stand beside [gear]: one spec makes a gear or a pair")
 

@@ -12,12 +12,13 @@ from typing import Any, ClassVar, Self
 from gearcad.designs.auto import AUTO, make_gears, resolve_profile_shifts, resolve_tip_alterations
 from gearcad.designs.design import DesignKind
 from gearcad.designs.files import Where
-from gearcad.designs.keys import SHARED
+from gearcad.designs.keys import MAIN_TABLES, SHARED
 from gearcad.designs.kinds.geared import GearedDesign, beside_teeth, require_tables
 from gearcad.designs.spec import Given, Spec
 from gearcad.errors import ParameterError, SpecError, as_choice, require_number
 from gearcad.geometry import Gear, GearPair, ShiftSplit
 from gearcad.load import Load
+from gearcad.per_gear import PerGear, Role
 
 __all__ = ["PairDesign"]
 
@@ -71,7 +72,7 @@ class PairDesign(GearedDesign):
 
 def _require_pair(tables: Mapping[str, Any], where: Where) -> None:
     """Raise SpecError unless all tables of a pair are there."""
-    needed = ("pair", "pinion", "wheel")
+    needed = MAIN_TABLES[DesignKind.PAIR]
     if not any(table in tables for table in needed):
         raise SpecError(f"{where('')}: makes nothing yet: must have [gear], or [pair] with [pinion] and [wheel]")
     for table in needed:
@@ -86,20 +87,23 @@ class _PairSpec(Spec):
         """The pair of `[pair]`, `[pinion]` and `[wheel]`, with every "auto" resolved."""
         self._share_values()
         self._oppose_helix()
-        inputs = {}
-        for owner in ("pinion", "wheel"):
-            with self.blame(owner):
-                inputs[owner] = {"name": owner} | self.gear_inputs(owner)
+        inputs = PerGear(*map(self._inputs, Role))
         with self.blame("pair"):
             given = self._pair_inputs()
             split = given.pop("profile_shift_split", None)
-            self._resolve_auto(inputs, given.get("centre_distance"), split)
-            gears = make_gears(inputs, {owner: self._automatic(owner) for owner in inputs}, given.get("centre_distance"))
-            return GearPair(pinion=gears["pinion"], wheel=gears["wheel"], **given | {"name": name})
+            distance = given.get("centre_distance")
+            resolved = self._resolve_auto(inputs, distance, split)
+            gears = make_gears(resolved, PerGear.each(self._automatic), distance)
+            return GearPair(pinion=gears.pinion, wheel=gears.wheel, **given | {"name": name})
 
-    def _automatic(self, owner: str) -> list[str]:
+    def _inputs(self, role: Role) -> dict[str, Any]:
+        """Those of a gear as they are written, named by its role unless it has a name."""
+        with self.blame(role.value):
+            return {"name": role.value} | self.gear_inputs(role.value)
+
+    def _automatic(self, role: Role) -> list[str]:
         """Fields of a gear that stood as "auto"."""
-        values = {field: self.values.get(f"{owner}.{field}") for field in ("profile_shift", "tip_alteration")}
+        values = {field: self.values.get(f"{role.value}.{field}") for field in ("profile_shift", "tip_alteration")}
         return [field for field, given in values.items() if given is not None and given.note.startswith(AUTO)]
 
     def _pair_inputs(self) -> dict[str, Any]:
@@ -112,31 +116,37 @@ class _PairSpec(Spec):
 
     def _share_values(self) -> None:
         """Give both gears what stands in [pair], unless they have their own; the helix angle is the pinion's."""
-        for owner in ("pinion", "wheel"):
-            renamed = f"{owner}.rack" in self.values
+        for role in Role:
+            renamed = f"{role.value}.rack" in self.values
             for field in SHARED:
                 given = self.values.get(f"pair.{field}")
-                if given is None or (field == "helix_angle" and owner == "wheel"):
+                if given is None or (field == "helix_angle" and role is Role.WHEEL):
                     continue
                 if not (renamed and field.startswith("rack")):
-                    self.values.setdefault(f"{owner}.{field}", given)
+                    self.values.setdefault(f"{role.value}.{field}", given)
 
     def _oppose_helix(self) -> None:
         """The gear without a helix angle takes the mate's, of the opposite hand."""
-        for owner, mate in (("wheel", "pinion"), ("pinion", "wheel")):
-            given = self.values.get(f"{mate}.helix_angle")
-            if given is not None and f"{owner}.helix_angle" not in self.values:
-                value = 0.0 - given.value if isinstance(given.value, float) else given.value
-                self.values[f"{owner}.helix_angle"] = given._replace(value=value)
+        for role in (Role.WHEEL, Role.PINION):
+            own, given = f"{role.value}.helix_angle", self.values.get(f"{role.mate.value}.helix_angle")
+            if given is not None and own not in self.values:
+                self.values[own] = given._replace(value=0.0 - given.value if isinstance(given.value, float) else given.value)
 
-    def _resolve_auto(self, inputs: dict[str, dict[str, Any]], distance: float | None, split: ShiftSplit | None) -> None:
-        pinion, wheel = inputs["pinion"], inputs["wheel"]
-        shifts = resolve_profile_shifts(pinion, wheel, distance, split)
-        alterations = resolve_tip_alterations(pinion, wheel, shifts, distance)
+    def _resolve_auto(
+        self, inputs: PerGear[dict[str, Any]], distance: float | None, split: ShiftSplit | None
+    ) -> PerGear[dict[str, Any]]:
+        """The inputs with each "auto" replaced, which is noted among the values."""
+        shifts = resolve_profile_shifts(inputs, distance, split)
+        alterations = resolve_tip_alterations(inputs, sum(shifts), distance)
         asked = "" if distance is None else f": centre distance {distance:g} mm asks for x1 + x2 = {sum(shifts):.6g}"
-        for owner, shift, alteration in zip(inputs, shifts, alterations, strict=True):
-            for field, value, note in (("profile_shift", shift, AUTO + asked), ("tip_alteration", alteration, AUTO)):
-                if inputs[owner].get(field, AUTO if field == "tip_alteration" else 0.0) == AUTO:
-                    key = self.values.get(f"{owner}.{field}", Given(AUTO, f"{owner}.{field}")).key
-                    self.values[f"{owner}.{field}"] = Given(value, key, note)
-            inputs[owner] |= {"profile_shift": shift, "tip_alteration": alteration}
+
+        def resolved(role: Role) -> dict[str, Any]:
+            found = {"profile_shift": shifts.pick(role), "tip_alteration": alterations.pick(role)}
+            written = {"profile_shift": 0.0, "tip_alteration": AUTO} | inputs.pick(role)
+            for field, note in (("profile_shift", AUTO + asked), ("tip_alteration", AUTO)):
+                if written[field] == AUTO:
+                    key = f"{role.value}.{field}"
+                    self.values[key] = Given(found[field], self.values.get(key, Given(AUTO, key)).key, note)
+            return inputs.pick(role) | found
+
+        return PerGear.each(resolved)

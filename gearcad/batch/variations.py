@@ -1,0 +1,139 @@
+"""What varies in a study: `KEY=VALUES` as a command has it, and the values that it stands for."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from gearcad.designs.cells import CellReader, Layout
+from gearcad.designs.design import DesignKind
+from gearcad.designs.keys import COUNTS, KEYS, TEXTS, Cell, explain_unknown_column
+from gearcad.errors import ParameterError, format_number
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+__all__ = ["MOST_ROWS", "Choices", "Span", "read_variation"]
+
+MOST_ROWS = 1_000_000
+"""Rows of the largest study: beyond it a number was mistyped, or one table is not the way."""
+
+_MOST_SHOWN = 6
+"""Values of a wrong list that a message repeats."""
+
+
+@dataclass(frozen=True)
+class Choices:
+    """A key that takes one of several values; `text` says them as the user did."""
+
+    key: str
+    text: str
+    values: tuple[Cell, ...]
+
+    def at(self, fractions: NDArray[np.float64]) -> list[Cell]:
+        """The values at fractions 0 ... 1 of the list."""
+        return [self.values[int(fraction * len(self.values))] for fraction in fractions]
+
+
+@dataclass(frozen=True)
+class Span:
+    """A key that takes any value between two ends, or any whole one."""
+
+    key: str
+    text: str
+    first: float
+    last: float
+    whole: bool
+
+    def at(self, fractions: NDArray[np.float64]) -> list[Cell]:
+        """The values at fractions 0 ... 1 of the way from the first to the last; as likely the one as the other."""
+        low, high = sorted((self.first, self.last))
+        if self.whole:
+            return [int(low) + int(fraction * (high - low + 1)) for fraction in fractions]
+        return [float(low + fraction * (high - low)) for fraction in fractions]
+
+
+def read_variation(text: str, kind: DesignKind, *, sampled: bool) -> Choices | Span:
+    """What one `KEY=VALUES` says."""
+    name, _, values = (part.strip() for part in text.partition("="))
+    if not name or not values:
+        raise ParameterError("vary", text, "must be KEY=FIRST:LAST:COUNT or KEY=VALUE,VALUE ...")
+    key = _full_key(text, name, kind)
+    if ":" not in values or "," in values or key in TEXTS:
+        return _choices(text, key, values, _listed(text, key, values))
+    first, last, count = _ends(text, key, values, counted=not sampled)
+    if not sampled:
+        return _choices(text, key, values, _spaced(text, first, last, count))
+    _require_whole(text, key, (first, last))
+    return Span(key, values, first, last, whole=key in COUNTS)
+
+
+def _full_key(text: str, name: str, kind: DesignKind) -> str:
+    """The key with its table; one without belongs to [pair] or [gear]."""
+    main = kind.value
+    table, _, field = (main, "", name) if name in KEYS[main] else name.partition(".")
+    if field not in KEYS.get(table, ()):
+        raise ParameterError("vary", text, explain_unknown_column(name, main))
+    permitted = [owner for owner in KEYS if owner in ("material", "load") or (owner == "gear") == (kind is DesignKind.GEAR)]
+    if table not in permitted:
+        tables = ", ".join(f"[{owner}]" for owner in permitted)
+        raise ParameterError("vary", text, f"the spec makes a {main}; permitted are keys of {tables}")
+    if (table, field) == (main, "name"):
+        raise ParameterError("vary", text, "the study numbers the names itself; vary another key")
+    return f"{table}.{field}"
+
+
+def _value(key: str, text: str) -> Cell:
+    """What a cell with this text would be; the sum makes -0.0 a plain zero."""
+    value = CellReader(Layout.COMMA).value(key, text, 0)
+    return "" if value is None else value + 0.0 if isinstance(value, float) else value
+
+
+def _ends(text: str, key: str, values: str, *, counted: bool) -> tuple[float, float, str]:
+    """The two ends of a span, and the text of the count ("" where there must be none)."""
+    parts = [part.strip() for part in values.split(":")]
+    ends = [value for part in parts[:2] if isinstance(value := _value(key, part), int | float)]
+    if len(ends) < 2 or len(parts) != (3 if counted else 2):
+        permitted = (
+            "must be FIRST:LAST:COUNT in numbers" if counted else "must be FIRST:LAST in numbers; --n says how many rows"
+        )
+        raise ParameterError("vary", text, permitted)
+    if ends[0] == ends[1]:
+        raise ParameterError("vary", text, f"must not have the same number at both ends; for one value write {parts[0]}")
+    return ends[0], ends[1], parts[2] if counted else ""
+
+
+def _spaced(text: str, first: float, last: float, count: str) -> list[Cell]:
+    """Evenly spaced values, each the nearest to the true one: 0.1 and not 0.09999999999999998."""
+    number = int(count) if re.fullmatch("[0-9]{1,7}", count) else 0
+    if not 2 <= number <= MOST_ROWS:
+        raise ParameterError("vary", text, f"must have a whole number from 2 to {MOST_ROWS} as its count")
+    start, end = Fraction(repr(first)), Fraction(repr(last))
+    exact = (start + (end - start) * step / (number - 1) for step in range(number))
+    return [int(value) if isinstance(first, int) and value.denominator == 1 else float(value) for value in exact]
+
+
+def _listed(text: str, key: str, values: str) -> list[Cell]:
+    items = [item.strip() for item in values.split(",")]
+    if "" in items:
+        raise ParameterError("vary", text, "must have a value on both sides of a comma")
+    return [_value(key, item) for item in items]
+
+
+def _choices(text: str, key: str, words: str, values: list[Cell]) -> Choices:
+    _require_whole(text, key, values)
+    value, times = Counter(values).most_common(1)[0]
+    if times > 1:
+        raise ParameterError("vary", text, f"must have each value once; {format_number(value)} is there {times} times")
+    return Choices(key, words, tuple(values))
+
+
+def _require_whole(text: str, key: str, values: Sequence[Cell]) -> None:
+    if key in COUNTS and not all(isinstance(value, int) for value in values):
+        shown = ", ".join(map(format_number, values[:_MOST_SHOWN])) + (" ..." if len(values) > _MOST_SHOWN else "")
+        raise ParameterError("vary", text, f"must make whole numbers of {key}, not {shown}")
