@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -53,7 +54,8 @@ CASES = {
 
 
 def _run(code: str) -> dict[str, float]:
-    done = subprocess.run([sys.executable, "-c", _PREPARE + code + _TELL], check=True, capture_output=True, text=True)
+    prepare = f"import sys; sys.path.append({str(Path(__file__).parents[1])!r})\n{_PREPARE}"  # the witness is in `support`
+    done = subprocess.run([sys.executable, "-c", prepare + code + _TELL], check=True, capture_output=True, text=True)
     found: dict[str, float] = json.loads(done.stdout)
     return found
 

@@ -42,6 +42,7 @@ from gearcad.per_gear import PerGear
 from gearcad.stiffness import METHODS, PlaneStrainContact, PlaneStressContact, SolidContact, StrainEnergy
 from gearcad.stiffness.contact import PlaneContact
 from gearcad.stiffness.slices import SinglePair
+from gearcad.stiffness.strain_energy import WeightedBody
 from tests.support.stiffness import THESIS_LOAD, thesis_pair
 
 ROW = 0.011
@@ -96,9 +97,9 @@ class OfWidths(StrainEnergy):
     widths: tuple[float, float] = COMMON
 
     @cached_property
-    def bodies(self) -> tuple[list[tuple[float, PlaneCompliance]], list[tuple[float, PlaneCompliance]]]:
+    def bodies(self) -> PerGear[list[WeightedBody]]:
         pinion, wheel = bodies(self.plane, self.body, self.widths)
-        return [(1.0, pinion)], [(1.0, wheel)]
+        return PerGear([(1.0, pinion)], [(1.0, wheel)])
 
 
 class EvenPressure(OfWidths):
@@ -170,7 +171,7 @@ def test_contact_of_one_pair_is_its_strain_energy_and_the_gaps_that_close(roll_a
     the flank's curvature changes within the contact, 0.03 % are left.
     """
     pinion, wheel = bodies(Plane.STRAIN, THREE, COMMON)
-    model = PlanePair(PAIR, line_of_action(PAIR, 0.0), pinion, wheel)
+    model = PlanePair(PAIR, line_of_action(PAIR, 0.0), PerGear(pinion, wheel))
     pressed = model.solve(roll_angle, THESIS_LOAD.torque, single=True).approach / model.force(THESIS_LOAD.torque)
     energy = OfWidths(pair=PAIR, material=STEEL, body=THREE)
     stored = 1 / energy.single(np.array([model.roll_length(roll_angle)]), THESIS_LOAD).stiffness[0] / 1000
@@ -220,7 +221,7 @@ def test_depth_of_the_bodies(method: str, body: BodyModel, within: float) -> Non
 )
 def test_least_stiffness_2_degrees_apart(kind: type[PlaneContact], between: tuple[float, float]) -> None:
     """It depends on where one starts; the printed figure is one of those."""
-    model = PlanePair(PAIR, line_of_action(PAIR, 0.0), *bodies(kind.plane, THREE, AS_WIDE))
+    model = PlanePair(PAIR, line_of_action(PAIR, 0.0), bodies(kind.plane, THREE, AS_WIDE))
     fine = kind(pair=PAIR, material=STEEL, body=THREE, bodies=model, positions=120)(THESIS_LOAD).mesh_stiffness[:-1]
     least = [float(fine[start::12].min()) for start in range(12)]
     assert (min(least), max(least)) == pytest.approx(between, rel=RECORDED)
