@@ -1,4 +1,4 @@
-"""The document of check.json: stiffness in N/(mm µm) of common face width, transmission error in µm, stresses in MPa."""
+"""The document of check.json: stiffness in N/(mm·µm) of common face width, transmission error in µm, stresses in MPa."""
 
 from __future__ import annotations
 

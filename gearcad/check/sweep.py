@@ -18,7 +18,7 @@ __all__ = ["SweepPoint", "SweepTrends", "sweep_point", "sweep_points"]
 
 
 class SweepPoint(NamedTuple):
-    """One torque (N·m on the pinion) of the sweep: mean mesh stiffness (N/(mm µm)), greatest pressure (None where all contacts
+    """One torque (N·m on the pinion) of the sweep: mean mesh stiffness (N/(mm·µm)), greatest pressure (None where all contacts
     are near edges) and root tensions (MPa).
 
     `torsional_stiffness` is M/phi of each gear (N·m/rad).
