@@ -81,4 +81,4 @@ class Verb(ModuleType):
 
         words = cleandoc(self.function.__doc__ or "").split("\n\n")
         said = [each for each in words if not each.startswith(">>>")]
-        return "\n\n".join((vars(self)["__doc__"], f"{self.function.__name__}{self.__signature__}", *said))
+        return "\n\n".join((vars(self)["__doc__"] or "", f"{self.function.__name__}{self.__signature__}", *said))

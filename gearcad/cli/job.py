@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from gearcad.cli.progress import job_progress
-from gearcad.notice import Notice
+from gearcad.notice import Notice, texts
 
 if TYPE_CHECKING:
     from gearcad.jobs.job import Job
@@ -60,14 +60,13 @@ def perform(
         show(design.name, result)
         click.echo("".join(f"{file}\n" for file in files), nl=False)
     if not quiet:
-        told = [str(notice) for notice in job.notices(result)]
-        beside = [notice for notice in design.notices if not any(each.endswith(notice.text) for each in told)]
-        echo_warnings(beside, err=True)
+        told = {notice.text for notice in job.notices(result)}
+        echo_warnings((notice for notice in design.notices if notice.text not in told), err=True)
     return result
 
 
-def echo_warnings(notices: Iterable[Notice | str], *, err: bool = False) -> None:
+def echo_warnings(notices: Iterable[Notice], *, err: bool = False) -> None:
     """What to know, a line each: among results what is about them, on stderr what is about the design."""
     colour = False if os.environ.get("NO_COLOR") else None  # None: where it is a terminal
-    for text in dict.fromkeys(map(str, notices)):
+    for text in texts(notices):
         click.secho(f"Warning: {text}", fg="yellow", err=err, color=colour)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from gearcad.check.comparison import Comparison, ComparisonRole
 from gearcad.cli.job import echo_warnings
-from gearcad.notice import texts
 
 if TYPE_CHECKING:
     from gearcad.check.result import CheckResult
@@ -49,7 +48,7 @@ def print_verdict(name: str, result: CheckResult) -> None:
     for text, style in lines:
         # Soft wrap: a narrow window may break a line, but never cut a number.
         console.print(Text(text, style=style), soft_wrap=True)
-    echo_warnings(texts(result.all_notices))
+    echo_warnings(result.all_notices)
     verdict = f"{name} at {result.torque:g} N·m: {result.verdict}"
     console.print(Text(verdict, style="bold green" if result.passed else "bold red"), soft_wrap=True)
 

@@ -61,8 +61,8 @@ class Check(Job[PairDesign, CheckResult]):
     def for_row(self, _design: Design, _parts: Collection[str]) -> Check:
         return replace(self, report=False)
 
-    def notices(self, result: CheckResult) -> Sequence[Notice | str]:
-        return result.notices
+    def notices(self, result: CheckResult) -> Sequence[Notice]:
+        return result.all_notices
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """The verdict, the summary and the rating."""

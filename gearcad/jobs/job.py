@@ -64,7 +64,7 @@ class Job(ABC, Generic[Accepted, Result]):
     def document(self, result: Result) -> dict[str, Any]:
         """What VERB.json holds, and `--json` prints."""
 
-    def notices(self, _result: Result) -> Sequence[Notice | str]:
+    def notices(self, _result: Result) -> Sequence[Notice]:
         """What to know before trusting a result."""
         return ()
 
