@@ -42,8 +42,8 @@ __all__ = [
 Cell = int | float | str | tuple[float, ...]
 """What a spec and a cell of a design table can both hold."""
 
-PARTS = tuple(name for name, field in schema_of(Gear).items() if field.part is not None)
-"""Fields of a gear that have fields of their own."""
+PARTS = {name: field.part for name, field in schema_of(Gear).items() if field.part is not None}
+"""Fields of a gear that have fields of their own, and their types."""
 
 MAIN_TABLES = {DesignKind.GEAR: ("gear",), DesignKind.PAIR: ("pair", *(role.value for role in Role))}
 """The tables without which a spec makes no gear, and no pair."""

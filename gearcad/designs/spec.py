@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Self, TypeVar
 
 from gearcad.designs.auto import AUTO
@@ -15,7 +15,7 @@ from gearcad.designs.design import require_plain_name
 from gearcad.designs.files import Where, require_sane_tables
 from gearcad.designs.keys import COUNTS, FIELDS, KEYS, PARTS, SHARED, explain_unknown_key
 from gearcad.errors import InputError, ParameterError, SpecError, format_number, shown
-from gearcad.geometry import NAMED_RACKS, BasicRack, Body, FlankModification
+from gearcad.geometry import NAMED_RACKS, BasicRack
 from gearcad.per_gear import Role
 
 __all__ = ["Given", "Spec"]
@@ -132,20 +132,24 @@ class Spec:
                 parts[part][field] = value
             elif key != "rack":
                 inputs[key] = value
-        try:
-            base = _named_rack(given["rack"]) if "rack" in given else BasicRack()
-            inputs["rack"] = BasicRack(**{f.name: getattr(base, f.name) for f in fields(base)} | parts["rack"])
-        except InputError as error:
-            if error.parameter == "rack":
-                raise
-            raise error.within("rack") from error
-        kinds: dict[str, type[Any]] = {"body": Body, "modification": FlankModification}
-        for part, kind in kinds.items():
-            try:
-                inputs[part] = kind(**parts[part])
-            except InputError as error:
-                raise error.within(part) from error
+        if "rack" in given:
+            rack = _named_rack(given["rack"])
+            with _within("rack"):
+                inputs["rack"] = replace(rack, **parts["rack"])
+        for part, kind in PARTS.items():
+            if part not in inputs:
+                with _within(part):
+                    inputs[part] = kind(**parts[part])
         return inputs
+
+
+@contextmanager
+def _within(part: str) -> Iterator[None]:
+    """Let errors about a field of a part say so: `body.bore`."""
+    try:
+        yield
+    except InputError as error:
+        raise error.within(part) from error
 
 
 def _missing(table: str) -> dict[str, Any]:
