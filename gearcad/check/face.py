@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearcad.check.task import CheckTask
+from gearcad.geometry import Gear
 from gearcad.per_gear import PerGear
 from gearcad.rating.face_load import face_load_factor, root_face_load_factor, width_to_height
 
@@ -33,9 +34,10 @@ def face_factors(task: CheckTask) -> FaceFactors:
 def _mismatch(task: CheckTask) -> PerGear[float]:
     """By how much (µm) the gap grows towards larger z over the common width, by the helix angle modification of each gear."""
     width, carries_left = task.pair.common_width.width, task.torque > 0
-    found = []
-    for gear in (task.pair.pinion, task.pair.wheel):
+
+    def grows(gear: Gear) -> float:
         hand = -1 if gear.helix_angle < 0 else 1
         depth = gear.modification.helix_angle_modification * hand * (-1 if carries_left else 1)
-        found.append(depth * width / gear.face_width)
-    return PerGear(*found)
+        return depth * width / gear.face_width
+
+    return task.pair.gears.map(grows)

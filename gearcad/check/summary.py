@@ -10,7 +10,7 @@ from gearcad.check.extremes import Extremes
 from gearcad.contact.shared.loaded import Cycle, RootStress
 from gearcad.per_gear import PerGear
 
-__all__ = ["CommonFigures", "Figures", "Summary", "by_name", "common_figures", "figures", "root_peaks"]
+__all__ = ["AtPitchPoint", "CommonFigures", "Figures", "Summary", "by_name", "common_figures", "figures", "root_peaks"]
 
 _ABOUT = ("missing", "extremes", "mean_error")
 
@@ -95,6 +95,20 @@ def figures(cycle: Cycle) -> Figures:
     return Figures(float(cycle.mean("stiffness")[0]), worst[1].interior_pressure if worst else None, tension)
 
 
+class AtPitchPoint(NamedTuple):
+    """Share, pressure (MPa) and half width (mm) of a contact at the pitch point, or the reason why there are none of these."""
+
+    share: float
+    pressure: float | None = None
+    half_width: float | None = None
+    reason: str = ""
+
+    @property
+    def missing(self) -> dict[str, str]:
+        """The reason for each figure that is not told."""
+        return dict.fromkeys(("contact_pressure_pitch_point", "half_width_pitch_point"), self.reason) if self.reason else {}
+
+
 class CommonFigures(TypedDict):
     """The fields of a Summary that are found in every model alike."""
 
@@ -105,14 +119,18 @@ class CommonFigures(TypedDict):
     single_stiffness: float
     transmission_error_peak_to_peak: float
     contact_pressure: float | None
+    contact_pressure_pitch_point: float | None
+    half_width_pitch_point: float | None
+    share_pitch_point: float
     root_tension: PerGear[float]
     root_compression: PerGear[float]
     bore_tension_pinion: float | None
     bore_tension_wheel: float | None
+    corner_positions: int
     extremes: Extremes
 
 
-def common_figures(cycle: Cycle, extremes: Extremes, single: float) -> CommonFigures:
+def common_figures(cycle: Cycle, extremes: Extremes, single: float, at_pitch_point: AtPitchPoint) -> CommonFigures:
     """Those of a cycle and its extremes; `single` is the stiffness of one pair of teeth alone."""
 
     def value(name: str) -> float | None:
@@ -132,9 +150,13 @@ def common_figures(cycle: Cycle, extremes: Extremes, single: float) -> CommonFig
         "single_stiffness": single,
         "transmission_error_peak_to_peak": sure("transmission_error_max") - sure("transmission_error_min"),
         "contact_pressure": value("contact_pressure"),
+        "contact_pressure_pitch_point": at_pitch_point.pressure,
+        "half_width_pitch_point": at_pitch_point.half_width,
+        "share_pitch_point": at_pitch_point.share,
         "root_tension": PerGear.each(lambda role: sure(f"root_tension_{role.value}")),
         "root_compression": PerGear.each(lambda role: sure(f"root_compression_{role.value}")),
         "bore_tension_pinion": value("bore_tension_pinion"),
         "bore_tension_wheel": value("bore_tension_wheel"),
+        "corner_positions": cycle.edge_positions,
         "extremes": extremes,
     }

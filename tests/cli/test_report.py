@@ -14,7 +14,9 @@ from support.checks import NASTY_NAME, small_check
 
 from gearcad import __version__
 from gearcad.check.comparison import ComparisonRole
+from gearcad.check.document import check_document, reported_document
 from gearcad.check.plane.explanation import root_at_single_contact
+from gearcad.output import json_text
 from gearcad.per_gear import PerGear
 from gearcad.plots.paper import short
 from gearcad.report import report_html, write_report
@@ -163,6 +165,23 @@ def test_reasons_separate_sharing_width_and_fillet(document):
     # Only the pinion is wider than the common width.
     assert "ISO spreads the load over b = 16 mm of the pinion" in pinion
     assert "ISO spreads" not in wheel
+
+
+def test_check_json_holds_what_the_report_says(document):
+    result = small_check()
+    plain, reported = check_document(result), reported_document(result)
+    assert set(reported) - set(plain) == {"stiffness_methods"}
+    json_text(reported)  # strict: no NaN, no Infinity, nothing but plain values
+    pinion = reported["explanations"]["root_stress"]["pinion"]
+    (reason, _) = (item.text_content() for item in document.xpath("//h3[text()='Root stress']/following-sibling::ul[1]/li"))
+    assert f"Loaded like that, the finite elements have {short(pinion['single_contact'])} MPa" in reason
+    assert f"at {pinion['outer_point']} a pair carries {100 * pinion['load_share']:.0f} %" in reason
+    captions = document.xpath("string(//figcaption[contains(., 'Pressure over torque')])")
+    assert f"to the power {reported['torque_trends']['contact_pressure_exponent']:.2f}:" in captions
+    means = [f"{short(method['mean'])}" for method in reported["stiffness_methods"]["methods"].values()]
+    table = document.xpath("//h2[text()='Mesh stiffness by other methods']/following::table[1]//tr/td[2]")
+    assert [cell.text for cell in table] == means
+    assert reported["notices"] == [{"code": "test", "where": "", "text": reported["warnings"][0]}]
 
 
 def test_a_single_torque_shows_no_trend(monkeypatch):

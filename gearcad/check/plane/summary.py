@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearcad.check.extremes import PLANE
-from gearcad.check.summary import Summary, common_figures
+from gearcad.check.summary import AtPitchPoint, Summary, common_figures
 from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact, PlanePosition
 from gearcad.contact.plane.field import contact_frame, tooth_field
 from gearcad.contact.plane.subsurface import greatest_von_mises
@@ -23,8 +23,6 @@ _NEAR = 2.0
 _PRESSURES = ("contact_pressure", "von_mises", "von_mises_depth", "von_mises_half_plane")
 """What the worst contact away from the ends of the flanks decides."""
 
-_AT_PITCH = ("contact_pressure_pitch_point", "half_width_pitch_point")
-
 
 @dataclass(frozen=True, kw_only=True)
 class PlaneSummary(Summary):
@@ -35,21 +33,16 @@ class PlaneSummary(Summary):
 
 def summarise_plane(cycle: PlaneCycle, single: float) -> PlaneSummary:
     """Summarise a plane cycle; `single` is the stiffness of one pair of teeth alone."""
-    contact, worst = cycle.pitch_point_contact, cycle.worst_contact
+    worst, at_pitch = cycle.worst_contact, _at_pitch(cycle.pitch_point_contact)
     below = [each for role in Role if (each := _below(cycle, *worst, role)) is not None] if worst else []
     mises, depth = max(below, default=(None, None))
-    pressure, width, reason = _at_pitch(contact)
     extremes = {quantity.name: cycle.extreme(quantity) for quantity in PLANE}
     return PlaneSummary(
-        **common_figures(cycle, extremes, single),
-        contact_pressure_pitch_point=pressure,
-        half_width_pitch_point=width,
-        share_pitch_point=contact.share if contact is not None else 0.0,
+        **common_figures(cycle, extremes, single, at_pitch),
         von_mises=mises,
         von_mises_depth=depth,
         von_mises_half_plane=_half_plane(cycle, worst[1]) if worst else None,
-        corner_positions=cycle.edge_positions,
-        missing=(dict.fromkeys(_AT_PITCH, reason) if reason else {}) | _missing(cycle, bool(worst), bool(below)),
+        missing=at_pitch.missing | _missing(cycle, bool(worst), bool(below)),
     )
 
 
@@ -64,15 +57,17 @@ def _missing(cycle: PlaneCycle, inside: bool, below: bool) -> dict[str, str]:
     return {} if below else dict.fromkeys(_PRESSURES[1:3], "no point of the elements lies near enough to the contact")
 
 
-def _at_pitch(contact: PlanePairContact | None) -> tuple[float | None, float | None, str]:
+def _at_pitch(contact: PlanePairContact | None) -> AtPitchPoint:
     """Pressure and half width at the pitch point, or why there are none."""
     if contact is None:
-        return None, None, "the pair of teeth at the pitch point does not touch"
+        return AtPitchPoint(0.0, reason="the pair of teeth at the pitch point does not touch")
     if not contact.interior:
-        return None, None, f"the pitch point lies within {INTERIOR:g} half widths of an end of a flank, or of a relief"
+        return AtPitchPoint(
+            contact.share, reason=f"the pitch point lies within {INTERIOR:g} half widths of an end of a flank, or of a relief"
+        )
     if math.isnan(contact.half_width):
-        return None, None, "the pressures at the pitch point have no width to tell"
-    return contact.peak_pressure, contact.half_width, ""
+        return AtPitchPoint(contact.share, reason="the pressures at the pitch point have no width to tell")
+    return AtPitchPoint(contact.share, contact.peak_pressure, contact.half_width)
 
 
 def _below(cycle: PlaneCycle, position: PlanePosition, contact: PlanePairContact, role: Role) -> tuple[float, float] | None:

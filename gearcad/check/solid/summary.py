@@ -10,11 +10,11 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.check.extremes import SOLID
-from gearcad.check.summary import Summary, common_figures
+from gearcad.check.summary import AtPitchPoint, Summary, common_figures
 from gearcad.contact.shared.loaded import INTERIOR
 from gearcad.contact.solid.contact import SolidPairContact
 from gearcad.contact.solid.cycle import SolidCycle, SolidPosition
-from gearcad.per_gear import PerGear, Role
+from gearcad.per_gear import PerGear
 from gearcad.rating import LineContact
 
 __all__ = ["SolidSummary", "WorstPlace", "summarise_solid", "worst_place"]
@@ -66,34 +66,27 @@ def worst_place(cycle: SolidCycle) -> WorstPlace | None:
 
 def summarise_solid(cycle: SolidCycle, single: float) -> SolidSummary:
     """Summarise a cycle; `single` is the stiffness of one pair of teeth alone."""
-    peaks = [cycle.worst_position(role).tension.pick(role) for role in Role]
-    worst, at_pitch = worst_place(cycle), cycle.pitch_point_contact
-    pressure, width, reason = _at_pitch(at_pitch)
+    peaks = PerGear.each(lambda role: cycle.worst_position(role).tension.pick(role))
+    worst, at_pitch = worst_place(cycle), _at_pitch(cycle.pitch_point_contact)
     below = _below(cycle, worst) if worst is not None else _Below(None, None, None, PerGear(None, None))
     extremes = {quantity.name: cycle.extreme(quantity) for quantity in SOLID}
     line_load = extremes["line_load_max"]
     return SolidSummary(
-        **common_figures(cycle, extremes, single),
+        **common_figures(cycle, extremes, single, at_pitch),
         von_mises=below.von_mises,
         von_mises_depth=below.depth,
         contact_pressure_across=below.across,
         contact_pressure_radius=below.radius,
-        contact_pressure_pitch_point=pressure,
-        half_width_pitch_point=width,
-        share_pitch_point=at_pitch.share if at_pitch is not None else 0.0,
-        corner_positions=sum(any(each.edge for each in position.contacts) for position in cycle.positions),
         transmission_error_harmonics=tuple(cycle.harmonics[:_HARMONICS].tolist()),
-        root_tension_height=PerGear(*(peak.height for peak in peaks)),
-        root_tension_radius=PerGear(*(peak.radius for peak in peaks)),
+        root_tension_height=peaks.map(lambda peak: peak.height),
+        root_tension_radius=peaks.map(lambda peak: peak.radius),
         contact_length_mean=float(np.mean([_loaded_length(position) for position in cycle.positions])),
         line_load_max=line_load.value if line_load is not None else None,
         face_load_factor=cycle.face_load_factor,
         root_face_load_factor=PerGear.each(cycle.root_face_load_factor),
-        missing=(dict.fromkeys(_AT_PITCH, reason) if reason else {}) | ({} if worst else _nothing_inside(cycle)),
+        missing=at_pitch.missing | ({} if worst else _nothing_inside(cycle)),
     )
 
-
-_AT_PITCH = ("contact_pressure_pitch_point", "half_width_pitch_point")
 
 _AT_WORST = ("contact_pressure", "contact_pressure_across", "contact_pressure_radius", "von_mises", "von_mises_depth")
 
@@ -118,27 +111,30 @@ class _Below(NamedTuple):
 
 def _below(cycle: SolidCycle, worst: WorstPlace) -> _Below:
     line, stress = worst.contact.line, line_contact(cycle, worst).greatest_von_mises
-    bases = (cycle.model.pinion.flank.base_radius, cycle.model.wheel.flank.base_radius)
-    lengths = line.places.map(lambda places: worst.of(places[0]))
-    return _Below(stress.value, stress.depth, worst.of(line.across), PerGear(*map(math.hypot, bases, lengths)))
+    bodies, lengths = cycle.model.bodies, line.places.map(lambda places: worst.of(places[0]))
+    radii = PerGear.each(lambda role: math.hypot(bodies.pick(role).flank.base_radius, lengths.pick(role)))
+    return _Below(stress.value, stress.depth, worst.of(line.across), radii)
 
 
-def _at_pitch(contact: SolidPairContact | None) -> tuple[float | None, float | None, str]:
+def _at_pitch(contact: SolidPairContact | None) -> AtPitchPoint:
     """Pressure and half width at the pitch point in the middle of the common face width, or why there are none."""
     if contact is None:
-        return None, None, "the pair of teeth at the pitch point does not touch"
+        return AtPitchPoint(0.0, reason="the pair of teeth at the pitch point does not touch")
     across = contact.line.across
     place = float(np.interp(0, across, np.arange(len(across)), math.nan, math.nan))
     if math.isnan(place) or not min(contact.forces[[math.floor(place), math.ceil(place)]]) > 0:
-        return None, None, "nothing is carried at the pitch point in the middle of the common face width"
+        return AtPitchPoint(
+            contact.share, reason="nothing is carried at the pitch point in the middle of the common face width"
+        )
     if not float(contact.between(contact.margin, place)) > 0:
-        return None, None, f"the pitch point lies within {INTERIOR:g} half widths of an edge"
-    return float(contact.between(contact.pressures, place)), float(contact.between(contact.half_widths, place)), ""
+        return AtPitchPoint(contact.share, reason=f"the pitch point lies within {INTERIOR:g} half widths of an edge")
+    pressure, half_width = (float(contact.between(of, place)) for of in (contact.pressures, contact.half_widths))
+    return AtPitchPoint(contact.share, pressure, half_width)
 
 
 def line_contact(cycle: SolidCycle, worst: WorstPlace) -> LineContact:
     """Two cylinders of the curvature of the flanks under the line load of a place."""
-    materials = (cycle.model.pinion.material, cycle.model.wheel.material)
+    materials = [body.material for body in cycle.model.bodies]
     return LineContact(
         load_per_width=worst.of(worst.contact.line_loads),
         radius=worst.of(worst.contact.radii),
