@@ -17,6 +17,9 @@ from gearcad.notice import Notice, texts
 
 __all__ = ["FourierSeries", "MeshCycle"]
 
+_TELLING = 1e-3
+"""Part of the compliance below which a part of it says nothing."""
+
 
 class FourierSeries(NamedTuple):
     """K(phi) = mean + sum_n (cosine_n cos n z phi + sine_n sin n z phi), phi the pinion's roll angle; all in N/µm."""
@@ -150,6 +153,16 @@ class MeshCycle:
     def mean_of(self, values: Floats) -> float:
         """Mean over the base pitch of values (n,) of the cycle."""
         return float(self.weights @ values)
+
+    def part_share(self, part: str) -> float:
+        """Mean share of a part in the compliance (1 is 100 %)."""
+        return self.mean_of(self.compliance_parts[part] * self.mesh_stiffness)
+
+    @property
+    def telling_parts(self) -> dict[str, Floats]:
+        """Parts that are more than a thousandth of the compliance somewhere (µm/N)."""
+        whole = 1 / self.mesh_stiffness
+        return {name: part for name, part in self.compliance_parts.items() if (np.abs(part) > _TELLING * whole).any()}
 
     # ------------------------------------------------------------------ the curve
 

@@ -18,7 +18,8 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.notice import Notice
 from gearcad.progress import Expected, Progress
-from gearcad.stiffness.comparison import StiffnessComparison, compare_methods, expected_methods
+from gearcad.stiffness.compare import compare_methods, expected_methods
+from gearcad.stiffness.comparison import StiffnessComparison
 from gearcad.stiffness.curves import curves_csv
 from gearcad.stiffness.methods import METHODS
 from gearcad.symbols import STIFFNESS

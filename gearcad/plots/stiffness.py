@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -12,14 +11,13 @@ from gearcad.arrays import Floats
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.plots.check import mark_path
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, new_figure, prepared
-from gearcad.stiffness.comparison import MeanAtTorque, StiffnessComparison
-from gearcad.stiffness.methods import METHODS
+from gearcad.stiffness.comparison import StiffnessComparison
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["divided", "parts_inches", "plot_load_dependence", "plot_parts", "plot_parts_of_all", "plot_stiffness"]
+__all__ = ["parts_inches", "plot_load_dependence", "plot_parts", "plot_parts_of_all", "plot_stiffness"]
 
 
 _PLACE = "place $s_1$ of the middle pair on the line of action, from T$_1$, in mm"
@@ -57,9 +55,6 @@ _OWNERS = {
 _SHADES = ("foundation", "", "bending", "shear", "axial")
 """What they are of, the darkest first; nothing where a method does not divide what a gear is."""
 
-_SEEN = 1e-3
-"""Part of the compliance below which nothing is seen of it."""
-
 _HEADROOM = 1.12
 """For the names of A to E over what is drawn."""
 
@@ -74,7 +69,7 @@ def plot_stiffness(comparison: StiffnessComparison, ax: Axes | None = None) -> A
     """Secant stiffness of the mesh by every method while the middle pair goes from A to E; of ISO 6336 both its means."""
     axes = prepared(ax, _PLACE, "mesh stiffness in N/µm")
     for cycle in comparison.cycles:
-        look, title = _LOOKS[cycle.method], METHODS[cycle.method].title
+        look, title = _LOOKS[cycle.method], comparison.titles[cycle.method]
         if cycle.mean_only:
             axes.axhspan(cycle.mean, cycle.tangent_mean, color=look.colour, alpha=0.18, linewidth=0)
             for value, words, style in (
@@ -103,19 +98,14 @@ def plot_parts(comparison: StiffnessComparison, cycle: MeshCycle, ax: Axes | Non
     return axes
 
 
-def divided(comparison: StiffnessComparison) -> list[MeshCycle]:
-    """The cycles that know more than one part of their compliance."""
-    return [cycle for cycle in comparison.cycles if len(_parts(cycle)) > 1]
-
-
 def parts_inches(comparison: StiffnessComparison) -> tuple[float, float]:
     """Size of a figure of all parts."""
-    return FIGURE_INCHES[0], 1.1 + 2.0 * math.ceil(len(divided(comparison)) / 2)
+    return FIGURE_INCHES[0], 1.1 + 2.0 * math.ceil(len(comparison.divided) / 2)
 
 
 def plot_parts_of_all(comparison: StiffnessComparison, figure: Figure | None = None) -> Figure:
     """The parts by every method that knows them, side by side on axes of one scale."""
-    cycles = divided(comparison)
+    cycles = comparison.divided
     rows = math.ceil(len(cycles) / 2)
     of = new_figure(parts_inches(comparison)) if figure is None else figure
     panels = of.subplots(rows, min(2, len(cycles)), sharex=True, sharey=True, squeeze=False).ravel()
@@ -123,7 +113,7 @@ def plot_parts_of_all(comparison: StiffnessComparison, figure: Figure | None = N
     for panel, cycle in zip(panels, cycles, strict=False):
         prepared(panel, "", "")
         _stack(panel, comparison, cycle)
-        panel.set_title(METHODS[cycle.method].title, fontsize=10, loc="left")
+        panel.set_title(comparison.titles[cycle.method], fontsize=10, loc="left")
         handles, labels = panel.get_legend_handles_labels()
         known |= dict(zip(labels, handles, strict=True))
     panels[0].set_ylim(0, _HEADROOM / min(cycle.minimum for cycle in cycles))
@@ -142,17 +132,17 @@ def plot_load_dependence(comparison: StiffnessComparison, ax: Axes | None = None
     from matplotlib.lines import Line2D
 
     axes = prepared(ax, "torque on the pinion in N·m", "mean mesh stiffness in N/µm")
-    most = max(point.torque for point in comparison.load_points)
-    for method, points in _by_method(comparison.load_points).items():
-        look = _LOOKS[method]
+    most = comparison.torques[1]
+    for method, points in comparison.over_load.items():
+        look, title = _LOOKS[method], comparison.titles[method]
         torques, secant, tangent = (
             np.array([getattr(point, name) for point in points]) for name in ("torque", "mean", "tangent_mean")
         )
-        if not METHODS[method].load_dependent:
+        if len(points) == 1:
             torques, secant = np.array([0.0, most]), np.repeat(secant, 2)
-            words, marker = f"{METHODS[method].title}, whatever the load", ""
+            words, marker = f"{title}, whatever the load", ""
         else:
-            words, marker = METHODS[method].title, look.marker
+            words, marker = title, look.marker
             axes.plot(torques, tangent, color=look.colour, marker=marker, markersize=4, linewidth=1.2, linestyle="--")
         axes.plot(torques, secant, color=look.colour, marker=marker, markersize=5, linewidth=1.5, label=words)
     axes.set_xlim(0, 1.03 * most)
@@ -217,18 +207,12 @@ def _stack(axes: Axes, comparison: StiffnessComparison, cycle: MeshCycle) -> Non
     """The parts on each other, with a thin line between them."""
     axes.set_xlim(_limits(comparison))
     below: Floats | float = 0.0
-    for name, values in _parts(cycle).items():
+    for name, values in cycle.telling_parts.items():
         places, part = _along_path(comparison, cycle, values)
         axes.fill_between(places, below, below + part, color=_shade(name), linewidth=0, label=_words(name))
         below = below + part
         axes.plot(places, below, color="white", linewidth=0.6)
     mark_path(axes, comparison.pair)
-
-
-def _parts(cycle: MeshCycle) -> Mapping[str, Floats]:
-    """Parts of the compliance that can be seen."""
-    whole = 1 / cycle.mesh_stiffness
-    return {name: part for name, part in cycle.compliance_parts.items() if (np.abs(part) > _SEEN * whole).any()}
 
 
 def _shade(name: str) -> str:
@@ -239,11 +223,3 @@ def _shade(name: str) -> str:
 
 def _words(name: str) -> str:
     return f"{name} as a whole" if name in ("pinion", "wheel") else name
-
-
-def _by_method(points: Sequence[MeanAtTorque]) -> dict[str, list[MeanAtTorque]]:
-    """Points of each method in rising order of torque."""
-    found: dict[str, list[MeanAtTorque]] = {}
-    for point in sorted(points, key=lambda point: point.torque):
-        found.setdefault(point.method, []).append(point)
-    return {method: found[method] for method in METHODS if method in found}

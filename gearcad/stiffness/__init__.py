@@ -1,7 +1,8 @@
 """Mesh stiffness by every method, each in the form GearPair, Material, Load -> MeshCycle."""
 
 from gearcad.stiffness.beam import PotentialEnergy, WeberBanaschek
-from gearcad.stiffness.comparison import StiffnessComparison, compare_methods
+from gearcad.stiffness.compare import compare_methods
+from gearcad.stiffness.comparison import StiffnessComparison
 from gearcad.stiffness.contact import PlaneStrainContact, PlaneStressContact, SolidContact
 from gearcad.stiffness.method import StiffnessMethod
 from gearcad.stiffness.methods import CLOSED_FORMS, METHODS

@@ -1,34 +1,22 @@
-"""The same pair by several methods: what each of them holds, and how far they lie apart."""
+"""StiffnessComparison: the same pair by several methods, what each of them holds, and how far they lie apart."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.shared.bodies import BodyModel
-from gearcad.errors import GearcadError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
-from gearcad.mounting import Mounting
 from gearcad.notice import Notice, texts
-from gearcad.progress import Agenda, Expected, Progress
-from gearcad.stiffness.method import StiffnessMethod
-from gearcad.stiffness.methods import METHODS
 
-__all__ = ["MeanAtTorque", "StiffnessComparison", "compare_methods", "expected_methods"]
-
-
-_PROGRAM = 0.4e9
-"""Bytes of Python, its libraries, and plane bodies."""
-
-_PARTS = (0.1, 0.3, 0.55, 0.77)
-"""Of the load, at which the stiffness is wanted beside that at the load."""
+__all__ = ["MeanAtTorque", "StiffnessComparison"]
 
 
 class MeanAtTorque(NamedTuple):
@@ -42,7 +30,10 @@ class MeanAtTorque(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class StiffnessComparison:
-    """A pair as mounted, its load, and its mesh cycle by each method; `left_out` says why the others have none."""
+    """A pair as mounted, its load, and its mesh cycle by each method; `left_out` says why the others have none.
+
+    `titles` are those of all methods that there are, by name, in their order.
+    """
 
     pair: GearPair
     material: Material
@@ -51,6 +42,7 @@ class StiffnessComparison:
     cycles: tuple[MeshCycle, ...]
     load_points: tuple[MeanAtTorque, ...]
     left_out: Mapping[str, str]
+    titles: Mapping[str, str]
 
     def __repr__(self) -> str:
         means = ", ".join(f"{cycle.method} {cycle.mean:.4g}" for cycle in self.cycles)
@@ -70,6 +62,48 @@ class StiffnessComparison:
         result: Floats = self.pair.path_of_contact.C + np.radians(roll_angle) * self.pair.pinion.base_diameter / 2
         return result
 
+    # ------------------------------------------------------------------ at a glance
+
+    @property
+    def softest(self) -> MeshCycle:
+        """Of the least mean stiffness."""
+        return min(self.cycles, key=lambda cycle: cycle.mean)
+
+    @property
+    def stiffest(self) -> MeshCycle:
+        """Of the greatest mean stiffness."""
+        return max(self.cycles, key=lambda cycle: cycle.mean)
+
+    @property
+    def divided(self) -> list[MeshCycle]:
+        """The cycles that know more than one part of their compliance."""
+        return [cycle for cycle in self.cycles if len(cycle.telling_parts) > 1]
+
+    def divided_with(self, part: str) -> list[MeshCycle]:
+        """Those of them that know this part."""
+        return [cycle for cycle in self.divided if part in cycle.compliance_parts]
+
+    @property
+    def over_load(self) -> dict[str, list[MeanAtTorque]]:
+        """Means of each method by rising torque."""
+        points = sorted(self.load_points, key=lambda point: point.torque)
+        return {name: own for name in self.titles if (own := [point for point in points if point.method == name])}
+
+    @property
+    def torques(self) -> tuple[float, float]:
+        """The least and the greatest at which there are means (N·m)."""
+        torques = [point.torque for point in self.load_points]
+        return min(torques), max(torques)
+
+    @property
+    def load_rises(self) -> dict[str, float]:
+        """By how much the mean secant rises from the least to the greatest load (1 is 100 %), where it depends on it."""
+        over_load = self.over_load
+        own = {cycle.method: over_load[cycle.method] for cycle in self.cycles if len(over_load.get(cycle.method, ())) > 1}
+        return {name: points[-1].mean / points[0].mean - 1 for name, points in own.items()}
+
+    # ------------------------------------------------------------------ documents
+
     @property
     def bodies(self) -> dict[str, str]:
         """How each body is taken, in words."""
@@ -78,7 +112,7 @@ class StiffnessComparison:
     @property
     def notices(self) -> tuple[Notice, ...]:
         """What to know before trusting a method with this pair."""
-        return tuple(notice.within(METHODS[cycle.method].title) for cycle in self.cycles for notice in cycle.notices)
+        return tuple(notice.within(self.titles[cycle.method]) for cycle in self.cycles for notice in cycle.notices)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -96,113 +130,15 @@ class StiffnessComparison:
             "overlap_ratio": self.pair.overlap_ratio,
             "methods": {
                 cycle.method: {
-                    "title": METHODS[cycle.method].title,
+                    "title": self.titles[cycle.method],
                     **cycle.to_dict(),
                     "deviation_from_3d": self.deviation(cycle),
+                    "compliance_shares": {name: cycle.part_share(name) for name in cycle.compliance_parts},
                     **({"fourier": cycle.fourier(harmonics).to_dict()} if harmonics and not cycle.mean_only else {}),
                 }
                 for cycle in self.cycles
             },
             "load_dependence": [point._asdict() for point in self.load_points],
+            "load_rises": self.load_rises,
             "left_out": dict(self.left_out),
         }
-
-
-def compare_methods(
-    pair: GearPair,
-    material: Material,
-    load: Load,
-    methods: Sequence[str | StiffnessMethod] = tuple(METHODS),
-    *,
-    body: BodyModel | None = None,
-    mounting: Mounting | None = None,
-    positions: int = 0,
-    progress: Progress | None = None,
-) -> StiffnessComparison:
-    """Mesh stiffness of a pair by several methods: their names, or methods that are made already.
-
-    A method that cannot treat the pair is left out with its reason; if none can, the first reason is raised.
-    """
-    body, mounting = body or BodyModel(), mounting or Mounting()
-    inputs = _MethodInputs(pair, material, body, mounting, positions)
-    made = [(_name_of(each), inputs.method(each)) for each in methods]
-    agenda = Agenda(progress, {name: _expected(method).seconds for name, method in made})
-    cycles, points, left_out, failures = [], [], dict[str, str](), []
-    for given, (name, method) in zip(methods, made, strict=True):
-        agenda(name)
-        try:
-            if isinstance(method, GearcadError):
-                raise method
-            if isinstance(given, str):
-                method = replace(method, tell=agenda.within(name))
-            cycles.append(method(load))
-            points += _over_load(method, load, cycles[-1])
-        except GearcadError as error:
-            left_out[name] = str(error)
-            failures.append(error)
-    if not cycles:
-        raise failures[0]
-    return StiffnessComparison(
-        pair=mounting.mounted(pair),
-        material=material,
-        load=load,
-        body=body,
-        cycles=tuple(cycles),
-        load_points=tuple(points),
-        left_out=left_out,
-    )
-
-
-def expected_methods(
-    pair: GearPair,
-    material: Material,
-    methods: Sequence[str],
-    *,
-    body: BodyModel | None = None,
-    mounting: Mounting | None = None,
-    positions: int = 0,
-) -> Expected:
-    """What `compare_methods` is expected to take."""
-    inputs = _MethodInputs(pair, material, body or BodyModel(), mounting or Mounting(), positions)
-    every = [_expected(inputs.method(name)) for name in methods]
-    return Expected(sum(each.seconds for each in every), _PROGRAM + max((each.memory for each in every), default=0.0))
-
-
-class _MethodInputs(NamedTuple):
-    """What methods are made of."""
-
-    pair: GearPair
-    material: Material
-    body: BodyModel
-    mounting: Mounting
-    positions: int
-
-    def method(self, wanted: str | StiffnessMethod) -> StiffnessMethod | GearcadError:
-        """A method, or why it cannot treat the pair. Raises ParameterError for an unknown name."""
-        if not isinstance(wanted, str):
-            return wanted
-        if wanted not in METHODS:
-            raise ParameterError("method", wanted, f"must be one of {', '.join(METHODS)}")
-        try:
-            return METHODS[wanted](**self._asdict())
-        except GearcadError as error:
-            return error
-
-
-def _name_of(method: str | StiffnessMethod) -> str:
-    return method if isinstance(method, str) else method.name
-
-
-def _expected(method: StiffnessMethod | GearcadError) -> Expected:
-    """Nothing of a method that is left out."""
-    try:
-        return Expected(0.0, 0.0) if isinstance(method, GearcadError) else method.expected
-    except GearcadError:
-        return Expected(0.0, 0.0)
-
-
-def _over_load(method: StiffnessMethod, load: Load, at_load: MeshCycle) -> list[MeanAtTorque]:
-    """Means at parts of the load, and at the load itself."""
-    loads = [replace(load, torque=part * load.torque) for part in _PARTS] if method.load_dependent else []
-    cycles = [method(each, method.load_positions) for each in loads]
-    return [MeanAtTorque(method.name, cycle.torque, cycle.mean, cycle.tangent_mean) for cycle in (*cycles, at_load)]

@@ -16,7 +16,7 @@ from gearcad.check.result import CheckResult
 from gearcad.errors import GeometryError
 from gearcad.notice import Notice
 from gearcad.plots.paper import short
-from gearcad.plots.stiffness import divided, plot_load_dependence, plot_parts, plot_parts_of_all, plot_stiffness
+from gearcad.plots.stiffness import plot_load_dependence, plot_parts, plot_parts_of_all, plot_stiffness
 from gearcad.report import stiffness_html, write_stiffness_report
 from gearcad.report.stiffness import report as stiffness
 from gearcad.stiffness import CLOSED_FORMS, METHODS, StiffnessComparison, compare_methods
@@ -151,14 +151,14 @@ def test_second_axis_is_the_roll_angle(spur: StiffnessComparison) -> None:
 
 
 def test_parts_lie_on_each_other_up_to_the_whole(spur: StiffnessComparison) -> None:
-    assert [cycle.method for cycle in divided(spur)] == ["potential-energy", "weber-banaschek", "3d"]
-    for cycle in divided(spur):
+    assert [cycle.method for cycle in spur.divided] == ["potential-energy", "weber-banaschek", "3d"]
+    for cycle in spur.divided:
         top = plot_parts(spur, cycle).lines[len(cycle.compliance_parts) - 1]
         # Every value of the cycle, once for each base pitch drawn.
         assert np.unique(np.round(top.get_ydata(), 12)) == pytest.approx(np.unique(np.round(1 / cycle.mesh_stiffness, 12)))
     figure = plot_parts_of_all(spur)
     shown = [panel for panel in figure.axes if panel.get_visible()]
-    assert [panel.get_title(loc="left") for panel in shown] == [METHODS[cycle.method].title for cycle in divided(spur)]
+    assert [panel.get_title(loc="left") for panel in shown] == [METHODS[cycle.method].title for cycle in spur.divided]
     assert len({panel.get_ylim() for panel in shown}) == 1
 
 

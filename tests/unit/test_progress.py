@@ -19,7 +19,7 @@ from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, expected_bodies, solid_pair
 from gearcad.progress import Agenda, Expected, Share
 from gearcad.stiffness import contact
-from gearcad.stiffness.comparison import compare_methods
+from gearcad.stiffness.compare import compare_methods
 
 SPEC = """
 [pair]

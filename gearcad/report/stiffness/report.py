@@ -10,12 +10,12 @@ from gearcad.check.stiffness import StiffnessMethods
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
 from gearcad.plots.paper import short
-from gearcad.plots.stiffness import divided, parts_inches, plot_load_dependence, plot_parts_of_all, plot_stiffness
+from gearcad.plots.stiffness import parts_inches, plot_load_dependence, plot_parts_of_all, plot_stiffness
 from gearcad.report.check.figures import Picture, figure_address, pair_picture, picture_address
 from gearcad.report.check.tables import gear_rows, load_rows, pair_rows
 from gearcad.report.page import page_html
+from gearcad.report.sentences import sentences
 from gearcad.stiffness.comparison import StiffnessComparison
-from gearcad.stiffness.methods import METHODS
 
 __all__ = ["StiffnessSection", "section_of_check", "stiffness_html", "write_stiffness_report"]
 
@@ -27,7 +27,7 @@ _TALL = (6.6, 4.8)
 """Size (inches) of figures with a long legend."""
 
 
-class _Row(NamedTuple):
+class _MethodRow(NamedTuple):
     """A method in the table; stiffness in N/µm, per width in N/(mm·µm), deviation in %."""
 
     title: str
@@ -45,7 +45,7 @@ class _Row(NamedTuple):
 class StiffnessSection(NamedTuple):
     """Table, curves and notes of a comparison; `referred` if there is a 3D contact to measure the others by."""
 
-    rows: list[_Row]
+    rows: list[_MethodRow]
     referred: bool
     curves: Picture
     notes: list[tuple[str, tuple[str, ...]]]
@@ -84,18 +84,18 @@ def _section(comparison: StiffnessComparison) -> StiffnessSection:
         curves=Picture(
             "Mesh stiffness along the line of action",
             picture_address(partial(plot_stiffness, comparison), "svg", _TALL),
-            _curves_caption(comparison),
+            _caption(comparison, "curves"),
         ),
-        notes=[(_title(cycle), cycle.notes) for cycle in comparison.cycles if cycle.notes],
-        left_out=[(METHODS[name].title, reason) for name, reason in comparison.left_out.items()],
+        notes=[(comparison.titles[cycle.method], cycle.notes) for cycle in comparison.cycles if cycle.notes],
+        left_out=[(comparison.titles[name], reason) for name, reason in comparison.left_out.items()],
     )
 
 
-def _row(comparison: StiffnessComparison, cycle: MeshCycle) -> _Row:
+def _row(comparison: StiffnessComparison, cycle: MeshCycle) -> _MethodRow:
     deviation = comparison.deviation(cycle) if cycle is not comparison.reference else None
     known = not cycle.mean_only
-    return _Row(
-        title=_title(cycle),
+    return _MethodRow(
+        title=comparison.titles[cycle.method],
         holds="; ".join(cycle.holds),
         mean=short(cycle.mean),
         maximum=short(cycle.maximum) if known else _NONE,
@@ -111,58 +111,14 @@ def _row(comparison: StiffnessComparison, cycle: MeshCycle) -> _Row:
 def _figures(comparison: StiffnessComparison) -> list[Picture]:
     """Those of the comparison alone: parts of the compliance, and the load's influence; none that would show nothing."""
     found = []
-    if divided(comparison):
+    if comparison.divided:
         address = figure_address(partial(plot_parts_of_all, comparison), "svg", parts_inches(comparison))
-        found.append(Picture("Parts of the compliance", address, _parts_caption(comparison)))
+        found.append(Picture("Parts of the compliance", address, _caption(comparison, "parts")))
     if len(comparison.load_points) > len(comparison.cycles):
         address = picture_address(partial(plot_load_dependence, comparison), "svg", _TALL)
-        found.append(Picture("Mean mesh stiffness over the load", address, _load_caption(comparison)))
+        found.append(Picture("Mean mesh stiffness over the load", address, _caption(comparison, "load")))
     return found
 
 
-def _title(cycle: MeshCycle) -> str:
-    return METHODS[cycle.method].title
-
-
-def _curves_caption(comparison: StiffnessComparison) -> str:
-    low, high = (pick(comparison.cycles, key=lambda cycle: cycle.mean) for pick in (min, max))
-    text = (
-        "Secant stiffness F_bt/δ of all pairs of teeth in contact, on the common face width, while the middle pair goes from "
-        "first contact A to last contact E. "
-    )
-    if any(cycle.mean_only for cycle in comparison.cycles):
-        text += "ISO 6336 knows the means only: the band reaches from c_γβ to c_γα, times the width. "
-    if low is high:
-        return text + f"The mean over one base pitch is {short(low.mean)} N/µm."
-    return text + (
-        f"The means over one base pitch reach from {short(low.mean)} N/µm ({_title(low)}) to {short(high.mean)} N/µm "
-        f"({_title(high)})."
-    )
-
-
-def _parts_caption(comparison: StiffnessComparison) -> str:
-    text = "What each part adds to 1/stiffness, for every method that tells parts apart. "
-    whole = [cycle for cycle in divided(comparison) if "pinion" in cycle.compliance_parts]
-    if whole:
-        names = "; ".join(_title(cycle) for cycle in whole)
-        text += f"A gear as a whole ({names}) is its teeth, its body and the flattening of its flanks. "
-    with_contact = [cycle for cycle in divided(comparison) if "contact" in cycle.compliance_parts]
-    shares = [
-        f"{100 * cycle.mean_of(cycle.compliance_parts['contact'] * cycle.mesh_stiffness):.0f} % ({_title(cycle)})"
-        for cycle in with_contact
-    ]
-    return text + (f"The contact itself is {' and '.join(shares)} of it on the mean." if shares else "")
-
-
-def _load_caption(comparison: StiffnessComparison) -> str:
-    text = (
-        "Means over one base pitch: secant (F over all of δ, whole lines) and tangent (dF/dδ at the load, dashed). The tangent "
-        "is what small vibrations about the load see. "
-    )
-    rises = []
-    for cycle in comparison.cycles:
-        points = sorted((point for point in comparison.load_points if point.method == cycle.method), key=lambda at: at.torque)
-        if len(points) > 1:
-            rises.append(f"{100 * (points[-1].mean / points[0].mean - 1):+.1f} % ({_title(cycle)})")
-    torques = [point.torque for point in comparison.load_points]
-    return text + f"From {short(min(torques))} to {short(max(torques))} N·m the secant changes by {', '.join(rises)}."
+def _caption(comparison: StiffnessComparison, figure: str) -> str:
+    return sentences("captions_stiffness.txt", figure, comparison)
