@@ -26,6 +26,7 @@ from gearcad.mesh_cycle import MeshCycle
 from gearcad.per_gear import PerGear
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
+from gearcad.stiffness.methods import METHODS
 
 __all__ = ["study_contact", "study_pair"]
 
@@ -64,7 +65,15 @@ def study_pair(
     factor, unrated = _method_b(pair, material, load, inertias, rating)
     bearings = _on_bearings(train, pair, options, masses)
     study = study_train(train, options, excitation=excitation, method_b=factor, bearings=bearings, tell=tell)
-    return PairStudy(pair=pair, cycle=cycle, inertias=inertias, study=study, bearings=bearings, unrated=unrated)
+    return PairStudy(
+        pair=pair,
+        cycle=cycle,
+        inertias=inertias,
+        method=METHODS[cycle.method].title,
+        study=study,
+        bearings=bearings,
+        unrated=unrated,
+    )
 
 
 def _method_b(

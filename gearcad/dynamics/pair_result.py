@@ -24,13 +24,15 @@ __all__ = ["ContactStudy", "PairStudy"]
 class PairStudy:
     """A pair as mounted, its mesh cycle and inertias (kg·m²), and the study of both as a train of one mesh.
 
-    With `bearings` the charts are those of six degrees of freedom; the natural modes are still those of the turning alone.
+    `method` is the title of what found the cycle. With `bearings` the charts are those of six degrees of freedom; the natural
+    modes are still those of the turning alone.
     `unrated` says why K_v of ISO 6336-1 is missing, "" if it is not.
     """
 
     pair: GearPair
     cycle: MeshCycle
     inertias: PerGear[float]
+    method: str
     study: TrainStudy
     bearings: PairOnBearings | None
     unrated: str = ""

@@ -124,9 +124,8 @@ def _shade_unstable(axes: Axes, study: TrainStudy) -> None:
 
 def _mark_parting(axes: Axes, study: TrainStudy) -> None:
     """A bar along the axis where flanks part, or would if they could."""
-    apart = np.any(study.up.least <= 0, axis=1)
     label = "flanks part" if study.excitation.parting else "flanks would part"
-    for start, end in _ranges(study.speeds, apart):
+    for start, end in _ranges(study.speeds, study.up.apart):
         axes.plot([start, end], [0.012, 0.012], color=DARK, linewidth=3, transform=axes.get_xaxis_transform(), label=label)
         label = ""
 

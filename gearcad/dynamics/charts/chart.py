@@ -72,9 +72,20 @@ class KvChart:
         return [FactorPeak(float(self.frequencies[i]), float(self.factors[i, mesh])) for i in found]
 
     @property
+    def apart(self) -> NDArray[np.bool_]:
+        """Where (s,) flanks part at some time, or would if they could."""
+        return np.asarray(np.any(self.least <= 0, axis=1), bool)
+
+    @property
     def referred_shafts(self) -> list[int]:
         """Shafts that have an overload: the others carry nothing at rest."""
         return [shaft for shaft, column in enumerate(self.shaft_factors.T) if np.isfinite(column).all()]
+
+    @property
+    def idle_shafts(self) -> list[str]:
+        """Names of those without an overload."""
+        kept = self.referred_shafts
+        return [name for shaft, name in enumerate(self.shaft_names) if shaft not in kept]
 
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it: 1/s, N, N·m; no value (null) where a shaft has no factor."""

@@ -66,6 +66,11 @@ class TimeHistory:
         return self.digits_lost > CHAOTIC_DIGITS
 
     @property
+    def duration(self) -> float:
+        """s."""
+        return len(self.approach) / self.sampling
+
+    @property
     def time(self) -> Floats:
         """(n,) s."""
         return np.arange(len(self.approach)) / self.sampling

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from functools import partial, singledispatch
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
-from gearcad.dynamics.trains.train import TrainModel
 from gearcad.plots.campbell import plot_campbell, plot_motion, plot_spectrum
 from gearcad.plots.speeds import (
     course_inches,
@@ -18,10 +17,9 @@ from gearcad.plots.speeds import (
     plot_factors,
     plot_shaft_overload,
 )
-from gearcad.plots.trains import energies_inches, plot_energies, plot_shapes, shapes_inches
+from gearcad.plots.trains import MOST_SHAPES, energies_inches, plot_energies, plot_shapes, shapes_inches
 from gearcad.report.check.figures import Picture, figure_address, pair_picture, picture_address
 from gearcad.report.check.tables import gear_rows, pair_rows
-from gearcad.report.dynamics import captions
 from gearcad.report.dynamics.rows import contact_rows, pair_dynamics_rows
 from gearcad.report.dynamics.tables import (
     MOST_PEAKS,
@@ -33,6 +31,7 @@ from gearcad.report.dynamics.tables import (
     speed_table,
 )
 from gearcad.report.page import page_html
+from gearcad.report.sentences import sentences
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,41 +44,25 @@ _WIDE = (6.6, 4.4)
 _TALL = (6.6, 5.2)
 """Sizes (inches): with a second axis above, and of two pictures on each other."""
 
-_MODELS = {
-    TrainModel.ISOLATED: "There are no shafts: each mesh vibrates by itself on its own gears, loaded by the force that the "
-    "torques of the whole train give it. Resonances of the teeth come out nearly right where shafts are soft.",
-    TrainModel.MASSLESS: "Shafts are springs without mass: the train's slow modes and the coupling of its stages are there, "
-    "vibrations of the shafts themselves are not.",
-    TrainModel.MODES: "Shafts have mass; every line of shafts and inertias keeps only its first modes, so frequencies near or "
-    "above the first one left out are not to be had.",
-    TrainModel.ELEMENTS: "Shafts are continua, one element of high degree each: good for vibrations of about a third as many "
-    "half waves on a shaft as the degree says.",
-    TrainModel.EXACT: "Natural frequencies and modes are those of the wave equation in every shaft, without discretisation; "
-    "forced vibration is that of elements of high degree.",
-}
-
 
 def write_dynamics_report(study: TrainStudy | ModalStudy | PairStudy | ContactStudy, name: str, path: Path) -> None:
     """Write the report of a study of the design `name` to `path`; the same study gives the same bytes."""
     path.write_text(dynamics_html(study, name), encoding="utf-8")
 
 
-def dynamics_html(study: TrainStudy | ModalStudy | PairStudy | ContactStudy, name: str) -> str:
-    """The report as one HTML document without links."""
-    if isinstance(study, TrainStudy):
-        return _train_html(study, name)
-    if isinstance(study, ModalStudy):
-        return _modes_html(study, name)
-    return _pair_html(study, name) if isinstance(study, PairStudy) else _contact_html(study, name)
+@singledispatch
+def dynamics_html(study: object, name: str) -> str:
+    """The report of a study as one HTML document without links."""
+    raise TypeError(f"a {type(study).__name__} of {name} has no report of dynamics")
 
 
+@dynamics_html.register
 def _modes_html(study: ModalStudy, name: str) -> str:
     return page_html(
         "dynamics_modes.html",
         name,
         of=study,
         parts=[inertia_table(study), *([shaft_table(study)] if study.train.shafts else [])],
-        model=_MODELS[study.train.model],
         modes=mode_table(study.modes),
         shape_figures=_shape_figures(study),
         warnings=study.warnings,
@@ -90,11 +73,12 @@ def _shape_figures(study: TrainStudy | ModalStudy) -> list[Picture]:
     train, modes = study.train, study.modes
     shapes, energies = partial(plot_shapes, train, modes), partial(plot_energies, modes)
     return [
-        _figure("Natural modes", shapes, shapes_inches(train, modes), captions.shapes(study)),
-        _figure("Energy of the modes", energies, energies_inches(modes), captions.energies(study)),
+        _figure("Natural modes", shapes, shapes_inches(train, modes), _said("shapes", study, MOST_SHAPES)),
+        _figure("Energy of the modes", energies, energies_inches(modes), _said("energies", study)),
     ]
 
 
+@dynamics_html.register
 def _train_html(study: TrainStudy, name: str) -> str:
     train, modes = study.train, study.modes
     return page_html(
@@ -102,8 +86,7 @@ def _train_html(study: TrainStudy, name: str) -> str:
         name,
         of=study,
         parts=[inertia_table(study), *([shaft_table(study)] if train.shafts else []), mesh_table(study)],
-        model=_MODELS[train.model],
-        greatest=captions.greatest(study),
+        greatest=_said("greatest", study),
         modes=mode_table(modes),
         most=MOST_PEAKS,
         peaks=peak_table(study),
@@ -113,6 +96,7 @@ def _train_html(study: TrainStudy, name: str) -> str:
     )
 
 
+@dynamics_html.register
 def _pair_html(study: PairStudy, name: str) -> str:
     of = study.study
     curve = picture_address(partial(plot_cycle, study.cycle), "svg")
@@ -121,12 +105,12 @@ def _pair_html(study: PairStudy, name: str) -> str:
         name,
         of=of,
         on_bearings=study.bearings is not None,
-        greatest=captions.greatest(of),
+        greatest=_said("greatest", of),
         pair_picture=pair_picture(study.pair),
         gear_rows=gear_rows(study.pair, _GEAR),
         pair_rows=pair_rows(study.pair),
         rows=pair_dynamics_rows(study),
-        curve=Picture("Mesh stiffness", curve, captions.cycle(study)),
+        curve=Picture("Mesh stiffness", curve, _said("cycle", study)),
         most=MOST_PEAKS,
         peaks=peak_table(of),
         speed_figures=_speed_figures(of),
@@ -134,6 +118,7 @@ def _pair_html(study: PairStudy, name: str) -> str:
     )
 
 
+@dynamics_html.register
 def _contact_html(study: ContactStudy, name: str) -> str:
     diagram = picture_address(partial(plot_campbell, study.study, highest=study.study.frequency[-1] / 2), "svg", _TALL)
     return page_html(
@@ -146,8 +131,8 @@ def _contact_html(study: ContactStudy, name: str) -> str:
         rows=contact_rows(study),
         speeds=speed_table(study.study),
         figures=[
-            Picture("Campbell diagram", diagram, captions.campbell(study)),
-            _figure("Motion at one speed", partial(_draw_history, study), _TALL, captions.history(study)),
+            Picture("Campbell diagram", diagram, _said("campbell", study)),
+            _figure("Motion at one speed", partial(_draw_history, study), _TALL, _said("history", study)),
         ],
         warnings=study.warnings,
     )
@@ -156,11 +141,11 @@ def _contact_html(study: ContactStudy, name: str) -> str:
 def _speed_figures(study: TrainStudy) -> list[Picture]:
     """Over speed and at one speed; none that would show nothing."""
     chart = picture_address(partial(plot_factors, study), "svg", _WIDE)
-    found = [Picture("Dynamic factor over speed", chart, captions.factors(study))]
+    found = [Picture("Dynamic factor over speed", chart, _said("factors", study))]
     if study.up.referred_shafts:
         address = picture_address(partial(plot_shaft_overload, study), "svg", _WIDE)
-        found.append(Picture("Overload of the shafts over speed", address, captions.shaft_overload(study)))
-    found.append(_figure("Course at one speed", partial(plot_course, study), course_inches(study), captions.course(study)))
+        found.append(Picture("Overload of the shafts over speed", address, _said("shaft_overload", study)))
+    found.append(_figure("Course at one speed", partial(plot_course, study), course_inches(study), _said("course", study)))
     return found
 
 
@@ -173,3 +158,7 @@ def _draw_history(study: ContactStudy, figure: Figure) -> None:
     plot_motion(study.history, above)
     plot_spectrum(study.history, below, study.study.frequency[-1] / 2)
     below.set_ylabel("amplitude in rad/s")  # of the speed above
+
+
+def _said(macro: str, *values: object) -> str:
+    return sentences("captions_dynamics.txt", macro, *values)

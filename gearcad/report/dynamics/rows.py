@@ -6,7 +6,6 @@ from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.trains.six_dof import PairOnBearings
 from gearcad.plots.paper import short
 from gearcad.report.check.tables import Row
-from gearcad.stiffness import METHODS
 
 __all__ = ["contact_rows", "pair_dynamics_rows"]
 
@@ -22,7 +21,7 @@ def pair_dynamics_rows(study: PairStudy) -> list[Row]:
         Row("moment of inertia", "J", tuple(map(short, study.inertias)), "kg·m²", ""),
         Row("torque on the pinion", "T_1", (short(cycle.torque),), "N·m", ""),
         Row("force along the line of action, at rest", "F_bt", (short(float(of.up.static_forces[0])),), "N", ""),
-        Row("mesh stiffness, mean secant", "k", (short(cycle.mean),), "N/µm", METHODS[cycle.method].title),
+        Row("mesh stiffness, mean secant", "k", (short(cycle.mean),), "N/µm", study.method),
         Row("mesh stiffness, mean tangent", "k", (short(cycle.tangent_mean),), "N/µm", "that of small vibrations"),
         Row("damping ratio of the pair", "ζ", (short(of.options.damping_ratio),), "", ""),
         Row("damping of the mesh", "c", (short(float(of.system.mesh_damping[0])),), "N·s/m", "2 ζ √(k m)"),
