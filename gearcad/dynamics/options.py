@@ -118,7 +118,7 @@ class DynamicsOptions:
 
     @property
     def chart_speeds(self) -> int:
-        """Of a chart of K_v."""
+        """How many speeds a chart of K_v begins with."""
         return self.speeds or _CHART
 
     @property
@@ -128,7 +128,7 @@ class DynamicsOptions:
 
     @property
     def campbell_speeds(self) -> int:
-        """Of a Campbell study."""
+        """How many speeds a Campbell study has."""
         return self.speeds or _CAMPBELL
 
     def graded(self, rating: RatingOptions) -> DynamicsOptions:

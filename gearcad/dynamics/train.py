@@ -69,15 +69,10 @@ def study_train(
     tell("modes")
     modes = natural_modes(train, count=options.frequencies)
     charted = system(train) if bearings is None else bearings.system()
-    if excitation is None:
-        grade = options.accuracy_grade if options.errors else None
-        excitation = train_excitation(train, grade=grade, seed=options.seed)
-    frequency = math.pi * train.meshes[0].teeth / 30
-    speeds, asked = _speeds(train, options, modes) * frequency, abs(train.speed) * frequency
-    if speeds[0] <= asked <= speeds[-1]:
-        speeds = np.union1d(speeds, asked)
+    excitation = excitation or _own_excitation(train, options)
+    frequencies, asked = _frequencies(train, options, modes)
     tell("chart")
-    over = over_speed(charted, excitation, speeds, harmonics=options.harmonics, method_b=method_b)
+    over = over_speed(charted, excitation, frequencies, harmonics=options.harmonics, method_b=method_b)
     tell("course")
     course, more = _course(train, over, asked)
     return TrainStudy(
@@ -94,6 +89,18 @@ def study_train(
         found=(*over.notices, *more),
         method_b=method_b,
     )
+
+
+def _own_excitation(train: Train, options: DynamicsOptions) -> Excitation:
+    """Of the train's own meshes, with random errors of the teeth if the options ask for them."""
+    return train_excitation(train, grade=options.accuracy_grade if options.errors else None, seed=options.seed)
+
+
+def _frequencies(train: Train, options: DynamicsOptions, modes: NaturalModes) -> tuple[Floats, float]:
+    """Tooth frequencies of the first mesh (1/s) for the chart, and at the speed asked for, which is among them if it can be."""
+    frequency = math.pi * train.meshes[0].teeth / 30
+    charted, asked = _speeds(train, options, modes) * frequency, abs(train.speed) * frequency
+    return np.union1d(charted, asked) if charted[0] <= asked <= charted[-1] else charted, asked
 
 
 def _speeds(train: Train, options: DynamicsOptions, modes: NaturalModes) -> Floats:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import mathieu_a, mathieu_b
+from support.floquet import floquet_multipliers, monodromy
 from support.responses import STIFFNESS, VARIATION, cosine, isolated, oscillator, preloaded, two_stages
 
 from gearcad.dynamics.charts.kv import kv_chart
@@ -19,7 +20,6 @@ from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffn
 from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
 from gearcad.dynamics.response.branch import trace
 from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.response.floquet import floquet_multipliers, monodromy
 from gearcad.dynamics.response.linear import periodic_response
 from gearcad.dynamics.trains.system import System
 

@@ -16,7 +16,7 @@ from support.pairs import THESIS_SPEEDS, Witness, thesis_model, thesis_pair
 
 from gearcad.dynamics.tooth_springs.campbell import campbell
 from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
-from gearcad.dynamics.tooth_springs.contact_model import ContactZone
+from gearcad.dynamics.tooth_springs.contact_model import EngagedPairs
 from gearcad.dynamics.tooth_springs.history import Start
 from gearcad.dynamics.tooth_springs.motion import time_history
 
@@ -64,7 +64,7 @@ def test_parameters_of_table_3_1() -> None:
 
 def test_simple_model_is_the_matrix_exponential_of_its_equations() -> None:
     """M phi'' + R (b phi' + k phi) = F, (3.14), where R has R_b1 R_b2 with a plus: both angles are counter-clockwise."""
-    model, speed, duration = replace(thesis_model(), zone=ContactZone.ONE_PAIR), 20000.0, 0.02
+    model, speed, duration = replace(thesis_model(), zone=EngagedPairs.ONE_PAIR), 20000.0, 0.02
     radii, inverse = 1e-3 * np.array(model.base_radii), np.diag(1 / np.array(model.inertias))
     coupling = inverse @ np.outer(radii, radii)
     matrix = np.zeros((5, 5))
@@ -147,9 +147,9 @@ def test_warnings_name_the_penetration_and_the_chaos(study: CampbellStudy) -> No
     ("changes", "frequency"),
     [
         # A small amplitude about y (eps - y/p_b) = F/k would have 513.8 Hz.
-        ({"zone": ContactZone.PENETRATING_TIPS}, 512),
-        ({"zone": ContactZone.PENETRATING_TIPS, "first_contact": 0.0, "last_contact": 12.56924}, 719),
-        ({"zone": ContactZone.ONE_PAIR}, 489),
+        ({"zone": EngagedPairs.PENETRATING_TIPS}, 512),
+        ({"zone": EngagedPairs.PENETRATING_TIPS, "first_contact": 0.0, "last_contact": 12.56924}, 719),
+        ({"zone": EngagedPairs.ONE_PAIR}, 489),
     ],
 )
 def test_other_readings_of_the_zone_do_not_give_302_hz(changes: dict[str, object], frequency: float) -> None:

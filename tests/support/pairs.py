@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from gearcad import Gear, GearPair
-from gearcad.dynamics.tooth_springs.contact_model import ContactModel, ContactZone, disc_inertia
+from gearcad.dynamics.tooth_springs.contact_model import ContactModel, EngagedPairs, disc_inertia
 
 __all__ = ["THESIS_SPEEDS", "Witness", "thesis_model", "thesis_pair"]
 
@@ -48,7 +48,7 @@ class Witness:
         self.pitch, self.first, self.last = (1e-3 * x for x in (model.base_pitch, model.first_contact, model.last_contact))
         self.gap = math.inf if model.backlash is None else 1e-3 * model.backlash
         self.mirror = math.nan if model.back_place is None else 1e-3 * model.back_place
-        assert model.zone is ContactZone.RIGID_TIPS
+        assert model.zone is EngagedPairs.RIGID_TIPS
 
     def force_of(self, state: Floats, side: int, pairs: int) -> float:
         y, rate = state[0] + state[1], state[2] + state[3]

@@ -11,7 +11,7 @@ from scipy.linalg import expm
 
 from gearcad.dynamics.tooth_springs.event_exact import (
     Motion,
-    Outcome,
+    MotionOutcome,
     Spring,
     Zone,
     accelerated,
@@ -55,7 +55,7 @@ THESIS = Motion(
 
 def ran(
     motion: Motion, drift: float, start: tuple[float, float, float], step: float, samples: int, counted: float = 0.0
-) -> tuple[Floats, Floats, Outcome]:
+) -> tuple[Floats, Floats, MotionOutcome]:
     y, v = np.full(samples, np.nan), np.full(samples, np.nan)
     return y, v, run(motion, drift, start, step, counted, y, v)
 

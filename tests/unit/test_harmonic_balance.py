@@ -11,7 +11,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
+from support.floquet import floquet_multipliers
 from support.responses import MOMENT, VARIATION, cosine, isolated, oscillator, two_stages
+from support.transient import integrate
 
 from gearcad.dynamics.charts.chart import ForceDefinition
 from gearcad.dynamics.charts.kv import kv_chart
@@ -20,9 +22,8 @@ from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffn
 from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation, cycle_excitation
 from gearcad.dynamics.response.branch import sweep, trace
 from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.response.floquet import floquet_multipliers, growth
+from gearcad.dynamics.response.floquet import growth
 from gearcad.dynamics.response.linear import harmonic_orders, periodic_response
-from gearcad.dynamics.response.transient import integrate
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import GeometryError, ParameterError, SolverError
 from gearcad.mesh_cycle import MeshCycle

@@ -16,7 +16,7 @@ from support.pairs import thesis_model
 from gearcad import Gear, GearPair, GeometryError, ParameterError
 from gearcad.dynamics.tooth_springs.campbell import campbell
 from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
-from gearcad.dynamics.tooth_springs.contact_model import ContactZone, disc_inertia
+from gearcad.dynamics.tooth_springs.contact_model import EngagedPairs, disc_inertia
 from gearcad.dynamics.tooth_springs.motion import time_history
 from gearcad.dynamics.tooth_springs.spectra import amplitude_spectrum
 
@@ -164,7 +164,7 @@ def test_a_study_names_a_speed_it_does_not_have(study: CampbellStudy) -> None:
 @pytest.mark.parametrize("speed", [0.0, 10.0])
 def test_stiff_teeth_that_settle_long_before_the_end(speed: float) -> None:
     """A disturbance falls below the least number that a double can hold, and its growth is known all the same."""
-    model = replace(thesis_model(), pair_stiffness=200.0, damping=1000.0, zone=ContactZone.ONE_PAIR)
+    model = replace(thesis_model(), pair_stiffness=200.0, damping=1000.0, zone=EngagedPairs.ONE_PAIR)
     history = time_history(model, speed, duration=2.0, sampling=1000.0)
     decay = model.damping / (2 * model.reduced_mass)
     assert decay * 1.0 > 10_000
@@ -174,7 +174,7 @@ def test_stiff_teeth_that_settle_long_before_the_end(speed: float) -> None:
 
 
 def test_at_rest_the_pair_settles_at_the_static_approach() -> None:
-    model = replace(thesis_model(), zone=ContactZone.ONE_PAIR)
+    model = replace(thesis_model(), zone=EngagedPairs.ONE_PAIR)
     history = time_history(model, 0.0, duration=0.6)
     decay = math.exp(-model.damping / (2 * model.reduced_mass) * 0.6)
     assert history.approach[-1] == pytest.approx(model.static_approach, rel=1.1 * decay)

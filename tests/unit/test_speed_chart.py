@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from support.responses import cosine, isolated, oscillator, preloaded, two_stages
+from support.transient import integrate
 
 from gearcad.designs import read_spec
 from gearcad.dynamics.charts.chart import KvChart
@@ -24,7 +25,6 @@ from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.branch import trace
 from gearcad.dynamics.response.krylov import solve_all
 from gearcad.dynamics.response.linear import periodic_response
-from gearcad.dynamics.response.transient import integrate
 from gearcad.dynamics.train import study_modes, study_train
 from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train

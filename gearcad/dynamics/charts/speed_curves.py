@@ -62,7 +62,7 @@ class Told:
 
     @staticmethod
     def joined(*parts: Told) -> Told:
-        """One after the other."""
+        """All parts, one after the other."""
         return Told(*(np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(Told)))
 
     def at(self, rows: Indices) -> Told:
@@ -70,7 +70,7 @@ class Told:
         return Told(*(getattr(self, each.name)[rows] for each in fields(Told)))
 
     def rising(self) -> Told:
-        """By rising frequencies."""
+        """The same by rising frequencies."""
         return self.at(np.argsort(self.frequencies, kind="stable"))
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,7 +26,7 @@ class StiffnessShape(ABC):
 
     @abstractmethod
     def values(self, phase: ArrayLike) -> Floats:
-        """At any phases (rad)."""
+        """Stiffness over its mean, at any phases (rad)."""
 
     @abstractmethod
     def coefficients(self, count: int) -> Complexes:
@@ -49,7 +50,7 @@ class CosineStiffness(StiffnessShape):
         require_number("variation", self.variation, at_least=0, below=1)
 
     def values(self, phase: ArrayLike) -> Floats:
-        """At any phases (rad)."""
+        """Stiffness over its mean, at any phases (rad)."""
         return np.asarray(1 - self.variation * np.cos(phase), float)
 
     def coefficients(self, count: int) -> Complexes:
@@ -74,15 +75,14 @@ class CurveStiffness(StiffnessShape):
         line = Polyline(phase=line.phase, height=line.height / line.mean)
         object.__setattr__(self, "phase", line.phase)
         object.__setattr__(self, "stiffness", line.height)
-        object.__setattr__(self, "_line", line)
 
-    @property
+    @cached_property
     def line(self) -> Polyline:
-        """Of mean 1."""
-        return self._line  # type: ignore[attr-defined,no-any-return]
+        """The curve itself, of mean 1."""
+        return Polyline(phase=self.phase, height=self.stiffness)
 
     def values(self, phase: ArrayLike) -> Floats:
-        """At any phases (rad)."""
+        """Stiffness over its mean, at any phases (rad)."""
         return self.line.values(phase)
 
     def coefficients(self, count: int) -> Complexes:

@@ -37,11 +37,11 @@ class Polyline:
 
     @property
     def mean(self) -> float:
-        """Over the tooth."""
+        """Mean height over the tooth."""
         return float(np.diff(self.phase) @ (self.height[1:] + self.height[:-1]) / (4 * np.pi))
 
     def values(self, phase: ArrayLike) -> Floats:
-        """At any phases (rad)."""
+        """Heights at any phases (rad)."""
         return np.asarray(np.interp(self._within(phase), self.phase, self.height), float)
 
     def slopes(self, phase: ArrayLike) -> Floats:

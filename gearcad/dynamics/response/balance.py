@@ -49,7 +49,7 @@ class Balance(Driven):
 
     @cached_property
     def errors(self) -> Floats:
-        """(t, m) in m."""
+        """Transmission errors (t, m) in m at the samples."""
         return self.excitation.errors(2 * np.pi * np.arange(self.count) / self.count)
 
     @cached_property
@@ -108,7 +108,7 @@ class Balance(Driven):
         return approach, found
 
     def _newton(self, approach: Complexes, omega: Floats, found: Bools, rows: Indices) -> None:
-        """Some rows, in place."""
+        """Newton's steps for some rows of the motions, in place; `found` tells for which they come to rest."""
         for _ in range(_MOST_NEWTON):
             residual, jacobian, *_ = self._linearised(approach[rows], omega[rows])
             change = np.linalg.solve(jacobian, residual[:, :, None]).reshape(len(rows), *approach.shape[1:])

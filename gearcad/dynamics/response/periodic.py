@@ -42,7 +42,7 @@ class PeriodicResponse(Driven):
         return 2 * np.pi * np.arange(count or self.samples) / (count or self.samples)
 
     def approach(self, which: slice = slice(None), count: int | None = None) -> Floats:
-        """y (s, t, m) in m."""
+        """Approaches y of the flanks (s, t, m) in m."""
         return self._course(self.approach_coefficients[which], count)
 
     def turns(self, which: slice = slice(None), count: int | None = None) -> Floats:
@@ -50,7 +50,7 @@ class PeriodicResponse(Driven):
         return self._course(self.inertia_coefficients[which], count)
 
     def shaft_torques(self, which: slice = slice(None), count: int | None = None) -> Floats:
-        """(s, t, n) in N·m."""
+        """Torques in the shafts (s, t, n) in N·m."""
         return self._course(self.torque_coefficients[which], count)
 
     def spring_forces(self, which: slice = slice(None), count: int | None = None) -> Floats:

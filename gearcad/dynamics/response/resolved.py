@@ -52,7 +52,7 @@ class Motions:
     solved: NDArray[np.bool_]
 
     def only(self, kept: NDArray[np.bool_]) -> Motions:
-        """Some of them."""
+        """Those that are marked (s,)."""
         if kept.all():
             return self
         flexible = Flexibility(self.flexible.mesh[kept], self.flexible.others[kept])
@@ -183,6 +183,6 @@ def _real(coefficients: Complexes) -> Floats:
 
 
 def _coefficients(vectors: Floats, shape: tuple[int, ...]) -> Complexes:
-    """The way back."""
+    """The coefficients (s, q, m) of which `_real` makes these vectors (s, 2qm)."""
     weighted = np.ascontiguousarray(vectors).view(complex).reshape(shape)
     return np.asarray(weighted / np.where(np.arange(shape[1]) == 0, 1.0, np.sqrt(2))[:, None], complex)

@@ -5,7 +5,7 @@ from __future__ import annotations
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
-    from gearcad.dynamics.tooth_springs.contact_model import ContactModel, ContactZone, disc_inertia
+    from gearcad.dynamics.tooth_springs.contact_model import ContactModel, EngagedPairs, disc_inertia
     from gearcad.dynamics.tooth_springs.history import Start, TimeHistory
     from gearcad.dynamics.tooth_springs.motion import time_history
     from gearcad.dynamics.tooth_springs.spectra import Spectrum, amplitude_spectrum
@@ -15,7 +15,7 @@ else:
 __all__ = [
     "CampbellStudy",
     "ContactModel",
-    "ContactZone",
+    "EngagedPairs",
     "Spectrum",
     "Start",
     "TimeHistory",

@@ -24,7 +24,7 @@ HIGHEST_FREQUENCY = 15000.0
 """Default end of the spectra (Hz): twice the tooth frequency of the thesis's fastest speed, and more."""
 
 
-class _Row(NamedTuple):
+class _SpeedRow(NamedTuple):
     """What a study keeps of one speed."""
 
     pinion_speed: Floats
@@ -52,10 +52,10 @@ def campbell(
     checked_samples(duration, sampling)
     require_number("highest_frequency", highest_frequency, "Hz", above=0)
 
-    def row(speed: float) -> _Row:
+    def row(speed: float) -> _SpeedRow:
         motion = time_history(model, speed, duration=duration, sampling=sampling, start=start)
         settled = motion.settled
-        return _Row(
+        return _SpeedRow(
             motion.spectrum(highest_frequency).amplitude,
             motion.approach_spectrum(highest_frequency).amplitude,
             float(settled.mean()),
@@ -70,7 +70,7 @@ def campbell(
     # Integration and FFT leave the interpreter to other threads: no motion is held longer than its row takes.
     with ThreadPoolExecutor(_cores()) as pool:
         rows = list(pool.map(row, checked))
-    columns = {name: np.array(values) for name, values in zip(_Row._fields, zip(*rows, strict=True), strict=True)}
+    columns = {name: np.array(values) for name, values in zip(_SpeedRow._fields, zip(*rows, strict=True), strict=True)}
     frequency = np.arange(columns["approach"].shape[1]) * (sampling / checked_samples(duration, sampling))
     arrays = {"speeds": np.array(checked), "frequency": frequency, **columns}
     for array in arrays.values():

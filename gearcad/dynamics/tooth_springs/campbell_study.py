@@ -51,7 +51,7 @@ class CampbellStudy:
         return self.spectrum(speed).peaks(count)
 
     def tooth_frequencies(self, harmonic: int = 1) -> Floats:
-        """(s,) i z_1 n/60 in Hz."""
+        """i z_1 n/60 (s,) in Hz at every speed, of a harmonic i."""
         return self.model.tooth_frequency(1.0, harmonic) * self.speeds
 
     @property

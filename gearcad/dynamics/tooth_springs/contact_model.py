@@ -17,13 +17,13 @@ from gearcad.geometry import GearPair
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear
 
-__all__ = ["ContactModel", "ContactZone", "disc_inertia"]
+__all__ = ["ContactModel", "EngagedPairs", "disc_inertia"]
 
 SOFT = 0.1
 """Static approach in normal modules above which the stiffness is none that teeth have: steel ones give some thousandths."""
 
 
-class ContactZone(Enum):
+class EngagedPairs(Enum):
     """Which pairs of teeth carry."""
 
     RIGID_TIPS = "rigid tips"
@@ -62,13 +62,13 @@ class ContactModel:
     pair_stiffness: float
     damping: float
     torque: float
-    zone: ContactZone = ContactZone.RIGID_TIPS
+    zone: EngagedPairs = EngagedPairs.RIGID_TIPS
     backlash: float | None = None
     back_place: float | None = None
 
     def __post_init__(self) -> None:
         plain_numbers(self)
-        object.__setattr__(self, "zone", as_choice("zone", self.zone, ContactZone))
+        object.__setattr__(self, "zone", as_choice("zone", self.zone, EngagedPairs))
         for name in ("teeth", "base_radii", "inertias"):
             values = getattr(self, name)
             if not isinstance(values, list | tuple) or len(values) != 2:
@@ -98,7 +98,7 @@ class ContactModel:
         pair_stiffness: float,
         damping: float,
         torque: float,
-        zone: ContactZone = ContactZone.RIGID_TIPS,
+        zone: EngagedPairs = EngagedPairs.RIGID_TIPS,
         back_flanks: bool = False,
     ) -> ContactModel:
         """The model of a spur pair: its path of contact from A to E; its backlash if the back flanks may touch."""
@@ -149,7 +149,7 @@ class ContactModel:
     @property
     def contact_ratio(self) -> float:
         """Mean number of engaged pairs, 1 in the simple model."""
-        if self.zone is ContactZone.ONE_PAIR:
+        if self.zone is EngagedPairs.ONE_PAIR:
             return 1.0
         return (self.last_contact - self.first_contact) / self.base_pitch
 

@@ -19,7 +19,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 
-__all__ = ["Motion", "Outcome", "Spring", "Zone", "accelerated", "advanced", "compiled", "next_turn", "run"]
+__all__ = ["Motion", "MotionOutcome", "Spring", "Zone", "accelerated", "advanced", "compiled", "next_turn", "run"]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -76,7 +76,7 @@ class Motion(NamedTuple):
     back: Zone
 
 
-class Outcome(NamedTuple):
+class MotionOutcome(NamedTuple):
     """What one run gave besides its samples."""
 
     free: float
@@ -129,7 +129,7 @@ def advanced(spring: Spring, y: float, v: float, tau: float) -> tuple[float, flo
 
 @compiled
 def accelerated(spring: Spring, y: float, v: float) -> float:
-    """y''."""
+    """The acceleration y'' where y is the approach and v its rate."""
     return spring.push - spring.square * (y - spring.rest) - 2.0 * spring.half * v
 
 
@@ -333,7 +333,7 @@ def _disturbed(before: Spring, after: Spring, row: Floats, y: float, v: float, d
 @compiled
 def run(
     motion: Motion, drift: float, start: tuple[float, float, float], step: float, counted: float, approach: Floats, rate: Floats
-) -> Outcome:
+) -> MotionOutcome:
     """Samples of y (m) and y' (m/s) every `step` seconds, from the start (u - share y, y, y') on; V = `drift` in m/s.
 
     Time without contact and the growth of a disturbance (dy, dv) are counted from `counted` seconds to the end.
@@ -373,4 +373,4 @@ def run(
         total, dy, dv = total + math.log(size), dy / size, dv / size
         least, gain = min(least, total), max(gain, total - least)
         counted_from = total if began < counted else counted_from
-    return Outcome(free, (total - counted_from) / (end - counted), gain, events, held)
+    return MotionOutcome(free, (total - counted_from) / (end - counted), gain, events, held)

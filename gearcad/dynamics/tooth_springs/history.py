@@ -67,12 +67,12 @@ class TimeHistory:
 
     @property
     def duration(self) -> float:
-        """s."""
+        """How long the motion was looked at (s)."""
         return len(self.approach) / self.sampling
 
     @property
     def time(self) -> Floats:
-        """(n,) s."""
+        """Times (n,) of the samples in s."""
         return np.arange(len(self.approach)) / self.sampling
 
     @property
@@ -112,5 +112,5 @@ class TimeHistory:
         return amplitude_spectrum(self.pinion_speed, self.sampling, highest)
 
     def approach_spectrum(self, highest: float | None = None) -> Spectrum:
-        """Of the approach (µm)."""
+        """Of the approach (µm), over the whole time."""
         return amplitude_spectrum(self.approach, self.sampling, highest)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearcad.dynamics.tooth_springs.contact_model import ContactModel, ContactZone
+from gearcad.dynamics.tooth_springs.contact_model import ContactModel, EngagedPairs
 from gearcad.dynamics.tooth_springs.history import SETTLED, Start, TimeHistory
 from gearcad.errors import ParameterError, require_number
 
@@ -76,16 +76,16 @@ def _motion(model: ContactModel) -> Motion:
 
     mass, share = model.reduced_mass, model.pinion_share
     pitch, first, last = (1e-3 * x for x in (model.base_pitch, model.first_contact, model.last_contact))
-    wheel_share = share - 1 if model.zone is ContactZone.PENETRATING_TIPS else share
+    wheel_share = share - 1 if model.zone is EngagedPairs.PENETRATING_TIPS else share
     gap = math.inf if model.backlash is None else 1e-3 * model.backlash
     front = Zone(first, last, wheel_share, share)
     back = front
     if model.back_place is not None:
         mirror = 1e-3 * model.back_place
         # On the back flanks the penetration is -(y + backlash): it moves the wheel's end by the backlash.
-        moved = gap if model.zone is ContactZone.PENETRATING_TIPS else 0.0
+        moved = gap if model.zone is EngagedPairs.PENETRATING_TIPS else 0.0
         back = Zone(mirror - last, mirror - first + moved, share, wheel_share)
-    if model.zone is ContactZone.ONE_PAIR:
+    if model.zone is EngagedPairs.ONE_PAIR:
         pitch, front = _EVEN, Zone(-_EVEN / 2, _EVEN / 2, share, share)
         back = front
     stiffness = 1e6 * model.pair_stiffness

@@ -54,7 +54,7 @@ def count_below(train: Train, frequency: float) -> int:
 
 
 def _count(train: Train, omega: float) -> int:
-    """Below omega (1/s)."""
+    """How many natural frequencies there are below omega (1/s)."""
     dynamic = dynamic_train(parts_of(train), massless=train.model is TrainModel.MASSLESS)
     return int(dynamic.count_below(np.array([omega]))[0])
 

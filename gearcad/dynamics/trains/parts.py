@@ -95,7 +95,7 @@ def _parts(train: Train) -> Parts:
 
 
 def _preloads(train: Train) -> Floats:
-    """(m,) in N."""
+    """What presses each mesh (m,) beside the torques, in N."""
     return np.array([mesh.preload for mesh in train.meshes])
 
 

@@ -37,7 +37,7 @@ class System:
 
     @property
     def size(self) -> int:
-        """n."""
+        """How many coordinates there are."""
         return len(self.squares)
 
     def stiffness_matrix(self, stiffness: Floats | None = None) -> Floats:
@@ -47,6 +47,6 @@ class System:
         return result
 
     def damping_matrix(self) -> Floats:
-        """(n, n)."""
+        """(n, n) in the coordinates: that of the lines and of the meshes."""
         result: Floats = np.diag(self.damping) + (self.mesh * self.mesh_damping) @ self.mesh.T
         return result

@@ -15,7 +15,7 @@ from gearcad.plots.paper import short
 
 __all__ = [
     "MOST_PEAKS",
-    "Table",
+    "WordTable",
     "factor_text",
     "inertia_table",
     "mesh_table",
@@ -36,7 +36,7 @@ _LISTED = 3
 """Peaks of a spectrum that the table of speeds names."""
 
 
-class Table(NamedTuple):
+class WordTable(NamedTuple):
     """Heads and cells (text) of a table; the first `words` columns are words, the others numbers."""
 
     heads: tuple[str, ...]
@@ -47,7 +47,7 @@ class Table(NamedTuple):
 # ---------------------------------------------------------------------- parts of a train
 
 
-def inertia_table(study: TrainStudy | ModalStudy) -> Table:
+def inertia_table(study: TrainStudy | ModalStudy) -> WordTable:
     """Inertias of the train with the torques on them and their speeds."""
     train, ratios = study.train, study.train.speed_ratios
     first = "pinion" if train.meshes else "inertia"
@@ -55,10 +55,10 @@ def inertia_table(study: TrainStudy | ModalStudy) -> Table:
         (each.name, short(each.inertia), short(train.torques.get(each.name, 0.0)), short(ratios[each.name]))
         for each in train.inertias
     ]
-    return Table(("inertia", "kg·m²", "torque, N·m", f"turns per turn of the first {first}"), rows)
+    return WordTable(("inertia", "kg·m²", "torque, N·m", f"turns per turn of the first {first}"), rows)
 
 
-def shaft_table(study: TrainStudy | ModalStudy) -> Table:
+def shaft_table(study: TrainStudy | ModalStudy) -> WordTable:
     """Shafts, and where the chart has them, their greatest overload."""
     heads = ("shaft", "from, to", "stiffness, N·m/rad", "inertia, kg·m²", "damping")
     charted = isinstance(study, TrainStudy)
@@ -68,7 +68,7 @@ def shaft_table(study: TrainStudy | ModalStudy) -> Table:
         mass = 0.0 if study.train.model is TrainModel.MASSLESS else shaft.inertia
         fixed = (f"{shaft.start}, {shaft.end}", short(shaft.stiffness), _or_none(mass), _shaft_damping(shaft))
         rows.append((_shaft_words(shaft), *fixed, *overload))
-    return Table((*heads, "at rest, N·m", "overload", "at rpm") if charted else heads, rows, 2)
+    return WordTable((*heads, "at rest, N·m", "overload", "at rpm") if charted else heads, rows, 2)
 
 
 def _overload(study: TrainStudy, shaft: Shaft) -> tuple[str, ...]:
@@ -90,7 +90,7 @@ def _shaft_damping(shaft: Shaft) -> str:
     return ", ".join(parts) or _NONE
 
 
-def mesh_table(study: TrainStudy) -> Table:
+def mesh_table(study: TrainStudy) -> WordTable:
     """Meshes of the train, their damping and the force that they carry at rest."""
     heads = (
         "mesh",
@@ -110,7 +110,7 @@ def mesh_table(study: TrainStudy) -> Table:
         gears = f"{mesh.pinion}, {'ring ' if mesh.internal else ''}{mesh.wheel}"
         numbers = (short(mesh.stiffness), _or_none(float(damping)), backlash, short(float(force)))
         rows.append((mesh.name, gears, _wave(mesh), str(mesh.teeth), radii, *numbers))
-    return Table(heads, rows, 3)
+    return WordTable(heads, rows, 3)
 
 
 def _wave(mesh: Mesh) -> str:
@@ -124,7 +124,7 @@ def _wave(mesh: Mesh) -> str:
 # ---------------------------------------------------------------------- modes and resonances
 
 
-def mode_table(modes: NaturalModes) -> Table:
+def mode_table(modes: NaturalModes) -> WordTable:
     """Natural frequencies, the speeds that meet them, and where their energy is."""
     several = len(modes.meshes) > 1
     heads = ["mode", "Hz", "1/s"]
@@ -137,10 +137,10 @@ def mode_table(modes: NaturalModes) -> Table:
         shares = [_NONE if rigid else f"{100 * share:.1f}" for share in modes.potential_meshes[mode]]
         name = f"{mode + 1}, turns as a whole" if rigid else f"{mode + 1}, most in {' and '.join(modes.leading_parts[mode])}"
         rows.append((name, short(modes.frequency[mode]), short(modes.circular[mode]), *speeds, *shares))
-    return Table(tuple(heads), rows)
+    return WordTable(tuple(heads), rows)
 
 
-def peak_table(study: TrainStudy) -> Table:
+def peak_table(study: TrainStudy) -> WordTable:
     """Resonances of every mesh in the charts, of each the highest, by speed."""
     heads = ("mesh", "near", "pinion, rpm", "tooth frequency, Hz", "1/s", "K_v")
     rows = []
@@ -153,7 +153,7 @@ def peak_table(study: TrainStudy) -> Table:
             last = "" if each.stable else ", unstable"
             numbers = map(short, (each.speed, each.tooth_frequency, each.tooth_circular))
             rows.append((words, _met(each.met) + last, *numbers, factor_text(each.factor)))
-    return Table(heads, rows, 2)
+    return WordTable(heads, rows, 2)
 
 
 def _met(mode: MetMode | None) -> str:
@@ -170,7 +170,7 @@ def factor_text(factor: float) -> str:
     return f"{factor:.3f}" if factor < 10 else short(factor)
 
 
-def speed_table(study: CampbellStudy) -> Table:
+def speed_table(study: CampbellStudy) -> WordTable:
     """Statistics of the motion at every speed of a Campbell study."""
     heads = (
         "rpm",
@@ -192,7 +192,7 @@ def speed_table(study: CampbellStudy) -> Table:
         parted, growth = f"{100 * study.out_of_contact[row]:.1f}", f"{study.growth[row]:.0f}"
         chaotic = "chaotic" if study.chaotic[row] else ""
         rows.append((*numbers, parted, growth, f"{study.digits_lost[row]:.1f}", peaks or _NONE, chaotic))
-    return Table(heads, rows, 0)
+    return WordTable(heads, rows, 0)
 
 
 def _or_none(value: float) -> str:

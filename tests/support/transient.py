@@ -1,4 +1,7 @@
-"""Vibration in time: any excitation, run-ups, flanks that part and meet again. SI units, frequencies circular (1/s)."""
+"""Vibration in time, the witness of the harmonic balance: any excitation, run-ups, flanks that part and meet again.
+
+SI units, frequencies circular (1/s).
+"""
 
 from __future__ import annotations
 
