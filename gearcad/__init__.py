@@ -61,12 +61,12 @@ if TYPE_CHECKING:
         ShiftSplit,
         ToothProfile,
     )
+    from gearcad.jobs.verbs import *  # noqa: F403 - that of each verb
     from gearcad.load import Load
     from gearcad.material import Material
     from gearcad.mounting import Mounting
     from gearcad.notice import Notice
     from gearcad.per_gear import PerGear
-    from gearcad.verbs import *  # noqa: F403 - that of each verb
 
 __all__ = [
     "ISO53_A",
@@ -99,8 +99,8 @@ __all__ = [
 if not TYPE_CHECKING:
     import sys
 
+    from gearcad.jobs import VERBS
     from gearcad.lazy import Entrance, lazily
-    from gearcad.verbs import VERBS
 
     __all__ += VERBS
     __getattr__ = lazily(

@@ -8,7 +8,7 @@ from typing import Any
 
 from gearcad.designs import Design
 from gearcad.errors import ParameterError
-from gearcad.jobs import JOBS
+from gearcad.jobs import VERBS
 from gearcad.jobs.data import Data
 from gearcad.jobs.job import Job
 
@@ -24,9 +24,8 @@ def stages(wanted: Sequence[Job[Any, Any]]) -> tuple[Job[Any, Any], ...]:
     Raises ParameterError for none.
     """
     if not wanted:
-        raise ParameterError("do", "", f"must be one or more of {', '.join(JOBS)}")
-    order = list(JOBS)
-    others = sorted((job for job in wanted if job != Data()), key=lambda job: order.index(job.verb))
+        raise ParameterError("do", "", f"must be one or more of {', '.join(VERBS)}")
+    others = sorted((job for job in wanted if job != Data()), key=lambda job: VERBS.index(job.verb))
     return tuple(others) if any(DATA in job.parts for job in others) else (Data(), *others)
 
 

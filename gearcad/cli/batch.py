@@ -13,7 +13,7 @@ from gearcad.cli.build import format_option
 from gearcad.cli.group import debug_option, job_commands, parse_choices
 from gearcad.cli.progress import row_progress
 from gearcad.errors import ParameterError, as_choice
-from gearcad.jobs import JOBS
+from gearcad.jobs import job_of
 from gearcad.solids import FileOptions, Format
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def batch(
 
     options = FileOptions(chord_error=chord_error, bracket=bracket, circles=circles)
     build = Build(formats=parse_choices("format", formats, Format), options=options)
-    wanted = [build if verb == build.verb else JOBS[verb]() for verb in _verbs(steps)]
+    wanted = [build if verb == build.verb else job_of(verb)() for verb in _verbs(steps)]
     chosen = as_choice("decimal", decimal.lower(), Decimal)
     folder = output if output is not None else Path("output") / table.stem
     began = time.perf_counter()

@@ -14,8 +14,8 @@ from typing import Any, NoReturn, TypeVar
 import click
 
 from gearcad.errors import GearcadError, ParameterError, SolverError, as_choice, printable, shown
+from gearcad.jobs import VERBS
 from gearcad.output import source_date
-from gearcad.verbs import VERBS
 
 __all__ = ["Commands", "debug_option", "job_commands", "parse_choices", "require_new_file", "spec_argument"]
 
