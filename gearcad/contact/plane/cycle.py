@@ -179,9 +179,9 @@ def _contacts(model: PlanePair, solution: ContactSolution) -> tuple[PlanePairCon
     )
 
 
-def _bent(model: PlanePair, loaded: list[tuple[ContactPair, Floats, float]], which: int) -> float:
+def _bent(model: PlanePair, loaded: list[tuple[ContactPair, Floats, float]], place: int) -> float:
     """Curvature (1/mm) of the gap of one pair of flanks by the smooth response of the bodies to the loads of all."""
-    pair, pressures, force = loaded[which]
+    pair, pressures, force = loaded[place]
     half = half_width_by_curvature(force, 1 / pair.radius, model.modulus)
     if not math.isfinite(half):
         return 0.0
