@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearcad.per_gear import PerGear
 
@@ -58,9 +58,16 @@ def prepared(ax: Axes | None, x: str, y: str) -> Axes:
     return axes
 
 
-def legend_above(axes: Axes, columns: int) -> None:
-    """A legend over the axes, where it hides nothing."""
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, frameon=False, fontsize=9, borderaxespad=0.2)
+def legend_above(axes: Axes, columns: int, raised: float = 0.0) -> None:
+    """A legend over the axes, where it hides nothing: so many points higher where a second axis stands there."""
+    from matplotlib.transforms import ScaledTranslation
+
+    place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0)}
+    if raised:
+        figure = axes.get_figure(root=True)
+        assert figure is not None  # prepared() has put them on one
+        place["bbox_transform"] = axes.transAxes + ScaledTranslation(0, raised / 72, figure.dpi_scale_trans)
+    axes.legend(ncols=columns, frameon=False, fontsize=9, borderaxespad=0.2, **place)
 
 
 def draw_limit(axes: Axes, limit: float | tuple[float, float] | None) -> None:

@@ -165,19 +165,13 @@ def _mark_modes(axes: Axes, lines: Mapping[float, tuple[str, str]]) -> None:
 
 def _finish(axes: Axes, study: TrainStudy) -> None:
     """The tooth frequency on a second axis, and a legend above it."""
-    from matplotlib.transforms import ScaledTranslation
-
     teeth = study.train.meshes[0].teeth
     functions = (lambda speed: np.asarray(speed) * teeth / 60, lambda hertz: np.asarray(hertz) * 60 / teeth)
     above = axes.secondary_xaxis("top", functions=functions)
     name = f" of {plain(study.train.meshes[0].name)}" if len(study.train.meshes) > 1 else ""
     above.set_xlabel(f"tooth frequency{name} in Hz")
     above.spines["top"].set_color(MARKED)
-    figure = axes.get_figure(root=True)
-    assert figure is not None  # prepared() has put them on one
-    raised = axes.transAxes + ScaledTranslation(0, _TOP_AXIS / 72, figure.dpi_scale_trans)
-    place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "bbox_transform": raised}
-    axes.legend(ncols=3, frameon=False, fontsize=9, borderaxespad=0.2, **place)
+    legend_above(axes, 3, raised=_TOP_AXIS)
 
 
 # ---------------------------------------------------------------------- one speed

@@ -10,7 +10,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.plots.check import mark_path
-from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, new_figure, prepared
+from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, legend_above, new_figure, prepared
 from gearcad.stiffness.comparison import StiffnessComparison
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def plot_stiffness(comparison: StiffnessComparison, ax: Axes | None = None) -> A
     lowest, greatest = axes.get_ylim()
     axes.set_ylim(top=lowest + _HEADROOM * (greatest - lowest))
     _mark_mesh(axes, comparison)
-    _legend_over_top_axis(axes, 2)
+    legend_above(axes, 2, raised=_TOP_AXIS)
     return axes
 
 
@@ -191,16 +191,6 @@ def _mark_mesh(axes: Axes, comparison: StiffnessComparison) -> None:
     above = axes.secondary_xaxis("top", functions=(angles, places))
     above.set_xlabel(_ROLL)
     above.spines["top"].set_color(MARKED)
-
-
-def _legend_over_top_axis(axes: Axes, columns: int) -> None:
-    from matplotlib.transforms import ScaledTranslation
-
-    figure = axes.get_figure(root=True)
-    assert figure is not None  # prepared() has put them on one
-    raised = axes.transAxes + ScaledTranslation(0, _TOP_AXIS / 72, figure.dpi_scale_trans)
-    place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "bbox_transform": raised}
-    axes.legend(ncols=columns, frameon=False, fontsize=9, borderaxespad=0.2, **place)
 
 
 def _stack(axes: Axes, comparison: StiffnessComparison, cycle: MeshCycle) -> None:

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 from gearcad.errors import ParameterError, format_number
 from gearcad.output import staged_files
 from gearcad.plots.labels import axis_label, plain, wrapped
+from gearcad.plots.paper import new_figure, prepared
 from gearcad.plots.table_data import Column, Points
 
 if TYPE_CHECKING:
     import numpy as np
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
 __all__ = ["plot_contours", "plot_scatter", "require_picture", "save_plot"]
@@ -200,27 +200,16 @@ def _triangulation(x: NDArray[np.float64], y: NDArray[np.float64], key: str) -> 
 # ---------------------------------------------------------------------- the paper
 
 
-def _new_figure() -> Figure:
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=_INCHES, layout="constrained")
-
-
 def _prepared(points: Points, ax: Axes | None) -> Axes:
     """Axes with title, labels and grid; those of a new figure if none are given."""
     from matplotlib.ticker import MaxNLocator
 
-    axes = _new_figure().subplots() if ax is None else ax
+    axes = new_figure(_INCHES).subplots() if ax is None else ax
+    prepared(axes, *(wrapped(axis_label(column.key), _LONGEST_LABEL) for column in (points.x, points.y)))
     axes.set_title(plain(points.name))
-    axes.set_xlabel(wrapped(axis_label(points.x.key), _LONGEST_LABEL))
-    axes.set_ylabel(wrapped(axis_label(points.y.key), _LONGEST_LABEL))
-    axes.ticklabel_format(useOffset=False)
     for axis, column in ((axes.xaxis, points.x), (axes.yaxis, points.y)):
         whole = bool((column.numbers % 1 == 0).all())
         axis.set_major_locator(MaxNLocator(_MOST_BINS, integer=whole, steps=[1, 2, 2.5, 5, 10]))
-    axes.grid(color="#dddddd", linewidth=0.6)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right"]].set_visible(False)
     return axes
 
 
@@ -240,7 +229,7 @@ def save_plot(draw: Draw, points: Points, path: Path) -> None:
     require_picture(path)
     with style.context(["default", {"svg.hashsalt": "gearcad"}]), warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph")  # a name in a script that the font lacks shows boxes
-        figure = _new_figure()
+        figure = new_figure(_INCHES)
         draw(points, figure.subplots())
         with staged_files(path.parent) as staging:
             figure.savefig(staging / path.name, dpi=_DOTS_PER_INCH, metadata=_METADATA[path.suffix.lower()])
