@@ -52,6 +52,9 @@ class CheckResult(ABC):
 
     model: ClassVar[Model]
 
+    shown_by_reports: ClassVar[tuple[str, ...]]
+    """What is solved for reports only."""
+
     def __repr__(self) -> str:
         return f"<{type(self).__name__} of {self.pair.name!r} at {self.torque:g} N·m: {self.verdict}>"
 
@@ -129,6 +132,11 @@ class CheckResult(ABC):
     def trends(self) -> SweepTrends:
         """How the figures go with the torque."""
         return SweepTrends.of(self.sweep)
+
+    def solve_shown(self) -> None:
+        """Solve now what reports show, which is else solved when it is first asked for."""
+        for name in self.shown_by_reports:
+            getattr(self, name)
 
     @property
     @abstractmethod

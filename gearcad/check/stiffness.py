@@ -21,10 +21,12 @@ class StiffnessMethods(NamedTuple):
     reason: str = ""
 
     def to_dict(self) -> dict[str, Any]:
-        """As `check.json` has it; stiffness in N/µm, as in `stiffness.json`."""
+        """The figures of each as in `stiffness.json`, which has their curves too; stiffness in N/µm."""
         if self.comparison is None:
             return {"methods": {}, "left_out": {}, "reason": self.reason}
         document = self.comparison.to_dict()
+        for method in document["methods"].values():
+            del method["mesh_cycle"]
         return {"methods": document["methods"], "left_out": document["left_out"], "reason": ""}
 
 

@@ -57,6 +57,7 @@ def _put(document: Container, path: list[str], item: Item) -> None:
     at = 0 if rest == ["name"] else end
     if isinstance(table, tomlkit.items.InlineTable):
         item.trivia.indent = " " if at else ""
+        item.trivia.comment_ws = item.trivia.comment = ""  # a note would end the line, and the table with it
     keys.insert(at, (tomlkit.key(rest), item))
 
 

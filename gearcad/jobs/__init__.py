@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 
 from gearcad.jobs.verbs import VERBS
+from gearcad.lazy import lazily
 
 TYPE_CHECKING = False  # as in guard.py
 if TYPE_CHECKING:
@@ -13,6 +14,8 @@ if TYPE_CHECKING:
     from gearcad.jobs.job import Job
 
 __all__ = ["VERBS", "job_of"]
+
+__getattr__ = lazily(__name__, __all__, (), ("job", "subject", *VERBS))
 
 
 def job_of(verb: str) -> type[Job[Any, Any]]:

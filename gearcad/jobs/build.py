@@ -46,6 +46,7 @@ class Build(Job[GearedDesign, GearedDesign]):
     options: FileOptions = field(default_factory=FileOptions)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "formats", _formats(self.formats))
         if not self.formats:
             raise ParameterError("format", "", f"must be one or more of {', '.join(kind.value for kind in Format)}")
 
@@ -96,6 +97,13 @@ class Build(Job[GearedDesign, GearedDesign]):
         return Build(formats=formats, options=options if isinstance(design, PairDesign) else replace(options, bracket=False))
 
 
+def _formats(given: object) -> tuple[Format, ...]:
+    """Formats by themselves or by their names. Raises ParameterError."""
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        raise ParameterError("formats", given, 'must be a list of formats, such as ["step"]')
+    return tuple(as_choice("format", each, Format) for each in given)
+
+
 def _products(design: GearedDesign, pair: PairProduct | None, options: FileOptions) -> dict[str, GearProduct]:
     """The gears as files hold them, by the names of these files."""
     if pair is not None:
@@ -127,9 +135,5 @@ def build(
     Raises ParameterError or GeometryError for wrong input, a folder that cannot be written too, SolverError where the CAD
     kernel fails.
     """
-    if isinstance(formats, str) or not isinstance(formats, Iterable):
-        raise ParameterError("formats", formats, 'must be a list of formats, such as ["step"]')
-    wanted = tuple(as_choice("format", each, Format) for each in formats)
-    options = FileOptions(chord_error=chord_error, bracket=bracket, circles=circles)
-    job = Build(formats=wanted, options=options)
-    return job.write(job.run(as_design(subject)), Path(folder), progress)
+    job = Build(formats=_formats(formats), options=FileOptions(chord_error=chord_error, bracket=bracket, circles=circles))
+    return job.write(job.run(as_design(subject)), folder, progress)

@@ -30,7 +30,7 @@ _NO_LOAD = "without it there is no stress"
 class Check(Job[PairDesign, CheckResult]):
     """The structural check of a pair; `model` ("2d" or "3d") wins over that of the design's own [check].
 
-    Without `report` there is check.json alone, and it has not what takes time for the report only.
+    Without `report` there is check.json alone, and nothing is solved for the report only.
     """
 
     verb = "check"
@@ -43,7 +43,10 @@ class Check(Job[PairDesign, CheckResult]):
 
     def _run(self, design: PairDesign, progress: Progress | None) -> CheckResult:
         load, material, options = design.loaded(_NO_LOAD), design.material or Material(), self._options(design)
-        return check_pair(design.pair, material, load, options, progress, design.mounting, design.rating)
+        result = check_pair(design.pair, material, load, options, progress, design.mounting, design.rating)
+        if self.report:
+            result.solve_shown()
+        return result
 
     def _expected(self, design: PairDesign) -> Expected:
         load, material, options = design.loaded(_NO_LOAD), design.material or Material(), self._options(design)
@@ -108,4 +111,4 @@ def check(
     Raises ParameterError without a pair or a load, ParameterError and GeometryError for what cannot be checked, SolverError
     where a solver fails.
     """
-    return Check(model=model).run(as_design(subject, load, **inputs), progress)
+    return Check(model=model, report=False).run(as_design(subject, load, **inputs), progress)

@@ -76,9 +76,9 @@ class Job(ABC, Generic[Accepted, Result]):
         """Write what VERB.json holds."""
         path.write_text(json_text(self.document(result)), encoding="utf-8")
 
-    def write(self, result: Result, folder: Path, progress: Progress | None = None) -> list[Path]:
+    def write(self, result: Result, folder: Path | str, progress: Progress | None = None) -> list[Path]:
         """Write all files of a result into `folder`, or none, and return their paths. Raises OutputError."""
-        files = self.files(result)
+        folder, files = Path(folder), self.files(result)
         agenda = Agenda(progress, dict.fromkeys(files, 1.0))
         with staged_files(folder) as staging:
             for name, write in files.items():

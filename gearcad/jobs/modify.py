@@ -53,6 +53,14 @@ class Modify(Job[PairDesign, Proposal]):
     pressure: float | None = None
     shape: ReliefShape | None = None
 
+    def __post_init__(self) -> None:
+        if self.torque is not None:
+            TORQUE.require("torque", self.torque)
+        if self.pressure is not None:
+            STRENGTH.require("pressure", self.pressure)
+        if self.shape is not None:
+            object.__setattr__(self, "shape", as_choice("shape", self.shape, ReliefShape))
+
     def _run(self, design: PairDesign, progress: Progress | None) -> Proposal:
         pair, torque = self._task(design)
         options, agenda = design.check or CheckOptions(), Agenda(progress, dict.fromkeys(_STEPS, 1.0))
@@ -82,17 +90,13 @@ class Modify(Job[PairDesign, Proposal]):
 
     def _task(self, design: PairDesign) -> tuple[GearPair, float]:
         """Pair and torque; raises for what cannot be searched."""
-        torque, pressure = self.torque, self.pressure
-        if torque is not None:
-            TORQUE.require("torque", torque)
-        elif design.load is None:
-            raise ParameterError("load.torque", None, "must be given, in N·m on the pinion, here or as --torque")
-        else:
+        torque = self.torque
+        if torque is None:
+            if design.load is None:
+                raise ParameterError("load.torque", None, "must be given, in N·m on the pinion, here or as --torque")
             torque = design.load.torque * design.load.application_factor
         if not torque:
             raise ParameterError("load.torque", torque, "must not be 0: without torque flanks need no modification", "N·m")
-        if pressure is not None:
-            STRENGTH.require("pressure", pressure)
         if design.pair.total_contact_ratio < 1:
             ratio = design.pair.total_contact_ratio
             raise GeometryError("pair.total_contact_ratio", ratio, "must be at least 1: the teeth lose each other")

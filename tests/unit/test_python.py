@@ -31,11 +31,16 @@ from gearcad import (
     designs,
     dynamics,
 )
+from gearcad.batch.stages import stages
 from gearcad.check import CheckOptions
-from gearcad.designs import Design, read_spec
+from gearcad.designs import Design, PairDesign, read_spec
 from gearcad.dynamics import DynamicsOptions
 from gearcad.jobs import VERBS, job_of
+from gearcad.jobs.build import Build
+from gearcad.jobs.modify import Modify
+from gearcad.jobs.rate import Rate
 from gearcad.jobs.subject import as_design
+from gearcad.solids import Format
 from tests.support.coarse import coarse_pair
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
@@ -197,3 +202,15 @@ def test_every_package_says_what_it_has(room: str) -> None:
     assert [name for name in package.__all__ if getattr(package, name, None) is None] == []
     with pytest.raises(AttributeError, match="has no attribute 'nothing'"):
         package.nothing  # noqa: B018
+
+
+def test_jobs_refuse_what_their_functions_refuse(tmp_path: Path) -> None:
+    with pytest.raises(ParameterError, match=r"^formats = 'csv': must be a list of formats"):
+        Build(formats="csv")
+    assert Build(formats=("csv",)).formats == (Format.CSV,)
+    with pytest.raises(ParameterError, match=r"^shape = 'cubic': must be one of"):
+        Modify(shape="cubic")
+    with pytest.raises(ParameterError, match=r"^do = 'rate': must be a job that writes files"):
+        stages((Rate(),))
+    made = Rate().write(Rate().run(PairDesign(name="pair", pair=FZG_C, load=Load(torque=60))), str(tmp_path))
+    assert made == [] == list(tmp_path.iterdir())

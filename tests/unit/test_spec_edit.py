@@ -121,3 +121,9 @@ def test_a_name_comes_first_in_its_table() -> None:
 def test_what_cannot_be_edited_is_said_and_not_spoilt(text: str) -> None:
     with pytest.raises(SpecError, match=r"write by hand: pinion\.modification\.tip_relief = 7\.0"):
         edit_spec(text, {KEY: 7.0})
+
+
+def test_a_table_in_one_line_gets_its_keys_without_notes() -> None:
+    text = "[pinion]\nmodification = { lead_crowning = 5.0 }\n"
+    edited = edit_spec(text, {"pinion.modification.tip_relief": 3.0}, NOTES)
+    assert edited == "[pinion]\nmodification = { lead_crowning = 5.0, tip_relief = 3.0 }\n"

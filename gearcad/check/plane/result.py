@@ -33,6 +33,8 @@ class PlaneCheck(CheckResult):
 
     model: ClassVar[Model] = Model.PLANE
 
+    shown_by_reports: ClassVar[tuple[str, ...]] = ("stiffness_methods", "stress_field", "fillet_curves")
+
     @cached_property
     def explanations(self) -> Explanations[PlaneRootExplanation]:
         return Explanations(

@@ -36,6 +36,8 @@ class SolidCheck(CheckResult):
 
     model: ClassVar[Model] = Model.SOLID
 
+    shown_by_reports: ClassVar[tuple[str, ...]] = ("stiffness_methods", "along_face", "cells", "tooth_surfaces")
+
     greatest_order: ClassVar[float] = SOLID_ORDER
     """The greatest order of convergence that meshes of solids are credited with."""
 
