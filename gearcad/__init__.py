@@ -96,6 +96,8 @@ __all__ = [
     "read",
 ]
 
+_ROOMS = ("batch", "check", "contact", "designs", "dynamics", "jobs", "rating", "solids", "stiffness")
+
 if not TYPE_CHECKING:
     import sys
 
@@ -107,11 +109,11 @@ if not TYPE_CHECKING:
         __name__,
         __all__,
         ("errors", "notice", "per_gear", "geometry", "load", "material", "mounting"),
-        ("batch", "check", "contact", "designs", "dynamics", "jobs", "rating", "solids", "stiffness"),
+        _ROOMS,
         {"read": "designs.read_spec", **{verb: f"jobs.{verb}.{verb}" for verb in VERBS}},
     )
     sys.modules[__name__].__class__ = Entrance
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted({*__all__, *_ROOMS, *(name for name in globals() if name.startswith("__"))})

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from gearcad.errors import ParameterError
+from gearcad.shipped import templates
 
 __all__ = ["starter_text", "starters"]
 
@@ -12,15 +13,8 @@ _ALIASES = {"gear": "spur", "pair": "volvo-13-44"}
 """What a newcomer would ask for."""
 
 
-def _folder() -> Path:
-    """The wheel carries the templates inside the package; a checkout has them beside it."""
-    package = Path(__file__).parent.parent
-    installed = package / "templates"
-    return installed if installed.is_dir() else package.parent / "templates"
-
-
 def _files() -> dict[str, Path]:
-    return {path.stem: path for path in sorted(_folder().iterdir()) if path.suffix in (".toml", ".csv")}
+    return {path.stem: path for path in sorted(templates().iterdir()) if path.suffix in (".toml", ".csv")}
 
 
 def starters() -> dict[str, str]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearcad.output import source_date
 from gearcad.plots.paper import short
-from gearcad.report.sentences import templates
+from gearcad.shipped import templates
 from gearcad.version import __version__
 
 if TYPE_CHECKING:

@@ -4,28 +4,21 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gearcad.plots.paper import short
+from gearcad.shipped import templates
 
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-__all__ = ["sentences", "templates"]
+__all__ = ["sentences"]
 
 
 def sentences(template: str, macro: str, *values: object) -> str:
     """What a macro of a template says of values: plain text, in which its lines follow each other."""
     said = str(getattr(_plain().get_template(template).module, macro)(*values))
     return re.sub(r"[ \n]*\n[ \n]*", " ", said).strip(" ")
-
-
-def templates() -> Path:
-    """The wheel carries the templates inside the package; a checkout has them beside it."""
-    package = Path(__file__).parent.parent
-    installed = package / "templates"
-    return installed if installed.is_dir() else package.parent / "templates"
 
 
 @cache

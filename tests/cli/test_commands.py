@@ -94,12 +94,12 @@ def test_new_to_an_impossible_place_is_one_line(output: str) -> None:
 
 
 def test_starters_are_found_in_an_installed_package_too(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    import gearcad.designs.starters
+    import gearcad.shipped
 
     package = tmp_path / "site" / "gearcad"
     (package / "templates").mkdir(parents=True)
     (package / "templates" / "only.toml").write_text("# The only one.\n")
-    monkeypatch.setattr(gearcad.designs.starters, "__file__", str(package / "designs" / "starters.py"))
+    monkeypatch.setattr(gearcad.shipped, "__file__", str(package / "shipped.py"))
     assert starters() == {"only": "The only one"}
 
 

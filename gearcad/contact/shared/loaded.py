@@ -104,7 +104,7 @@ class LoadedPosition(ABC, Generic[C]):
 
     @property
     def transmission_error(self) -> float:
-        """um along the line of action by which the wheel lags."""
+        """µm along the line of action by which the wheel lags."""
         return self.approach * 1000
 
     @property
