@@ -220,7 +220,7 @@ def test_worker_killed_before_any_change_on_disk_leaves_no_lie(change: str, tmp_
         assert snapshot(folder) == expected, f"killed before change {moments}"
         shutil.rmtree(folder)
         shutil.copytree(saved, folder)
-    assert moments > 10
+    assert moments > len(expected)  # one for each file at least
 
 
 @pytest.mark.long
