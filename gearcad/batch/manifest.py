@@ -12,8 +12,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import gearcad
 from gearcad.output import json_text
+from gearcad.shipped import PACKAGE
+from gearcad.version import __version__
 
 __all__ = ["MANIFEST", "Manifest", "Part", "inputs_hash", "publish", "read_manifest"]
 
@@ -49,7 +50,7 @@ class Manifest:
 
     def text(self) -> str:
         """The manifest as JSON."""
-        document: dict[str, Any] = {"gearcad": gearcad.__version__, "inputs": self.inputs}
+        document: dict[str, Any] = {"gearcad": __version__, "inputs": self.inputs}
         document["parts"] = {
             name: {"options": dict(part.options), "files": dict(part.files)} for name, part in sorted(self.parts.items())
         }
@@ -65,10 +66,9 @@ def inputs_hash(inputs: Mapping[str, Any]) -> str:
 
 @cache
 def _gearcad_hash() -> str:
-    digest = hashlib.sha256(gearcad.__version__.encode())
-    package = Path(gearcad.__file__).parent
-    for source in sorted(package.rglob("*.py")):
-        digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes())
+    digest = hashlib.sha256(__version__.encode())
+    for source in sorted(PACKAGE.rglob("*.py")):
+        digest.update(source.relative_to(PACKAGE).as_posix().encode() + b"\0" + source.read_bytes())
     return digest.hexdigest()
 
 

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import click
 
-import gearcad
 from gearcad.cli.build import format_option
 from gearcad.cli.group import debug_option, job_commands, parse_choices
 from gearcad.cli.progress import row_progress
 from gearcad.errors import ParameterError, as_choice
 from gearcad.jobs import job_of
 from gearcad.solids import FileOptions, Format
+from gearcad.version import __version__
 
 if TYPE_CHECKING:
     from gearcad.batch import Summary
@@ -108,7 +108,7 @@ def _report(summary: Summary, seconds: float, *, as_json: bool, quiet: bool) -> 
         counts = {"ok": summary.ok, "failed": summary.failed, "not_run": summary.not_run, "short": summary.short}
         document = {
             "kind": "batch",
-            "gearcad": gearcad.__version__,
+            "gearcad": __version__,
             "results": results,
             **counts,
             "errors": list(summary.errors),

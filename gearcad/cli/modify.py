@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-import gearcad
 from gearcad.cli.group import debug_option, require_new_file, spec_argument
 from gearcad.cli.job import echo_warnings
 from gearcad.cli.progress import job_progress
+from gearcad.version import __version__
 
 if TYPE_CHECKING:
     from gearcad.jobs.proposal import Proposal
@@ -63,7 +63,7 @@ def modify(
     with staged_files(path.parent) as staging:
         (staging / path.name).write_text(text, encoding="utf-8", newline="")
     if as_json:
-        head = {"kind": "modify", "name": proposal.name, "gearcad": gearcad.__version__, "output": str(path)}
+        head = {"kind": "modify", "name": proposal.name, "gearcad": __version__, "output": str(path)}
         click.echo(json_text(head | job.document(proposal)), nl=False)
     else:
         click.echo("\n".join([*_lines(proposal), str(path)]))

@@ -99,7 +99,7 @@ def test_starters_are_found_in_an_installed_package_too(monkeypatch: pytest.Monk
     package = tmp_path / "site" / "gearcad"
     (package / "templates").mkdir(parents=True)
     (package / "templates" / "only.toml").write_text("# The only one.\n")
-    monkeypatch.setattr(gearcad.shipped, "__file__", str(package / "shipped.py"))
+    monkeypatch.setattr(gearcad.shipped, "PACKAGE", package)
     assert starters() == {"only": "The only one"}
 
 
