@@ -10,8 +10,8 @@ import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import ParameterError
-from gearcad.meshing.outline import Side
-from gearcad.meshing.sector import SectorMesh
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.sector import SectorMesh
 
 __all__ = ["MESH_SUFFIXES", "BodyMesh", "ring_mesh", "sector_mesh", "write_mesh"]
 

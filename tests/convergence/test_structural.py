@@ -23,7 +23,7 @@ from gearcad.contact.plane.pair import plane_pair
 from gearcad.contact.plane.ring import assemble
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.chain import Cuts
-from gearcad.meshing import MeshSizes, mesh_sector
+from gearcad.meshing.section import MeshSizes, mesh_sector
 
 TORQUE = 12.7
 THREE_TEETH = BodyModel(teeth=3)

@@ -14,8 +14,8 @@ from scipy.sparse.linalg import spsolve
 from gearcad import Gear
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity, stiffness_matrix
 from gearcad.material import Material
-from gearcad.meshing import MeshSizes, SectorMesh, mesh_sector
 from gearcad.meshing.export import sector_mesh, write_mesh
+from gearcad.meshing.section import MeshSizes, SectorMesh, mesh_sector
 
 CCX = shutil.which("ccx")
 

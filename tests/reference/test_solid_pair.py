@@ -17,7 +17,7 @@ from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.chain import Cuts
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
-from gearcad.meshing import MeshSizes
+from gearcad.meshing.section import MeshSizes
 from gearcad.per_gear import Role
 
 STEEL = Material()

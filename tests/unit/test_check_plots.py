@@ -7,7 +7,7 @@ import pytest
 from support.checks import small_check
 
 from gearcad.contact.plane.field import contact_frame, tooth_field
-from gearcad.meshing.outline import Side
+from gearcad.meshing.section.outline import Side
 from gearcad.per_gear import PerGear, Role
 from gearcad.plots.check import (
     plot_contact_pressure,

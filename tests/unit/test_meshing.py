@@ -14,10 +14,10 @@ import pytest
 
 from gearcad import BasicRack, Body, Gear, GearPair
 from gearcad.errors import ParameterError
-from gearcad.meshing import MeshSizes, SectorMesh, mesh_sector
 from gearcad.meshing.export import MESH_SUFFIXES, ring_mesh, sector_mesh, write_mesh
-from gearcad.meshing.outline import Side
-from gearcad.meshing.quality import mesh_quality
+from gearcad.meshing.section import MeshSizes, SectorMesh, mesh_sector
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.quality import mesh_quality
 
 ROUNDING = 1e-9
 """mm per mm of module: what 16 digits leave of a mesh."""

@@ -13,8 +13,8 @@ from gearcad import Gear, Material
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity, stiffness_matrix
 from gearcad.contact.plane.ring import assemble, chain_of, make_sector
 from gearcad.contact.shared.chain import Chain, Cuts
-from gearcad.meshing import MeshSizes, SectorMesh, mesh_sector
-from gearcad.meshing.outline import Side
+from gearcad.meshing.section import MeshSizes, SectorMesh, mesh_sector
+from gearcad.meshing.section.outline import Side
 
 STEEL = Material()
 GEAR = Gear(teeth=13, normal_module=2.0, face_width=10, profile_shift=0.2)

@@ -17,8 +17,8 @@ from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
 from gearcad.contact.plane.ring import assemble
 from gearcad.contact.plane.root import Fillets
 from gearcad.contact.shared.chain import Cuts
-from gearcad.meshing import MeshSizes, mesh_sector
-from gearcad.meshing.outline import Side
+from gearcad.meshing.section import MeshSizes, mesh_sector
+from gearcad.meshing.section.outline import Side
 
 STEEL = Material()
 INWARD = np.array([0.6, -0.8])

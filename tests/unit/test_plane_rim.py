@@ -23,8 +23,8 @@ from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.chain import Cuts
 from gearcad.contact.shared.holding import Hold, Support, rim_ratio, support_of
 from gearcad.errors import GeometryError, ParameterError
-from gearcad.meshing import MeshSizes, SectorMesh, mesh_sector
-from gearcad.meshing.outline import Side
+from gearcad.meshing.section import MeshSizes, SectorMesh, mesh_sector
+from gearcad.meshing.section.outline import Side
 from gearcad.per_gear import PerGear
 from gearcad.rating.editions import Edition
 from gearcad.rating.iso6336_3 import rim_thickness_factor

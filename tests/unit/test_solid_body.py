@@ -15,10 +15,10 @@ from gearcad import Gear, Material
 from gearcad.contact.shared.chain import Cuts
 from gearcad.contact.solid.body import SolidBody, SolidSector, assemble_body
 from gearcad.contact.solid.hexahedra import lame
-from gearcad.contact.solid.swept import SweptMesh, sweep
-from gearcad.meshing import MeshSizes
-from gearcad.meshing.outline import Side
-from gearcad.meshing.quads import mesh_quads
+from gearcad.meshing.section import MeshSizes
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.quads import mesh_quads
+from gearcad.meshing.section.swept import SweptMesh, sweep
 
 STEEL = Material()
 GEAR = Gear(teeth=8, normal_module=2.0, face_width=8, helix_angle=25, profile_shift=0.5)

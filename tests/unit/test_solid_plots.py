@@ -11,7 +11,7 @@ from support.checks import small_solid_check
 from gearcad import Material
 from gearcad.check.face import face_factors
 from gearcad.contact.solid.field import nodal_stress, worst_field
-from gearcad.meshing.outline import Side
+from gearcad.meshing.section.outline import Side
 from gearcad.per_gear import Role
 from gearcad.plots.check import plot_mesh_stiffness, plot_root_stress, plot_transmission_error
 from gearcad.plots.lines import (

@@ -9,7 +9,7 @@ from gearcad.check.load_share import LoadShare
 from gearcad.check.plane.summary import PlaneSummary
 from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.meshing.outline import Side
+from gearcad.meshing.section.outline import Side
 from gearcad.per_gear import PerGear, Role
 
 __all__ = ["PlaneRootExplanation", "explain_roots", "root_at_single_contact"]

@@ -13,7 +13,7 @@ from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact, PlanePosit
 from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.plane.field import ToothField, contact_frame, tooth_field
 from gearcad.contact.plane.subsurface import strip_stresses
-from gearcad.meshing.outline import Side
+from gearcad.meshing.section.outline import Side
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating import LineContact, Stresses
 

@@ -17,7 +17,7 @@ from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.elasticity import PlaneElasticity
 from gearcad.contact.plane.limits import plane_pressure, thin_faces
 from gearcad.contact.plane.pair import PlanePair, plane_pair
-from gearcad.meshing import MeshSizes
+from gearcad.meshing.section import MeshSizes
 from gearcad.notice import Notice
 from gearcad.progress import Agenda
 

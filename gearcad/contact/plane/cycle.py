@@ -14,7 +14,7 @@ from gearcad.contact.plane.pair import PlanePair
 from gearcad.contact.plane.root import ToothLoad, seen_from
 from gearcad.contact.shared.engaged import TOOTH_ORDER
 from gearcad.contact.shared.loaded import FAIR, INTERIOR, LoadedCycle, LoadedPosition, PairContact, RootStress
-from gearcad.meshing.outline import Side
+from gearcad.meshing.section.outline import Side
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.hertz import half_width_by_curvature
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from gearcad.arrays import Wholes
 from gearcad.material import Material
-from gearcad.meshing import SectorMesh
+from gearcad.meshing.section import SectorMesh
 
 __all__ = ["Plane", "PlaneElasticity", "mass_matrix", "stiffness_matrix"]
 

@@ -16,8 +16,8 @@ from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact, PlanePosit
 from gearcad.contact.plane.flank import PlaneCompliance, near_elements
 from gearcad.contact.plane.subsurface import strip_stresses, von_mises
 from gearcad.contact.shared.engaged import TOOTH_ORDER
-from gearcad.meshing.outline import Side
-from gearcad.meshing.shapes import triangle_shapes, triangle_slopes
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.shapes import triangle_shapes, triangle_slopes
 from gearcad.per_gear import Role
 
 __all__ = ["ToothField", "contact_frame", "tooth_field"]

@@ -19,10 +19,10 @@ from gearcad.contact.plane.flamant import edge_displacement, flamant_displacemen
 from gearcad.contact.plane.ring import Ring
 from gearcad.contact.shared.engaged import FlankCompliance, LoadedFlank, roll_lengths
 from gearcad.geometry import Gear
-from gearcad.meshing import SectorMesh
-from gearcad.meshing.outline import Side
-from gearcad.meshing.quality import mesh_quality
-from gearcad.meshing.shapes import edge_shapes, edge_slopes
+from gearcad.meshing.section import SectorMesh
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.quality import mesh_quality
+from gearcad.meshing.section.shapes import edge_shapes, edge_slopes
 
 __all__ = ["Compliance", "PlaneCompliance", "PlaneFlank", "flank_compliance", "flank_of", "near_elements"]
 

@@ -22,7 +22,7 @@ from gearcad.contact.shared.line_of_action import line_of_action, rigid_approach
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material
-from gearcad.meshing import MeshSizes, mesh_sector
+from gearcad.meshing.section import MeshSizes, mesh_sector
 from gearcad.per_gear import PerGear
 from gearcad.rating.hertz import half_width
 

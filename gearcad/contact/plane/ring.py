@@ -20,7 +20,7 @@ from gearcad.contact.plane.support import held_nodes, hub_seen_by, hub_tractions
 from gearcad.contact.shared.chain import Chain, Cuts, polar_turn
 from gearcad.contact.shared.holding import Support
 from gearcad.errors import SolverError
-from gearcad.meshing import SectorMesh
+from gearcad.meshing.section import SectorMesh
 
 __all__ = ["Ring", "Sector", "assemble", "chain_of", "factorise", "make_sector"]
 

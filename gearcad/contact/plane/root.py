@@ -15,8 +15,8 @@ from gearcad.contact.plane.rim import far_responses
 from gearcad.contact.plane.support import key_load
 from gearcad.contact.shared.holding import Hold
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, RootStress
-from gearcad.meshing.outline import Side
-from gearcad.meshing.shapes import GAUSS, edge_shapes, edge_slopes, edges_of
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.shapes import GAUSS, edge_shapes, edge_slopes, edges_of
 
 __all__ = ["Fillets", "ToothLoad", "seen_from"]
 

@@ -14,10 +14,10 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.contact.plane.elasticity import mass_matrix
 from gearcad.contact.shared.holding import Hold, Support
-from gearcad.meshing import SectorMesh
-from gearcad.meshing.outline import Side
-from gearcad.meshing.shaft import with_shaft
-from gearcad.meshing.shapes import edge_shapes, edge_slopes, edges_of
+from gearcad.meshing.section import SectorMesh
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.shaft import with_shaft
+from gearcad.meshing.section.shapes import edge_shapes, edge_slopes, edges_of
 
 __all__ = ["held_nodes", "hub_seen_by", "hub_tractions", "key_load", "rigid_motions", "with_support"]
 

@@ -16,8 +16,8 @@ from gearcad.arrays import Floats
 from gearcad.contact.shared.chain import Cuts, cut_held
 from gearcad.contact.solid.hub import rigid_motions
 from gearcad.contact.solid.sector import SolidSector
-from gearcad.contact.solid.swept import SweptMesh
 from gearcad.material import Material
+from gearcad.meshing.section.swept import SweptMesh
 from gearcad.progress import Share, unheard
 
 __all__ = ["Moved", "SolidBody", "SolidSector", "assemble_body"]

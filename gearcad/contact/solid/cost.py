@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from gearcad.contact.solid.swept import SweptMesh
+from gearcad.meshing.section.swept import SweptMesh
 
 __all__ = ["POSITION_SECONDS", "BodyCost", "body_cost"]
 

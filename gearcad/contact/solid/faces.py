@@ -9,7 +9,7 @@ from functools import cache, cached_property
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.contact.solid.swept import SweptMesh
+from gearcad.meshing.section.swept import SweptMesh
 
 __all__ = ["Faces", "boundary_faces"]
 

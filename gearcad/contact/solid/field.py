@@ -15,7 +15,7 @@ from gearcad.arrays import Floats, Wholes
 from gearcad.contact.solid.cycle import SolidCycle, SolidPosition, tooth_loads
 from gearcad.contact.solid.hexahedra import PLACES, lame, slopes_at
 from gearcad.material import Material
-from gearcad.meshing.shapes import GAUSS
+from gearcad.meshing.section.shapes import GAUSS
 from gearcad.per_gear import Role
 
 __all__ = ["SolidField", "nodal_stress", "shown_stress", "solid_field", "worst_field", "write_vtu"]

@@ -18,10 +18,10 @@ from gearcad.contact.solid.boussinesq import surface_displacement
 from gearcad.contact.solid.faces import boundary_faces
 from gearcad.contact.solid.images import Images, TakenOff
 from gearcad.contact.solid.places import Grid, GridSpline, Places, SolidFlank
-from gearcad.contact.solid.swept import SweptMesh, turned
 from gearcad.geometry import Gear
 from gearcad.material import Material
-from gearcad.meshing.outline import Side
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.swept import SweptMesh, turned
 from gearcad.progress import Share, unheard
 
 __all__ = ["SolidCompliance", "solid_compliance"]

@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.contact.solid.swept import SweptMesh, turned
 from gearcad.material import Material
+from gearcad.meshing.section.swept import SweptMesh, turned
 
 __all__ = ["PLACES", "lame", "layer_matrices", "slopes_at", "stiffness_matrices"]
 

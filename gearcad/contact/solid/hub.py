@@ -12,8 +12,8 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.solid.faces import boundary_faces
-from gearcad.contact.solid.swept import SweptMesh
-from gearcad.meshing.outline import Side
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.swept import SweptMesh
 
 __all__ = ["bore_forces", "rigid_motions", "seen_at"]
 

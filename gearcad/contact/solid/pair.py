@@ -19,12 +19,12 @@ from gearcad.contact.solid.cost import BodyCost, body_cost
 from gearcad.contact.solid.flank import SolidCompliance, solid_compliance
 from gearcad.contact.solid.line_contact import LineSolution, Responses, responses, solve_lines
 from gearcad.contact.solid.root import SolidFillets, solid_fillets
-from gearcad.contact.solid.swept import SweptMesh, sweep
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material
-from gearcad.meshing import MeshSizes
-from gearcad.meshing.quads import mesh_quads
+from gearcad.meshing.section import MeshSizes
+from gearcad.meshing.section.quads import mesh_quads
+from gearcad.meshing.section.swept import SweptMesh, sweep
 from gearcad.mounting import Mounting
 from gearcad.per_gear import PerGear, Role
 from gearcad.progress import Expected, Share, unheard

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from gearcad.arrays import Floats, Wholes
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE
 from gearcad.contact.solid.flank import SolidCompliance
-from gearcad.meshing.outline import Side
-from gearcad.meshing.shapes import GAUSS, edges_of
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.shapes import GAUSS, edges_of
 
 __all__ = ["FilletState", "SolidFillet", "SolidFillets", "ToothForces", "solid_fillets"]
 

@@ -13,9 +13,9 @@ from gearcad.contact.shared.chain import Chain, polar_turn
 from gearcad.contact.solid.condensation import Condensed, condense, parts_of
 from gearcad.contact.solid.hexahedra import layer_matrices
 from gearcad.contact.solid.hub import bore_forces, seen_at
-from gearcad.contact.solid.swept import SweptMesh
 from gearcad.material import Material
-from gearcad.meshing.outline import Side
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.swept import SweptMesh
 from gearcad.progress import Share, unheard
 
 __all__ = ["SolidSector"]

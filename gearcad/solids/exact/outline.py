@@ -13,8 +13,8 @@ from gearcad.arrays import Floats
 from gearcad.geometry.curves import Curve, CurveKind, Land
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.modification import FlankForm
+from gearcad.geometry.turned import FlankCurve, flank_curves
 from gearcad.solids.exact import bezier
-from gearcad.solids.turned import FlankCurve, flank_curves
 
 __all__ = ["FlankSpan", "LandArc", "Piece", "accuracy_for", "parameter_at_radius", "tooth_outline"]
 

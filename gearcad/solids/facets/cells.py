@@ -21,9 +21,9 @@ import numpy as np
 from gearcad.arrays import Bools, Floats
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve
+from gearcad.geometry.turned import FlankCurve
 from gearcad.solids.cone import EndCone
 from gearcad.solids.facets.layers import Layers
-from gearcad.solids.turned import FlankCurve
 
 __all__ = ["falling_cells", "split"]
 

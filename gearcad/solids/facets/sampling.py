@@ -14,11 +14,11 @@ import numpy as np
 from gearcad.arrays import Bools, Floats
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, parameters_within
+from gearcad.geometry.turned import FlankCurve, flank_curves
 from gearcad.solids.cone import EndCone
 from gearcad.solids.facets.cells import falling_cells, split
 from gearcad.solids.facets.layers import Layers
 from gearcad.solids.facets.tolerance import aim_for, arc_step, least_distance
-from gearcad.solids.turned import FlankCurve, flank_curves
 
 __all__ = ["ToothGrid", "tooth_grid"]
 

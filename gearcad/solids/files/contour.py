@@ -11,7 +11,7 @@ from gearcad.arrays import Floats
 from gearcad.errors import SolverError, require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
-from gearcad.solids.turned import middle_section
+from gearcad.geometry.turned import middle_section
 
 __all__ = ["extent_of", "gear_contour"]
 

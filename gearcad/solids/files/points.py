@@ -16,7 +16,7 @@ from gearcad.errors import require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind, Fillet, Involute, parameters_within
 from gearcad.geometry.trochoid import ToolTip
-from gearcad.solids.turned import TurnedCurve, middle_section
+from gearcad.geometry.turned import TurnedCurve, middle_section
 
 __all__ = ["PointBlock", "gear_points", "write_points"]
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
-from gearcad.meshing.shapes import triangle_slopes
+from gearcad.meshing.section.shapes import triangle_slopes
 
 __all__ = ["LEAST_SCALED_JACOBIAN", "MeshQuality", "mesh_quality", "scaled_jacobians"]
 

@@ -23,8 +23,8 @@ from gearcad.arrays import Floats
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind, Land
-from gearcad.meshing.grading import Grading, graded
-from gearcad.meshing.outline import EdgeLength, MeshSizes, Side, edge_lengths
+from gearcad.meshing.section.grading import Grading, graded
+from gearcad.meshing.section.outline import EdgeLength, MeshSizes, Side, edge_lengths
 
 __all__ = ["Counts", "Piece", "SectorLayout", "cartesian", "choose_counts", "polar", "quadrangles", "shares"]
 

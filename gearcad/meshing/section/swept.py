@@ -10,8 +10,8 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.geometry import Gear
 from gearcad.geometry.helix import twist
-from gearcad.meshing.outline import Side
-from gearcad.meshing.quads import QuadMesh
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.quads import QuadMesh
 
 __all__ = ["SweptMesh", "layer_planes", "sweep"]
 

@@ -12,10 +12,10 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
-from gearcad.meshing.layout import Piece, SectorLayout, cartesian, polar, shares
-from gearcad.meshing.outline import OTHER_SIDE, MeshSizes, SectorSides, Side
-from gearcad.meshing.quality import LEAST_SCALED_JACOBIAN, scaled_jacobians
-from gearcad.meshing.transfinite import transfinite
+from gearcad.meshing.section.layout import Piece, SectorLayout, cartesian, polar, shares
+from gearcad.meshing.section.outline import OTHER_SIDE, MeshSizes, SectorSides, Side
+from gearcad.meshing.section.quality import LEAST_SCALED_JACOBIAN, scaled_jacobians
+from gearcad.meshing.section.transfinite import transfinite
 
 __all__ = ["QuadMesh", "mesh_quads"]
 

@@ -13,7 +13,7 @@ from gearcad.arrays import Floats, Wholes
 from gearcad.errors import require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
-from gearcad.meshing.grading import graded
+from gearcad.meshing.section.grading import graded
 
 __all__ = ["OTHER_SIDE", "EdgeLength", "MeshSizes", "SectorSides", "Side", "Stretch", "edge_lengths", "sector_outline"]
 

@@ -10,7 +10,7 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
-from gearcad.meshing.outline import MeshSizes, SectorSides, Side, Stretch, sector_outline
+from gearcad.meshing.section.outline import MeshSizes, SectorSides, Side, Stretch, sector_outline
 
 __all__ = ["MeshSizes", "SectorMesh", "fill_polygon", "mesh_sector"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.meshing.outline import Side
-from gearcad.meshing.sector import SectorMesh
+from gearcad.meshing.section.outline import Side
+from gearcad.meshing.section.sector import SectorMesh
 
 __all__ = ["with_shaft"]
 

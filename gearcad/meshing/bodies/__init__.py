@@ -1,0 +1,6 @@
+"""Meshes of bodies with named sides: one tooth, some, or all of them; sections and solids; one gear or a pair."""
+
+from gearcad.meshing.bodies.elements import Element
+from gearcad.meshing.bodies.mesh import ElementMesh, Faces
+
+__all__ = ["Element", "ElementMesh", "Faces"]
