@@ -38,9 +38,18 @@ class Side(Enum):
 
 
 class SectorSides:
-    """Nodes of a sector's mesh by the sides of its outline, in order along it: end, middle, end, middle ... end."""
+    """A sector's mesh: `points` (n, 2) in mm, vertices first, `sides` its nodes by the sides of its outline.
 
+    These are in order along it: end, middle, end, middle ... end.
+    """
+
+    points: Floats
     sides: Mapping[Side, Wholes]
+
+    @property
+    def cells(self) -> Wholes:
+        """Nodes of every element: its vertices counter-clockwise, then those between them."""
+        raise NotImplementedError
 
     @property
     def ahead(self) -> Wholes:

@@ -37,6 +37,10 @@ class QuadMesh(SectorSides):
     quads: Wholes
     sides: Mapping[Side, Wholes]
 
+    @property
+    def cells(self) -> Wholes:
+        return self.quads
+
 
 def mesh_quads(gear: Gear, inner_radius: float, sizes: MeshSizes) -> QuadMesh:
     """Mesh tooth 0 of the transverse section down to `inner_radius` (mm), symmetric about the middle of the tooth.

@@ -34,6 +34,10 @@ class SectorMesh(SectorSides):
     triangles: Wholes
     sides: Mapping[Side, Wholes]
 
+    @property
+    def cells(self) -> Wholes:
+        return self.triangles
+
 
 def mesh_sector(gear: Gear, inner_radius: float, sizes: MeshSizes | None = None) -> SectorMesh:
     """Mesh tooth 0 of the gear's transverse section down to `inner_radius` (mm). Raises SolverError if gmsh fails."""

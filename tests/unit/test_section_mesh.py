@@ -1,0 +1,101 @@
+"""Sections of gears as meshes with named sides: one tooth, some, the ring."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from gearcad import Body, Gear
+from gearcad.errors import ParameterError
+from gearcad.meshing.bodies.elements import Element
+from gearcad.meshing.bodies.mesh import ElementMesh
+from gearcad.meshing.bodies.section_mesh import mesh_section
+from gearcad.meshing.section import MeshSizes
+
+ROUNDING = 1e-12
+"""mm, and mm² over mm²: what 16 digits leave."""
+
+SIZES = MeshSizes().coarse()
+
+GEAR = Gear(teeth=11, normal_module=2.0, face_width=10, profile_shift=0.4, body=Body(bore=8.0))
+
+OWN = ("right_root", "right_fillet", "right_flank", "tip", "left_flank", "left_fillet", "left_root")
+
+
+def section(teeth: int | None, element: Element, gear: Gear = GEAR) -> ElementMesh:
+    return mesh_section(gear, teeth=teeth, inner_radius=4.0, sizes=SIZES, element=element)
+
+
+def area(mesh: ElementMesh) -> float:
+    """Enclosed by the named sides (mm²), by Green's theorem on quadratic edges: Simpson's rule is exact for them."""
+    first, last, middle = (
+        np.concatenate([mesh.points[mesh.face_cells(name)[:, k], :2] for name in mesh.sides]) for k in range(3)
+    )
+
+    def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+
+    return float((4 * cross(first, middle) + 4 * cross(middle, last) - cross(first, last)).sum() / 6)
+
+
+PLANE = pytest.mark.parametrize("element", [Element.QUAD8, Element.TRI6])
+
+
+@PLANE
+@pytest.mark.parametrize("teeth", [1, 5, None])
+def test_every_edge_of_the_boundary_has_one_name(teeth: int | None, element: Element) -> None:
+    mesh = section(teeth, element)
+    vertices = element.shape.vertices
+    middles, uses = np.unique(mesh.cells[:, vertices:], return_counts=True)
+    named = np.concatenate([mesh.face_cells(name)[:, 2] for name in mesh.sides])
+    assert sorted(named.tolist()) == middles[uses == 1].tolist()
+    assert uses.max() == 2
+    assert mesh.cells[:, :vertices].max() + 1 == mesh.cells[:, vertices:].min(), "vertices first"
+    numbers = range(11) if teeth is None else {1: [0], 5: [9, 10, 0, 1, 2]}[teeth]
+    cuts = set() if teeth is None else {"cut_behind", "cut_ahead"}
+    assert set(mesh.sides) == {f"{name}_{tooth}" for name in OWN for tooth in numbers} | {"bore"} | cuts
+
+
+@PLANE
+def test_sectors_add_up(element: Element) -> None:
+    one, five, ring = (area(section(teeth, element)) for teeth in (1, 5, None))
+    assert five == pytest.approx(5 * one, rel=ROUNDING)
+    assert ring == pytest.approx(11 * one, rel=ROUNDING)
+
+
+@PLANE
+def test_sides_stand_at_their_teeth(element: Element) -> None:
+    mesh = section(None, element)
+    pitch = 2 * math.pi / 11
+    for tooth in range(11):
+        for name, sign in (("left_flank", 1), ("right_flank", -1)):
+            x, y = mesh.points[mesh.nodes(f"{name}_{tooth}"), :2].T
+            off = np.remainder(np.arctan2(y, x) - tooth * pitch + math.pi, 2 * math.pi) - math.pi
+            assert (sign * off > 0).all()
+            assert (sign * off < pitch / 2).all()
+    assert np.hypot(*mesh.points[mesh.nodes("bore"), :2].T) == pytest.approx(4.0, abs=ROUNDING)
+
+
+@PLANE
+@pytest.mark.parametrize("teeth", [1, 3])
+def test_cuts_match(teeth: int, element: Element) -> None:
+    mesh = section(teeth, element)
+    behind, ahead = mesh.matched["cut"].T
+    assert set(behind) == set(mesh.nodes("cut_behind"))
+    assert set(ahead) == set(mesh.nodes("cut_ahead"))
+    turn = 2 * math.pi * teeth / 11
+    turned = mesh.points[behind, :2] @ np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
+    assert np.abs(turned - mesh.points[ahead, :2]).max() < 10 * ROUNDING
+
+
+@pytest.mark.parametrize("teeth", [0, 2, 11, 13])
+def test_teeth_are_odd_and_fewer_than_all(teeth: int) -> None:
+    with pytest.raises(ParameterError, match="teeth"):
+        section(teeth, Element.QUAD8)
+
+
+def test_a_section_is_made_of_plane_elements() -> None:
+    with pytest.raises(ParameterError, match="hex20"):
+        section(1, Element.HEX20)
