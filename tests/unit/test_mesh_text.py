@@ -1,0 +1,111 @@
+"""Meshes as text: numbers in columns, and decks of Abaqus and CalculiX."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+from support.boxes import box, two_boxes
+
+from gearcad.errors import ParameterError
+from gearcad.meshing import Element, ElementMesh
+from gearcad.meshing.files.digits import decimals, decimals_width, lines, wholes
+from gearcad.meshing.files.inp import element_type, write_inp
+
+CALCULIX_READS = 20
+"""Characters of a number; a longer one is an error there."""
+
+CALCULIX_TAKES = 16
+"""Numbers of a line."""
+
+
+def test_whole_numbers_are_written_as_python_writes_them() -> None:
+    numbers = np.array([0, 1, 9, 10, 9999, 10_000, 10_001, 99_999_999, 100_000_000, 2**31 - 1])
+    assert lines(wholes(numbers, 10)).splitlines() == [f"{number:10d}" for number in numbers]
+    assert lines(wholes(numbers[:4], 2)).splitlines() == [f"{number:2d}" for number in numbers[:4]]
+
+
+@pytest.mark.parametrize("largest", [0.5, 9.9999999999996, 10.0, 99.75, 12345.0, 999_999.5])
+def test_decimals_are_the_nearest(largest: float) -> None:
+    numbers = np.r_[np.array([0.0, -0.0, 1e-13, -1e-13, 4e-13, -2.5, 0.1, -largest, largest]), np.geomspace(1e-9, largest, 99)]
+    numbers = numbers[np.abs(numbers) <= largest]
+    text = lines(decimals(numbers, decimals_width(largest))).splitlines()
+    assert max(len(number) for number in text) <= CALCULIX_READS
+    # Scaling by 1e12 rounds once, writing a second time.
+    assert np.abs(np.array(text, float) - numbers).max() <= 0.5e-12 + 2 * np.spacing(largest)
+    assert text[0].strip() == text[3].strip() == "0.000000000000"
+
+
+def test_a_mesh_a_kilometre_away_is_refused() -> None:
+    with pytest.raises(ParameterError, match=r"mesh = 1000000 mm: must lie within 1000000 mm"):
+        decimals_width(1e6)
+
+
+@pytest.mark.parametrize("element", Element)
+def test_a_deck_comes_back(element: Element, tmp_path: Path) -> None:
+    mesh = two_boxes(element)
+    write_inp(mesh, tmp_path / "mesh.inp")
+    text = (tmp_path / "mesh.inp").read_text()
+    rows = text.splitlines()
+    data = [row.rstrip(",").split(",") for row in rows if not row.startswith("*")]
+    assert max(len(row) for row in data) <= CALCULIX_TAKES
+    (tmp_path / "mesh.inp").write_text(text.replace("CPE8", "S8R"))  # the one name of these elements that meshio knows
+    read = meshio.read(tmp_path / "mesh.inp")
+    assert np.abs(read.points - mesh.points).max() < 1e-12
+    assert np.array_equal(np.concatenate([block.data for block in read.cells]), mesh.cells)
+    for name in mesh.sides:
+        assert np.array_equal(np.sort(read.point_sets[name]), mesh.nodes(name))
+
+
+@pytest.mark.parametrize(
+    ("element", "names"),
+    [(Element.TRI6, ("CPE6", "CPS6")), (Element.QUAD8, ("CPE8", "CPS8")), (Element.HEX20, ("C3D20", "C3D20"))],
+)
+def test_sections_say_the_plane_state(element: Element, names: tuple[str, str], tmp_path: Path) -> None:
+    assert tuple(element_type(element, plane_strain=strain) for strain in (True, False)) == names
+    write_inp(box(element), tmp_path / "mesh.inp", plane_strain=False)
+    assert _keywords(tmp_path / "mesh.inp")[1:3] == ["*NODE, NSET=nodes", f"*ELEMENT, TYPE={names[1]}, ELSET=gear"]
+
+
+def test_parts_are_element_sets_and_sides_are_sets_and_surfaces(tmp_path: Path) -> None:
+    mesh = two_boxes(Element.TET10)
+    write_inp(mesh, tmp_path / "mesh.inp")
+    assert _keywords(tmp_path / "mesh.inp") == [
+        "*HEADING",
+        "*NODE, NSET=nodes",
+        *(f"*ELEMENT, TYPE=C3D10, ELSET={part}" for part in ("pinion", "wheel")),
+        *(
+            f"*NSET, NSET={name}{', UNSORTED' if name.endswith('cut_ahead') or name.endswith('cut_behind') else ''}"
+            for name in mesh.sides
+        ),
+        *(f"*SURFACE, NAME={name}, TYPE=ELEMENT" for name in mesh.sides),
+    ]
+    assert _numbers(tmp_path / "mesh.inp", "*ELEMENT, TYPE=C3D10, ELSET=wheel")[0][0] == mesh.parts["wheel"].start + 1
+
+
+def test_surfaces_are_the_sides(tmp_path: Path) -> None:
+    mesh = two_boxes(Element.HEX20)
+    write_inp(mesh, tmp_path / "mesh.inp")
+    for name, faces in mesh.sides.items():
+        found = np.array(_numbers(tmp_path / "mesh.inp", f"*SURFACE, NAME={name}, TYPE=ELEMENT"))
+        assert np.array_equal(found, np.stack([faces.elements + 1, faces.sides + 1], axis=1))
+
+
+def test_nodes_of_cuts_meet_in_order(tmp_path: Path) -> None:
+    mesh: ElementMesh = box(Element.HEX20)
+    write_inp(mesh, tmp_path / "mesh.inp")
+    sets = [_numbers(tmp_path / "mesh.inp", f"*NSET, NSET=cut_{end}, UNSORTED") for end in ("behind", "ahead")]
+    behind, ahead = (mesh.points[np.concatenate(numbers) - 1] for numbers in sets)
+    assert np.abs(ahead - behind - [0.0, 2.0, 0.0]).max() < 1e-12
+
+
+def _keywords(path: Path) -> list[str]:
+    return [row for row in path.read_text().splitlines() if row.startswith("*")]
+
+
+def _numbers(path: Path, keyword: str) -> list[list[int]]:
+    """The whole numbers of the lines after a keyword."""
+    rows = path.read_text().partition(f"{keyword}\n")[2].partition("\n*")[0].splitlines()
+    return [[int(word) for word in row.replace("S", "").rstrip(",").split(",")] for row in rows]
