@@ -55,7 +55,7 @@ def spur_pair() -> GearPair:
 
 @pytest.fixture(scope="module")
 def train() -> TrainStudy:
-    return study_train(two_wheels(), DynamicsOptions(speeds=60, frequencies=5))
+    return study_train(two_wheels(), DynamicsOptions(speeds=60, frequencies=5, speed_from=500.0, speed_to=4000.0))
 
 
 @pytest.fixture(scope="module")
