@@ -9,17 +9,23 @@ import pytest
 from support.exact import distance_to_section
 from support.modified import depth_off, unturned
 from support.modifying import GEARS, modified
-from support.sections import tooth_section
+from support.sections import COARSE
 
 from gearcad import BasicRack, Gear
-from gearcad.meshing.bodies import ElementMesh
+from gearcad.meshing.bodies import Element, ElementMesh
 from gearcad.meshing.bodies.modified import modification_turns
+from gearcad.meshing.bodies.section_mesh import mesh_section
 
 ROUNDING = 1e-12
 """mm, or rad: of sums and of a table of singular values; the promise is 1e-9 mm."""
 
 FULL = Gear(teeth=17, normal_module=3.0, face_width=20, helix_angle=-20, rack=BasicRack(root_radius="full"))
 """Fillets meet in the middle of the space: their turn fades."""
+
+
+def tooth_section(gear: Gear, teeth: int | None = 1) -> ElementMesh:
+    inner = gear.root_diameter / 2 - 1.5 * gear.normal_module
+    return mesh_section(gear, teeth=teeth, inner_radius=inner, sizes=COARSE, element=Element.QUAD8)
 
 
 def at_height(gear: Gear, section: ElementMesh, angles: np.ndarray, z: float) -> np.ndarray:
@@ -59,6 +65,13 @@ def test_inside_is_between() -> None:
     middle = tip[np.argmin(np.abs(section.points[tip, 1]))]
     assert turns[middle] == pytest.approx((left + right) / 2, abs=ROUNDING)
     assert turns[tip].min() == pytest.approx(min(left, right), abs=ROUNDING)
+
+
+def test_all_teeth_turn_alike() -> None:
+    """In the ring as in one sector with its cuts."""
+    gear = modified(GEARS["undercut"])
+    one, ring = (modification_turns(tooth_section(gear, teeth), gear, np.array([3.0])).at(0) for teeth in (1, None))
+    assert np.unique(ring[np.abs(ring) > ROUNDING].round(12)) == pytest.approx(np.unique(one[np.abs(one) > ROUNDING].round(12)))
 
 
 def test_nothing_where_nothing_is_modified() -> None:

@@ -1,0 +1,247 @@
+"""How good the elements of a mesh are, and where the worst are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from gearcad.arrays import Floats, Wholes
+from gearcad.errors import SolverError
+from gearcad.meshing.bodies.elements import Element
+from gearcad.meshing.bodies.interpolation import local_places, shape_slopes
+from gearcad.meshing.bodies.mesh import ElementMesh
+
+__all__ = ["LEAST_SCALED_JACOBIAN", "Quality", "WorstElement", "quality", "require_good"]
+
+
+LEAST_SCALED_JACOBIAN = {
+    Element.TRI6: 0.1,
+    Element.QUAD8: 0.1,
+    Element.HEX8: 0.05,
+    Element.HEX20: 0.05,
+    Element.TET10: 0.02,
+}
+"""Below it an element is too distorted to be used. Sections swept at 45 degrees lose half at the tips of few teeth."""
+
+_CHUNK = 4096
+"""Elements that are looked at together: what that takes is small beside any mesh that fills memory."""
+
+_NOTHING = 1e-300
+"""Instead of a length or a volume of zero, so that an element without one can be measured."""
+
+_SHOWN = 5
+"""Worst elements that are told."""
+
+_FACE_VERTICES = {"line3": 2, "tri6": 3, "quad4": 4, "quad8": 4}
+
+_NO_PLACE = ("end_", "cut_")
+"""Beginnings of names of sides that say little about a place: all over the body."""
+
+
+@dataclass(frozen=True)
+class WorstElement:
+    """An element, its number from 0 and its scaled Jacobian, its middle (x, y, z) in mm, and the nearest named side."""
+
+    number: int
+    scaled_jacobian: float
+    place: tuple[float, float, float]
+    near: str
+
+    def __str__(self) -> str:
+        x, y, z = self.place
+        near = f" near {self.near}" if self.near else ""
+        return f"element {self.number + 1} at ({x:.4g}, {y:.4g}, {z:.4g}) mm{near}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """As mesh.json has it: elements are counted from 1, as files do."""
+        return {
+            "element": self.number + 1,
+            "scaled_jacobian": self.scaled_jacobian,
+            "place": list(self.place),
+            "near": self.near,
+        }
+
+
+@dataclass(frozen=True)
+class Quality:
+    """Of all elements of a mesh. Scaled Jacobians are an element's least.
+
+    The scaled Jacobian is the volume that three directions of the map span (the area of two), over the product of their
+    lengths: 1 for a right-angled element and for an equilateral one of three or four vertices, 0 or less where it folds. Of
+    elements of second order it is that of the curved map at all nodes and in the centre. Aspect is the longest over the
+    shortest edge; `least_angle` (deg) that between two edges of a face. `worst` come first.
+    """
+
+    element: Element
+    elements: int
+    least_jacobian: float
+    mean_jacobian: float
+    largest_aspect: float
+    mean_aspect: float
+    least_angle: float
+    worst: tuple[WorstElement, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """As mesh.json has it."""
+        return {
+            "least_scaled_jacobian": self.least_jacobian,
+            "mean_scaled_jacobian": self.mean_jacobian,
+            "largest_aspect": self.largest_aspect,
+            "mean_aspect": self.mean_aspect,
+            "least_angle": self.least_angle,
+            "worst": [each.to_dict() for each in self.worst],
+        }
+
+
+def quality(mesh: ElementMesh) -> Quality:
+    """Measure all elements, some thousand at a time. Raises SolverError for a mesh without elements."""
+    if not len(mesh.cells):
+        raise SolverError("the mesh has no elements")
+    least, aspects, largest, cosine = np.empty(len(mesh.cells)), 0.0, 0.0, -1.0
+    for chosen, nodes in _chunks(mesh):
+        least[chosen] = scaled_jacobians(mesh.element, nodes).min(axis=1)
+        aspect, cosines = _of_edges(mesh.element, nodes)
+        aspects, largest, cosine = aspects + aspect.sum(), max(largest, aspect.max()), max(cosine, cosines.max())
+    return Quality(
+        element=mesh.element,
+        elements=len(least),
+        least_jacobian=float(least.min()),
+        mean_jacobian=float(least.mean()),
+        largest_aspect=float(largest),
+        mean_aspect=float(aspects / len(least)),
+        least_angle=math.degrees(math.acos(min(cosine, 1.0))),
+        worst=_worst(mesh, least),
+    )
+
+
+def require_good(measured: Quality, least: float | None = None) -> None:
+    """Raise SolverError, with the place of the worst element, for a mesh below the gate of its kind of element or another."""
+    gate = LEAST_SCALED_JACOBIAN[measured.element] if least is None else least
+    if not measured.least_jacobian >= gate:
+        worst = measured.worst[0]
+        raise SolverError(
+            f"the mesh is too bad: least scaled Jacobian {worst.scaled_jacobian:.3f}, must be at least {gate}; {worst}"
+        )
+
+
+def _chunks(mesh: ElementMesh) -> Iterator[tuple[slice, Floats]]:
+    """Some elements at a time, and places (m, nodes, dimension) of their nodes."""
+    dimension = mesh.element.shape.dimension
+    for start in range(0, len(mesh.cells), _CHUNK):
+        chosen = slice(start, start + _CHUNK)
+        yield chosen, mesh.points[mesh.cells[chosen], :dimension]
+
+
+# ---------------------------------------------------------------------- scaled Jacobians
+
+
+def scaled_jacobians(element: Element, nodes: Floats) -> Floats:
+    """Scaled Jacobians (m, places) of elements with nodes at (m, nodes, dimension): at the nodes and in the centre."""
+    dimension = element.shape.dimension
+    slopes = _slopes(element)
+    flat = np.moveaxis(nodes, 2, 1).reshape(-1, nodes.shape[1]) @ slopes
+    directions = flat.reshape(len(nodes), dimension, -1, dimension)  # of coordinates, at places, along axes of the element
+    tangents = [np.moveaxis(directions[..., axis], 1, 0) for axis in range(dimension)]
+    volume = _spanned(tangents)
+    if element in (Element.TRI6, Element.TET10):
+        volume *= 2 / math.sqrt(3) if dimension == 2 else math.sqrt(2)
+        longest = _longest_at_a_vertex(tangents)
+    else:
+        longest = np.prod([_length(tangent) for tangent in tangents], axis=0)
+    result: Floats = volume / np.maximum(longest, _NOTHING)
+    return result
+
+
+@cache
+def _slopes(element: Element) -> Floats:
+    """Slopes (nodes, places * dimension) of the shape functions at the nodes and in the centre."""
+    places = local_places(element.value)
+    centre = places[: element.shape.vertices].mean(axis=0)
+    slopes = shape_slopes(element.value, np.concatenate([places, centre[None]]))
+    return np.ascontiguousarray(slopes.reshape(-1, slopes.shape[-1]).T)
+
+
+def _length(vectors: Floats) -> Floats:
+    result: Floats = np.sqrt((vectors**2).sum(axis=0))
+    return result
+
+
+def _spanned(tangents: list[Floats]) -> Floats:
+    """Volume, or area, that vectors (dimension, ...) span."""
+    if len(tangents) == 2:
+        (a, b), (c, d) = tangents
+        area: Floats = a * d - b * c
+        return area
+    (a, b, c), (d, e, f), (g, h, i) = tangents
+    volume: Floats = a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
+    return volume
+
+
+def _longest_at_a_vertex(tangents: list[Floats]) -> Floats:
+    """Greatest product of the lengths of the edges that meet at a vertex of the simplex that the directions span."""
+    corners = [np.zeros_like(tangents[0]), *tangents]
+    products = [np.prod([_length(a - b) for a in corners if a is not b], axis=0) for b in corners]
+    longest: Floats = np.maximum.reduce(products)
+    return longest
+
+
+# ---------------------------------------------------------------------- edges and angles
+
+
+def _of_edges(element: Element, nodes: Floats) -> tuple[Floats, Floats]:
+    """Of elements with nodes at (m, nodes, dimension): longest over shortest edge, and the greatest cosine between two."""
+    edges = np.array(element.shape.edges)
+    vectors = nodes[:, edges[:, 1]] - nodes[:, edges[:, 0]]
+    lengths = np.maximum(np.sqrt((vectors**2).sum(axis=-1)), _NOTHING)
+    units = vectors / lengths[..., None]
+    first, second, sign = _corners(element)
+    cosines = sign * np.einsum("mca,mca->mc", units[:, first], units[:, second])
+    return lengths.max(axis=1) / lengths.min(axis=1), cosines.max(axis=1)
+
+
+@cache
+def _corners(element: Element) -> tuple[Wholes, Wholes, Floats]:
+    """Edges that meet at the corners of faces, (n,) and (n,), and -1 where one of them ends there and the other begins."""
+    shape = element.shape
+    faces = [range(shape.vertices)] if shape.dimension == 2 else [face[: _FACE_VERTICES[shape.face]] for face in shape.faces]
+    ends = np.array(shape.edges)
+    meeting = set[tuple[int, int]]()
+    for face in faces:
+        around = np.flatnonzero(np.isin(ends, face).all(axis=1)).tolist()
+        meeting |= {(a, b) for a, b in combinations(around, 2) if np.isin(ends[a], ends[b]).any()}
+    first, second = np.array(sorted(meeting)).T
+    sign = np.where((ends[first] == ends[second]).any(axis=1), 1.0, -1.0)
+    return first, second, sign
+
+
+# ---------------------------------------------------------------------- the worst
+
+
+def _worst(mesh: ElementMesh, least: Floats) -> tuple[WorstElement, ...]:
+    """The elements with the least scaled Jacobians, the worst first."""
+    few = np.argpartition(least, min(_SHOWN, len(least) - 1))[:_SHOWN]
+    few = few[np.argsort(least[few], kind="stable")]
+    places = mesh.points[mesh.cells[few, : mesh.element.shape.vertices]].mean(axis=1)
+    near = _nearest_sides(mesh, places)
+    return tuple(
+        WorstElement(int(number), float(least[number]), (float(x), float(y), float(z)), name)
+        for number, (x, y, z), name in zip(few, places, near, strict=True)
+    )
+
+
+def _nearest_sides(mesh: ElementMesh, places: Floats) -> list[str]:
+    """The named sides, if there are any, with the faces nearest to places (n, 3)."""
+    names, distances = [""], [np.full(len(places), np.inf)]
+    vertices = _FACE_VERTICES[mesh.element.shape.face]
+    for name, faces in mesh.sides.items():
+        if not any(part in name for part in _NO_PLACE) and len(faces):
+            middles = mesh.points[mesh.face_cells(name)[:, :vertices]].mean(axis=1)
+            names.append(name)
+            distances.append(np.array([((middles - place) ** 2).sum(axis=1).min() for place in places]))
+    return [names[k] for k in np.argmin(distances, axis=0)]
