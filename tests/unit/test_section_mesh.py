@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from gearcad import Body, Gear
 from gearcad.errors import ParameterError
+from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.mesh import ElementMesh
 from gearcad.meshing.bodies.section_mesh import mesh_section
@@ -99,3 +101,48 @@ def test_teeth_are_odd_and_fewer_than_all(teeth: int) -> None:
 def test_a_section_is_made_of_plane_elements() -> None:
     with pytest.raises(ParameterError, match="hex20"):
         section(1, Element.HEX20)
+
+
+ZONE = ContactZone(length=4.5, half_width=0.3, edge=0.04)
+
+
+@PLANE
+@pytest.mark.parametrize("left", [True, False])
+def test_edges_are_short_where_teeth_touch(left: bool, element: Element) -> None:
+    mesh = mesh_section(
+        GEAR, teeth=5, inner_radius=4.0, sizes=SIZES, element=element, contacts={-1: replace(ZONE, left=left), 1: ZONE}
+    )
+    faces = mesh.face_cells(f"{'left' if left else 'right'}_flank_10")
+    start, end, middle = (mesh.points[faces[:, k], :2] for k in range(3))
+    roll = np.sqrt((middle**2).sum(axis=1) - (GEAR.base_diameter / 2) ** 2)
+    arc = np.abs(roll**2 - ZONE.length**2) / GEAR.base_diameter
+    edges = np.hypot(*(end - start).T)
+    inside = arc < ZONE.half_width
+    assert inside.sum() >= 2 * ZONE.half_width / ZONE.edge - 2
+    assert edges[inside].max() < 1.05 * ZONE.edge
+    assert edges[~inside].max() > 5 * ZONE.edge
+    beyond = arc > ZONE.half_width
+    assert (edges < ZONE.edge + 0.35 * (arc - ZONE.half_width + edges))[beyond].all(), "they grow gently"
+    middles, uses = np.unique(mesh.cells[:, element.shape.vertices :], return_counts=True)
+    named = np.concatenate([mesh.face_cells(name)[:, 2] for name in mesh.sides])
+    assert sorted(named.tolist()) == middles[uses == 1].tolist(), "teeth of other gradings fit"
+
+
+def test_other_teeth_are_coarse_if_triangles() -> None:
+    sizes = MeshSizes(fillet_turn=7.5)
+    mesh = mesh_section(GEAR, teeth=None, inner_radius=4.0, sizes=sizes, element=Element.TRI6, contacts={0: ZONE, 11: ZONE})
+    counts = [len(mesh.sides[f"left_fillet_{tooth}"]) for tooth in range(11)]
+    assert counts[10] == counts[0] == counts[1]
+    assert all(counts[tooth] < 0.5 * counts[0] for tooth in range(2, 10))
+
+
+@PLANE
+def test_fillets_turn_as_asked(element: Element) -> None:
+    sizes = replace(SIZES, fillet_turn=7.5)
+    mesh = mesh_section(GEAR, teeth=1, inner_radius=4.0, sizes=sizes, element=element)
+    first, last, middle = (mesh.points[mesh.face_cells("left_fillet_0")[:, k], :2] for k in range(3))
+    before, after = middle - first, last - middle
+    # From chord to chord an edge turns by half of what it turns from end to end.
+    across = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    turn = 2 * np.degrees(np.arcsin(across / np.hypot(*before.T) / np.hypot(*after.T)))
+    assert np.abs(turn).max() == pytest.approx(7.5, rel=0.15)

@@ -3,21 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import ParameterError, require_whole
 from gearcad.geometry import Gear
+from gearcad.meshing.bodies.contact_zone import ContactZone, lengths_near
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.mesh import Cells, ElementMesh, Faces
+from gearcad.meshing.section.edge_lengths import bent_lengths
+from gearcad.meshing.section.layout import SectorLayout
 from gearcad.meshing.section.outline import MeshSizes, SectorSides, Side
-from gearcad.meshing.section.quads import mesh_quads
+from gearcad.meshing.section.quads import fill_layout
 from gearcad.meshing.section.sector import mesh_sector
 
 __all__ = ["mesh_section", "teeth_of"]
 
+
+_NO_CONTACTS: Mapping[int, ContactZone] = MappingProxyType({})
 
 _OF_TEETH = {
     Side.RIGHT_ROOT: "right_root",
@@ -31,17 +38,28 @@ _OF_TEETH = {
 """Names of what each tooth has of its own; its number follows."""
 
 
-def mesh_section(gear: Gear, *, teeth: int | None, inner_radius: float, sizes: MeshSizes, element: Element) -> ElementMesh:
+def mesh_section(
+    gear: Gear,
+    *,
+    teeth: int | None,
+    inner_radius: float,
+    sizes: MeshSizes,
+    element: Element,
+    contacts: Mapping[int, ContactZone] = _NO_CONTACTS,
+) -> ElementMesh:
     """Mesh the transverse section of a gear down to `inner_radius` (mm), in quadrangles or triangles of second order.
 
     `teeth` None is the full ring; an odd number of them stands around tooth 0, between two cuts. Vertices come before the
     nodes between them. Sides are, for each tooth by its number counter-clockwise from 0, "left_flank_3", "right_flank_3",
     "left_fillet_3", "right_fillet_3", "left_root_3" and "right_root_3" if there is a root land, "tip_3"; "bore"; and, if it is
-    no ring, "cut_behind" and "cut_ahead". Raises ParameterError, GeometryError and SolverError.
+    no ring, "cut_behind" and "cut_ahead".
+
+    Teeth in `contacts`, by number, have a zone of short edges; of triangles, those that are not even next to one of them then
+    have long ones. Of quadrangles whole rows of the tooth are thin there. Raises ParameterError, GeometryError and SolverError.
     """
     numbers = teeth_of(gear, teeth)
-    sector = _sector(gear, inner_radius, sizes, element)
-    return _merged(gear, element, numbers, [sector] * len(numbers), closed=teeth is None)
+    sectors = _Sectors(gear, inner_radius, sizes, element, {tooth % gear.teeth: zone for tooth, zone in contacts.items()})
+    return _merged(gear, element, numbers, [sectors.of(tooth) for tooth in numbers], closed=teeth is None)
 
 
 def teeth_of(gear: Gear, teeth: int | None) -> range:
@@ -54,13 +72,42 @@ def teeth_of(gear: Gear, teeth: int | None) -> range:
     return range(-(teeth // 2), teeth // 2 + 1)
 
 
-def _sector(gear: Gear, inner_radius: float, sizes: MeshSizes, element: Element) -> SectorSides:
-    """Tooth 0 and its share of the body."""
-    if element is Element.QUAD8:
-        return mesh_quads(gear, inner_radius, sizes)
-    if element is Element.TRI6:
-        return mesh_sector(gear, inner_radius, sizes)
-    raise ParameterError("element", element.value, f'must be "{Element.QUAD8.value}" or "{Element.TRI6.value}" for a section')
+@dataclass(frozen=True)
+class _Sectors:
+    """Sectors of tooth 0 as each tooth has them; equal ones are meshed once."""
+
+    gear: Gear
+    inner_radius: float
+    sizes: MeshSizes
+    element: Element
+    zones: Mapping[int, ContactZone]
+    known: dict[tuple[ContactZone | None, bool], SectorSides] = field(default_factory=dict)
+
+    def of(self, tooth: int) -> SectorSides:
+        """The sector of a tooth."""
+        near = not self.zones or any((tooth + step) % self.gear.teeth in self.zones for step in (-1, 0, 1))
+        key = self.zones.get(tooth % self.gear.teeth), near or self.element is Element.QUAD8
+        if key not in self.known:
+            self.known[key] = self._meshed(*key)
+        return self.known[key]
+
+    def _meshed(self, zone: ContactZone | None, near: bool) -> SectorSides:
+        gear, sizes = self.gear, self.sizes if near else _carrying(self.sizes)
+        plain = bent_lengths(gear, sizes)
+        zoned = bent_lengths(gear, sizes, lengths_near(gear, zone)) if zone else None
+        if self.element is Element.QUAD8:
+            return fill_layout(SectorLayout(gear, self.inner_radius, sizes, plain, zoned))
+        if self.element is Element.TRI6:
+            left, right = (zoned, None) if zone and zone.left else (None, zoned)
+            return mesh_sector(gear, self.inner_radius, sizes, left or plain, right or plain)
+        raise ParameterError("element", self.element.value, 'must be "quad8" or "tri6" for a section')
+
+
+def _carrying(sizes: MeshSizes) -> MeshSizes:
+    """Sizes of a tooth that only carries on."""
+    coarse = sizes.coarse()
+    longer = {name: max(getattr(sizes, name), getattr(coarse, name)) for name in ("flank", "corner", "fillet", "outline")}
+    return replace(sizes, **longer, fillet_turn=None)
 
 
 def _merged(gear: Gear, element: Element, teeth: range, sectors: Sequence[SectorSides], *, closed: bool) -> ElementMesh:

@@ -24,7 +24,7 @@ from gearcad.errors import GeometryError
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind, Land
 from gearcad.meshing.section.grading import Grading, graded
-from gearcad.meshing.section.outline import EdgeLength, MeshSizes, Side, edge_lengths
+from gearcad.meshing.section.outline import HalfLengths, MeshSizes, Side, edge_lengths
 
 __all__ = ["Counts", "Piece", "SectorLayout", "cartesian", "choose_counts", "polar", "quadrangles", "shares"]
 
@@ -40,6 +40,9 @@ _DEEPEST_DIP = 0.25
 
 _LEVELLED = 3.0
 """In how many times the depth of the root circle below the split the rows of the cut become level with those of the core."""
+
+_FINE = 513
+"""Places at which a part of a curve is sampled to be measured."""
 
 _LEAST_FILLET = 1e-6
 """Shortest fillet in normal modules that has a middle to divide it at."""
@@ -111,18 +114,28 @@ def shares(pieces: tuple[Piece, ...], count: int) -> list[tuple[Piece, int]]:
     return list(zip(pieces, given, strict=True))
 
 
+def _measured(curve: Curve, last: float) -> float:
+    """Length (mm) of a curve up to a parameter."""
+    if last == 0:
+        return 0.0
+    return float(np.hypot(*np.diff(curve.points(np.linspace(0.0, last, _FINE)), axis=0).T).sum())
+
+
 @dataclass(frozen=True)
 class SectorLayout:
     """The lines between the blocks of the left half of tooth 0's sector, and the edges that the sizes ask for on them.
 
     Inside the outline they are drawn in the plane of angle and logarithm of the radius, where circles and radii are straight
-    and angles stay as they are: there gears of few teeth look like those of many. Raises GeometryError for a tooth without a
-    fillet.
+    and angles stay as they are: there gears of few teeth look like those of many. `lengths` are the edge lengths along the
+    outline, where they are not those of `sizes`; `rows` those from the split to the tip land, which decide on no other line.
+    Raises GeometryError for a tooth without a fillet.
     """
 
     gear: Gear
     inner_radius: float
     sizes: MeshSizes
+    lengths: HalfLengths | None = None
+    rows: HalfLengths | None = None
 
     def __post_init__(self) -> None:
         ends = self._curves[CurveKind.FILLET].points(np.array([0.0, 1.0]))
@@ -139,8 +152,9 @@ class SectorLayout:
     @cached_property
     def root(self) -> tuple[Piece, ...]:
         """From the cut along root land, if there is one, and lower fillet to the split."""
-        land = self._piece(Side.LEFT_ROOT, CurveKind.ROOT) if CurveKind.ROOT in self._curves else ()
-        return (*land, *self._piece(Side.LEFT_FILLET, CurveKind.FILLET, 0.0, self.split))
+        lengths = self._lengths
+        land = self._piece(lengths, Side.LEFT_ROOT, CurveKind.ROOT) if CurveKind.ROOT in self._curves else ()
+        return (*land, *self._piece(lengths, Side.LEFT_FILLET, CurveKind.FILLET, 0.0, self.split))
 
     @cached_property
     def flank(self) -> tuple[Piece, ...]:
@@ -148,9 +162,12 @@ class SectorLayout:
 
         A chamfer turns more from the land than from the flank, so the block has its corner there.
         """
-        fillet = self._piece(Side.LEFT_FILLET, CurveKind.FILLET, self.split, 1.0)
-        chamfer = self._piece(Side.TIP, CurveKind.CHAMFER) if CurveKind.CHAMFER in self._curves else ()
-        return (*fillet, *self._piece(Side.LEFT_FLANK, CurveKind.INVOLUTE), *chamfer)
+        return self._flank(self.rows or self._lengths)
+
+    def _flank(self, lengths: HalfLengths) -> tuple[Piece, ...]:
+        fillet = self._piece(lengths, Side.LEFT_FILLET, CurveKind.FILLET, self.split, 1.0)
+        chamfer = self._piece(lengths, Side.TIP, CurveKind.CHAMFER) if CurveKind.CHAMFER in self._curves else ()
+        return (*fillet, *self._piece(lengths, Side.LEFT_FLANK, CurveKind.INVOLUTE), *chamfer)
 
     @cached_property
     def tip(self) -> tuple[Piece, ...]:
@@ -161,12 +178,13 @@ class SectorLayout:
         return (Piece(Side.TIP, land, graded(land.points, lambda run, whole: size(np.minimum(run, whole - run), whole))),)
 
     @cached_property
-    def _lengths(self) -> dict[CurveKind, EdgeLength]:
-        return edge_lengths(self.gear, self.sizes, loaded=True)
+    def _lengths(self) -> HalfLengths:
+        return self.lengths or edge_lengths(self.gear, self.sizes, loaded=True)
 
-    def _piece(self, side: Side, kind: CurveKind, first: float = 0.0, last: float = 1.0) -> tuple[Piece]:
-        curve = self._curves[kind]
-        return (Piece(side, curve, graded(curve.points, self._lengths[kind], first, last)),)
+    def _piece(self, lengths: HalfLengths, side: Side, kind: CurveKind, first: float = 0.0, last: float = 1.0) -> tuple[Piece]:
+        curve, length = self._curves[kind], lengths[kind]
+        before = _measured(curve, first)
+        return (Piece(side, curve, graded(curve.points, lambda run, whole: length(before + run, before + whole), first, last)),)
 
     @cached_property
     def split(self) -> float:
@@ -254,8 +272,8 @@ class SectorLayout:
 
     @cached_property
     def wanted(self) -> tuple[float, float, float, float]:
-        """Edges across, up, outer and deep that the sizes ask for."""
-        return self._across, edges_of(self.flank), edges_of(self.root), self.down.edges
+        """Edges across, up, outer and deep that the sizes ask for, `rows` aside."""
+        return self._across, edges_of(self._flank(self._lengths)), edges_of(self.root), self.down.edges
 
     @property
     def _across(self) -> float:
@@ -269,4 +287,7 @@ class SectorLayout:
     @cached_property
     def counts(self) -> Counts:
         """Edges on the sides of the blocks; each piece of a side needs one at least, the tooth two across."""
-        return choose_counts(self.wanted, Counts(2, len(self.flank), len(self.root), 1))
+        counts = choose_counts(self.wanted, Counts(2, len(self.flank), len(self.root), 1))
+        if self.rows is None:
+            return counts
+        return counts._replace(up=max(counts.up, round(counts.up * edges_of(self.flank) / self.wanted[1])))

@@ -15,11 +15,24 @@ from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.meshing.section.grading import graded
 
-__all__ = ["OTHER_SIDE", "EdgeLength", "MeshSizes", "SectorSides", "Side", "Stretch", "edge_lengths", "sector_outline"]
+__all__ = [
+    "OTHER_SIDE",
+    "EdgeLength",
+    "HalfLengths",
+    "MeshSizes",
+    "SectorSides",
+    "Side",
+    "Stretch",
+    "edge_lengths",
+    "sector_outline",
+]
 
 
 EdgeLength = Callable[[Floats, float], Floats]
 """Wanted edge lengths (mm) at distances (mm) from the root side of a curve, of a given length in all."""
+
+HalfLengths = Mapping[CurveKind, EdgeLength]
+"""Those of all curves of half a tooth."""
 
 
 class Side(Enum):
@@ -66,7 +79,9 @@ class SectorSides:
 class MeshSizes:
     """Edge lengths in normal modules: loaded flank, its tip corner, fillets, other outline; the cuts at the root, the rim.
 
-    From each small size the edges grow by `growth` times the distance. Raises ParameterError.
+    From each small size the edges grow by `growth` times the distance. `fillet_turn` is how far an edge of a fillet may turn
+    (deg), `deviation` how far any edge's parabola may be from the curve (normal modules): for meshes of bodies, which have
+    shorter edges where these are given. Raises ParameterError.
     """
 
     flank: float = 0.13
@@ -76,10 +91,16 @@ class MeshSizes:
     cut: float = 0.1
     rim: float = 1.5
     growth: float = 0.3
+    fillet_turn: float | None = None
+    deviation: float | None = None
 
     def __post_init__(self) -> None:
-        for each in fields(self):
-            require_number(each.name, getattr(self, each.name), above=0)
+        for name, value in self._given.items():
+            require_number(name, value, above=0)
+
+    @property
+    def _given(self) -> dict[str, float]:
+        return {each.name: getattr(self, each.name) for each in fields(self) if getattr(self, each.name) is not None}
 
     def coarse(self) -> MeshSizes:
         """Sizes for a sector that only carries on; its cuts are the same, so that it fits."""
@@ -91,7 +112,7 @@ class MeshSizes:
 
     def scaled(self, factor: float) -> MeshSizes:
         """Every edge shorter by `factor`, wherever it is."""
-        return MeshSizes(**{each.name: getattr(self, each.name) / factor for each in fields(self)})
+        return MeshSizes(**{name: value / factor for name, value in self._given.items()})
 
 
 @dataclass(frozen=True)
@@ -120,21 +141,28 @@ class Stretch:
         return Stretch(side, self.points * np.array([1.0, -1.0]))
 
 
-def sector_outline(gear: Gear, inner_radius: float, sizes: MeshSizes) -> list[Stretch]:
+def sector_outline(
+    gear: Gear, inner_radius: float, sizes: MeshSizes, left: HalfLengths | None = None, right: HalfLengths | None = None
+) -> list[Stretch]:
     """The closed outline of tooth 0 and its share of the body down to `inner_radius` (mm), counter-clockwise.
 
-    Both cuts have the same nodes, so that sectors fit together.
+    Halves without edge lengths of their own have those of `sizes`: the left one those of the loaded flank. Both cuts have the
+    same nodes, whatever the lengths on the teeth, so that sectors fit together.
     """
     half_pitch = math.pi / gear.teeth
-    loaded = _half_tooth(gear, sizes, loaded=True)
-    idle = _half_tooth(gear, sizes, loaded=False)
-    right = [stretch.mirrored(OTHER_SIDE[stretch.side]) for stretch in idle]
-    left = [stretch.backwards() for stretch in reversed(loaded)]
+    first = _half_tooth(gear, right or edge_lengths(gear, sizes, loaded=False))
+    second = _half_tooth(gear, left or edge_lengths(gear, sizes, loaded=True))
     cut = _cut(gear.root_diameter / 2, inner_radius, half_pitch, sizes, gear.normal_module)
     behind = cut.mirrored(Side.BEHIND).backwards()
     last = float(np.hypot(*(cut.ends[-1] - cut.ends[-2])))
     inner = _arc(inner_radius, half_pitch, last)
-    return [*right, *left, cut, inner, behind]
+    return [
+        *(stretch.mirrored(OTHER_SIDE[stretch.side]) for stretch in first),
+        *(stretch.backwards() for stretch in reversed(second)),
+        cut,
+        inner,
+        behind,
+    ]
 
 
 OTHER_SIDE = {
@@ -153,7 +181,7 @@ _SIDES = {
 }
 
 
-def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> dict[CurveKind, EdgeLength]:
+def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> HalfLengths:
     """The wanted edge lengths on the curves of half a tooth."""
     module, grow = gear.normal_module, sizes.growth
     fillet, other = sizes.fillet * module, sizes.outline * module
@@ -171,9 +199,8 @@ def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> dict[CurveKin
     }
 
 
-def _half_tooth(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> list[Stretch]:
+def _half_tooth(gear: Gear, lengths: HalfLengths) -> list[Stretch]:
     """Stretches of the left half, from the middle of the space to the middle of the tooth."""
-    lengths = edge_lengths(gear, sizes, loaded=loaded)
     return [_graded(curve, lengths[curve.kind]) for curve in gear.profile.curves]
 
 

@@ -17,7 +17,7 @@ from gearcad.meshing.section.outline import OTHER_SIDE, MeshSizes, SectorSides, 
 from gearcad.meshing.section.quality import LEAST_SCALED_JACOBIAN, scaled_jacobians
 from gearcad.meshing.section.transfinite import transfinite
 
-__all__ = ["QuadMesh", "mesh_quads"]
+__all__ = ["QuadMesh", "fill_layout", "mesh_quads"]
 
 
 _FLIPPED = np.array([-1.0, 1.0])
@@ -48,13 +48,17 @@ def mesh_quads(gear: Gear, inner_radius: float, sizes: MeshSizes) -> QuadMesh:
     The number of quadrangles follows the square of the sizes. Raises GeometryError for a tooth without a fillet, SolverError
     where quadrangles would be too distorted.
     """
-    blocks = _Blocks(SectorLayout(gear, inner_radius, sizes))
-    mesh = _quadratic(blocks)
+    return fill_layout(SectorLayout(gear, inner_radius, sizes))
+
+
+def fill_layout(layout: SectorLayout) -> QuadMesh:
+    """The quadrangles of a layout. Raises SolverError where they would be too distorted."""
+    mesh = _quadratic(_Blocks(layout))
     worst = float(scaled_jacobians(mesh.points[mesh.quads]).min())
     if worst < LEAST_SCALED_JACOBIAN:
         raise SolverError(
-            f"the section of the gear with {gear.teeth} teeth makes too bad a mesh: least scaled Jacobian {worst:.3f}, must be "
-            f"at least {LEAST_SCALED_JACOBIAN}"
+            f"the section of the gear with {layout.gear.teeth} teeth makes too bad a mesh: least scaled Jacobian {worst:.3f}, "
+            f"must be at least {LEAST_SCALED_JACOBIAN}"
         )
     return mesh
 

@@ -10,7 +10,7 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
-from gearcad.meshing.section.outline import MeshSizes, SectorSides, Side, Stretch, sector_outline
+from gearcad.meshing.section.outline import HalfLengths, MeshSizes, SectorSides, Side, Stretch, sector_outline
 
 __all__ = ["MeshSizes", "SectorMesh", "fill_polygon", "mesh_sector"]
 
@@ -39,9 +39,18 @@ class SectorMesh(SectorSides):
         return self.triangles
 
 
-def mesh_sector(gear: Gear, inner_radius: float, sizes: MeshSizes | None = None) -> SectorMesh:
-    """Mesh tooth 0 of the gear's transverse section down to `inner_radius` (mm). Raises SolverError if gmsh fails."""
-    outline = sector_outline(gear, inner_radius, sizes or MeshSizes())
+def mesh_sector(
+    gear: Gear,
+    inner_radius: float,
+    sizes: MeshSizes | None = None,
+    left: HalfLengths | None = None,
+    right: HalfLengths | None = None,
+) -> SectorMesh:
+    """Mesh tooth 0 of the gear's transverse section down to `inner_radius` (mm). Raises SolverError if gmsh fails.
+
+    `left` and `right` are edge lengths along the halves of the tooth, where they are not those of `sizes`.
+    """
+    outline = sector_outline(gear, inner_radius, sizes or MeshSizes(), left, right)
     corners = np.concatenate([stretch.ends[:-1] for stretch in outline])
     points, triangles = fill_polygon(corners)
     return _quadratic(points, triangles, outline)

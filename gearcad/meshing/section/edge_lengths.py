@@ -1,0 +1,81 @@
+"""Wanted edge lengths along half a tooth: short where the outline bends and where teeth touch, growing gently from there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearcad.arrays import Floats
+from gearcad.geometry import Gear
+from gearcad.geometry.curves import Curve, CurveKind
+from gearcad.meshing.section.outline import EdgeLength, HalfLengths, MeshSizes, edge_lengths
+
+__all__ = ["bent_lengths"]
+
+
+_FINE = 1025
+"""Places of a curve at which its bend is looked at."""
+
+_CUBIC = 72 * math.sqrt(3)
+"""A parabola through both ends and the middle of an arc is off by k' L^3 over this, k' the slope of the curvature."""
+
+_QUARTIC = 1536
+"""Where the curvature k is constant, by k^3 L^4 over this."""
+
+
+@dataclass(frozen=True)
+class _Sampled:
+    """Edge lengths (n,) at distances `run` (n,) from the root side of a curve, all in mm."""
+
+    run: Floats
+    length: Floats
+
+    def __call__(self, run: Floats, _whole: float) -> Floats:
+        return np.interp(run, self.run, self.length)
+
+
+def bent_lengths(gear: Gear, sizes: MeshSizes, near: Mapping[CurveKind, EdgeLength] | None = None) -> HalfLengths:
+    """The lengths that `sizes` ask for, shorter where `fillet_turn` and `deviation` want it, and where `near` does.
+
+    Over the whole half of the tooth they grow no faster than `growth`.
+    """
+    plain = edge_lengths(gear, sizes, loaded=True)
+    runs, lengths = list[Floats](), list[Floats]()
+    for curve in gear.profile.curves:
+        s = np.linspace(0.0, 1.0, _FINE)
+        run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(curve.points(s), axis=0).T))]
+        wanted = np.minimum(plain[curve.kind](run, float(run[-1])), _by_bend(curve, s, run, sizes, gear.normal_module))
+        if near and curve.kind in near:
+            wanted = np.minimum(wanted, near[curve.kind](run, float(run[-1])))
+        runs.append(run)
+        lengths.append(wanted)
+    starts = np.cumsum([0.0, *(run[-1] for run in runs)])
+    along = np.concatenate([run + start for run, start in zip(runs, starts[:-1], strict=True)])
+    gentle = np.split(_gentle(along, np.concatenate(lengths), sizes.growth), len(runs))
+    return {curve.kind: _Sampled(run, own) for curve, run, own in zip(gear.profile.curves, runs, gentle, strict=True)}
+
+
+def _gentle(run: Floats, length: Floats, growth: float) -> Floats:
+    """Lengths (n,) along a line that nowhere grow faster than by `growth` times the distance."""
+    ahead = run * growth + np.minimum.accumulate(length - run * growth)
+    back = (length + run * growth)[::-1]
+    result: Floats = np.minimum(ahead, np.minimum.accumulate(back)[::-1] - run * growth)
+    return result
+
+
+def _by_bend(curve: Curve, s: Floats, run: Floats, sizes: MeshSizes, module: float) -> Floats:
+    """Longest edges (n,) that turn no more than fillets should, and bulge as the curve does."""
+    between = np.diff(np.unwrap(curve.direction(s))) / np.diff(run)
+    middles = (run[1:] + run[:-1]) / 2
+    bend = np.maximum(np.abs(np.interp(run, middles, between)), 1e-12 / run[-1])
+    longest = np.full(len(run), np.inf)
+    if sizes.fillet_turn is not None and curve.kind is CurveKind.FILLET:
+        longest = math.radians(sizes.fillet_turn) / bend
+    if sizes.deviation is not None:
+        slope = np.maximum(np.abs(np.gradient(bend, run)), 1e-12 / run[-1] ** 2)
+        off = sizes.deviation * module
+        longest = np.minimum(longest, np.minimum(np.cbrt(_CUBIC * off / slope), (_QUARTIC * off / bend**3) ** 0.25))
+    return longest
