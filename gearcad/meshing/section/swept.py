@@ -13,7 +13,7 @@ from gearcad.geometry.helix import twist
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.quads import QuadMesh
 
-__all__ = ["SweptMesh", "layer_planes", "sweep"]
+__all__ = ["Stack", "SweptMesh", "layer_planes", "sweep"]
 
 
 _CROWDING = 0.5
@@ -25,6 +25,44 @@ def layer_planes(width: float, layers: int) -> Floats:
     share = np.linspace(0.0, 1.0, layers + 1)
     planes: Floats = width * (share - _CROWDING * np.sin(2 * np.pi * share) / (2 * np.pi))
     return planes
+
+
+@dataclass(frozen=True)
+class Stack:
+    """How nodes of a swept section, its vertices first, are numbered: `nodes` of each plane in turn, then the vertices, `half`
+    of them, half-way up each layer; elements of first order have none there.
+    """
+
+    nodes: int
+    half: int
+    layers: int
+
+    @property
+    def total(self) -> int:
+        """Nodes in all."""
+        return self.middle(self.layers)
+
+    def plane(self, k: int) -> int:
+        """Number of the first node of plane k."""
+        return k * self.nodes
+
+    def middle(self, k: int) -> int:
+        """Number of the first node half-way up layer k."""
+        return (self.layers + 1) * self.nodes + k * self.half
+
+    def elements(self, quads: Wholes, layer: int) -> Wholes:
+        """Hexahedra (m, 20) over section quadrangles (m, 8): nodes of the lower plane, of the upper one, and half-way up.
+
+        Over four vertices without nodes half-way, those of first order (m, 8).
+        """
+        above = [quads[:, :4] + self.middle(layer)] if self.half else []
+        return np.concatenate([quads + self.plane(layer), quads + self.plane(layer + 1), *above], axis=1)
+
+    def over(self, nodes: Wholes) -> Wholes:
+        """All nodes above section nodes: plane by plane, then half-way up layer by layer."""
+        half = nodes[nodes < self.half]
+        flat = [nodes + self.plane(k) for k in range(self.layers + 1)]
+        return np.concatenate([*flat, *(half + self.middle(k) for k in range(self.layers))])
 
 
 @dataclass(frozen=True)
@@ -44,35 +82,32 @@ class SweptMesh:
         return len(self.planes) - 1
 
     @property
+    def _stack(self) -> Stack:
+        return Stack(len(self.section.points), self.section.vertices, self.layers)
+
+    @property
     def nodes(self) -> int:
         """Nodes in all."""
-        return self._start(self.layers - 1) + self.section.vertices
+        return self._stack.total
 
     def plane(self, k: int) -> int:
         """Number of the first node of plane k."""
-        return k * len(self.section.points)
-
-    def _start(self, k: int) -> int:
-        """Number of the first node half-way up layer k."""
-        return len(self.planes) * len(self.section.points) + k * self.section.vertices
+        return self._stack.plane(k)
 
     def elements(self, quads: Wholes, layer: int) -> Wholes:
         """Hexahedra (m, 20) over section quadrangles (m, 8): nodes of the lower plane, of the upper one, and half-way up."""
-        result: Wholes = np.c_[quads + self.plane(layer), quads + self.plane(layer + 1), quads[:, :4] + self._start(layer)]
-        return result
+        return self._stack.elements(quads, layer)
 
     def side_faces(self, edges: Wholes, layer: int) -> Wholes:
         """Faces (n, 8) of a layer over edges (n, 3) of the section - end, middle, end - seen with the sweep upwards."""
         first, middle, second = edges.T
-        low, high, half = self.plane(layer), self.plane(layer + 1), self._start(layer)
+        low, high, half = self._stack.plane(layer), self._stack.plane(layer + 1), self._stack.middle(layer)
         corners = [first + low, second + low, second + high, first + high]
         return np.stack([*corners, middle + low, second + half, middle + high, first + half], -1)
 
     def over(self, nodes: Wholes) -> Wholes:
         """All nodes of the mesh above section nodes: plane by plane, then half-way up layer by layer."""
-        half = nodes[nodes < self.section.vertices]
-        flat = [nodes + self.plane(k) for k in range(len(self.planes))]
-        return np.concatenate([*flat, *(half + self._start(k) for k in range(self.layers))])
+        return self._stack.over(nodes)
 
     @cached_property
     def _section_node(self) -> Wholes:
