@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,11 +12,12 @@ from gearcad.arrays import Floats, Wholes
 from gearcad.errors import ParameterError
 from gearcad.geometry import FlankModification, Gear
 from gearcad.geometry.helix import twist
+from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.layers import body_planes, check_planes
 from gearcad.meshing.bodies.mesh import Cells, ElementMesh, Faces
 from gearcad.meshing.bodies.modified import Turns, modification_turns
-from gearcad.meshing.bodies.section_mesh import mesh_section
+from gearcad.meshing.bodies.section_mesh import NO_CONTACTS, mesh_section
 from gearcad.meshing.section.outline import MeshSizes
 from gearcad.meshing.section.swept import Stack
 from gearcad.notice import Notice
@@ -38,11 +40,12 @@ def mesh_body(
     sizes: MeshSizes,
     planes: Floats | None,
     element: Element,
+    contacts: Mapping[int, ContactZone] = NO_CONTACTS,
 ) -> ElementMesh:
     """Mesh a gear down to `inner_radius` (mm) in hexahedra between `planes` (n,), heights in mm; None: those of the sizes.
 
-    `teeth` and the named sides are those of `mesh_section`; here are also "end_back" at z = 0 and "end_front" at the face
-    width. Keyway, hub and end chamfers are left out: `swept_notices` says so. Quality is for the caller to measure.
+    `teeth`, `contacts` and the named sides are those of `mesh_section`; here are also "end_back" at z = 0 and "end_front" at
+    the face width. Keyway, hub and end chamfers are left out: `swept_notices` says so. Quality is for the caller to measure.
     Raises ParameterError, GeometryError and SolverError.
     """
     if element not in (Element.HEX8, Element.HEX20):
@@ -50,7 +53,7 @@ def mesh_body(
     planes = body_planes(gear, sizes) if planes is None else np.asarray(planes, float)
     check_planes(gear, planes)
     exact = replace(gear, modification=FlankModification())
-    section = mesh_section(exact, teeth=teeth, inner_radius=inner_radius, sizes=sizes, element=Element.QUAD8)
+    section = mesh_section(exact, teeth=teeth, inner_radius=inner_radius, sizes=sizes, element=Element.QUAD8, contacts=contacts)
     return _Swept(gear, section, planes, element).mesh
 
 

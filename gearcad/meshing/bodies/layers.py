@@ -76,7 +76,8 @@ def _gradings(gear: Gear, thickness: float) -> list[Grading]:
     def piece(low: float, high: float) -> Grading:
         def size(run: Floats, _whole: float) -> Floats:
             near = thin + _GROWTH * np.abs(low + run[:, None] - ends)
-            return np.minimum(thickness, near.min(axis=1))
+            result: Floats = np.minimum(thickness, near.min(axis=1))
+            return result
 
         return graded(lambda z: np.stack([z, np.zeros_like(z)], -1), size, low, high)
 

@@ -29,7 +29,7 @@ LEAST_SCALED_JACOBIAN = {
 }
 """Below it an element is too distorted to be used. Sections swept at 45 degrees lose half at the tips of few teeth."""
 
-_CHUNK = 4096
+_CHUNK = 1024
 """Elements that are looked at together: what that takes is small beside any mesh that fills memory."""
 
 _NOTHING = 1e-300

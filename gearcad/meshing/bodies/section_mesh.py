@@ -21,10 +21,10 @@ from gearcad.meshing.section.outline import MeshSizes, SectorSides, Side
 from gearcad.meshing.section.quads import fill_layout
 from gearcad.meshing.section.sector import mesh_sector
 
-__all__ = ["mesh_section", "teeth_of"]
+__all__ = ["NO_CONTACTS", "mesh_section", "teeth_of"]
 
 
-_NO_CONTACTS: Mapping[int, ContactZone] = MappingProxyType({})
+NO_CONTACTS: Mapping[int, ContactZone] = MappingProxyType({})
 
 _OF_TEETH = {
     Side.RIGHT_ROOT: "right_root",
@@ -45,7 +45,7 @@ def mesh_section(
     inner_radius: float,
     sizes: MeshSizes,
     element: Element,
-    contacts: Mapping[int, ContactZone] = _NO_CONTACTS,
+    contacts: Mapping[int, ContactZone] = NO_CONTACTS,
 ) -> ElementMesh:
     """Mesh the transverse section of a gear down to `inner_radius` (mm), in quadrangles or triangles of second order.
 
