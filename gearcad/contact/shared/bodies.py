@@ -9,13 +9,11 @@ from gearcad.contact.shared.holding import Hold, Support, support_of
 from gearcad.errors import GeometryError, ParameterError, format_number, require_number, require_whole
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import STEEL_MODULUS, Material
+from gearcad.meshing.section.inner import inner_radius
 from gearcad.per_gear import PerGear, Role, naming
 
 __all__ = ["BodyModel"]
 
-
-_RIM = 4.0
-"""Depth of the body below the root circle, in normal modules, where no bore is given."""
 
 _OWN_BORES: PerGear[float | None] = PerGear(None, None)
 _AUTO = PerGear(Hold.AUTO, Hold.AUTO)
@@ -92,11 +90,10 @@ class BodyModel:
 
 def _inner_radius(gear: Gear, inner_diameter: float | None) -> float:
     """Where the body is held (mm)."""
-    root = gear.root_diameter / 2
     if inner_diameter is not None:
         require_number("inner_diameter", inner_diameter, "mm", above=0)
-        if inner_diameter / 2 > root - 0.1 * gear.normal_module:
+        if inner_diameter / 2 > gear.root_diameter / 2 - 0.1 * gear.normal_module:
             most = gear.root_diameter - 0.2 * gear.normal_module
             raise GeometryError("inner_diameter", inner_diameter, f"must be at most {most:.6g} mm, below the root circle", "mm")
         return inner_diameter / 2
-    return gear.body.bore / 2 if gear.body.bore else max(root - _RIM * gear.normal_module, 0.3 * root)
+    return inner_radius(gear)

@@ -1,0 +1,59 @@
+"""How large sections and bodies of exact gears are, by quadrature along their curves: what meshes are held against."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+from numpy.polynomial import Chebyshev
+from numpy.polynomial.chebyshev import chebpts1
+from numpy.polynomial.legendre import leggauss
+
+from gearcad.geometry import Gear
+from gearcad.geometry.curves import Curve
+from gearcad.geometry.turned import flank_curves
+
+__all__ = ["exact_area", "exact_volume"]
+
+_DEGREE = 48
+"""Of the polynomials that stand for a curve's radius and angle: they come within rounding of all of them."""
+
+_PLACES, _WEIGHTS = leggauss(16)
+
+
+def exact_area(gear: Gear, inner_radius: float) -> float:
+    """Area (mm²) of one tooth and its share of the body down to `inner_radius` (mm) in an unmodified section."""
+    outside = 0.0
+    for curve in gear.profile.curves:
+        radius, angle = _polar(curve)
+        swept = (radius**2 * angle.deriv()).integ()
+        outside += float(swept(0.0) - swept(1.0))  # angles fall from the middle of the space to that of the tooth
+    return outside - math.pi / gear.teeth * inner_radius**2
+
+
+def _polar(curve: Curve) -> tuple[Chebyshev, Chebyshev]:
+    """Radius (mm) and half tooth angle (rad) along a curve."""
+    places = (1 + chebpts1(_DEGREE + 1)) / 2
+    radius, angle = (Chebyshev.fit(places, values, _DEGREE, domain=[0, 1]) for values in curve.polar(places))
+    return radius, angle
+
+
+def exact_volume(gear: Gear, inner_radius: float) -> float:
+    """Volume (mm³) of the same over the face width, flanks modified as they are."""
+    plain = exact_area(gear, inner_radius) * gear.face_width
+    return plain - sum(_taken(gear, left=left) for left in (True, False)) if gear.modification.present else plain
+
+
+def _taken(gear: Gear, *, left: bool) -> float:
+    """Volume (mm³) that modifications take from one side of a tooth: each point goes its turn times its radius."""
+    form, taken = gear.flank_form, 0.0
+    sense = -1 if left else 1
+    for low, high in pairwise(sorted((0.0, *form.height_breaks, gear.face_width / 2, gear.face_width))):
+        z = (low + high) / 2 + (high - low) / 2 * _PLACES
+        for piece in flank_curves(gear):
+            radius, _ = _polar(piece.curve)
+            s = (1 + _PLACES) / 2
+            moved = sense * piece.turn(form, s[:, None], z[None], left=left)
+            lever = radius(s) * radius.deriv()(s) * _WEIGHTS / 2
+            taken += float(lever @ moved @ _WEIGHTS) * (high - low) / 2
+    return taken
