@@ -13,6 +13,7 @@ from gearcad.errors import ParameterError
 from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.mesh import ElementMesh
+from gearcad.meshing.bodies.quality import quality
 from gearcad.meshing.bodies.section_mesh import mesh_section
 from gearcad.meshing.section import MeshSizes
 
@@ -146,3 +147,25 @@ def test_fillets_turn_as_asked(element: Element) -> None:
     across = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
     turn = 2 * np.degrees(np.arcsin(across / np.hypot(*before.T) / np.hypot(*after.T)))
     assert np.abs(turn).max() == pytest.approx(7.5, rel=0.15)
+
+
+@PLANE
+@pytest.mark.parametrize("teeth", [7, 24])
+def test_without_a_bore_the_disc_is_full(teeth: int, element: Element) -> None:
+    gear = Gear(teeth=teeth, normal_module=1.0, face_width=5, profile_shift=0.3)
+    ring, disc = (mesh_section(gear, teeth=None, inner_radius=radius, sizes=SIZES, element=element) for radius in (0.5, 0.0))
+    assert "bore" not in disc.sides
+    # Edges are parabolas, few along the inner circle of the ring, and one more across each of seven teeth of the disc.
+    assert area(disc) == pytest.approx(area(ring) + math.pi * 0.5**2, rel=5e-5)
+    middles, uses = np.unique(disc.cells[:, element.shape.vertices :], return_counts=True)
+    named = np.concatenate([disc.face_cells(name)[:, 2] for name in disc.sides])
+    assert sorted(named.tolist()) == middles[uses == 1].tolist()
+    assert disc.cells[:, : element.shape.vertices].max() + 1 == middles.min(), "vertices first"
+    assert quality(disc).least_jacobian > 0.3
+
+
+def test_some_teeth_need_an_inner_circle() -> None:
+    with pytest.raises(ParameterError, match="inner_radius"):
+        mesh_section(GEAR, teeth=3, inner_radius=0.0, sizes=SIZES, element=Element.QUAD8)
+    with pytest.raises(ParameterError, match="inner_radius"):
+        mesh_section(GEAR, teeth=3, inner_radius=GEAR.root_diameter / 2, sizes=SIZES, element=Element.QUAD8)

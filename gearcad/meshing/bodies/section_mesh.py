@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -12,14 +11,12 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import ParameterError, require_whole
 from gearcad.geometry import Gear
-from gearcad.meshing.bodies.contact_zone import ContactZone, lengths_near
+from gearcad.meshing.bodies.contact_zone import ContactZone
+from gearcad.meshing.bodies.core import BORE, filled
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.mesh import Cells, ElementMesh, Faces
-from gearcad.meshing.section.edge_lengths import bent_lengths
-from gearcad.meshing.section.layout import SectorLayout
+from gearcad.meshing.bodies.sectors import Sectors
 from gearcad.meshing.section.outline import MeshSizes, SectorSides, Side
-from gearcad.meshing.section.quads import fill_layout
-from gearcad.meshing.section.sector import mesh_sector
 
 __all__ = ["NO_CONTACTS", "mesh_section", "teeth_of"]
 
@@ -55,11 +52,16 @@ def mesh_section(
     no ring, "cut_behind" and "cut_ahead".
 
     Teeth in `contacts`, by number, have a zone of short edges; of triangles, those that are not even next to one of them then
-    have long ones. Of quadrangles whole rows of the tooth are thin there. Raises ParameterError, GeometryError and SolverError.
+    have long ones. Of quadrangles whole rows of the tooth are thin there. With an `inner_radius` of 0 the ring is a full disc
+    without a bore. Raises ParameterError, GeometryError and SolverError.
     """
     numbers = teeth_of(gear, teeth)
-    sectors = _Sectors(gear, inner_radius, sizes, element, {tooth % gear.teeth: zone for tooth, zone in contacts.items()})
-    return _merged(gear, element, numbers, [sectors.of(tooth) for tooth in numbers], closed=teeth is None)
+    every = Sectors(gear, inner_radius, sizes, element, {tooth % gear.teeth: zone for tooth, zone in contacts.items()})
+    if every.disc and teeth is not None:
+        raise ParameterError("inner_radius", 0.0, "must be above 0 mm for less than the full ring", "mm")
+    sectors = [every.of(tooth) for tooth in numbers]
+    mesh = _merged(gear, element, numbers, sectors, closed=teeth is None)
+    return filled(mesh, sizes.growth) if every.disc else mesh
 
 
 def teeth_of(gear: Gear, teeth: int | None) -> range:
@@ -70,44 +72,6 @@ def teeth_of(gear: Gear, teeth: int | None) -> range:
     if teeth % 2 == 0:
         raise ParameterError("teeth", teeth, "must be odd: tooth 0 stands in the middle")
     return range(-(teeth // 2), teeth // 2 + 1)
-
-
-@dataclass(frozen=True)
-class _Sectors:
-    """Sectors of tooth 0 as each tooth has them; equal ones are meshed once."""
-
-    gear: Gear
-    inner_radius: float
-    sizes: MeshSizes
-    element: Element
-    zones: Mapping[int, ContactZone]
-    known: dict[tuple[ContactZone | None, bool], SectorSides] = field(default_factory=dict)
-
-    def of(self, tooth: int) -> SectorSides:
-        """The sector of a tooth."""
-        near = not self.zones or any((tooth + step) % self.gear.teeth in self.zones for step in (-1, 0, 1))
-        key = self.zones.get(tooth % self.gear.teeth), near or self.element is Element.QUAD8
-        if key not in self.known:
-            self.known[key] = self._meshed(*key)
-        return self.known[key]
-
-    def _meshed(self, zone: ContactZone | None, near: bool) -> SectorSides:
-        gear, sizes = self.gear, self.sizes if near else _carrying(self.sizes)
-        plain = bent_lengths(gear, sizes)
-        zoned = bent_lengths(gear, sizes, lengths_near(gear, zone)) if zone else None
-        if self.element is Element.QUAD8:
-            return fill_layout(SectorLayout(gear, self.inner_radius, sizes, plain, zoned))
-        if self.element is Element.TRI6:
-            left, right = (zoned, None) if zone and zone.left else (None, zoned)
-            return mesh_sector(gear, self.inner_radius, sizes, left or plain, right or plain)
-        raise ParameterError("element", self.element.value, 'must be "quad8" or "tri6" for a section')
-
-
-def _carrying(sizes: MeshSizes) -> MeshSizes:
-    """Sizes of a tooth that only carries on."""
-    coarse = sizes.coarse()
-    longer = {name: max(getattr(sizes, name), getattr(coarse, name)) for name in ("flank", "corner", "fillet", "outline")}
-    return replace(sizes, **longer, fillet_turn=None)
 
 
 def _merged(gear: Gear, element: Element, teeth: range, sectors: Sequence[SectorSides], *, closed: bool) -> ElementMesh:
@@ -149,7 +113,7 @@ def _numbers(sectors: Sequence[SectorSides], vertices: int, *, closed: bool) -> 
 def _named(sector: SectorSides, element: Element, tooth: int, place: int, count: int, closed: bool) -> dict[str, Faces]:
     """Sides of one of `count` sectors under the names that they have in the whole."""
     found = {f"{name}_{tooth}": _faces(sector, side, element) for side, name in _OF_TEETH.items() if side in sector.sides}
-    found["bore"] = _faces(sector, Side.INNER, element)
+    found[BORE] = _faces(sector, Side.INNER, element)
     if not closed and place == 0:
         found["cut_behind"] = _faces(sector, Side.BEHIND, element)
     if not closed and place == count - 1:

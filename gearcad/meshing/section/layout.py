@@ -128,7 +128,7 @@ class SectorLayout:
     Inside the outline they are drawn in the plane of angle and logarithm of the radius, where circles and radii are straight
     and angles stay as they are: there gears of few teeth look like those of many. `lengths` are the edge lengths along the
     outline, where they are not those of `sizes`; `rows` those from the split to the tip land, which decide on no other line.
-    Raises GeometryError for a tooth without a fillet.
+    With `even` the inner circle gets an even number of edges. Raises GeometryError for a tooth without a fillet.
     """
 
     gear: Gear
@@ -136,6 +136,7 @@ class SectorLayout:
     sizes: MeshSizes
     lengths: HalfLengths | None = None
     rows: HalfLengths | None = None
+    even: bool = False
 
     def __post_init__(self) -> None:
         ends = self._curves[CurveKind.FILLET].points(np.array([0.0, 1.0]))
@@ -288,6 +289,8 @@ class SectorLayout:
     def counts(self) -> Counts:
         """Edges on the sides of the blocks; each piece of a side needs one at least, the tooth two across."""
         counts = choose_counts(self.wanted, Counts(2, len(self.flank), len(self.root), 1))
+        if self.even:
+            counts = counts._replace(across=counts.across + counts.across % 2)
         if self.rows is None:
             return counts
         return counts._replace(up=max(counts.up, round(counts.up * edges_of(self.flank) / self.wanted[1])))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -56,10 +57,11 @@ def mesh_sector(
     return _quadratic(points, triangles, outline)
 
 
-def fill_polygon(outline: Floats) -> tuple[Floats, Wholes]:
+def fill_polygon(outline: Floats, growth: float | None = None) -> tuple[Floats, Wholes]:
     """Points and triangles (m, 3) that fill a polygon without adding to its corners, which come first.
 
-    Raises SolverError if gmsh fails.
+    Triangles have edges as the outline has near them; or, in a circle about the origin, longer ones by `growth` times the
+    distance. Raises SolverError if gmsh fails.
     """
     import gmsh
 
@@ -79,6 +81,12 @@ def fill_polygon(outline: Floats) -> tuple[Floats, Wholes]:
             gmsh.model.geo.mesh.set_transfinite_curve(number, 2)
         surface = gmsh.model.geo.add_plane_surface([gmsh.model.geo.add_curve_loop(list(range(1, count + 1)))])
         gmsh.model.geo.synchronize()
+        if growth is not None:
+            edge = float(np.hypot(*(outline[1] - outline[0]))) / extent
+            gmsh.option.set_number("Mesh.MeshSizeExtendFromBoundary", 0)
+            gmsh.model.mesh.set_size_callback(
+                lambda _dimension, _tag, x, y, _z, _size: edge + growth * max(1 - math.hypot(x, y), 0.0)
+            )
         gmsh.model.mesh.generate(2)
         tags, coordinates, _ = gmsh.model.mesh.get_nodes()
         corners = [int(gmsh.model.mesh.get_nodes(0, number)[0][0]) for number in range(1, count + 1)]

@@ -1,0 +1,125 @@
+"""The sectors of the teeth of a gear: of tooth 0 each, as finely graded as the tooth in whose place it is turned asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from gearcad.errors import ParameterError, require_number
+from gearcad.geometry import Gear
+from gearcad.meshing.bodies.contact_zone import ContactZone, lengths_near
+from gearcad.meshing.bodies.elements import Element
+from gearcad.meshing.section.edge_lengths import bent_lengths
+from gearcad.meshing.section.layout import SectorLayout, quadrangles
+from gearcad.meshing.section.outline import HalfLengths, MeshSizes, SectorSides, Side
+from gearcad.meshing.section.quads import fill_layout
+from gearcad.meshing.section.sector import mesh_sector
+
+__all__ = ["SectorCount", "Sectors"]
+
+
+_RIM = 4.0
+_LEAST_SHARE = 0.3
+"""Depth of the ring round a full disc, in normal modules below the root circle, and the least share of its radius inside."""
+
+
+_BESIDE = 1.5
+"""First edge of a cut over that of the root land or fillet beside it, at most."""
+
+
+class SectorCount(NamedTuple):
+    """Elements of a sector; edges of its outline but for the cuts, those of them on the inner circle, those of a cut."""
+
+    elements: int
+    outline: int
+    inner: int
+    cut: int
+
+
+@dataclass(frozen=True)
+class Sectors:
+    """Sectors of tooth 0 as each tooth has them; equal ones are meshed once. `inner_radius` (mm) 0 is of a full disc.
+
+    `zones` are those of the teeth by number, from 0. Raises ParameterError.
+    """
+
+    gear: Gear
+    inner_radius: float
+    sizes: MeshSizes
+    element: Element
+    zones: Mapping[int, ContactZone]
+    known: dict[tuple[ContactZone | None, bool], SectorSides] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.element not in (Element.QUAD8, Element.TRI6):
+            raise ParameterError("element", self.element.value, 'must be "quad8" or "tri6" for a section')
+        require_number("inner_radius", self.inner_radius, "mm", at_least=0, below=self.gear.root_diameter / 2)
+
+    @property
+    def disc(self) -> bool:
+        """True if there is no bore."""
+        return self.inner_radius == 0
+
+    @property
+    def inside(self) -> float:
+        """Radius (mm) of the inner circle of the sectors."""
+        root = self.gear.root_diameter / 2
+        return max(root - _RIM * self.gear.normal_module, _LEAST_SHARE * root) if self.disc else self.inner_radius
+
+    def of(self, tooth: int) -> SectorSides:
+        """The sector of a tooth. Raises GeometryError and SolverError."""
+        key = self._key(tooth)
+        if key not in self.known:
+            self.known[key] = self._meshed(*key)
+        return self.known[key]
+
+    def count(self, tooth: int) -> SectorCount:
+        """What it has; quadrangles need no mesh to be counted. Raises GeometryError and SolverError."""
+        if self.element is Element.QUAD8:
+            across, up, outer, deep = counts = self._layout(self._key(tooth)[0]).counts
+            return SectorCount(round(quadrangles(*counts)), 2 * (across + up + 2 * outer), across + 2 * outer, deep)
+        sector = self.of(tooth)
+        edges = {side: (len(chain) - 1) // 2 for side, chain in sector.sides.items()}
+        cut = edges[Side.AHEAD]
+        return SectorCount(len(sector.cells), sum(edges.values()) - 2 * cut, edges[Side.INNER], cut)
+
+    def _key(self, tooth: int) -> tuple[ContactZone | None, bool]:
+        """Zone of a tooth; whether it is as fine as sizes ask for."""
+        near = not self.zones or any((tooth + step) % self.gear.teeth in self.zones for step in (-1, 0, 1))
+        return self.zones.get(tooth % self.gear.teeth), near or self.element is Element.QUAD8
+
+    def _meshed(self, zone: ContactZone | None, near: bool) -> SectorSides:
+        if self.element is Element.QUAD8:
+            return fill_layout(self._layout(zone))
+        gear, sizes = self.gear, replace(self.sizes, cut=self._cut)
+        sizes = sizes if near else _carrying(sizes)
+        plain, zoned = self._lengths(sizes, None), self._lengths(sizes, zone)
+        left, right = (zoned, plain) if zone and zone.left else (plain, zoned)
+        return mesh_sector(gear, self.inside, sizes, left, right)
+
+    @cached_property
+    def _cut(self) -> float:
+        """Edge length (normal modules) of the cuts of all teeth at the root: not much longer than those beside it."""
+        root = self.gear.profile.curves[0]
+        beside = float(self._lengths(self.sizes, None)[root.kind](np.zeros(1), 0.0)[0])
+        return min(self.sizes.cut, _BESIDE * beside / self.gear.normal_module)
+
+    def _layout(self, zone: ContactZone | None) -> SectorLayout:
+        plain = self._lengths(self.sizes, None)
+        rows = self._lengths(self.sizes, zone) if zone else None
+        # Quadrangles fill circles of an even number of edges only.
+        return SectorLayout(self.gear, self.inside, self.sizes, plain, rows, self.disc and self.gear.teeth % 2 == 1)
+
+    def _lengths(self, sizes: MeshSizes, zone: ContactZone | None) -> HalfLengths:
+        return bent_lengths(self.gear, sizes, lengths_near(self.gear, zone) if zone else None)
+
+
+def _carrying(sizes: MeshSizes) -> MeshSizes:
+    """Sizes of a tooth that only carries on."""
+    coarse = sizes.coarse()
+    longer = {name: max(getattr(sizes, name), getattr(coarse, name)) for name in ("flank", "corner", "fillet", "outline")}
+    return replace(sizes, **longer, fillet_turn=None)
