@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from types import MappingProxyType
 
 import numpy as np
@@ -15,6 +16,7 @@ from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.core import BORE, filled
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.mesh import Cells, ElementMesh, Faces
+from gearcad.meshing.bodies.modified import modification_turns
 from gearcad.meshing.bodies.sectors import Sectors
 from gearcad.meshing.section.outline import MeshSizes, SectorSides, Side
 
@@ -53,7 +55,7 @@ def mesh_section(
 
     Teeth in `contacts`, by number, have a zone of short edges; of triangles, those that are not even next to one of them then
     have long ones. Of quadrangles whole rows of the tooth are thin there. With an `inner_radius` of 0 the ring is a full disc
-    without a bore. Raises ParameterError, GeometryError and SolverError.
+    without a bore. Flanks are modified as they are at mid face width. Raises ParameterError, GeometryError and SolverError.
     """
     numbers = teeth_of(gear, teeth)
     every = Sectors(gear, inner_radius, sizes, element, {tooth % gear.teeth: zone for tooth, zone in contacts.items()})
@@ -61,7 +63,17 @@ def mesh_section(
         raise ParameterError("inner_radius", 0.0, "must be above 0 mm for less than the full ring", "mm")
     sectors = [every.of(tooth) for tooth in numbers]
     mesh = _merged(gear, element, numbers, sectors, closed=teeth is None)
-    return filled(mesh, sizes.growth) if every.disc else mesh
+    return _modified(filled(mesh, sizes.growth) if every.disc else mesh, gear)
+
+
+def _modified(mesh: ElementMesh, gear: Gear) -> ElementMesh:
+    """The section at mid face width, not turned by the helix."""
+    if not gear.modification.present:
+        return mesh
+    turns = modification_turns(mesh, gear, np.array([gear.face_width / 2])).at(0)
+    cosine, sine = np.cos(turns), np.sin(turns)
+    x, y, z = mesh.points.T
+    return replace(mesh, points=np.stack([cosine * x - sine * y, sine * x + cosine * y, z], -1))
 
 
 def teeth_of(gear: Gear, teeth: int | None) -> range:

@@ -14,17 +14,13 @@ from gearcad.geometry import Gear
 from gearcad.meshing.bodies.contact_zone import ContactZone, lengths_near
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.section.edge_lengths import bent_lengths
+from gearcad.meshing.section.inner import rim_radius
 from gearcad.meshing.section.layout import SectorLayout, quadrangles
 from gearcad.meshing.section.outline import HalfLengths, MeshSizes, SectorSides, Side
 from gearcad.meshing.section.quads import fill_layout
 from gearcad.meshing.section.sector import mesh_sector
 
 __all__ = ["SectorCount", "Sectors"]
-
-
-_RIM = 4.0
-_LEAST_SHARE = 0.3
-"""Depth of the ring round a full disc, in normal modules below the root circle, and the least share of its radius inside."""
 
 
 _BESIDE = 1.5
@@ -67,8 +63,7 @@ class Sectors:
     @property
     def inside(self) -> float:
         """Radius (mm) of the inner circle of the sectors."""
-        root = self.gear.root_diameter / 2
-        return max(root - _RIM * self.gear.normal_module, _LEAST_SHARE * root) if self.disc else self.inner_radius
+        return rim_radius(self.gear) if self.disc else self.inner_radius
 
     def of(self, tooth: int) -> SectorSides:
         """The sector of a tooth. Raises GeometryError and SolverError."""
