@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,6 +61,24 @@ class ElementMesh:
     def nodes(self, name: str) -> Cells:
         """Numbers (n,) of the nodes of a named side, in order."""
         return np.unique(self.face_cells(name))
+
+    def to_meshio(self) -> Any:
+        """A meshio.Mesh of elements and faces of sides; parts and sides are its cell sets, nodes of sides its point sets."""
+        from gearcad.meshing.bodies.conversions import meshio_mesh
+
+        return meshio_mesh(self)
+
+    def to_skfem(self) -> Any:
+        """A mesh of scikit-fem, with the parts as subdomains and the sides as boundaries; nodes have other numbers there."""
+        from gearcad.meshing.bodies.conversions import skfem_mesh
+
+        return skfem_mesh(self)
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.UnstructuredGrid, with fields of the nodes for each kind of side. Raises ImportError without PyVista."""
+        from gearcad.meshing.bodies.conversions import pyvista_grid
+
+        return pyvista_grid(self)
 
     @cached_property
     def nbytes(self) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cache
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from gearcad.arrays import Floats
 from gearcad.errors import ParameterError
 
-__all__ = ["DECIMALS", "Letters", "decimals", "decimals_width", "lines", "wholes"]
+__all__ = ["DECIMALS", "Letters", "chunks", "decimals", "decimals_width", "lines", "wholes"]
 
 Letters = NDArray[np.uint8]
 """Characters of ASCII; those of a column are the last axis."""
@@ -18,11 +19,19 @@ Letters = NDArray[np.uint8]
 DECIMALS = 12
 """Digits behind the point: 1e-12 mm is what a float holds of a gear. CalculiX reads 20 characters of a number."""
 
+_CHUNK = 1 << 14
+"""Rows at a time: text that fits into the cache is written fastest."""
+
 _MOST_DIGITS = 6
 """Before the point."""
 
 _WITH_ZEROS, _WITH_BLANKS = (np.array([form % k for k in range(10000)], "S4").view(np.uint32) for form in (b"%04d", b"%4d"))
 _BLANKS = np.frombuffer(b"    ", np.uint32)[0]
+
+
+def chunks(stop: int, start: int = 0) -> Iterator[slice]:
+    """Rows from `start` to `stop`, as many at a time as are written fastest."""
+    return (slice(at, min(at + _CHUNK, stop)) for at in range(start, stop, _CHUNK))
 
 
 def wholes(numbers: NDArray[np.integer], width: int) -> Letters:

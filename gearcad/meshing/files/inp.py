@@ -5,7 +5,7 @@ What writes them takes an open text file, so that a deck has them where it wants
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TextIO
 
@@ -14,12 +14,9 @@ from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
 from gearcad.meshing.bodies import Element, ElementMesh, Faces
-from gearcad.meshing.files.digits import Letters, decimals, decimals_width, lines, wholes
+from gearcad.meshing.files.digits import Letters, chunks, decimals, decimals_width, lines, wholes
 
 __all__ = ["element_type", "node_sets", "write_elements", "write_inp", "write_node_set", "write_nodes", "write_surface"]
-
-_CHUNK = 1 << 14
-"""Rows at a time: text that fits into the cache is written fastest."""
 
 _ENTRIES = 16
 """Most numbers of a line."""
@@ -48,7 +45,7 @@ def write_nodes(file: TextIO, points: Floats, name: str = "nodes") -> None:
     """All nodes, in a node set. Raises ParameterError for points a kilometre away."""
     file.write(f"*NODE, NSET={name}\n")
     width, digits = decimals_width(float(np.abs(points).max())), _digits(len(points))
-    for rows in _chunks(len(points)):
+    for rows in chunks(len(points)):
         numbers = np.arange(rows.start + 1, rows.stop + 1)
         file.write(lines(wholes(numbers, digits), _listed(decimals(points[rows], width))))
 
@@ -58,7 +55,7 @@ def write_elements(file: TextIO, mesh: ElementMesh, kind: str) -> None:
     digits = _digits(max(len(mesh.points), len(mesh.cells)))
     for name, part in mesh.parts.items():
         file.write(f"*ELEMENT, TYPE={kind}, ELSET={name}\n")
-        for rows in _chunks(part.stop, part.start):
+        for rows in chunks(part.stop, part.start):
             numbers = wholes(np.arange(rows.start + 1, rows.stop + 1), digits)
             nodes = _listed(wholes(mesh.cells[rows] + 1, digits))
             first, more = nodes[:, : _ENTRIES - 1], nodes[:, _ENTRIES - 1 :]
@@ -96,8 +93,3 @@ def _listed(columns: Letters) -> Letters:
 
 def _digits(most: int) -> int:
     return len(str(most))
-
-
-def _chunks(stop: int, start: int = 0) -> Iterator[slice]:
-    """Rows in runs that fit into the cache."""
-    return (slice(at, min(at + _CHUNK, stop)) for at in range(start, stop, _CHUNK))
