@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import ParameterError
-from gearcad.geometry import FlankModification, Gear
+from gearcad.geometry import Gear
 from gearcad.geometry.helix import twist
 from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.elements import Element
@@ -52,8 +52,9 @@ def mesh_body(
         raise ParameterError("element", element.value, 'must be "hex20" or "hex8" for a swept body')
     planes = body_planes(gear, sizes) if planes is None else np.asarray(planes, float)
     check_planes(gear, planes)
-    exact = replace(gear, modification=FlankModification())
-    section = mesh_section(exact, teeth=teeth, inner_radius=inner_radius, sizes=sizes, element=Element.QUAD8, contacts=contacts)
+    section = mesh_section(
+        gear, teeth=teeth, inner_radius=inner_radius, sizes=sizes, element=Element.QUAD8, contacts=contacts, modified=False
+    )
     return _Swept(gear, section, planes, element).mesh
 
 

@@ -54,7 +54,7 @@ def lengths_near(gear: Gear, zone: ContactZone) -> HalfLengths:
 
         return on_curve
 
-    return {kind: lengths(kind) for kind in (CurveKind.FILLET, *begins)}
+    return HalfLengths({kind: lengths(kind) for kind in (CurveKind.FILLET, *begins)})
 
 
 def _length(curves: tuple[Curve, ...], kind: CurveKind) -> float:

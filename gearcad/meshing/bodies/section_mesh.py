@@ -45,6 +45,7 @@ def mesh_section(
     sizes: MeshSizes,
     element: Element,
     contacts: Mapping[int, ContactZone] = NO_CONTACTS,
+    modified: bool = True,
 ) -> ElementMesh:
     """Mesh the transverse section of a gear down to `inner_radius` (mm), in quadrangles or triangles of second order.
 
@@ -55,7 +56,8 @@ def mesh_section(
 
     Teeth in `contacts`, by number, have a zone of short edges; of triangles, those that are not even next to one of them then
     have long ones. Of quadrangles whole rows of the tooth are thin there. With an `inner_radius` of 0 the ring is a full disc
-    without a bore. Flanks are modified as they are at mid face width. Raises ParameterError, GeometryError and SolverError.
+    without a bore. Flanks are modified as they are at mid face width, or, if not `modified`, exact ones; where reliefs begin
+    there are vertices on both. Raises ParameterError, GeometryError and SolverError.
     """
     numbers = teeth_of(gear, teeth)
     every = Sectors(gear, inner_radius, sizes, element, {tooth % gear.teeth: zone for tooth, zone in contacts.items()})
@@ -63,13 +65,12 @@ def mesh_section(
         raise ParameterError("inner_radius", 0.0, "must be above 0 mm for less than the full ring", "mm")
     sectors = [every.of(tooth) for tooth in numbers]
     mesh = _merged(gear, element, numbers, sectors, closed=teeth is None)
-    return _modified(filled(mesh, sizes.growth) if every.disc else mesh, gear)
+    whole = filled(mesh, sizes.growth) if every.disc else mesh
+    return _turned_flanks(whole, gear) if modified and gear.modification.present else whole
 
 
-def _modified(mesh: ElementMesh, gear: Gear) -> ElementMesh:
+def _turned_flanks(mesh: ElementMesh, gear: Gear) -> ElementMesh:
     """The section at mid face width, not turned by the helix."""
-    if not gear.modification.present:
-        return mesh
     turns = modification_turns(mesh, gear, np.array([gear.face_width / 2])).at(0)
     cosine, sine = np.cos(turns), np.sin(turns)
     x, y, z = mesh.points.T

@@ -100,7 +100,7 @@ class Sectors:
     def _cut(self) -> float:
         """Edge length (normal modules) of the cuts of all teeth at the root: not much longer than those beside it."""
         root = self.gear.profile.curves[0]
-        beside = float(self._lengths(self.sizes, None)[root.kind](np.zeros(1), 0.0)[0])
+        beside = float(self._lengths(self.sizes, None).curves[root.kind](np.zeros(1), 0.0)[0])
         return min(self.sizes.cut, _BESIDE * beside / self.gear.normal_module)
 
     def _layout(self, zone: ContactZone | None) -> SectorLayout:

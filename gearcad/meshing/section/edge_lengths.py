@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,13 +10,16 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
-from gearcad.meshing.section.outline import EdgeLength, HalfLengths, MeshSizes, edge_lengths
+from gearcad.meshing.section.outline import HalfLengths, MeshSizes, edge_lengths
 
 __all__ = ["bent_lengths"]
 
 
 _FINE = 1025
 """Places of a curve at which its bend is looked at."""
+
+_TINY = 0.3
+"""Share of an edge that is not worth to be one."""
 
 _CUBIC = 72 * math.sqrt(3)
 """A parabola through both ends and the middle of an arc is off by k' L^3 over this, k' the slope of the curvature."""
@@ -37,25 +39,42 @@ class _Sampled:
         return np.interp(run, self.run, self.length)
 
 
-def bent_lengths(gear: Gear, sizes: MeshSizes, near: Mapping[CurveKind, EdgeLength] | None = None) -> HalfLengths:
+def bent_lengths(gear: Gear, sizes: MeshSizes, near: HalfLengths | None = None) -> HalfLengths:
     """The lengths that `sizes` ask for, shorter where `fillet_turn` and `deviation` want it, and where `near` does.
 
-    Over the whole half of the tooth they grow no faster than `growth`.
+    Over the whole half of the tooth they grow no faster than `growth`. Edges end where reliefs begin.
     """
-    plain = edge_lengths(gear, sizes, loaded=True)
+    plain = edge_lengths(gear, sizes, loaded=True).curves
     runs, lengths = list[Floats](), list[Floats]()
     for curve in gear.profile.curves:
         s = np.linspace(0.0, 1.0, _FINE)
         run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(curve.points(s), axis=0).T))]
         wanted = np.minimum(plain[curve.kind](run, float(run[-1])), _by_bend(curve, s, run, sizes, gear.normal_module))
-        if near and curve.kind in near:
-            wanted = np.minimum(wanted, near[curve.kind](run, float(run[-1])))
+        if near and curve.kind in near.curves:
+            wanted = np.minimum(wanted, near.curves[curve.kind](run, float(run[-1])))
         runs.append(run)
         lengths.append(wanted)
     starts = np.cumsum([0.0, *(run[-1] for run in runs)])
     along = np.concatenate([run + start for run, start in zip(runs, starts[:-1], strict=True)])
     gentle = np.split(_gentle(along, np.concatenate(lengths), sizes.growth), len(runs))
-    return {curve.kind: _Sampled(run, own) for curve, run, own in zip(gear.profile.curves, runs, gentle, strict=True)}
+    sampled = {curve.kind: _Sampled(run, own) for curve, run, own in zip(gear.profile.curves, runs, gentle, strict=True)}
+    return HalfLengths(sampled, _breaks(gear, sampled[CurveKind.INVOLUTE]))
+
+
+def _breaks(gear: Gear, length: _Sampled) -> tuple[float, ...]:
+    """Parameters of the involute where reliefs begin, but for those so near to others or an end that an edge would be tiny."""
+    if not gear.modification.present:
+        return ()
+    form, found = gear.flank_form, [0.0]
+    effort = 1 / length.length
+    passed = np.r_[0.0, np.cumsum((effort[1:] + effort[:-1]) / 2 * np.diff(length.run))]
+    kept = list[float]()
+    for roll in form.roll_breaks:
+        edge = float(np.interp((roll**2 - form.first**2) / (2 * form.base_radius), length.run, passed))
+        if edge - found[-1] > _TINY and passed[-1] - edge > _TINY:
+            found.append(edge)
+            kept.append((roll - form.first) / (form.last - form.first))
+    return tuple(kept)
 
 
 def _gentle(run: Floats, length: Floats, growth: float) -> Floats:

@@ -41,9 +41,6 @@ _DEEPEST_DIP = 0.25
 _LEVELLED = 3.0
 """In how many times the depth of the root circle below the split the rows of the cut become level with those of the core."""
 
-_FINE = 513
-"""Places at which a part of a curve is sampled to be measured."""
-
 _LEAST_FILLET = 1e-6
 """Shortest fillet in normal modules that has a middle to divide it at."""
 
@@ -114,13 +111,6 @@ def shares(pieces: tuple[Piece, ...], count: int) -> list[tuple[Piece, int]]:
     return list(zip(pieces, given, strict=True))
 
 
-def _measured(curve: Curve, last: float) -> float:
-    """Length (mm) of a curve up to a parameter."""
-    if last == 0:
-        return 0.0
-    return float(np.hypot(*np.diff(curve.points(np.linspace(0.0, last, _FINE)), axis=0).T).sum())
-
-
 @dataclass(frozen=True)
 class SectorLayout:
     """The lines between the blocks of the left half of tooth 0's sector, and the edges that the sizes ask for on them.
@@ -168,12 +158,14 @@ class SectorLayout:
     def _flank(self, lengths: HalfLengths) -> tuple[Piece, ...]:
         fillet = self._piece(lengths, Side.LEFT_FILLET, CurveKind.FILLET, self.split, 1.0)
         chamfer = self._piece(lengths, Side.TIP, CurveKind.CHAMFER) if CurveKind.CHAMFER in self._curves else ()
-        return (*fillet, *self._piece(lengths, Side.LEFT_FLANK, CurveKind.INVOLUTE), *chamfer)
+        involute = lengths.parts(self._curves[CurveKind.INVOLUTE])
+        flank = [self._piece(lengths, Side.LEFT_FLANK, CurveKind.INVOLUTE, *part)[0] for part in involute]
+        return (*fillet, *flank, *chamfer)
 
     @cached_property
     def tip(self) -> tuple[Piece, ...]:
         """The tip land from its left end to its right one, graded alike from both."""
-        half, size = self._curves[CurveKind.TIP], self._lengths[CurveKind.TIP]
+        half, size = self._curves[CurveKind.TIP], self._lengths.curves[CurveKind.TIP]
         (radius,), (angle,) = half.polar(np.zeros(1))
         land = Land(CurveKind.TIP, float(radius), float(angle), -float(angle))
         return (Piece(Side.TIP, land, graded(land.points, lambda run, whole: size(np.minimum(run, whole - run), whole))),)
@@ -183,9 +175,8 @@ class SectorLayout:
         return self.lengths or edge_lengths(self.gear, self.sizes, loaded=True)
 
     def _piece(self, lengths: HalfLengths, side: Side, kind: CurveKind, first: float = 0.0, last: float = 1.0) -> tuple[Piece]:
-        curve, length = self._curves[kind], lengths[kind]
-        before = _measured(curve, first)
-        return (Piece(side, curve, graded(curve.points, lambda run, whole: length(before + run, before + whole), first, last)),)
+        curve = self._curves[kind]
+        return (Piece(side, curve, lengths.graded(curve, first, last)),)
 
     @cached_property
     def split(self) -> float:

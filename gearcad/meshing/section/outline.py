@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from enum import Enum
+from itertools import pairwise
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from gearcad.arrays import Floats, Wholes
 from gearcad.errors import require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
-from gearcad.meshing.section.grading import graded
+from gearcad.meshing.section.grading import Grading, graded
 
 __all__ = [
     "OTHER_SIDE",
@@ -31,8 +32,32 @@ __all__ = [
 EdgeLength = Callable[[Floats, float], Floats]
 """Wanted edge lengths (mm) at distances (mm) from the root side of a curve, of a given length in all."""
 
-HalfLengths = Mapping[CurveKind, EdgeLength]
-"""Those of all curves of half a tooth."""
+_FINE = 513
+"""Places at which a part of a curve is sampled to be measured."""
+
+
+@dataclass(frozen=True)
+class HalfLengths:
+    """Wanted edge lengths on the `curves` of half a tooth; at `breaks`, parameters of the involute, an edge ends."""
+
+    curves: Mapping[CurveKind, EdgeLength]
+    breaks: tuple[float, ...] = ()
+
+    def parts(self, curve: Curve) -> list[tuple[float, float]]:
+        """Parameters of the ends of the parts of a curve that have edges of their own."""
+        return list(pairwise((0.0, *(self.breaks if curve.kind is CurveKind.INVOLUTE else ()), 1.0)))
+
+    def graded(self, curve: Curve, first: float = 0.0, last: float = 1.0) -> Grading:
+        """A curve, or a part of it, with edges of these lengths."""
+        length, before = self.curves[curve.kind], _measured(curve, first)
+        return graded(curve.points, lambda run, whole: length(before + run, before + whole), first, last)
+
+
+def _measured(curve: Curve, last: float) -> float:
+    """Length (mm) of a curve up to a parameter."""
+    if last == 0:
+        return 0.0
+    return float(np.hypot(*np.diff(curve.points(np.linspace(0.0, last, _FINE)), axis=0).T).sum())
 
 
 class Side(Enum):
@@ -190,23 +215,23 @@ def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> HalfLengths:
     def on_flank(run: Floats, whole: float) -> Floats:
         return np.minimum(flank, np.minimum(fillet + grow * run, corner + grow * (whole - run)))
 
-    return {
+    curves: dict[CurveKind, EdgeLength] = {
         CurveKind.ROOT: lambda run, whole: np.minimum(sizes.cut * module, fillet + grow * (whole - run)),
         CurveKind.FILLET: lambda run, _whole: np.full_like(run, fillet),
         CurveKind.INVOLUTE: on_flank,
         CurveKind.CHAMFER: lambda run, _whole: np.minimum(other, corner + grow * run),
         CurveKind.TIP: lambda run, _whole: np.minimum(other, corner + grow * run),
     }
+    return HalfLengths(curves)
 
 
 def _half_tooth(gear: Gear, lengths: HalfLengths) -> list[Stretch]:
     """Stretches of the left half, from the middle of the space to the middle of the tooth."""
-    return [_graded(curve, lengths[curve.kind]) for curve in gear.profile.curves]
+    return [_stretch(curve, lengths.graded(curve, *part)) for curve in gear.profile.curves for part in lengths.parts(curve)]
 
 
-def _graded(curve: Curve, size: EdgeLength) -> Stretch:
-    """The curve with edges of the wanted lengths."""
-    grading = graded(curve.points, size)
+def _stretch(curve: Curve, grading: Grading) -> Stretch:
+    """A part of a curve with edges of the wanted lengths."""
     edges = max(1, math.ceil(grading.edges - 1e-9))
     return Stretch(_SIDES[curve.kind], curve.points(grading.ends(2 * edges)))
 
