@@ -1,29 +1,23 @@
-"""The mesh of a tooth sector: exactly on the profile, fit to be joined to its neighbours, well shaped, and exported whole."""
+"""The mesh of a tooth sector: exactly on the profile, fit to be joined to its neighbours, well shaped."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
-import meshio
 import numpy as np
 import pytest
 
 from gearcad import BasicRack, Body, Gear, GearPair
 from gearcad.errors import ParameterError
-from gearcad.meshing.export import MESH_SUFFIXES, ring_mesh, sector_mesh, write_mesh
 from gearcad.meshing.section import MeshSizes, SectorMesh, mesh_sector
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.quality import mesh_quality
 
 ROUNDING = 1e-9
 """mm per mm of module: what 16 digits leave of a mesh."""
-
-CALCULIX_READS = 20
-"""Characters of a number; a longer one is an error there."""
 
 LEAST_ANGLE = 18.0
 """Degrees; triangles below 15 begin to spoil the matrix, and a curved outline cannot do much better than 20."""
@@ -191,62 +185,6 @@ def test_quality_of_known_triangles() -> None:
     bent = points.copy()
     bent[3, 1] = height / 2
     assert mesh_quality(bent, triangle).least_jacobian == pytest.approx(0, abs=1e-12)
-
-
-def test_a_ring_is_closed() -> None:
-    gear = Gear(teeth=11, normal_module=2.0, face_width=10, profile_shift=0.4)
-    mesh = mesh_sector(gear, 4.0, MeshSizes().coarse())
-    ring = ring_mesh(mesh, gear.teeth)
-    assert len(ring.points) == gear.teeth * (len(mesh.points) - len(mesh.ahead))
-    assert element_area(ring.points, ring.triangles) == pytest.approx(gear.teeth * element_area(mesh.points, mesh.triangles))
-    assert set(np.unique(ring.triangles)) == set(range(len(ring.points)))
-    edges = np.sort(ring.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2))
-    _, times = np.unique(edges, axis=0, return_counts=True)
-    outside = sum((len(mesh.sides[side]) - 1) // 2 for side in Side if side not in (Side.AHEAD, Side.BEHIND))
-    assert (times == 1).sum() == gear.teeth * outside
-    assert np.hypot(*ring.points[ring.sets["hub"]].T) == pytest.approx(4.0)
-
-
-@pytest.mark.parametrize("whole", [False, True], ids=["sector", "ring"])
-@pytest.mark.parametrize("suffix", MESH_SUFFIXES)
-def test_files_come_back(suffix: str, whole: bool, tmp_path: Path) -> None:
-    mesh = mesh_sector(Z18, inner_radius(Z18, 4), MeshSizes().coarse())
-    written = ring_mesh(mesh, Z18.teeth) if whole else sector_mesh(mesh)
-    write_mesh(written, tmp_path / f"gear{suffix}")
-    read = meshio.read(tmp_path / f"gear{suffix}", file_format="gmsh" if suffix == ".msh" else None)
-    # CalculiX reads 20 characters of a number: 13 digits, and 1e-12 mm of 10 mm; the others keep all of them.
-    assert np.abs(read.points[:, :2] - written.points).max() < (6e-12 if suffix == ".inp" else 1e-14)
-    assert [block.type for block in read.cells] == ["triangle6"]
-    assert np.array_equal(read.cells[0].data, written.triangles)
-    for name, nodes in written.sets.items():
-        found = read.point_sets[name] if suffix == ".inp" else np.flatnonzero(read.point_data[name])
-        assert np.array_equal(np.sort(found), np.sort(nodes))
-
-
-@pytest.mark.parametrize(("plane_strain", "element"), [(True, "CPE6"), (False, "CPS6")])
-def test_abaqus_elements_say_the_plane_state(plane_strain: bool, element: str, tmp_path: Path) -> None:
-    mesh = sector_mesh(mesh_sector(Z18, inner_radius(Z18, 4), MeshSizes().coarse()))
-    write_mesh(mesh, tmp_path / "gear.inp", plane_strain=plane_strain)
-    text = (tmp_path / "gear.inp").read_text()
-    keywords = [line for line in text.splitlines() if line.startswith("*")]
-    assert keywords == [
-        "*HEADING",
-        "*NODE",
-        f"*ELEMENT, TYPE={element}",
-        "*ELSET, ELSET=body",
-        "*NSET, NSET=hub",
-        "*NSET, NSET=flank",
-    ]
-    numbers = [line.split(",") for line in text.partition("*NODE\n")[2].partition("*ELEMENT")[0].splitlines()]
-    assert len(numbers) == len(mesh.points)
-    assert max(len(number.strip()) for line in numbers for number in line) <= CALCULIX_READS
-
-
-def test_another_suffix_is_refused(tmp_path: Path) -> None:
-    mesh = sector_mesh(mesh_sector(Z18, inner_radius(Z18, 4), MeshSizes().coarse()))
-    with pytest.raises(ParameterError, match=r"\.vtu"):
-        write_mesh(mesh, tmp_path / "gear.stl")
-    assert not list(tmp_path.iterdir())
 
 
 def test_a_pair_at_any_shift_meshes() -> None:
