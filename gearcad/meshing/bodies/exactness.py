@@ -1,0 +1,144 @@
+"""How far a mesh is from the exact flanks and fillets of its gear: at its nodes, and on its faces between them."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from gearcad.arrays import Floats
+from gearcad.geometry import Gear
+from gearcad.geometry.curves import CurveKind, Fillet, Involute
+from gearcad.geometry.helix import twist
+from gearcad.geometry.turned import FlankCurve, flank_curves
+from gearcad.meshing.bodies.interpolation import shape_values
+from gearcad.meshing.bodies.mesh import ElementMesh
+
+__all__ = ["Deviations", "deviations"]
+
+
+_SIDE = re.compile(r"(left|right)_(flank|fillet)_(\d+)")
+
+_STEPS = 3
+"""Newton's steps from the curve's point on the same radius: a point that is nearly on it is there after one."""
+
+_SMALL = 1e-6
+"""Step of a curve's parameter over which its speed is taken."""
+
+_THIRD = 1 / math.sqrt(3)
+"""Where a parabola through the ends and the middle of a cubic is farthest off."""
+
+
+@dataclass(frozen=True)
+class Deviations:
+    """Greatest distances from the exact, modified flanks and fillets: of nodes (mm), and of faces between them (µm).
+
+    `worst` is the side of the latter, "" if the mesh has neither flanks nor fillets.
+    """
+
+    nodes: float
+    between: float
+    worst: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """As mesh.json has it."""
+        return {"nodes": self.nodes, "between_nodes": self.between, "worst": self.worst}
+
+
+def deviations(mesh: ElementMesh, gear: Gear) -> Deviations:
+    """Measure the flanks and fillets of a gear's section, which is that at mid face width, or body; distances are normal ones.
+
+    Faces are looked at on a grid of 4 x 4 places.
+    """
+    nodes, between, worst = 0.0, 0.0, ""
+    solid = mesh.element.shape.dimension == 3
+    shapes = shape_values(mesh.element.shape.face, _places(mesh.element.shape.face))
+    for name, surface in _surfaces(mesh, gear, solid=solid):
+        faces = mesh.face_cells(name)
+        nodes = max(nodes, float(surface.distances(mesh.points[np.unique(faces)]).max()))
+        samples = np.einsum("pa,mac->mpc", shapes, mesh.points[faces]).reshape(-1, 3)
+        off = 1000 * float(surface.distances(samples).max())
+        if off > between or not worst:
+            between, worst = off, name
+    return Deviations(nodes, between, worst)
+
+
+def _surfaces(mesh: ElementMesh, gear: Gear, *, solid: bool) -> Iterator[tuple[str, _Surface]]:
+    """The named flanks and fillets, and what they should be."""
+    form, curves = gear.flank_form, {each.curve.kind: each for each in flank_curves(gear)}
+    flank = next(curve for curve in gear.profile.curves if isinstance(curve, Involute))
+    parts = {"fillet": curves[CurveKind.FILLET], "flank": FlankCurve(flank, form.first, form.last)}
+    for name, faces in mesh.sides.items():
+        if (match := _SIDE.fullmatch(name)) and len(faces):
+            side, part, tooth = match.groups()
+            yield name, _Surface(gear, parts[part], side == "left", 2 * math.pi * int(tooth) / gear.teeth, solid)
+
+
+@dataclass(frozen=True)
+class _Surface:
+    """One flank or fillet of the tooth at `place` (rad), of a body, or of the section at mid face width."""
+
+    gear: Gear
+    piece: FlankCurve
+    left: bool
+    place: float
+    solid: bool
+
+    def distances(self, points: Floats) -> Floats:
+        """Distances (n,) in mm of points (n, 3) that are near the surface."""
+        curve, sense = self.piece.curve, 1 if self.left else -1
+        x, y, z = points.T
+        height = z if self.solid else np.full_like(z, self.gear.face_width / 2)
+        rate = twist(self.gear) if self.solid else 0.0
+        radius, angle = np.hypot(x, y), sense * (np.arctan2(y, x) - self.place - rate * z)
+        s = self._on_radius(radius)
+        for _ in range(_STEPS):
+            turned = angle - sense * self.piece.turn(self.gear.flank_form, s, height, left=self.left)
+            off = np.stack([radius * np.cos(turned), radius * np.sin(turned)], -1) - curve.points(s)
+            heading = curve.direction(s)
+            along = off[:, 0] * np.cos(heading) + off[:, 1] * np.sin(heading)
+            across = off[:, 1] * np.cos(heading) - off[:, 0] * np.sin(heading)
+            s = s + along / self._speed(s)
+        # The section cuts the surface at a slant: the way to it in space is shorter than in the section.
+        slant = rate * radius * np.cos(heading - curve.polar(s)[1])
+        distance: Floats = np.abs(across) / np.hypot(1.0, slant)
+        return distance
+
+    def _on_radius(self, radius: Floats) -> Floats:
+        """Parameters (n,) of the curve's points on these radii (mm), or of its ends."""
+        curve = self.piece.curve
+        if isinstance(curve, Involute):
+            base = curve.base_radius
+            roll = np.sqrt(np.maximum((radius - base) * (radius + base), 0.0)) / base
+            found = (roll - curve.first) / (curve.last - curve.first)
+        else:
+            assert isinstance(curve, Fillet)
+            theta = curve.tool.theta_at(radius, curve.last)
+            found = np.arcsinh(np.tan(theta)) / math.asinh(math.tan(curve.last))
+        on_curve: Floats = np.clip(found, 0.0, 1.0)
+        return on_curve
+
+    def _speed(self, s: Floats) -> Floats:
+        """Length (mm) per parameter."""
+        low, high = np.maximum(s - _SMALL, 0.0), np.minimum(s + _SMALL, 1.0)
+        curve = self.piece.curve
+        step = np.hypot(*(curve.points(high) - curve.points(low)).T)
+        speed: Floats = np.maximum(step / np.maximum(high - low, _SMALL), 1e-9)
+        return speed
+
+
+@cache
+def _places(face: str) -> Floats:
+    """Local places (n, dimension) at which a face is looked at: on its edges and inside."""
+    line = np.array([-1.0, -_THIRD, _THIRD, 1.0])
+    if face == "line3":
+        return line[:, None]
+    if face == "tri6":
+        share = (1 + line) / 2
+        return np.array([[a, b] for a in share for b in share if a + b <= 1 + 1e-12])
+    return np.array([[a, b] for a in line for b in line])

@@ -1,0 +1,112 @@
+"""Bodies of any gear, modified or not, are meshed with good hexahedra whose nodes are on the exact flanks, or refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import event, given, settings
+from hypothesis import strategies as st
+from support.exact import distance_to_section
+from support.modified import depth_off, roll_ends, unturned
+from support.sections import COARSE
+from support.strategies import build_gear, gear_inputs
+
+from gearcad import FlankModification, Gear
+from gearcad.errors import GeometryError, InputError, SolverError
+from gearcad.meshing.bodies import Element, ElementMesh
+from gearcad.meshing.bodies.body_mesh import mesh_body
+from gearcad.meshing.bodies.quality import quality, require_good
+
+OFF = 1e-9
+"""mm, for gears up to a metre: the promise; of larger ones the share of it that rounding takes."""
+
+STEEP = 50.0
+"""Degrees: up to this helix angle no gear is refused for its elements, but for those whose edges are straight."""
+
+AMOUNTS = {name: st.one_of(st.just(0.0), st.floats(-0.03, 0.03)) for name in ("profile_crowning", "lead_crowning", "twist")}
+AMOUNTS |= {name: st.one_of(st.just(0.0), st.floats(0.0, 0.05)) for name in ("tip_relief", "root_relief", "end_relief")}
+AMOUNTS |= {name: st.floats(-0.03, 0.03) for name in ("pressure_angle_modification", "helix_angle_modification")}
+
+MODIFICATIONS = st.one_of(st.none(), st.fixed_dictionaries({**AMOUNTS, "share": st.floats(0.02, 0.5)}))
+"""Amounts in normal modules, and the lengths of reliefs as a share of the flank."""
+
+NOTHING = {"bore": 0.0, "keyway": 0.0, "hub": 0.0, "hub_side": "front", "end_chamfer": 0.0, "end_chamfer_angle": 45.0}
+"""Of what a sweep leaves out, and of which many a gear could not be made."""
+
+RIMS = st.one_of(st.floats(0.1, 1.0), st.floats(0.1, 10.0))
+"""Body below the root circle in normal modules."""
+
+WIDTHS = st.one_of(st.just(None), st.floats(0.1, 1.0), st.floats(10.0, 50.0))
+"""Face width in normal modules; None: as drawn with the gear."""
+
+
+def modified(gear: Gear, drawn: dict[str, float] | None) -> Gear:
+    if drawn is None:
+        return gear
+    first, last = roll_ends(gear)
+    lengths = {f"{end}_relief_length": drawn["share"] * (last - first) for end in ("tip", "root")}
+    amounts = {name: np.clip(1000 * drawn[name] * gear.normal_module, -999, 999) for name in AMOUNTS}
+    modification = FlankModification(**lengths, end_relief_length=drawn["share"] * gear.face_width, **amounts)
+    return replace(gear, modification=modification)
+
+
+def check_body(gear: Gear, rim: float, element: Element) -> None:
+    root = gear.root_diameter / 2
+    inner = max(root - rim * gear.normal_module, 0.3 * root)
+    mesh = mesh_body(gear, teeth=1, inner_radius=inner, sizes=COARSE, planes=None, element=element)
+    check_nodes(gear, mesh)
+    require_good(quality(mesh))
+
+
+def check_nodes(gear: Gear, mesh: ElementMesh) -> None:
+    """Nodes of flanks and fillets are on the modified helicoid; that of fillets that fade is looked at by others."""
+    off = OFF * max(1.0, gear.tip_diameter / 1000)
+    for side in ("left", "right"):
+        flank, fillet = (mesh.points[mesh.nodes(f"{side}_{part}_0")[::7]] for part in ("flank", "fillet"))
+        assert np.abs(depth_off(gear, flank)).max() < off
+        if not gear.modification.present or "left_root_0" in mesh.sides:
+            assert distance_to_section(gear, unturned(gear, fillet)).max() < off
+
+
+def check_inputs(
+    inputs: dict[str, Any], drawn: dict[str, float] | None, rim: float, width: float | None, element: Element
+) -> None:
+    inputs |= {"body": NOTHING | {"tip_chamfer": inputs["body"]["tip_chamfer"]}}
+    try:
+        gear = modified(build_gear(inputs | ({} if width is None else {"width": width})), drawn)
+    except InputError as error:
+        event(f"no gear: {error.parameter}")
+        return
+    try:
+        check_body(gear, rim, element)
+    except GeometryError as error:
+        event("no fillet")
+        assert error.parameter == "rack.root_radius" and gear.rack.root_radius < 1e-6
+    except SolverError as error:
+        event("refused")
+        assert "too bad" in str(error) and (abs(gear.helix_angle) > STEEP or element is Element.HEX8)
+    else:
+        event("meshed, modified" if drawn else "meshed")
+
+
+DRAWN = (gear_inputs(), MODIFICATIONS, RIMS, WIDTHS, st.sampled_from([Element.HEX20, Element.HEX8]))
+
+
+@settings(max_examples=200)
+@given(*DRAWN)
+def test_bodies_are_good_meshes(
+    inputs: dict[str, Any], drawn: dict[str, float] | None, rim: float, width: float | None, element: Element
+) -> None:
+    check_inputs(inputs, drawn, rim, width, element)
+
+
+@pytest.mark.long
+@settings(max_examples=3000)
+@given(*DRAWN)
+def test_bodies_are_good_meshes_long(
+    inputs: dict[str, Any], drawn: dict[str, float] | None, rim: float, width: float | None, element: Element
+) -> None:
+    check_inputs(inputs, drawn, rim, width, element)
