@@ -30,8 +30,8 @@ _STEPS = 3
 _SMALL = 1e-6
 """Step of a curve's parameter over which its speed is taken."""
 
-_THIRD = 1 / math.sqrt(3)
-"""Where a parabola through the ends and the middle of a cubic is farthest off."""
+_CUBIC = 1 / math.sqrt(3)
+"""Where a parabola through the ends and the middle of a cubic is farthest off, from -1 to 1; a straight line is at 0."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Deviations:
 def deviations(mesh: ElementMesh, gear: Gear) -> Deviations:
     """Measure the flanks and fillets of a gear's section, which is that at mid face width, or body; distances are normal ones.
 
-    Faces are looked at on a grid of 4 x 4 places.
+    Faces are looked at on a grid of 5 x 5 places.
     """
     nodes, between, worst = 0.0, 0.0, ""
     solid = mesh.element.shape.dimension == 3
@@ -135,7 +135,7 @@ class _Surface:
 @cache
 def _places(face: str) -> Floats:
     """Local places (n, dimension) at which a face is looked at: on its edges and inside."""
-    line = np.array([-1.0, -_THIRD, _THIRD, 1.0])
+    line = np.array([-1.0, -_CUBIC, 0.0, _CUBIC, 1.0])
     if face == "line3":
         return line[:, None]
     if face == "tri6":
