@@ -47,15 +47,15 @@ def test_a_turned_flank_is_off_by_its_lever(name: str, changed: bool) -> None:
     turned = mesh.points @ np.array([[math.cos(turn), math.sin(turn), 0], [-math.sin(turn), math.cos(turn), 0], [0, 0, 1]])
     expected = turn * gear.base_diameter / 2 * math.cos(math.radians(gear.base_helix_angle))
     found = deviations(only(replace(mesh, points=turned), "flank"), gear)
-    slopes = 1e-3 if changed else 1e-9  # of the modified flank to the exact one
-    assert found.nodes == pytest.approx(expected, rel=slopes, abs=1e-12)
+    slopes = 0.03 if changed else 1e-5  # of the modified flank to the exact one; the flank is curved
+    assert found.nodes == pytest.approx(expected, rel=slopes)
     assert deviations(only(mesh, "flank"), gear).nodes < 1e-6 * expected
 
 
 def test_straight_edges_are_off_by_their_bulge() -> None:
     """L^2/(8 rho) in the middle of an edge, rho the roll length there."""
     gear = replace(GEARS["spur"], face_width=0.5)
-    mesh = body(gear, element=Element.HEX8)
+    mesh = body(gear, MeshSizes(), Element.HEX8)
     ends = mesh.points[mesh.face_cells("left_flank_0")[:, :2], :2]
     lengths, middles = np.hypot(*np.diff(ends, axis=1)[:, 0].T), np.hypot(*ends.mean(axis=1).T)
     bulges = lengths**2 / 8 / np.sqrt(middles**2 - gear.base_diameter**2 / 4)
