@@ -30,6 +30,7 @@ gearcad.errors.ParameterError: load = 60: must be a Load
     data(pair)                     every derived quantity
     build(pair, folder)            STEP, STL, 3MF, GLB, DXF, points
     check(pair, load)              contact and root stress by finite elements, beside Hertz and ISO 6336
+    mesh(gear)                     finite elements with named sides, of a section or a body, of a gear or a pair
     rate(pair, load)               ISO 6336 or DIN 3990, Method B
     stiffness(pair, load)          mesh stiffness by every method
     dynamics(pair, load)           natural frequencies, K_v over speed; of trains too
@@ -96,7 +97,7 @@ __all__ = [
     "read",
 ]
 
-_ROOMS = ("batch", "check", "contact", "designs", "dynamics", "jobs", "rating", "solids", "stiffness")
+_ROOMS = ("batch", "check", "contact", "designs", "dynamics", "jobs", "meshing", "rating", "solids", "stiffness")
 
 if not TYPE_CHECKING:
     import sys

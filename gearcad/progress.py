@@ -22,10 +22,14 @@ def unheard(_share: float) -> None:
 
 
 class Expected(NamedTuple):
-    """What a job is expected to take: seconds on a usual computer, and bytes of memory at the most. Both are rough."""
+    """What a job is expected to take: seconds on a usual computer, and bytes of memory at the most. Both are rough.
+
+    `makes` says in words what comes of it, where that is known beforehand.
+    """
 
     seconds: float
     memory: float
+    makes: str = ""
 
 
 class Agenda:

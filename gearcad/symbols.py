@@ -15,6 +15,7 @@ __all__ = [
     "DYNAMICS",
     "GEAR",
     "GEAR_RATING",
+    "MESH",
     "MODIFY",
     "MODIFY_FIGURES",
     "PAIR",
@@ -200,6 +201,17 @@ DYNAMICS = {
     "kv_highest_speed": Symbol("n_1", "rpm", "", "speed of the highest dynamic factor"),
 }
 """Of a pair, beside what its options have."""
+
+MESH = {
+    "passed": Symbol("", "", "", "whether the gates of the meshes are passed"),
+    "nodes": Symbol("", "", "", "nodes of all meshes"),
+    "elements": Symbol("", "", "", "elements of all meshes"),
+    "bytes": Symbol("", "bytes", "", "memory of nodes and elements"),
+    "least_scaled_jacobian": Symbol("", "", "", "least scaled Jacobian of an element"),
+    "largest_aspect": Symbol("", "", "", "longest over shortest edge of an element, at the most"),
+    "least_angle": Symbol("", "deg", "", "least angle between edges of a face"),
+}
+"""Of all meshes of a design, as mesh.json has them."""
 
 MODIFY = {
     "torque": Symbol("T_1", "N·m", "", "torque of the modifications, on the pinion"),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from gearcad.cli.progress import job_progress
+from gearcad.cli.progress import file_progress, job_progress
 from gearcad.notice import Notice, texts
 
 if TYPE_CHECKING:
@@ -53,7 +53,8 @@ def perform(
     design = read_spec(spec)
     with job_progress(shown=not quiet, expected=None if quiet else job.expected(design)) as progress:
         result = job.run(design, progress)
-    files = job.write(result, folder_of(output, design.name))
+    with file_progress(shown=not quiet and job.writes_long) as progress:
+        files = job.write(result, folder_of(output, design.name), progress)
     if as_json:
         click.echo(next(file for file in files if file.name == f"{job.verb}.json").read_text(encoding="utf-8"), nl=False)
     else:

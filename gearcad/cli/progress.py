@@ -55,8 +55,8 @@ def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[P
     from rich.progress import BarColumn, TaskProgressColumn, TextColumn
     from rich.progress import Progress as Bar
 
-    if expected is not None and expected.seconds >= _LONG:
-        click.echo(f"takes {_about(expected.seconds)} and {_about_memory(expected.memory)} of memory", err=True)
+    if expected is not None and (told := _told(expected)):
+        click.echo(told, err=True)
     clock = _Clock(expected)
     console = Console(stderr=True)
     if not console.is_terminal:
@@ -68,6 +68,12 @@ def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[P
         yield lambda what, done, whole: bar.update(
             task, description=what, completed=done, total=whole, left=clock.left(done / whole)
         )
+
+
+def _told(expected: Expected) -> str:
+    """What is worth telling before a job begins."""
+    takes = f"takes {_about(expected.seconds)} and {_about_memory(expected.memory)} of memory"
+    return ", ".join(filter(None, (expected.makes, takes if expected.seconds >= _LONG else "")))
 
 
 class _Clock:

@@ -30,6 +30,7 @@ _COMPUTED = {
     "check.rating.wheel": symbols.GEAR_RATING,
     "stiffness": symbols.STIFFNESS,
     "dynamics": symbols.DYNAMICS,
+    "mesh": symbols.MESH,
     "modify": symbols.MODIFY,
     "modify.before": symbols.MODIFY_FIGURES,
     "modify.after": symbols.MODIFY_FIGURES,

@@ -13,6 +13,7 @@ from gearcad.dynamics.options import DynamicsOptions
 from gearcad.geometry import Gear, GearPair, ShiftSplit
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.meshing.options import MeshOptions
 from gearcad.mounting import Mounting
 from gearcad.per_gear import Role
 from gearcad.rating.options import RatingOptions
@@ -53,6 +54,7 @@ BESIDE: dict[str, type[DataclassInstance]] = {
     "load": Load,
     "mounting": Mounting,
     "check": CheckOptions,
+    "mesh": MeshOptions,
     "dynamics": DynamicsOptions,
     "rating": RatingOptions,
 }

@@ -41,6 +41,9 @@ class Job(ABC, Generic[Accepted, Result]):
     solves: ClassVar[bool] = True
     """Whether it solves systems. They are small, or solved side by side: more threads cost more than they bring."""
 
+    writes_long: ClassVar[bool] = False
+    """Whether its files are so large that one wants to see which of them is being written."""
+
     sometimes: ClassVar[tuple[str, ...]] = ()
     """Files that not every result has: one that is there of a former result goes, for it would belong to another."""
 

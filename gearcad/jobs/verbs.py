@@ -12,8 +12,9 @@ if TYPE_CHECKING:
     from gearcad.jobs.check import check as check
     from gearcad.jobs.data import data as data
     from gearcad.jobs.dynamics import dynamics as dynamics
+    from gearcad.jobs.mesh import mesh as mesh
     from gearcad.jobs.modify import modify as modify
     from gearcad.jobs.rate import rate as rate
     from gearcad.jobs.stiffness import stiffness as stiffness
 
-VERBS = ("data", "build", "check", "rate", "stiffness", "dynamics", "modify")
+VERBS = ("data", "build", "check", "mesh", "rate", "stiffness", "dynamics", "modify")

@@ -13,6 +13,7 @@ from gearcad.designs.columns import column_symbol
 from gearcad.designs.keys import COLUMNS
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
+from gearcad.meshing.options import MeshOptions
 from gearcad.per_gear import PerGear
 from gearcad.rating import RatingOptions
 from gearcad.schema import schema_of, symbols_of
@@ -73,7 +74,7 @@ WRITTEN = [
     symbols_of(Gear) | symbols.GEAR,
     {key: symbol for key, symbol in symbols_of(GearPair).items() if "." not in key} | symbols.PAIR,
     symbols_of(CheckOptions) | symbols.CHECK,
-    *(symbols_of(kind) for kind in (Material, Load, Mounting, RatingOptions, DynamicsOptions)),
+    *(symbols_of(kind) for kind in (Material, Load, Mounting, RatingOptions, DynamicsOptions, MeshOptions)),
     *(
         {name: symbol for name, symbol in symbols_of(kind).items() if name not in ("name", "start", "end", "pinion", "wheel")}
         for kind in TRAIN

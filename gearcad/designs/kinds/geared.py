@@ -16,6 +16,7 @@ from gearcad.errors import SpecError, format_number, shown
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.meshing.options import MeshOptions
 from gearcad.mounting import Mounting
 from gearcad.rating.options import RatingOptions
 
@@ -28,6 +29,7 @@ class Inputs(TypedDict, total=False):
     material: Material
     mounting: Mounting
     check: CheckOptions
+    mesh: MeshOptions
     dynamics: DynamicsOptions
     rating: RatingOptions
 
@@ -40,6 +42,7 @@ class GearedDesign(Design):
     load: Load | None = None
     mounting: Mounting | None = None
     check: CheckOptions | None = None
+    mesh: MeshOptions | None = None
     dynamics: DynamicsOptions | None = None
     rating: RatingOptions | None = None
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from itertools import pairwise
 
 from numpy.polynomial import Chebyshev
@@ -11,7 +12,7 @@ from numpy.polynomial.legendre import leggauss
 
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve
-from gearcad.geometry.turned import flank_curves
+from gearcad.geometry.turned import flank_curves, middle_section
 
 __all__ = ["exact_area", "exact_volume"]
 
@@ -22,13 +23,24 @@ _PLACES, _WEIGHTS = leggauss(16)
 
 
 def exact_area(gear: Gear, inner_radius: float) -> float:
-    """Area (mm²) of one tooth and its share of the body down to `inner_radius` (mm) in an unmodified section."""
-    outside = 0.0
-    for curve in gear.profile.curves:
+    """Area (mm²) of one tooth and its share of the body down to `inner_radius` (mm), in the section at mid face width."""
+    return _area(middle_section(gear)) - math.pi / gear.teeth * inner_radius**2
+
+
+def exact_volume(gear: Gear, inner_radius: float) -> float:
+    """Volume (mm³) of the same over the face width, flanks modified as they are."""
+    plain = (_area(gear.profile.curves) - math.pi / gear.teeth * inner_radius**2) * gear.face_width
+    return plain - sum(_taken(gear, left=left) for left in (True, False)) if gear.modification.present else plain
+
+
+def _area(curves: Iterable[Curve]) -> float:
+    """Area (mm²) of a tooth and its body down to the centre, by the curves of half of it."""
+    area = 0.0
+    for curve in curves:
         radius, angle = _polar(curve)
         swept = (radius**2 * angle.deriv()).integ()
-        outside += float(swept(0.0) - swept(1.0))  # angles fall from the middle of the space to that of the tooth
-    return outside - math.pi / gear.teeth * inner_radius**2
+        area += float(swept(0.0) - swept(1.0))  # angles fall from the middle of the space to that of the tooth
+    return area
 
 
 def _polar(curve: Curve) -> tuple[Chebyshev, Chebyshev]:
@@ -36,12 +48,6 @@ def _polar(curve: Curve) -> tuple[Chebyshev, Chebyshev]:
     places = (1 + chebpts1(_DEGREE + 1)) / 2
     radius, angle = (Chebyshev.fit(places, values, _DEGREE, domain=[0, 1]) for values in curve.polar(places))
     return radius, angle
-
-
-def exact_volume(gear: Gear, inner_radius: float) -> float:
-    """Volume (mm³) of the same over the face width, flanks modified as they are."""
-    plain = exact_area(gear, inner_radius) * gear.face_width
-    return plain - sum(_taken(gear, left=left) for left in (True, False)) if gear.modification.present else plain
 
 
 def _taken(gear: Gear, *, left: bool) -> float:

@@ -1,0 +1,84 @@
+"""Finite element meshes of a design: mesh."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from gearcad.cli.group import debug_option, spec_argument
+from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
+from gearcad.meshing.files.formats import MeshFormat
+
+if TYPE_CHECKING:
+    from gearcad.meshing.result import JudgedMesh, MeshResult
+
+__all__ = ["mesh"]
+
+_FORMATS = f"Comma-separated list of {', '.join(kind.value for kind in MeshFormat)}.  [default: vtu,msh]"
+
+
+@click.command(short_help="Mesh SPEC's gears with finite elements.")
+@spec_argument
+@output_option
+@click.option("--what", metavar="WHAT", help="sector, teeth:5, ring, pair, pair:5 or part.  [default: ring, or pair]")
+@click.option("--model", metavar="2d|3d", help="Section or body.  [default: 3d for helical gears]")
+@click.option("--element", metavar="KIND", help="quad8, tri6; hex20, hex8; tet10.  [default: the first, of a part tet10]")
+@click.option("--gear", metavar="NAME", help="pinion, wheel or both.  [default: both]")
+@click.option("--size", type=float, metavar="MM", help="Edge of elements on the flanks; the others follow.")
+@click.option("--roll", type=float, metavar="DEG", help="Where a pair stands in mesh, 0 at the pitch point.")
+@click.option("--format", metavar="LIST", help=_FORMATS)
+@json_option
+@quiet_option
+@debug_option
+def mesh(spec: Path, output: Path | None, as_json: bool, quiet: bool, **options: str | float | None) -> None:
+    """Mesh the gears of SPEC with finite elements: nodes exactly on flanks and fillets, sides with names.
+
+    \b
+    sector    one tooth and its share of the body, with matched cuts
+    teeth:5   so many teeth next to each other
+    ring      all teeth, down to the bore
+    pair      pinion and wheel in mesh; pair:5 has five teeth of each
+    part      the whole part with keyway, hub and chamfers, of tetrahedra
+
+    Writes a file for each gear, or one for the pair, in each format, and mesh.json, which says how good the elements are and
+    how far they are from the exact gear. Exit status 1 if that is too bad. [mesh] in SPEC holds the same options.
+    """
+    from gearcad.jobs.mesh import Mesh
+
+    job = Mesh(given={name: value for name, value in options.items() if value is not None})
+    result = perform(job, spec, output, _show, as_json=as_json, quiet=quiet)
+    if not result.passed:
+        click.get_current_context().exit(1)
+
+
+def _show(name: str, result: MeshResult) -> None:
+    """Each gear's mesh, what to know, and the verdict."""
+    for role, judged in result.judged.items():
+        click.echo("\n".join(_lines(role, judged, result)))
+    echo_warnings(result.notices)
+    click.secho(f"{name}: mesh {result.verdict}", fg="green" if result.passed else "red", bold=True)
+
+
+def _lines(role: str, judged: JudgedMesh, result: MeshResult) -> list[str]:
+    measured, solid = judged.quality, result.plan.solid
+    size, unit = ("volume", "mm³") if solid else ("area", "mm²")
+    return [
+        f"{role}: {_extent(judged)}, {_count(judged.elements)} {measured.element.value}, {_count(judged.nodes)} nodes",
+        f"  scaled Jacobian at least {measured.least_jacobian:.3f}, {measured.mean_jacobian:.3f} on the mean; the worst is "
+        f"{measured.worst[0]}",
+        f"  longest over shortest edge at most {measured.largest_aspect:.1f}, angles at least {measured.least_angle:.1f}°",
+        f"  {size} {judged.whole:.8g} {unit}, exact {judged.exact:.8g} {unit}",
+    ]
+
+
+def _extent(judged: JudgedMesh) -> str:
+    if judged.teeth == judged.gear.teeth:
+        return f"ring of {judged.teeth} teeth"
+    return "1 tooth" if judged.teeth == 1 else f"{judged.teeth} teeth"
+
+
+def _count(number: int) -> str:
+    """A whole number, its thousands apart."""
+    return f"{number:,}".replace(",", "\u202f")

@@ -1,0 +1,132 @@
+"""Mesh: finite elements of a design's gears with named sides, as files of other programs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any, Unpack
+
+from gearcad.designs import Design, GearDesign, GearedDesign, Inputs, PairDesign
+from gearcad.geometry import Gear, GearPair
+from gearcad.jobs.contact_zones import contact_zones
+from gearcad.jobs.job import Job, Writer
+from gearcad.jobs.subject import as_design
+from gearcad.load import Load
+from gearcad.material import Material
+from gearcad.meshing.document import mesh_document
+from gearcad.meshing.files.formats import MeshFormat
+from gearcad.meshing.options import MeshOptions
+from gearcad.meshing.plan import MeshPlan, plan_mesh
+from gearcad.meshing.result import MeshResult
+from gearcad.meshing.run import run_mesh
+from gearcad.notice import Notice
+from gearcad.progress import Progress
+
+__all__ = ["Mesh", "mesh"]
+
+_SUFFIXES = frozenset(kind.value for kind in MeshFormat)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mesh(Job[GearedDesign, MeshResult]):
+    """Meshes of a design in the formats of its options: `gear.vtu`, or `pinion.vtu` and `wheel.vtu`, or `pair.vtu` in mesh.
+
+    What is `given` of the options by their names wins over those of the design's own [mesh]. Raises ParameterError.
+    """
+
+    verb = "mesh"
+    accepts = (GearDesign, PairDesign)
+    why = "there are no teeth"
+    solves = False
+    writes_long = True
+
+    given: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        MeshOptions(**self.given)
+
+    def _run(self, design: GearedDesign, progress: Progress | None) -> MeshResult:
+        return run_mesh(self._plan(design), design.name, progress)
+
+    def _plan(self, design: GearedDesign) -> MeshPlan:
+        options = replace(design.mesh or MeshOptions(), **self.given)
+        pair = design.assembly
+        if pair is not None and design.mounting is not None:
+            pair = design.mounting.mounted(pair)
+        plan = plan_mesh(options, design.gears, pair)
+        return plan if plan.pair is None or design.load is None else _pressed(plan, plan.pair, design)
+
+    def document(self, result: MeshResult) -> dict[str, Any]:
+        """What mesh.json holds."""
+        return mesh_document(result, self.files(result))
+
+    def notices(self, result: MeshResult) -> Sequence[Notice]:
+        return result.notices
+
+    def files(self, result: MeshResult) -> dict[str, Writer]:
+        """Every mesh in every format, then the document."""
+        found: dict[str, Writer] = {}
+        for name, each in result.meshes.items():
+            found |= {f"{name}.{kind.value}": partial(kind.entry.write, each) for kind in result.plan.options.formats}
+        return {**found, "mesh.json": partial(self.write_document, result)}
+
+    @property
+    def parts(self) -> dict[str, dict[str, Any]]:
+        """All files together: they are of one mesh."""
+        return {self.verb: dict(self.given)}
+
+    def part_of(self, file: str) -> str:
+        """Every file of a format is its own."""
+        return self.verb if file == "mesh.json" or file.rpartition(".")[2] in _SUFFIXES else ""
+
+    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+        """The verdict and the summary."""
+        return {"passed": document["passed"], **document["summary"], "warnings": document["warnings"]}
+
+
+def _pressed(plan: MeshPlan, pair: GearPair, design: GearedDesign) -> MeshPlan:
+    """The plan of a pair in mesh with the flanks that its load presses, and where these are meshed finely.
+
+    In helical bodies the lines of contact run across whole flanks, which are as fine as their edges are everywhere.
+    """
+    load, material = design.load, design.material or Material()
+    assert load is not None  # its caller has looked
+    plan = replace(plan, left=load.torque >= 0)
+    if plan.solid and pair.pinion.helix_angle:
+        return plan
+    zones = contact_zones(pair, material, load, plan.options.roll)
+    return replace(plan, contacts={role.value: each for role, each in zones.items()})
+
+
+def mesh(
+    subject: Design | GearPair | Gear,
+    load: Load | None = None,
+    *,
+    progress: Progress | None = None,
+    what: str | None = None,
+    model: str | None = None,
+    element: str | None = None,
+    gear: str | None = None,
+    size: float | None = None,
+    roll: float | None = None,
+    **inputs: Unpack[Inputs],
+) -> MeshResult:
+    """Mesh a gear or a pair with finite elements whose sides have names, nodes exactly on the flanks.
+
+    `what` is "sector", "teeth:5", "ring", "pair", "pair:5" or "part"; `model` "2d" or "3d"; `element` "quad8", "tri6", "hex20",
+    "hex8" or "tet10"; `gear` "pinion", "wheel" or "both"; `size` (mm) the edge on the flanks; `roll` (deg, of the pinion) where
+    a pair stands in mesh. What is None is as the design's [mesh] has it, or the MeshOptions given as `mesh`.
+
+    >>> from gearcad import Body, Gear
+    >>> result = mesh(Gear(teeth=20, normal_module=2, face_width=10, body=Body(bore=12)), what="sector")
+    >>> result
+    <MeshResult of 'gear': gear: 1020 quad8, 3221 nodes>
+    >>> result.mesh.points.shape, result.mesh.cells.shape, sorted(result.mesh.sides)[:3]
+    ((3221, 3), (1020, 8), ['bore', 'cut_ahead', 'cut_behind'])
+
+    Raises ParameterError and GeometryError for what cannot be meshed, SolverError where elements come out folded.
+    """
+    options = {"what": what, "model": model, "element": element, "gear": gear, "size": size, "roll": roll}
+    job = Mesh(given={name: value for name, value in options.items() if value is not None})
+    return job.run(as_design(subject, load, **inputs), progress)

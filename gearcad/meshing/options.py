@@ -1,0 +1,105 @@
+"""What is meshed, and how finely: the [mesh] table of a spec."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from enum import Enum
+from typing import Annotated, NamedTuple
+
+from gearcad.errors import ParameterError, as_choice, require_name
+from gearcad.meshing.bodies.elements import Element
+from gearcad.meshing.files.formats import MeshFormat
+from gearcad.ranges import LENGTH, Choice, Range
+from gearcad.reprs import concise
+from gearcad.schema import Words, require_fields
+
+__all__ = ["AUTO", "Extent", "MeshOptions", "What"]
+
+AUTO = "auto"
+
+_BOTH = "both"
+
+
+class What(Enum):
+    """How much of the gears is meshed."""
+
+    SECTOR = "sector"
+    """One tooth with its share of the body."""
+
+    TEETH = "teeth"
+    """Some teeth next to each other."""
+
+    RING = "ring"
+    """All teeth, down to the bore."""
+
+    PAIR = "pair"
+    """Pinion and wheel in mesh."""
+
+    PART = "part"
+    """The whole part with its bore, keyway, hub and chamfers."""
+
+
+class Extent(NamedTuple):
+    """How much is meshed: so many `teeth` of each gear, None for all of them."""
+
+    what: What
+    teeth: int | None = None
+
+
+_EXTENT = re.compile(r"(sector|ring|part|pair)|(teeth|pair):([0-9]{1,4})")
+
+_EXTENTS = 'must be "sector", "teeth:5" (any odd number), "ring", "pair", "pair:5" or "part"'
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshOptions:
+    """Options of a mesh. Raises ParameterError.
+
+    `what` is "sector" (one tooth with its share of the body), "teeth:5" (any odd number of them), "ring" (all teeth, down to
+    the bore), "pair" (both rings in mesh), "pair:5" (so many teeth of each in mesh) or "part" (the whole part, of tetrahedra);
+    "auto" is the ring of a single gear, and of two the pair: where it is 3d with the teeth that carry and one beside them on
+    each side. `model` is "2d" (a transverse section) or "3d" (a body); "auto" is that of the element, else 3d where teeth are
+    helical. `element` is "quad8" or "tri6" of sections, "hex20" or "hex8" of bodies, "tet10" of parts; "auto" is the first of
+    them. `gear` is one of a pair, or "both".
+
+    `size` (mm) is the edge of elements on the flanks (None: as root stress asks for), and all others follow it. `roll` (deg, of
+    the pinion) is where a pair stands in mesh, 0 at the pitch point. `format` names the formats of the files, with commas
+    between them.
+    """
+
+    what: Annotated[str, Words("what is meshed: sector, teeth:N, ring, pair, pair:N or part")] = AUTO
+    model: Annotated[str, Choice(("2d", "3d", AUTO)), Words("section (2d) or body (3d)")] = AUTO
+    element: Annotated[str, Choice((*(each.value for each in Element), AUTO)), Words("kind of element")] = AUTO
+    gear: Annotated[str, Choice(("pinion", "wheel", _BOTH)), Words("which gear of a pair is meshed")] = _BOTH
+    size: Annotated[float | None, LENGTH, Words("edge of an element on the flanks")] = None
+    format: Annotated[str, Words("formats of the files, with commas between them")] = "vtu,msh"
+    roll: Annotated[float, Range("deg", 0.0, 360.0, signed=True), Words("roll angle of the pinion in mesh")] = 0.0
+
+    __repr__ = concise
+
+    def __post_init__(self) -> None:
+        require_fields(self)
+        _ = self.extent, self.formats
+
+    @property
+    def formats(self) -> tuple[MeshFormat, ...]:
+        """The formats of the files, each once. Raises ParameterError."""
+        require_name("format", self.format)
+        names = self.format.replace(",", " ").lower().split()
+        return tuple(dict.fromkeys(as_choice("format", name, MeshFormat) for name in names))
+
+    @property
+    def extent(self) -> Extent | None:
+        """How much is to be meshed; None for what suits the design."""
+        if self.what == AUTO:
+            return None
+        match = _EXTENT.fullmatch(self.what) if isinstance(self.what, str) else None
+        if match is None:
+            raise ParameterError("what", self.what, _EXTENTS)
+        plain, counted, count = match.groups()
+        if plain:
+            return Extent(What(plain), 1 if plain == What.SECTOR.value else None)
+        if int(count) % 2 == 0:
+            raise ParameterError("what", self.what, "must be of an odd number of teeth: tooth 0 stands in the middle")
+        return Extent(What(counted), int(count))

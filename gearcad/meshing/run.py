@@ -1,0 +1,78 @@
+"""A mesh from its plan to its verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from gearcad.geometry import Gear
+from gearcad.meshing.bodies.body_mesh import mesh_body
+from gearcad.meshing.bodies.contact_zone import ContactZone
+from gearcad.meshing.bodies.exact_size import exact_area, exact_volume
+from gearcad.meshing.bodies.measure import measure_side
+from gearcad.meshing.bodies.mesh import ElementMesh
+from gearcad.meshing.bodies.posed import posed
+from gearcad.meshing.bodies.quality import LEAST_SCALED_JACOBIAN, quality, require_good
+from gearcad.meshing.bodies.section_mesh import mesh_section
+from gearcad.meshing.plan import MeshPlan
+from gearcad.meshing.result import Gate, JudgedMesh, MeshResult
+from gearcad.per_gear import PerGear
+from gearcad.progress import Agenda, Progress
+
+__all__ = ["run_mesh"]
+
+_FOLDED = 1e-6
+"""Least scaled Jacobian below which a mesh is none: such an element has no inside."""
+
+_OFF = 0.5
+"""How far (µm) the surface of a mesh may be from the exact one on the mean."""
+
+
+def run_mesh(plan: MeshPlan, name: str, progress: Progress | None = None) -> MeshResult:
+    """Mesh the gears of a plan, judge what comes out, and put pairs in mesh. Raises GeometryError and SolverError."""
+    steps = [f"{step} {role}".strip() for role in plan.gears for step in ("meshing", "judging")]
+    agenda = Agenda(progress, dict.fromkeys(steps, 1.0))
+    meshes, judged = dict[str, ElementMesh](), dict[str, JudgedMesh]()
+    for role, gear in plan.gears.items():
+        agenda(f"meshing {role}")
+        meshes[role] = _meshed(gear, plan, plan.contacts.get(role, {}))
+        agenda(f"judging {role}")
+        judged[role] = _judged(meshes[role], gear, plan)
+    if plan.pair is not None:
+        gears = PerGear(meshes.pop("pinion"), meshes.pop("wheel"))
+        meshes["pair"] = posed(plan.pair, gears, plan.options.roll, left=plan.left)
+    return MeshResult(name, plan, meshes, judged, plan.notices)
+
+
+def _meshed(gear: Gear, plan: MeshPlan, contacts: Mapping[int, ContactZone]) -> ElementMesh:
+    """The mesh of one gear."""
+    teeth, inner, sizes, kind = plan.teeth_of(gear), plan.inner_radius(gear), plan.sizes(gear), plan.element
+    if plan.solid:
+        return mesh_body(gear, teeth=teeth, inner_radius=inner, sizes=sizes, planes=None, element=kind, contacts=contacts)
+    return mesh_section(gear, teeth=teeth, inner_radius=inner, sizes=sizes, element=kind, contacts=contacts)
+
+
+def _judged(mesh: ElementMesh, gear: Gear, plan: MeshPlan) -> JudgedMesh:
+    """What is found of one gear's mesh. Raises SolverError for one with folded elements."""
+    measured = quality(mesh)
+    require_good(measured, _FOLDED)
+    teeth = plan.teeth_of(gear) or gear.teeth
+    sides = {name: (len(faces), measure_side(mesh, name)) for name, faces in mesh.sides.items()}
+    whole = sum(measure.enclosed for _, measure in sides.values()) / mesh.element.shape.dimension
+    exact = teeth * (exact_volume if plan.solid else exact_area)(gear, plan.inner_radius(gear))
+    surface = sum(measure.size for _, measure in sides.values())
+    return JudgedMesh(
+        gear=gear,
+        teeth=teeth,
+        nodes=len(mesh.points),
+        elements=len(mesh.cells),
+        bytes=mesh.nbytes,
+        sides=sides,
+        matched={cut: len(pairs) for cut, pairs in mesh.matched.items()},
+        quality=measured,
+        whole=whole,
+        exact=exact,
+        gates=(
+            Gate("least scaled Jacobian", measured.least_jacobian, LEAST_SCALED_JACOBIAN[mesh.element], "", least=True),
+            Gate("surface off the exact one on the mean", 1000 * abs(whole - exact) / surface, _OFF, "µm"),
+        ),
+    )

@@ -1,0 +1,163 @@
+"""`gearcad mesh` as a user meets it."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import meshio
+import pytest
+from click.testing import CliRunner, Result
+
+from gearcad.cli import main
+
+GEAR = """
+[gear]
+teeth = 20
+normal_module = 2.0
+face_width = 8.0
+body.bore = 12.0
+"""
+
+PAIR = """
+[pair]
+normal_module = 2.0
+face_width = 8.0
+[pinion]
+teeth = 17
+body.bore = 12.0
+[wheel]
+teeth = 23
+body.bore = 20.0
+body.keyway_width = 6.0
+body.keyway_depth = 2.8
+[load]
+torque = 50.0
+"""
+
+HELICAL = PAIR.replace("[pinion]", "helix_angle = 20.0\n[pinion]")
+
+
+def run(*arguments: str, status: int = 0) -> Result:
+    result = CliRunner().invoke(main, list(arguments))
+    assert result.exit_code == status, result.output
+    assert "Traceback" not in result.output
+    return result
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def spec(text: str) -> str:
+    Path("some.toml").write_text(text, encoding="utf-8")
+    return "some.toml"
+
+
+def document() -> dict:
+    return json.loads(Path("output/some/mesh.json").read_text(encoding="utf-8"))
+
+
+def test_a_gear_is_meshed_as_its_ring(here: Path) -> None:
+    result = run("mesh", spec(GEAR))
+    lines = result.stdout.splitlines()
+    assert lines[-4:] == ["some: mesh passed", *(f"output/some/{name}" for name in ("gear.vtu", "gear.msh", "mesh.json"))]
+    told, found = document(), meshio.read(here / "output/some/gear.vtu")
+    mesh = told["meshes"]["gear"]
+    assert (told["kind"], told["what"], told["model"], told["element"], told["passed"]) == ("mesh", "ring", "2d", "quad8", True)
+    assert (len(found.points), len(found.cells[0].data)) == (mesh["nodes"], mesh["elements"])
+    assert lines[0].replace("\u202f", "") == f"gear: ring of 20 teeth, {mesh['elements']} quad8, {mesh['nodes']} nodes"
+    assert {"left_flank_19", "right_fillet_0", "tip_3", "bore"} <= set(mesh["sides"])
+    assert [gate["passed"] for gate in mesh["gates"]] == [True] * len(mesh["gates"])
+    assert told["files"] == ["gear.vtu", "gear.msh", "mesh.json"]
+
+
+def test_a_pair_stands_in_mesh_and_is_fine_where_its_load_presses(here: Path) -> None:
+    run("mesh", spec(PAIR), "--format", "vtu", "--quiet")
+    loaded = document()
+    assert (loaded["what"], loaded["roll_angle"], loaded["files"]) == ("pair", 0.0, ["pair.vtu", "mesh.json"])
+    run("mesh", spec(PAIR.replace("torque = 50.0", "torque = 0.0")), "--format", "vtu", "--quiet")
+    idle = document()
+    for gear in ("pinion", "wheel"):
+        faces = {side: idle["meshes"][gear]["sides"][side]["faces"] for side in ("left_flank_0", "left_flank_3")}
+        touching = loaded["meshes"][gear]["sides"]["left_flank_0"]["faces"]
+        assert touching > faces["left_flank_0"] + 5
+        assert loaded["meshes"][gear]["sides"]["left_flank_3"]["faces"] == faces["left_flank_3"]
+
+
+def test_options_win_over_those_of_the_spec(here: Path) -> None:
+    text = GEAR + '[mesh]\nwhat = "teeth:3"\nelement = "tri6"\nsize = 0.5\nformat = "inp"\n'
+    run("mesh", spec(text))
+    first = document()
+    assert (first["what"], first["element"], first["meshes"]["gear"]["teeth"]) == ("teeth", "tri6", 3)
+    assert first["meshes"]["gear"]["matched"] == {"cut": first["meshes"]["gear"]["matched"]["cut"]}
+    assert first["files"] == ["gear.inp", "mesh.json"]
+    run("mesh", spec(text), "--what", "sector", "--element", "quad8", "--size", "0.25")
+    second = document()
+    assert (second["what"], second["element"], second["meshes"]["gear"]["teeth"]) == ("sector", "quad8", 1)
+
+
+def test_helical_gears_are_bodies(here: Path) -> None:
+    result = run("mesh", spec(HELICAL), "--element", "hex8", "--size", "1.2", "--format", "vtu", "--json")
+    told = json.loads(result.stdout)
+    assert (told["what"], told["model"], told["element"], told["meshes"]["wheel"]["teeth"]) == ("pair", "3d", "hex8", 5)
+    assert told["warnings"] == ["wheel: hexahedra are swept along the helix, without keyway; tet10 has them"]
+
+
+@pytest.mark.parametrize(
+    ("text", "arguments", "message"),
+    [
+        (
+            GEAR,
+            ["--what", "gear"],
+            'what = \'gear\': must be "sector", "teeth:5" (any odd number), "ring", "pair",',
+        ),
+        (GEAR, ["--what", "teeth:4"], "what = 'teeth:4': must be of an odd number of teeth: tooth 0 stands in the middle"),
+        (GEAR, ["--what", "teeth:21"], "what = 'teeth:21': must be of fewer than 20 teeth, which the gear has; or ring"),
+        (GEAR, ["--what", "pair"], "what = 'pair': needs a pair: this design is a single gear"),
+        (GEAR, ["--gear", "pinion"], "gear = 'pinion': must not be given for a single gear"),
+        (GEAR, ["--roll", "3"], "roll = 3 deg: must be 0 for ring: only a pair stands in mesh"),
+        (GEAR, ["--model", "4d"], 'model = \'4d\': must be "2d", "3d" or "auto"'),
+        (GEAR, ["--model", "3d", "--element", "quad8"], "element = 'quad8': must be one of hex8, hex20, tet10 for model 3d"),
+        (GEAR, ["--what", "part", "--model", "2d"], "model = '2d': must be 3d for part"),
+        (GEAR, ["--what", "part", "--element", "hex20"], "element = 'hex20': must be tet10 for part"),
+        (GEAR, ["--what", "ring", "--element", "tet10"], "what = 'ring': must be part, or pair, for tet10"),
+        (GEAR, ["--element", "hex27"], "element = 'hex27': must be"),
+        (GEAR, ["--size", "0"], "size = 0 mm: must be a number at least"),
+        (GEAR, ["--format", "stl"], "format = 'stl': must be one of 'msh', 'vtu', 'inp'"),
+        (GEAR, ["--format", ""], "format = '': must be a text"),
+        (PAIR, ["--what", "pair", "--gear", "wheel"], "gear = 'wheel': must be both for a pair in mesh"),
+        (PAIR + "[mesh]\nwhat = 5\n", [], "some.toml line 16: mesh.what = 5: must be"),
+        (PAIR + "[mesh]\nelemnt = 5\n", [], "mesh.elemnt: unknown key; did you mean element?"),
+    ],
+)
+def test_what_is_wrong_is_one_line(here: Path, text: str, arguments: list[str], message: str) -> None:
+    result = run("mesh", spec(text), *arguments, status=2)
+    assert message in result.stderr
+    assert result.stderr.count("\n") == 1 and result.stdout == ""
+    assert not Path("output").exists()
+
+
+def test_a_train_has_no_teeth(here: Path) -> None:
+    run("new", "train-1-stage")
+    assert "a train is for `gearcad dynamics`" in run("mesh", "train-1-stage.toml", status=2).stderr
+
+
+def test_rows_of_a_table_are_meshed(here: Path) -> None:
+    Path("table.csv").write_text(
+        "name,gear.teeth,gear.normal_module,gear.face_width,gear.body.bore,mesh.what,mesh.format\n"
+        'a,20,2,8,12,sector,vtu\nb,20,2,8,12,teeth:3,"inp,vtu"\n',
+        encoding="utf-8",
+    )
+    run("batch", "table.csv", "--do", "mesh", "-j", "1")
+    with Path("output/table/results.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert sorted(path.name for path in Path("output/table/b").iterdir()) == [
+        *("data.json", "gear.inp", "gear.vtu", "manifest.json", "mesh.json"),
+    ]
+    told = json.loads(Path("output/table/b/mesh.json").read_text(encoding="utf-8"))
+    assert (rows[1]["mesh.elements"], rows[1]["mesh.passed"]) == (str(told["summary"]["elements"]), "true")
+    assert int(rows[1]["mesh.elements"]) == 3 * int(rows[0]["mesh.elements"])
