@@ -60,7 +60,7 @@ def mesh_section(
     there are vertices on both. Raises ParameterError, GeometryError and SolverError.
     """
     numbers = teeth_of(gear, teeth)
-    every = Sectors(gear, inner_radius, sizes, element, {tooth % gear.teeth: zone for tooth, zone in contacts.items()})
+    every = Sectors.of_gear(gear, inner_radius, sizes, element, contacts)
     if every.disc and teeth is not None:
         raise ParameterError("inner_radius", 0.0, "must be above 0 mm for less than the full ring", "mm")
     sectors = [every.of(tooth) for tooth in numbers]

@@ -50,6 +50,13 @@ class Sectors:
     zones: Mapping[int, ContactZone]
     known: dict[tuple[ContactZone | None, bool], SectorSides] = field(default_factory=dict)
 
+    @classmethod
+    def of_gear(
+        cls, gear: Gear, inner_radius: float, sizes: MeshSizes, element: Element, contacts: Mapping[int, ContactZone]
+    ) -> Sectors:
+        """Those of a gear whose teeth have zones by any number that means them: -1 is the last tooth."""
+        return cls(gear, inner_radius, sizes, element, {tooth % gear.teeth: zone for tooth, zone in contacts.items()})
+
     def __post_init__(self) -> None:
         if self.element not in (Element.QUAD8, Element.TRI6):
             raise ParameterError("element", self.element.value, 'must be "quad8" or "tri6" for a section')
@@ -110,7 +117,8 @@ class Sectors:
         return SectorLayout(self.gear, self.inside, self.sizes, plain, rows, self.disc and self.gear.teeth % 2 == 1)
 
     def _lengths(self, sizes: MeshSizes, zone: ContactZone | None) -> HalfLengths:
-        return bent_lengths(self.gear, sizes, lengths_near(self.gear, zone) if zone else None)
+        near = lengths_near(self.gear, zone) if zone else None
+        return bent_lengths(self.gear, sizes, near, whole=self.element is Element.TRI6)
 
 
 def _carrying(sizes: MeshSizes) -> MeshSizes:

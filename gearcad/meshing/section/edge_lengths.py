@@ -39,10 +39,11 @@ class _Sampled:
         return np.interp(run, self.run, self.length)
 
 
-def bent_lengths(gear: Gear, sizes: MeshSizes, near: HalfLengths | None = None) -> HalfLengths:
+def bent_lengths(gear: Gear, sizes: MeshSizes, near: HalfLengths | None = None, *, whole: bool = False) -> HalfLengths:
     """The lengths that `sizes` ask for, shorter where `fillet_turn` and `deviation` want it, and where `near` does.
 
     Over the whole half of the tooth they grow no faster than `growth`. Edges end where reliefs begin.
+    With `whole` they are nowhere longer than the curve, however short a land is: triangles have neighbours of their size only.
     """
     plain = edge_lengths(gear, sizes, loaded=True).curves
     runs, lengths = list[Floats](), list[Floats]()
@@ -52,13 +53,15 @@ def bent_lengths(gear: Gear, sizes: MeshSizes, near: HalfLengths | None = None) 
         wanted = np.minimum(plain[curve.kind](run, float(run[-1])), _by_bend(curve, s, run, sizes, gear.normal_module))
         if near and curve.kind in near.curves:
             wanted = np.minimum(wanted, near.curves[curve.kind](run, float(run[-1])))
+        if whole:
+            wanted = np.minimum(wanted, run[-1])
         runs.append(run)
         lengths.append(wanted)
     starts = np.cumsum([0.0, *(run[-1] for run in runs)])
     along = np.concatenate([run + start for run, start in zip(runs, starts[:-1], strict=True)])
     gentle = np.split(_gentle(along, np.concatenate(lengths), sizes.growth), len(runs))
     sampled = {curve.kind: _Sampled(run, own) for curve, run, own in zip(gear.profile.curves, runs, gentle, strict=True)}
-    return HalfLengths(sampled, _breaks(gear, sampled[CurveKind.INVOLUTE]))
+    return HalfLengths(sampled, _breaks(gear, sampled[CurveKind.INVOLUTE]), halved=True)
 
 
 def _breaks(gear: Gear, length: _Sampled) -> tuple[float, ...]:

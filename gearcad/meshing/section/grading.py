@@ -33,10 +33,12 @@ class Grading:
         """Parameters (count + 1,) of the ends of so many edges, all longer or shorter than wanted by the same factor."""
         return np.interp(np.linspace(0.0, self.edges, count + 1), self.passed, self.s)
 
-    def middles(self, ends: Floats) -> Floats:
-        """Parameters (n,) half-way along the edges between `ends` (n + 1,)."""
+    def with_middles(self, count: int) -> Floats:
+        """Parameters (2 count + 1,) of the ends of so many edges, and half-way along each of them."""
+        ends = self.ends(count)
         length = np.interp(ends, self.s, self.run)
-        return np.interp((length[1:] + length[:-1]) / 2, self.run, self.s)
+        middles = np.interp((length[1:] + length[:-1]) / 2, self.run, self.s)
+        return np.insert(ends, range(1, len(ends)), middles)
 
 
 def graded(

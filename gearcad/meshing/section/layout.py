@@ -93,8 +93,7 @@ class Piece:
 
     def points(self, count: int) -> Floats:
         """Ends and middles (2 count + 1, 2) of so many edges, in order (mm)."""
-        ends = self.grading.ends(count)
-        return self.curve.points(np.insert(ends, range(1, count + 1), self.grading.middles(ends)))
+        return self.curve.points(self.grading.with_middles(count))
 
 
 def edges_of(pieces: tuple[Piece, ...]) -> float:

@@ -38,10 +38,14 @@ _FINE = 513
 
 @dataclass(frozen=True)
 class HalfLengths:
-    """Wanted edge lengths on the `curves` of half a tooth; at `breaks`, parameters of the involute, an edge ends."""
+    """Wanted edge lengths on the `curves` of half a tooth; at `breaks`, parameters of the involute, an edge ends.
+
+    Nodes between ends stand half-way if edges are to be `halved`, and else where the grading has the ends of half as long ones.
+    """
 
     curves: Mapping[CurveKind, EdgeLength]
     breaks: tuple[float, ...] = ()
+    halved: bool = False
 
     def parts(self, curve: Curve) -> list[tuple[float, float]]:
         """Parameters of the ends of the parts of a curve that have edges of their own."""
@@ -137,7 +141,10 @@ class MeshSizes:
 
     def scaled(self, factor: float) -> MeshSizes:
         """Every edge shorter by `factor`, wherever it is."""
-        return MeshSizes(**{name: value / factor for name, value in self._given.items()})
+        shorter = {name: value / factor for name, value in self._given.items()}
+        if self.deviation is not None:
+            shorter["deviation"] = self.deviation / factor**3  # as long edges are off by the cube of their length
+        return MeshSizes(**shorter)
 
 
 @dataclass(frozen=True)
@@ -227,13 +234,15 @@ def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> HalfLengths:
 
 def _half_tooth(gear: Gear, lengths: HalfLengths) -> list[Stretch]:
     """Stretches of the left half, from the middle of the space to the middle of the tooth."""
-    return [_stretch(curve, lengths.graded(curve, *part)) for curve in gear.profile.curves for part in lengths.parts(curve)]
+    return [_stretch(curve, lengths, *part) for curve in gear.profile.curves for part in lengths.parts(curve)]
 
 
-def _stretch(curve: Curve, grading: Grading) -> Stretch:
+def _stretch(curve: Curve, lengths: HalfLengths, first: float, last: float) -> Stretch:
     """A part of a curve with edges of the wanted lengths."""
+    grading = lengths.graded(curve, first, last)
     edges = max(1, math.ceil(grading.edges - 1e-9))
-    return Stretch(_SIDES[curve.kind], curve.points(grading.ends(2 * edges)))
+    s = grading.with_middles(edges) if lengths.halved else grading.ends(2 * edges)
+    return Stretch(_SIDES[curve.kind], curve.points(s))
 
 
 def _cut(outer: float, inner: float, angle: float, sizes: MeshSizes, module: float) -> Stretch:
@@ -246,8 +255,7 @@ def _cut(outer: float, inner: float, angle: float, sizes: MeshSizes, module: flo
         return result
 
     grading = graded(points, lambda run, _whole: np.minimum(rim, cut + sizes.growth * run))
-    ends = grading.ends(max(2, math.ceil(grading.edges)))
-    return Stretch(Side.AHEAD, points(np.insert(ends, range(1, len(ends)), grading.middles(ends))))
+    return Stretch(Side.AHEAD, points(grading.with_middles(max(2, math.ceil(grading.edges)))))
 
 
 def _arc(radius: float, half_angle: float, size: float) -> Stretch:
