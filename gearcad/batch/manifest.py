@@ -20,7 +20,7 @@ __all__ = ["MANIFEST", "Manifest", "Part", "inputs_hash", "publish", "read_manif
 
 MANIFEST = "manifest.json"
 
-_OUR_FILE = re.compile(r"[a-z]{1,20}\.[a-z0-9]{1,10}")
+_OUR_FILE = re.compile(r"[a-z_]{1,20}\.[a-z0-9]{1,10}")
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.meshing.document import mesh_document
-from gearcad.meshing.files.formats import MeshFormat
+from gearcad.meshing.files.formats import SUFFIXES
 from gearcad.meshing.options import MeshOptions
 from gearcad.meshing.plan import MeshPlan, plan_mesh
 from gearcad.meshing.result import MeshResult
@@ -24,8 +24,6 @@ from gearcad.notice import Notice
 from gearcad.progress import Progress
 
 __all__ = ["Mesh", "mesh"]
-
-_SUFFIXES = frozenset(kind.value for kind in MeshFormat)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,6 +49,8 @@ class Mesh(Job[GearedDesign, MeshResult]):
 
     def _plan(self, design: GearedDesign) -> MeshPlan:
         options = replace(design.mesh or MeshOptions(), **self.given)
+        for kind in options.formats:
+            kind.require()
         pair = design.assembly
         if pair is not None and design.mounting is not None:
             pair = design.mounting.mounted(pair)
@@ -78,7 +78,7 @@ class Mesh(Job[GearedDesign, MeshResult]):
 
     def part_of(self, file: str) -> str:
         """Every file of a format is its own."""
-        return self.verb if file == "mesh.json" or file.rpartition(".")[2] in _SUFFIXES else ""
+        return self.verb if file == "mesh.json" or file.rpartition(".")[2] in SUFFIXES else ""
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """The verdict and the summary."""

@@ -16,7 +16,9 @@ from support.boxes import AREAS, SIZE, box, outward, two_boxes
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
+from gearcad.batch.manifest import MANIFEST, Manifest, Part, read_manifest
 from gearcad.errors import ParameterError
+from gearcad.jobs.mesh import Mesh
 from gearcad.meshing import Element, ElementMesh
 from gearcad.meshing.files.formats import MeshFormat, write
 
@@ -127,6 +129,14 @@ def test_meshio_reads_elements_and_parts(element: Element, kind: MeshFormat, tmp
     assert np.array_equal(block.data, mesh.cells)
     field = "nastran:ref" if kind is MeshFormat.BDF else "part"
     assert np.array_equal(read.cell_data[field][0], np.repeat([1, 2], len(mesh.cells) // 2))
+
+
+def test_files_beside_are_a_rows_to_keep(tmp_path: Path) -> None:
+    names = ("gear.xdmf", "gear_sides.xdmf", "gear.h5")
+    assert {Mesh().part_of(name) for name in names} == {"mesh"}
+    manifest = Manifest("", {"mesh": Part({}, dict.fromkeys(names, 1))})
+    (tmp_path / MANIFEST).write_text(manifest.text())
+    assert read_manifest(tmp_path) == manifest
 
 
 @pytest.mark.parametrize("element", Element)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
+from importlib.util import find_spec
 from pathlib import Path
 
-from gearcad.errors import as_choice
+from gearcad.errors import ParameterError, as_choice
 from gearcad.meshing.bodies import ElementMesh
 
-__all__ = ["MeshFormat", "write"]
+__all__ = ["SUFFIXES", "MeshFormat", "write"]
 
 
 class MeshFormat(Enum):
@@ -29,19 +30,31 @@ class MeshFormat(Enum):
         """What there is to know of it."""
         return _ENTRIES[self]
 
+    def require(self) -> None:
+        """Raise ParameterError where a library that it needs is missing."""
+        library = self.entry.library
+        if library and find_spec(library) is None:
+            raise ParameterError("format", self.value, f'needs {library}: pip install "gearcad[mesh]"')
+
 
 @dataclass(frozen=True)
 class Entry:
-    """One format: what it holds, in words, and what writes it."""
+    """One format: what it holds, in words; what writes it, and what suffix other files have that it writes beside; which
+    library it needs that gearcad does without.
+    """
 
     words: str
     write: Callable[[ElementMesh, Path], None]
+    beside: str = ""
+    library: str = ""
 
 
 def write(mesh: ElementMesh, path: Path | str) -> None:
     """Write a mesh in the format of the path's suffix. Raises ParameterError for another one, or where a library is missing."""
     path = Path(path)
-    as_choice("format", path.suffix.removeprefix("."), MeshFormat).entry.write(mesh, path)
+    kind = as_choice("format", path.suffix.removeprefix("."), MeshFormat)
+    kind.require()
+    kind.entry.write(mesh, path)
 
 
 def _with_gmsh(mesh: ElementMesh, path: Path) -> None:
@@ -81,5 +94,8 @@ _ENTRIES = {
     MeshFormat.BDF: Entry("Nastran; properties, and sets of nodes", _bdf),
     MeshFormat.MED: Entry("Code_Aster, Salome; groups of elements and of sides", _with_gmsh),
     MeshFormat.UNV: Entry("Salome, FreeCAD and others; groups of elements, sides and nodes", _with_gmsh),
-    MeshFormat.XDMF: Entry("FEniCS, ParaView; sides in a file of their own", _xdmf),
+    MeshFormat.XDMF: Entry("FEniCS, ParaView; sides in a file of their own", _xdmf, beside="h5", library="h5py"),
 }
+
+SUFFIXES = frozenset(suffix for kind in MeshFormat for suffix in (kind.value, kind.entry.beside) if suffix)
+"""Of all files that formats write."""

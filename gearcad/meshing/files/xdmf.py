@@ -10,7 +10,6 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.errors import ParameterError
 from gearcad.meshing.bodies import ElementMesh
 from gearcad.meshing.bodies.fields import part_numbers
 from gearcad.meshing.bodies.mesh import Cells
@@ -46,12 +45,10 @@ _ITEM = '<DataItem DataType="{kind}" Precision="{size}" Dimensions="{shape}" For
 def write_xdmf(mesh: ElementMesh, path: Path) -> None:
     """Elements with their "part" in `path`, the faces of all sides with their "side" in NAME_sides.xdmf, arrays in NAME.h5.
 
-    Both numbers count from 1 and have their names in the file. Raises ParameterError without h5py.
+    Both numbers count from 1 and have their names in the file.
     """
-    try:
-        import h5py
-    except ImportError as error:
-        raise ParameterError("format", "xdmf", 'needs h5py: pip install "gearcad[mesh]"') from error
+    import h5py
+
     shape = mesh.element.shape
     with h5py.File(path.with_suffix(".h5"), "w") as store:
         points = _stored(store, "points", mesh.points)
