@@ -20,12 +20,11 @@ from gearcad.batch.manifest import MANIFEST, Manifest, Part, read_manifest
 from gearcad.errors import ParameterError
 from gearcad.jobs.mesh import Mesh
 from gearcad.meshing import Element, ElementMesh
+from gearcad.meshing.bodies.conversions import MESHIO_WORDS
 from gearcad.meshing.files.formats import MeshFormat, write
 
 ROUNDING = 1e-12
 """mm: what binary formats and twelve decimals keep of a box of 8 mm."""
-
-NASTRAN_WORDS = {"CTRIA6": 6, "CQUAD8": 8, "CHEXA": 20, "CTETRA": 10}
 
 
 @pytest.fixture
@@ -140,6 +139,21 @@ def test_files_beside_are_a_rows_to_keep(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("element", Element)
+def test_meshio_reads_msh_with_its_sets(element: Element, tmp_path: Path) -> None:
+    mesh, kind = two_boxes(element), MESHIO_WORDS[element.value]
+    write(mesh, tmp_path / "mesh.msh")
+    read = meshio.read(tmp_path / "mesh.msh", file_format="gmsh")
+    assert np.array_equal(read.points, mesh.points)
+    assert np.array_equal(read.cells_dict[kind], mesh.cells)
+    assert set(read.cell_sets) - {"gmsh:bounding_entities"} == {*mesh.parts, *mesh.sides}
+    for name, part in mesh.parts.items():
+        assert np.array_equal(read.cell_sets_dict[name][kind], np.arange(part.start, part.stop))
+    for name in mesh.sides:
+        ((face, numbers),) = read.cell_sets_dict[name].items()
+        assert np.array_equal(read.cells_dict[face][numbers], mesh.face_cells(name))
+
+
+@pytest.mark.parametrize("element", Element)
 def test_sides_of_xdmf_have_a_file_with_their_names(element: Element, tmp_path: Path) -> None:
     pytest.importorskip("h5py")
     mesh = two_boxes(element)
@@ -204,7 +218,7 @@ def test_another_suffix_is_refused(tmp_path: Path) -> None:
 @pytest.mark.usefixtures("reader")
 def test_a_callers_gmsh_stays(tmp_path: Path) -> None:
     gmsh.model.add("mine")
-    write(box(Element.TRI6), tmp_path / "mesh.msh")
+    write(box(Element.TRI6), tmp_path / "mesh.unv")
     assert gmsh.is_initialized()
     assert gmsh.model.list().count("mine") == 1
     assert "gearcad" not in gmsh.model.list()

@@ -57,6 +57,12 @@ def write(mesh: ElementMesh, path: Path | str) -> None:
     kind.entry.write(mesh, path)
 
 
+def _msh(mesh: ElementMesh, path: Path) -> None:
+    from gearcad.meshing.files.msh import write_msh
+
+    write_msh(mesh, path)
+
+
 def _with_gmsh(mesh: ElementMesh, path: Path) -> None:
     from gearcad.meshing.files.gmsh_files import write_with_gmsh
 
@@ -88,7 +94,7 @@ def _xdmf(mesh: ElementMesh, path: Path) -> None:
 
 
 _ENTRIES = {
-    MeshFormat.MSH: Entry("gmsh, FEniCS; parts and sides are physical groups", _with_gmsh),
+    MeshFormat.MSH: Entry("gmsh, FEniCS; parts and sides are physical groups", _msh),
     MeshFormat.VTU: Entry("ParaView, PyVista; sides are fields of the nodes", _vtu),
     MeshFormat.INP: Entry("CalculiX, Abaqus; element sets, node sets and surfaces", _inp),
     MeshFormat.BDF: Entry("Nastran; properties, and sets of nodes", _bdf),

@@ -1,4 +1,4 @@
-"""Files that gmsh writes: .msh, UNV and MED, with named groups of elements and of sides."""
+"""Files that gmsh writes: UNV and MED, with named groups of elements and of sides."""
 
 from __future__ import annotations
 
@@ -9,21 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from gearcad.arrays import Bools
 from gearcad.errors import SolverError
-from gearcad.meshing.bodies import Element, ElementMesh
+from gearcad.meshing.bodies import ElementMesh
 from gearcad.meshing.bodies.mesh import Cells
+from gearcad.meshing.files.gmsh_kinds import KINDS, ORDERS, nodes_of_parts
 
 __all__ = ["write_with_gmsh"]
-
-_KINDS = {"tri6": 9, "quad8": 16, "hex8": 5, "hex20": 17, "tet10": 11, "line3": 8, "quad4": 3}
-"""What gmsh calls elements and faces. Faces have its order of nodes already."""
-
-_ORDERS = {
-    Element.HEX20: [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14],
-    Element.TET10: [0, 1, 2, 3, 4, 5, 6, 7, 9, 8],
-}
-"""Our nodes in gmsh's order, where that is another one: gmsh reference manual, "Node ordering"."""
 
 
 def write_with_gmsh(mesh: ElementMesh, path: Path) -> None:
@@ -48,10 +39,9 @@ def _model(gmsh: Any) -> Iterator[None]:
     ours = not gmsh.is_initialized()
     if ours:
         gmsh.initialize(interruptible=False)  # the other way works in the main thread only
-    before = gmsh.option.get_number("General.Terminal"), gmsh.option.get_number("Mesh.Binary")
+    terminal = gmsh.option.get_number("General.Terminal")
     try:
         gmsh.option.set_number("General.Terminal", 0)
-        gmsh.option.set_number("Mesh.Binary", 1)
         gmsh.model.add("gearcad")
         yield
     finally:
@@ -59,23 +49,17 @@ def _model(gmsh: Any) -> Iterator[None]:
             gmsh.finalize()
         else:
             gmsh.model.remove()
-            gmsh.option.set_number("General.Terminal", before[0])
-            gmsh.option.set_number("Mesh.Binary", before[1])
+            gmsh.option.set_number("General.Terminal", terminal)
 
 
 def _add_parts(model: Any, mesh: ElementMesh) -> None:
     """The parts as entities with the nodes that no part before them has."""
-    dimension, order = mesh.element.shape.dimension, _ORDERS.get(mesh.element, slice(None))
-    waiting: Bools = np.ones(len(mesh.points), bool)
-    for tag, (name, part) in enumerate(mesh.parts.items(), 1):
-        cells = mesh.cells[part]
-        own = np.zeros_like(waiting)
-        own[cells] = True
-        nodes = np.flatnonzero(own & waiting)
-        waiting[nodes] = False
+    dimension = mesh.element.shape.dimension
+    parts = zip(mesh.parts.items(), nodes_of_parts(mesh), strict=True)
+    for tag, ((name, part), nodes) in enumerate(parts, 1):
         model.add_discrete_entity(dimension, tag)
         model.mesh.add_nodes(dimension, tag, nodes + 1, mesh.points[nodes].ravel())
-        _add_elements(model, tag, mesh.element.value, cells[:, order], part.start)
+        _add_elements(model, tag, mesh.element.value, mesh.cells[part][:, ORDERS[mesh.element]], part.start)
         model.add_physical_group(dimension, [tag], tag, name)
 
 
@@ -93,4 +77,4 @@ def _add_sides(model: Any, mesh: ElementMesh) -> None:
 def _add_elements(model: Any, tag: int, kind: str, cells: Cells, before: int) -> None:
     """Elements of an entity, numbered from the next after `before`."""
     numbers = np.arange(before + 1, before + 1 + len(cells))
-    model.mesh.add_elements_by_type(tag, _KINDS[kind], numbers, cells.ravel() + np.int64(1))
+    model.mesh.add_elements_by_type(tag, KINDS[kind], numbers, cells.ravel() + np.int64(1))
