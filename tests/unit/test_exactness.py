@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.modifying import GEARS, modified
+from support.modifying import AMOUNTS, GEARS, modified
 from support.sections import COARSE
 
 from gearcad import BasicRack, Gear
@@ -17,6 +17,7 @@ from gearcad.meshing.bodies.exact_size import exact_volume
 from gearcad.meshing.bodies.exactness import deviations
 from gearcad.meshing.bodies.measure import measure_whole
 from gearcad.meshing.bodies.section_mesh import mesh_section
+from gearcad.meshing.bodies.sizing import body_sizes
 from gearcad.meshing.section import MeshSizes
 
 PROMISED_NODES, PROMISED_BETWEEN = 1e-9, 0.5
@@ -26,6 +27,9 @@ STEEP = Gear(teeth=6, normal_module=2, face_width=8, helix_angle=45, profile_shi
 FADING = Gear(teeth=17, normal_module=3, face_width=9, helix_angle=-20, rack=BasicRack(root_radius="full"))
 
 HIGHEST = {"tip_relief": 300.0, "root_relief": 300.0, "end_relief": 300.0, "lead_crowning": 300.0, "twist": 300.0}
+STRETCHED = Gear(teeth=17, normal_module=5, face_width=10, helix_angle=10)
+"""Its flank begins near the base circle: there a depth in proportion to the roll is far from a parabola of the arc."""
+
 LARGE = Gear(teeth=23, normal_module=8.0, face_width=60, helix_angle=15)
 
 
@@ -72,11 +76,12 @@ def test_straight_edges_are_off_by_their_bulge() -> None:
         modified(STEEP),
         modified(FADING),
         modified(LARGE, *HIGHEST, **HIGHEST),
+        modified(STRETCHED, *AMOUNTS, **{name: 60.0 for name in AMOUNTS}),
     ],
 )
 def test_meshes_are_as_exact_as_promised(gear: Gear) -> None:
     """Nodes, faces between them, and the volume: no more than the deviation over all the surface."""
-    mesh = body(gear, MeshSizes())
+    mesh = body(gear, body_sizes(gear))
     found = deviations(mesh, gear)
     assert found.nodes < PROMISED_NODES
     assert found.between < PROMISED_BETWEEN
@@ -88,5 +93,5 @@ def test_meshes_are_as_exact_as_promised(gear: Gear) -> None:
 def test_sections_are_those_at_mid_face_width(element: Element) -> None:
     gear = modified(GEARS["left hand"])
     inner = gear.root_diameter / 2 - 1.5 * gear.normal_module
-    found = deviations(mesh_section(gear, teeth=3, inner_radius=inner, sizes=MeshSizes(), element=element), gear)
+    found = deviations(mesh_section(gear, teeth=3, inner_radius=inner, sizes=body_sizes(gear), element=element), gear)
     assert found.nodes < PROMISED_NODES and found.between < PROMISED_BETWEEN

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.geometry import Gear
-from gearcad.geometry.curves import Curve, CurveKind
+from gearcad.geometry.curves import Curve, CurveKind, Involute
+from gearcad.geometry.turned import flank_curves
 from gearcad.meshing.section.outline import HalfLengths, MeshSizes, edge_lengths
 
 __all__ = ["bent_lengths"]
@@ -26,6 +28,13 @@ _CUBIC = 72 * math.sqrt(3)
 
 _QUARTIC = 1536
 """Where the curvature k is constant, by k^3 L^4 over this."""
+
+
+_OF_DEPTH = 0.2
+"""Share of the permitted deviation that a depth of modification may add."""
+
+_SHORTEST = 0.003
+"""Normal modules: no modification asks for shorter edges."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +62,10 @@ def bent_lengths(gear: Gear, sizes: MeshSizes, near: HalfLengths | None = None, 
         wanted = np.minimum(plain[curve.kind](run, float(run[-1])), _by_bend(curve, s, run, sizes, gear.normal_module))
         if near and curve.kind in near.curves:
             wanted = np.minimum(wanted, near.curves[curve.kind](run, float(run[-1])))
+        if isinstance(curve, Involute) and sizes.deviation is not None and gear.modification.present:
+            wanted = np.minimum(
+                wanted, _by_depth(gear, curve.roll(s) * curve.base_radius, sizes.deviation * gear.normal_module)
+            )
         if whole:
             wanted = np.minimum(wanted, run[-1])
         runs.append(run)
@@ -101,3 +114,43 @@ def _by_bend(curve: Curve, s: Floats, run: Floats, sizes: MeshSizes, module: flo
         off = sizes.deviation * module
         longest = np.minimum(longest, np.minimum(np.cbrt(_CUBIC * off / slope), (_QUARTIC * off / bend**3) ** 0.25))
     return longest
+
+
+def _by_depth(gear: Gear, lengths: Floats, deviation: float) -> Floats:
+    """Longest edges (n,) on the flank at roll lengths (n,) over which the depth bulges as a parabola does, but for a share of
+    `deviation`; all in mm.
+
+    On each piece the depth is alpha xi^2 + beta xi + gamma. On the arc a = xi^2/(2 r_b), alpha xi^2 is straight; beta xi is a
+    root, which falls behind near the base circle: beta xi e(h/a) from xi on, e as `_root_error` has it.
+    """
+    form, base = gear.flank_form, gear.flank_form.base_radius
+    heights = np.array([0.0, 0.5, 1.0]) * gear.face_width
+    longest = np.full(len(lengths), np.inf)
+    xi = np.maximum(lengths, 1e-3 * form.last)
+    share, error = _root_error()
+    for piece in flank_curves(gear):
+        if piece.curve.kind is CurveKind.INVOLUTE:
+            middle, span = (piece.first + piece.last) / 2, piece.last - piece.first
+            low, mean, high = form.depth(np.array([[piece.first], [middle], [piece.last]]), heights)
+            linear = float(np.abs((high - low) / span - 4 * (low - 2 * mean + high) / span**2 * middle).max())
+            permitted = np.log(_OF_DEPTH * deviation / np.maximum(linear * xi, 1e-12))
+            edge = np.exp(np.interp(permitted, np.log(error), np.log(share))) * xi**2 / (2 * base)
+            inside = (lengths >= piece.first) & (lengths <= piece.last)
+            longest[inside] = np.minimum(longest, edge)[inside]
+    found: Floats = np.maximum(longest, _SHORTEST * gear.normal_module)
+    return found
+
+
+@cache
+def _root_error() -> tuple[Floats, Floats]:
+    """How far a parabola through the ends and the middle of sqrt(1 + x), x from 0 to u, is from it: u (n,) and e (n,)."""
+    share, t = np.geomspace(1e-2, 1e8, 201), np.linspace(-1, 1, 201)
+
+    def root(place: Floats) -> Floats:
+        result: Floats = np.sqrt(1 + share[:, None] * (1 + place) / 2)
+        return result
+
+    low, middle, high = root(np.array([-1.0])), root(np.array([0.0])), root(np.array([1.0]))
+    parabola = middle + t * (high - low) / 2 + t**2 * (low - 2 * middle + high) / 2
+    error: Floats = np.abs(root(t) - parabola).max(axis=1)
+    return share, error
