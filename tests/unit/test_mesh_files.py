@@ -65,9 +65,10 @@ def test_gmsh_opens_parts_and_sides(element: Element, kind: MeshFormat, tmp_path
     assert np.abs(points - mesh.points).max() < ROUNDING
     groups = {gmsh.model.get_physical_name(*group).rstrip(): group for group in gmsh.model.get_physical_groups()}
     assert set(groups) == {*mesh.parts, *mesh.sides}
+    used: list[int] = []
     thick = 1.0 if shape.dimension == 2 else SIZE[2]
     for name, (dimension, tag) in groups.items():
-        cells, local = _group(dimension, tag)
+        cells, local, numbers = _group(dimension, tag)
         measured, normals = sizes(points, cells, local)
         side = name.partition("_")[2]
         assert dimension == shape.dimension - bool(side)
@@ -78,16 +79,21 @@ def test_gmsh_opens_parts_and_sides(element: Element, kind: MeshFormat, tmp_path
             assert np.abs(normals - outward(side)).max() < ROUNDING
         part = slice(*mesh.parts[name.partition("_")[0]].indices(len(mesh.cells)))
         assert np.isin(cells, mesh.cells[part]).all()
+        if not side and kind is not MeshFormat.MED:  # which has no numbers of elements
+            assert np.array_equal(numbers, np.arange(part.start, part.stop) + 1)
+        used.extend(numbers)
+    assert len(set(used)) == len(used)
 
 
-def _group(dimension: int, tag: int) -> tuple[np.ndarray, np.ndarray]:
-    """Elements of a group (m, n), from 0, and the local places of their nodes."""
-    found = []
+def _group(dimension: int, tag: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Elements of a group (m, n), from 0, the local places of their nodes, and the numbers of the elements."""
+    found, numbers = [], []
     for entity in gmsh.model.get_entities_for_physical_group(dimension, tag):
-        (kind,), _, (nodes,) = gmsh.model.mesh.get_elements(dimension, entity)
+        (kind,), (tags,), (nodes,) = gmsh.model.mesh.get_elements(dimension, entity)
         _, _, _, count, local, _ = gmsh.model.mesh.get_element_properties(kind)
+        numbers.append(tags)
         found.append(np.reshape(nodes, (-1, count)).astype(int) - 1)
-    return np.concatenate(found), np.reshape(local, (count, -1))
+    return np.concatenate(found), np.reshape(local, (count, -1)), np.concatenate(numbers)
 
 
 @pytest.mark.parametrize("element", Element)

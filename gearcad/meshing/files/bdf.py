@@ -43,7 +43,7 @@ def write_bdf(mesh: ElementMesh, path: Path) -> None:
     with path.open("w", encoding="ascii", newline="\n") as file:
         file.write("$ gearcad, mm\n")
         file.writelines(f"$ property {number}: {name}\n" for number, name in enumerate(mesh.parts, 1))
-        file.write("BEGIN BULK\n")
+        file.write("SOL 101\nCEND\nBEGIN BULK\n")  # many readers want a whole deck
         _write_nodes(file, mesh)
         _write_elements(file, mesh)
         for number, name in enumerate(mesh.sides, 1):
