@@ -96,6 +96,38 @@ def _group(dimension: int, tag: int) -> tuple[np.ndarray, np.ndarray, np.ndarray
     return np.concatenate(found), np.reshape(local, (count, -1)), np.concatenate(numbers)
 
 
+UNV_MIDDLES = {
+    118: {1: (0, 2), 3: (2, 4), 5: (4, 0), 6: (0, 9), 7: (2, 9), 8: (4, 9)},
+    116: {1: (0, 2), 3: (2, 4), 5: (4, 6), 7: (6, 0), 8: (0, 12), 9: (2, 14), 10: (4, 16), 11: (6, 18)}
+    | {13: (12, 14), 15: (14, 16), 17: (16, 18), 19: (18, 12)},
+}
+"""Of parabolic tetrahedra and bricks of I-DEAS, which nodes are between which: round each face, vertex and middle in turn."""
+
+UNV_EDGES = {118: (2, 4, 9), 116: (2, 6, 12)}
+"""Their nodes at the other ends of the edges that begin at the first."""
+
+
+@pytest.mark.parametrize(("element", "kind"), [(Element.TET10, 118), (Element.HEX20, 116)])
+def test_unv_has_the_order_of_ideas(element: Element, kind: int, tmp_path: Path) -> None:
+    """Gmsh reads what gmsh writes; this is the format's own text."""
+    mesh = two_boxes(element)
+    write(mesh, tmp_path / "mesh.unv")
+    words = (tmp_path / "mesh.unv").read_text().split("2412\n")[1].split("    -1\n")[0].split()
+    cells, at = list[list[int]](), 0
+    while at < len(words):
+        count = int(words[at + 5])
+        if int(words[at + 1]) == kind:
+            cells.append([int(word) - 1 for word in words[at + 6 : at + 6 + count]])
+        at += 6 + count
+    places = mesh.points[np.array(cells)]
+    assert len(places) == len(mesh.cells)
+    for middle, ends in UNV_MIDDLES[kind].items():
+        assert np.abs(places[:, middle] - places[:, list(ends)].mean(axis=1)).max() < ROUNDING
+    boxes = np.linalg.det(places[:, list(UNV_EDGES[kind])] - places[:, :1])
+    assert boxes.min() > 0
+    assert boxes.sum() / (6 if kind == 118 else 1) == pytest.approx(12.0)
+
+
 @pytest.mark.parametrize("element", Element)
 def test_vtk_opens_elements_and_fields(element: Element, tmp_path: Path) -> None:
     mesh = two_boxes(element)
