@@ -210,6 +210,9 @@ MESH = {
     "least_scaled_jacobian": Symbol("", "", "", "least scaled Jacobian of an element"),
     "largest_aspect": Symbol("", "", "", "longest over shortest edge of an element, at the most"),
     "least_angle": Symbol("", "deg", "", "least angle between edges of a face"),
+    "node_deviation": Symbol("", "mm", "", "nodes from the exact flanks and fillets, at the most"),
+    "face_deviation": Symbol("", "µm", "", "flanks and fillets between nodes from the exact ones, at the most"),
+    "mean_offset": Symbol("", "µm", "", "surface from the exact one on the mean"),
 }
 """Of all meshes of a design, as mesh.json has them."""
 

@@ -57,7 +57,13 @@ def _show(name: str, result: MeshResult) -> None:
     """Each gear's mesh, what to know, and the verdict."""
     for role, judged in result.judged.items():
         click.echo("\n".join(_lines(role, judged, result)))
+    if result.plan.pair is not None:
+        click.echo(_of_pair(result))
     echo_warnings(result.notices)
+    for role, judged in result.judged.items():
+        for gate in judged.gates:
+            if not gate.passed:
+                click.secho(f"FAILED: {role}: {gate}", fg="red")
     click.secho(f"{name}: mesh {result.verdict}", fg="green" if result.passed else "red", bold=True)
 
 
@@ -69,8 +75,19 @@ def _lines(role: str, judged: JudgedMesh, result: MeshResult) -> list[str]:
         f"  scaled Jacobian at least {measured.least_jacobian:.3f}, {measured.mean_jacobian:.3f} on the mean; the worst is "
         f"{measured.worst[0]}",
         f"  longest over shortest edge at most {measured.largest_aspect:.1f}, angles at least {measured.least_angle:.1f}°",
+        f"  nodes within {judged.deviations.nodes:.1g} mm of the exact flanks and fillets; between them these are at most "
+        f"{judged.deviations.between:.2g} µm off ({judged.deviations.worst})",
         f"  {size} {judged.whole:.8g} {unit}, exact {judged.exact:.8g} {unit}",
     ]
+
+
+def _of_pair(result: MeshResult) -> str:
+    """Both in one."""
+    side, mesh = "left" if result.plan.left else "right", result.mesh
+    return (
+        f"pair: {_count(len(mesh.cells))} elements, {_count(len(mesh.points))} nodes, {side} flanks in mesh at a roll angle of "
+        f"{result.plan.options.roll:g}° of the pinion"
+    )
 
 
 def _extent(judged: JudgedMesh) -> str:

@@ -46,4 +46,7 @@ def _summary(result: MeshResult) -> dict[str, Any]:
         "least_scaled_jacobian": min(each.least_jacobian for each in measured),
         "largest_aspect": max(each.largest_aspect for each in measured),
         "least_angle": min(each.least_angle for each in measured),
+        "node_deviation": max(judged.deviations.nodes for judged in every),
+        "face_deviation": max(judged.deviations.between for judged in every),
+        "mean_offset": max(judged.mean_offset for judged in every),
     }

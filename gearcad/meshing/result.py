@@ -7,13 +7,17 @@ from dataclasses import dataclass
 from typing import Any
 
 from gearcad.geometry import Gear
+from gearcad.meshing.bodies.exactness import Deviations
 from gearcad.meshing.bodies.measure import Measure
 from gearcad.meshing.bodies.mesh import ElementMesh
 from gearcad.meshing.bodies.quality import Quality
 from gearcad.meshing.plan import MeshPlan
 from gearcad.notice import Notice
 
-__all__ = ["Gate", "JudgedMesh", "MeshResult"]
+__all__ = ["COARSE", "Gate", "JudgedMesh", "MeshResult"]
+
+COARSE = 0.5
+"""How far (µm) faces may be from the exact gear between their nodes, where nobody asks for larger ones."""
 
 
 @dataclass(frozen=True)
@@ -30,6 +34,10 @@ class Gate:
     def passed(self) -> bool:
         """False for what is no number, too."""
         return bool(self.value >= self.limit if self.least else self.value <= self.limit)
+
+    def __str__(self) -> str:
+        bound = f"{'at least' if self.least else 'at most'} {self.limit:g}"
+        return f"{self.quantity}: {self.value:.3g}, must be {bound}{' ' if self.unit else ''}{self.unit}"
 
     def to_dict(self) -> dict[str, Any]:
         """As mesh.json has it."""
@@ -53,9 +61,10 @@ class JudgedMesh:
     sides: Mapping[str, tuple[int, Measure]]
     matched: Mapping[str, int]
     quality: Quality
+    deviations: Deviations
     whole: float
     exact: float
-    gates: tuple[Gate, ...]
+    gates: tuple[Gate, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -63,9 +72,20 @@ class JudgedMesh:
         return all(gate.passed for gate in self.gates)
 
     @property
-    def surface(self) -> float:
-        """Length (mm) or area (mm²) of all sides."""
-        return sum(measure.size for _, measure in self.sides.values())
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know of it."""
+        off = self.deviations
+        if off.between <= COARSE:
+            return ()
+        instead = "smaller ones" if self.quality.element.shape.order == 2 else "smaller ones, or those of second order,"
+        text = f"{off.worst} is {off.between:.2g} µm off the exact one between nodes: {instead} follow it"
+        return (Notice("coarse", text),)
+
+    @property
+    def mean_offset(self) -> float:
+        """How far (µm) the surface is from the exact one on the mean: by how much area or volume differ."""
+        surface = sum(measure.size for _, measure in self.sides.values())
+        return 1000 * abs(self.whole - self.exact) / surface
 
     def to_dict(self) -> dict[str, Any]:
         """As mesh.json has it."""
@@ -77,6 +97,7 @@ class JudgedMesh:
             "elements": self.elements,
             "bytes": self.bytes,
             "quality": self.quality.to_dict(),
+            "deviations": self.deviations.to_dict(),
             "volume" if solid else "area": {"mesh": self.whole, "exact": self.exact},
             "sides": {name: {"faces": count, size: measure.size} for name, (count, measure) in self.sides.items()},
             "matched": dict(self.matched),
@@ -95,13 +116,18 @@ class MeshResult:
     plan: MeshPlan
     meshes: Mapping[str, ElementMesh]
     judged: Mapping[str, JudgedMesh]
-    notices: tuple[Notice, ...]
 
     def __repr__(self) -> str:
         parts = (
             f"{name}: {len(mesh.cells)} {mesh.element.value}, {len(mesh.points)} nodes" for name, mesh in self.meshes.items()
         )
         return f"<MeshResult of {self.name!r}: {'; '.join(parts)}>"
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know before using the meshes."""
+        found = (notice.within(name) for name, judged in self.judged.items() for notice in judged.notices)
+        return (*self.plan.notices, *found)
 
     @property
     def mesh(self) -> ElementMesh:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from gearcad.geometry import Gear
 from gearcad.meshing.bodies.body_mesh import mesh_body
 from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.exact_size import exact_area, exact_volume
+from gearcad.meshing.bodies.exactness import deviations
 from gearcad.meshing.bodies.measure import measure_side
 from gearcad.meshing.bodies.mesh import ElementMesh
 from gearcad.meshing.bodies.posed import posed
 from gearcad.meshing.bodies.quality import LEAST_SCALED_JACOBIAN, quality, require_good
 from gearcad.meshing.bodies.section_mesh import mesh_section
 from gearcad.meshing.plan import MeshPlan
-from gearcad.meshing.result import Gate, JudgedMesh, MeshResult
+from gearcad.meshing.result import COARSE, Gate, JudgedMesh, MeshResult
 from gearcad.per_gear import PerGear
 from gearcad.progress import Agenda, Progress
 
@@ -23,8 +25,8 @@ __all__ = ["run_mesh"]
 _FOLDED = 1e-6
 """Least scaled Jacobian below which a mesh is none: such an element has no inside."""
 
-_OFF = 0.5
-"""How far (µm) the surface of a mesh may be from the exact one on the mean."""
+_ON = 1e-9
+"""How far (mm) nodes may be from the exact flanks and fillets: that is rounding."""
 
 
 def run_mesh(plan: MeshPlan, name: str, progress: Progress | None = None) -> MeshResult:
@@ -40,7 +42,7 @@ def run_mesh(plan: MeshPlan, name: str, progress: Progress | None = None) -> Mes
     if plan.pair is not None:
         gears = PerGear(meshes.pop("pinion"), meshes.pop("wheel"))
         meshes["pair"] = posed(plan.pair, gears, plan.options.roll, left=plan.left)
-    return MeshResult(name, plan, meshes, judged, plan.notices)
+    return MeshResult(name, plan, meshes, judged)
 
 
 def _meshed(gear: Gear, plan: MeshPlan, contacts: Mapping[int, ContactZone]) -> ElementMesh:
@@ -57,10 +59,7 @@ def _judged(mesh: ElementMesh, gear: Gear, plan: MeshPlan) -> JudgedMesh:
     require_good(measured, _FOLDED)
     teeth = plan.teeth_of(gear) or gear.teeth
     sides = {name: (len(faces), measure_side(mesh, name)) for name, faces in mesh.sides.items()}
-    whole = sum(measure.enclosed for _, measure in sides.values()) / mesh.element.shape.dimension
-    exact = teeth * (exact_volume if plan.solid else exact_area)(gear, plan.inner_radius(gear))
-    surface = sum(measure.size for _, measure in sides.values())
-    return JudgedMesh(
+    judged = JudgedMesh(
         gear=gear,
         teeth=teeth,
         nodes=len(mesh.points),
@@ -69,10 +68,19 @@ def _judged(mesh: ElementMesh, gear: Gear, plan: MeshPlan) -> JudgedMesh:
         sides=sides,
         matched={cut: len(pairs) for cut, pairs in mesh.matched.items()},
         quality=measured,
-        whole=whole,
-        exact=exact,
-        gates=(
-            Gate("least scaled Jacobian", measured.least_jacobian, LEAST_SCALED_JACOBIAN[mesh.element], "", least=True),
-            Gate("surface off the exact one on the mean", 1000 * abs(whole - exact) / surface, _OFF, "µm"),
-        ),
+        deviations=deviations(mesh, gear),
+        whole=sum(measure.enclosed for _, measure in sides.values()) / mesh.element.shape.dimension,
+        exact=teeth * (exact_volume if plan.solid else exact_area)(gear, plan.inner_radius(gear)),
     )
+    return replace(judged, gates=tuple(_gates(judged, plan)))
+
+
+def _gates(judged: JudgedMesh, plan: MeshPlan) -> Iterator[Gate]:
+    """What decides. Straight edges are as far off as they are long: of them only the nodes are judged."""
+    element, off = plan.element, judged.deviations
+    yield Gate("least scaled Jacobian", judged.quality.least_jacobian, LEAST_SCALED_JACOBIAN[element], "", least=True)
+    yield Gate("nodes from the exact flanks and fillets", off.nodes, _ON, "mm")
+    if element.shape.order == 2:
+        if plan.options.size is None:
+            yield Gate("flanks and fillets between nodes from the exact ones", off.between, COARSE, "µm")
+        yield Gate("surface from the exact one on the mean", judged.mean_offset, max(COARSE, off.between), "µm")

@@ -11,6 +11,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad.cli import main
+from gearcad.meshing import Element
 
 GEAR = """
 [gear]
@@ -104,7 +105,22 @@ def test_helical_gears_are_bodies(here: Path) -> None:
     result = run("mesh", spec(HELICAL), "--element", "hex8", "--size", "1.2", "--format", "vtu", "--json")
     told = json.loads(result.stdout)
     assert (told["what"], told["model"], told["element"], told["meshes"]["wheel"]["teeth"]) == ("pair", "3d", "hex8", 5)
-    assert told["warnings"] == ["wheel: hexahedra are swept along the helix, without keyway; tet10 has them"]
+    assert told["warnings"][0] == "wheel: hexahedra are swept along the helix, without keyway; tet10 has them"
+
+
+def test_a_mesh_that_falls_short_is_written_and_told(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gearcad.meshing.run.LEAST_SCALED_JACOBIAN", {Element.QUAD8: 0.99})
+    result = run("mesh", spec(GEAR), "--what", "sector", "--format", "vtu", status=1)
+    assert "FAILED: gear: least scaled Jacobian: 0." in result.stdout and "some: mesh failed" in result.stdout
+    assert (document()["passed"], document()["meshes"]["gear"]["passed"]) == (False, False)
+    assert Path("output/some/gear.vtu").is_file()
+
+
+def test_straight_edges_are_said_to_be_off(here: Path) -> None:
+    run("mesh", spec(GEAR), "--what", "sector", "--element", "hex8", "--size", "1", "--format", "vtu", "--quiet")
+    told = document()
+    assert told["passed"] and told["meshes"]["gear"]["deviations"]["between_nodes"] > 10
+    assert [notice["code"] for notice in told["notices"]] == ["coarse"]
 
 
 @pytest.mark.parametrize(
