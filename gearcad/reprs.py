@@ -1,4 +1,4 @@
-"""How our types show themselves in a Python session: one line, with only what was given."""
+"""How our types show themselves in a Python session: one line, with only what was given; and how large counts are written."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import MISSING, fields
 from enum import Enum
 from typing import Any
 
-__all__ = ["concise"]
+__all__ = ["concise", "grouped"]
 
 
 def concise(self: Any) -> str:
@@ -22,3 +22,8 @@ def concise(self: Any) -> str:
         if not getattr(value, "derived", False) and (default is MISSING or value != default):
             given.append(f"{each.name}={(value.value if isinstance(value, Enum) else value)!r}")
     return f"{type(self).__name__}({', '.join(given)})"
+
+
+def grouped(number: int) -> str:
+    """A whole number, its thousands apart."""
+    return f"{number:,}".replace(",", "\u202f")

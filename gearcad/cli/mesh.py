@@ -9,7 +9,9 @@ import click
 
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
+from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.files.formats import MeshFormat
+from gearcad.reprs import grouped
 
 if TYPE_CHECKING:
     from gearcad.meshing.result import JudgedMesh, MeshResult
@@ -27,6 +29,8 @@ _FORMATS = f"Comma-separated list of {', '.join(kind.value for kind in MeshForma
 @click.option("--element", metavar="KIND", help="quad8, tri6; hex20, hex8; tet10.  [default: the first, of a part tet10]")
 @click.option("--gear", metavar="NAME", help="pinion, wheel or both.  [default: both]")
 @click.option("--size", type=float, metavar="MM", help="Edge of elements on the flanks; the others follow.")
+@click.option("--elements", type=int, metavar="N", help="Elements in each file, instead of a size.")
+@click.option("--fillet-elements", type=int, metavar="N", help="About so many over 30° of a fillet.  [default: 4]")
 @click.option("--roll", type=float, metavar="DEG", help="Where a pair stands in mesh, 0 at the pitch point.")
 @click.option("--format", metavar="LIST", help=_FORMATS)
 @json_option
@@ -70,8 +74,9 @@ def _show(name: str, result: MeshResult) -> None:
 def _lines(role: str, judged: JudgedMesh, result: MeshResult) -> list[str]:
     measured, solid = judged.quality, result.plan.solid
     size, unit = ("volume", "mm³") if solid else ("area", "mm²")
+    amount = f"{grouped(judged.elements)} {measured.element.value}, {grouped(judged.nodes)} nodes"
     return [
-        f"{role}: {_extent(judged)}, {_count(judged.elements)} {measured.element.value}, {_count(judged.nodes)} nodes",
+        f"{role}: {_extent(judged, result)}, {amount}",
         f"  scaled Jacobian at least {measured.least_jacobian:.3f}, {measured.mean_jacobian:.3f} on the mean; the worst is "
         f"{measured.worst[0]}",
         f"  longest over shortest edge at most {measured.largest_aspect:.1f}, angles at least {measured.least_angle:.1f}°",
@@ -83,19 +88,14 @@ def _lines(role: str, judged: JudgedMesh, result: MeshResult) -> list[str]:
 
 def _of_pair(result: MeshResult) -> str:
     """Both in one."""
-    side, mesh = "left" if result.plan.left else "right", result.mesh
-    return (
-        f"pair: {_count(len(mesh.cells))} elements, {_count(len(mesh.points))} nodes, {side} flanks in mesh at a roll angle of "
-        f"{result.plan.options.roll:g}° of the pinion"
-    )
+    side, mesh, roll = "left" if result.plan.left else "right", result.mesh, result.plan.options.roll
+    amount = f"{grouped(len(mesh.cells))} elements, {grouped(len(mesh.points))} nodes"
+    return f"pair: {amount}, {side} flanks in mesh at a roll angle of {roll:g}° of the pinion"
 
 
-def _extent(judged: JudgedMesh) -> str:
+def _extent(judged: JudgedMesh, result: MeshResult) -> str:
+    if result.plan.element is Element.TET10:
+        return f"whole part with {judged.teeth} teeth"
     if judged.teeth == judged.gear.teeth:
         return f"ring of {judged.teeth} teeth"
     return "1 tooth" if judged.teeth == 1 else f"{judged.teeth} teeth"
-
-
-def _count(number: int) -> str:
-    """A whole number, its thousands apart."""
-    return f"{number:,}".replace(",", "\u202f")

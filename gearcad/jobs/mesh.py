@@ -14,14 +14,18 @@ from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.meshing.bodies.contact_zone import ContactZone
+from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.document import mesh_document
+from gearcad.meshing.expected import expected_mesh
 from gearcad.meshing.files.formats import SUFFIXES
 from gearcad.meshing.options import MeshOptions
 from gearcad.meshing.plan import MeshPlan, plan_mesh
 from gearcad.meshing.result import MeshResult
 from gearcad.meshing.run import run_mesh
 from gearcad.notice import Notice
-from gearcad.progress import Progress
+from gearcad.per_gear import PerGear
+from gearcad.progress import Expected, Progress
 
 __all__ = ["Mesh", "mesh"]
 
@@ -55,7 +59,12 @@ class Mesh(Job[GearedDesign, MeshResult]):
         if pair is not None and design.mounting is not None:
             pair = design.mounting.mounted(pair)
         plan = plan_mesh(options, design.gears, pair)
-        return plan if plan.pair is None or design.load is None else _pressed(plan, plan.pair, design)
+        if plan.pair is not None and design.load is not None:
+            plan = _pressed(plan, plan.pair, design.material or Material(), design.load)
+        return plan.counted()
+
+    def _expected(self, design: GearedDesign) -> Expected | None:
+        return expected_mesh(self._plan(design))
 
     def document(self, result: MeshResult) -> dict[str, Any]:
         """What mesh.json holds."""
@@ -85,18 +94,14 @@ class Mesh(Job[GearedDesign, MeshResult]):
         return {"passed": document["passed"], **document["summary"], "warnings": document["warnings"]}
 
 
-def _pressed(plan: MeshPlan, pair: GearPair, design: GearedDesign) -> MeshPlan:
+def _pressed(plan: MeshPlan, pair: GearPair, material: Material, load: Load) -> MeshPlan:
     """The plan of a pair in mesh with the flanks that its load presses, and where these are meshed finely.
 
     In helical bodies the lines of contact run across whole flanks, which are as fine as their edges are everywhere.
     """
-    load, material = design.load, design.material or Material()
-    assert load is not None  # its caller has looked
-    plan = replace(plan, left=load.torque >= 0)
-    if plan.solid and pair.pinion.helix_angle:
-        return plan
-    zones = contact_zones(pair, material, load, plan.options.roll)
-    return replace(plan, contacts={role.value: each for role, each in zones.items()})
+    across = plan.solid and pair.pinion.helix_angle and plan.element is not Element.TET10
+    zones = PerGear[Mapping[int, ContactZone]]({}, {}) if across else contact_zones(pair, material, load, plan.options.roll)
+    return plan.pressed(zones, left=load.torque >= 0)
 
 
 def mesh(
@@ -109,24 +114,36 @@ def mesh(
     element: str | None = None,
     gear: str | None = None,
     size: float | None = None,
+    elements: int | None = None,
+    fillet_elements: int | None = None,
     roll: float | None = None,
     **inputs: Unpack[Inputs],
 ) -> MeshResult:
     """Mesh a gear or a pair with finite elements whose sides have names, nodes exactly on the flanks.
 
     `what` is "sector", "teeth:5", "ring", "pair", "pair:5" or "part"; `model` "2d" or "3d"; `element` "quad8", "tri6", "hex20",
-    "hex8" or "tet10"; `gear` "pinion", "wheel" or "both"; `size` (mm) the edge on the flanks; `roll` (deg, of the pinion) where
-    a pair stands in mesh. What is None is as the design's [mesh] has it, or the MeshOptions given as `mesh`.
+    "hex8" or "tet10"; `gear` "pinion", "wheel" or "both"; `size` (mm) the edge on the flanks, or
+    `elements` how many there are; `fillet_elements` how many over 30 degrees of a fillet; `roll` (deg, of the pinion) where a
+    pair stands in mesh. What is None is as the design's [mesh] has it, or the MeshOptions given as `mesh`.
 
     >>> from gearcad import Body, Gear
     >>> result = mesh(Gear(teeth=20, normal_module=2, face_width=10, body=Body(bore=12)), what="sector")
-    >>> result
-    <MeshResult of 'gear': gear: 1020 quad8, 3221 nodes>
-    >>> result.mesh.points.shape, result.mesh.cells.shape, sorted(result.mesh.sides)[:3]
-    ((3221, 3), (1020, 8), ['bore', 'cut_ahead', 'cut_behind'])
+    >>> result.passed, result.mesh.element
+    (True, <Element.QUAD8: 'quad8'>)
+    >>> result.mesh.points.shape[1], result.mesh.cells.shape[1], sorted(result.mesh.sides)[:3]
+    (3, 8, ['bore', 'cut_ahead', 'cut_behind'])
 
     Raises ParameterError and GeometryError for what cannot be meshed, SolverError where elements come out folded.
     """
-    options = {"what": what, "model": model, "element": element, "gear": gear, "size": size, "roll": roll}
+    options = {
+        "what": what,
+        "model": model,
+        "element": element,
+        "gear": gear,
+        "size": size,
+        "elements": elements,
+        "fillet_elements": fillet_elements,
+        "roll": roll,
+    }
     job = Mesh(given={name: value for name, value in options.items() if value is not None})
     return job.run(as_design(subject, load, **inputs), progress)

@@ -10,7 +10,7 @@ from typing import Annotated, NamedTuple
 from gearcad.errors import ParameterError, as_choice, require_name
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.files.formats import MeshFormat
-from gearcad.ranges import LENGTH, Choice, Range
+from gearcad.ranges import LENGTH, Choice, Range, Whole
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
 
@@ -63,9 +63,10 @@ class MeshOptions:
     helical. `element` is "quad8" or "tri6" of sections, "hex20" or "hex8" of bodies, "tet10" of parts; "auto" is the first of
     them. `gear` is one of a pair, or "both".
 
-    `size` (mm) is the edge of elements on the flanks (None: as root stress asks for), and all others follow it. `roll` (deg, of
-    the pinion) is where a pair stands in mesh, 0 at the pitch point. `format` names the formats of the files, with commas
-    between them.
+    `size` (mm) is the edge of elements on the flanks and all others follow it, or there are so many `elements` in each file
+    (both None: as root stress asks for); about `fillet_elements` of them over 30 degrees of a fillet (None: 4, of
+    tetrahedra 1). `roll` (deg, of the pinion) is where a pair stands in mesh, 0 at the pitch point. `format` names the formats
+    of the files, with commas between them.
     """
 
     what: Annotated[str, Words("what is meshed: sector, teeth:N, ring, pair, pair:N or part")] = AUTO
@@ -73,6 +74,8 @@ class MeshOptions:
     element: Annotated[str, Choice((*(each.value for each in Element), AUTO)), Words("kind of element")] = AUTO
     gear: Annotated[str, Choice(("pinion", "wheel", _BOTH)), Words("which gear of a pair is meshed")] = _BOTH
     size: Annotated[float | None, LENGTH, Words("edge of an element on the flanks")] = None
+    elements: Annotated[int | None, Whole(10, 100_000_000), Words("elements in each file")] = None
+    fillet_elements: Annotated[int | None, Whole(1, 100), Words("elements over 30° of a fillet, about")] = None
     format: Annotated[str, Words("formats of the files, with commas between them")] = "vtu,msh"
     roll: Annotated[float, Range("deg", 0.0, 360.0, signed=True), Words("roll angle of the pinion in mesh")] = 0.0
 
@@ -81,6 +84,8 @@ class MeshOptions:
     def __post_init__(self) -> None:
         require_fields(self)
         _ = self.extent, self.formats
+        if self.size is not None and self.elements is not None:
+            raise ParameterError("elements", self.elements, "must not be given beside size: one follows from the other")
 
     @property
     def formats(self) -> tuple[MeshFormat, ...]:

@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import Gear, GearPair
-from gearcad.meshing.bodies.body_mesh import swept_notices
 from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.elements import Element
+from gearcad.meshing.bodies.sizing import Amount, body_sizes, factor_for
+from gearcad.meshing.bodies.tetrahedron_sizes import TetrahedronGrading
+from gearcad.meshing.gear_plan import GearPlan, PartPlan, SectorsPlan
 from gearcad.meshing.options import AUTO, Extent, MeshOptions, What
 from gearcad.meshing.section.inner import inner_radius
-from gearcad.meshing.section.outline import MeshSizes
 from gearcad.notice import Notice
+from gearcad.per_gear import PerGear
 
 __all__ = ["MeshPlan", "plan_mesh"]
 
 _KINDS = {2: (Element.QUAD8, Element.TRI6), 3: (Element.HEX20, Element.HEX8)}
 """Elements of what is meshed tooth by tooth, the usual one first, by how many dimensions they have."""
+
+_PART_SIZE = 0.5
+"""Usual edge of tetrahedra on teeth, in normal modules."""
+
+_FILLET_ARC = 30.0
+"""Degrees over which elements of a fillet are counted."""
 
 _BESIDE = 1
 """Teeth meshed on each side of those that carry."""
@@ -26,51 +34,75 @@ _BESIDE = 1
 
 @dataclass(frozen=True)
 class MeshPlan:
-    """Which `gears` are meshed, by the names of their files, how much of them, and of what elements.
+    """How each gear is meshed, by the names of their files, and of what elements.
 
     `pair` is that in which they stand in mesh, their left or right flanks touching; None where each is meshed by itself.
-    `contacts` are the zones of short edges of each gear's teeth.
     """
 
-    gears: Mapping[str, Gear]
+    gears: Mapping[str, GearPlan]
     pair: GearPair | None
     extent: Extent
     element: Element
     options: MeshOptions
     left: bool = True
-    contacts: Mapping[str, Mapping[int, ContactZone]] = field(default_factory=dict)
 
     @property
     def solid(self) -> bool:
         """True for bodies, False for sections."""
         return self.element.shape.dimension == 3
 
-    def teeth_of(self, gear: Gear) -> int | None:
-        """Teeth of a gear that are meshed, None for all of them."""
-        teeth = self.extent.teeth
-        return None if teeth is None or teeth >= gear.teeth else teeth
+    @property
+    def usual(self) -> bool:
+        """True if nobody asks for a number of elements, or a size."""
+        return self.options.size is None and self.options.elements is None
 
-    def inner_radius(self, gear: Gear) -> float:
-        """Radius (mm) down to which a gear is meshed: the bore, 0 where all teeth stand on a full disc."""
-        return 0.0 if not gear.body.bore and self.teeth_of(gear) is None else inner_radius(gear)
-
-    def sizes(self, gear: Gear) -> MeshSizes:
-        """Lengths of edges."""
-        usual, size = MeshSizes(), self.options.size
-        return usual if size is None else usual.scaled(usual.flank * gear.normal_module / size)
+    @property
+    def amount(self) -> Amount | None:
+        """What all gears will come to, where that is known."""
+        every = [amount for each in self.gears.values() if (amount := each.amount) is not None]
+        return Amount(*map(sum, zip(*every, strict=True))) if len(every) == len(self.gears) else None
 
     @property
     def notices(self) -> tuple[Notice, ...]:
         """What to know before using the meshes."""
-        return tuple(notice for name, gear in self.gears.items() for notice in self._of_gear(name, gear))
+        return tuple(notice.within(name) for name, each in self.gears.items() for notice in each.notices)
 
-    def _of_gear(self, name: str, gear: Gear) -> Iterator[Notice]:
-        if self.element is Element.TET10:
-            return
-        if inner := 0.0 if gear.body.bore else self.inner_radius(gear):
-            yield Notice("no-bore", f"has no bore: its teeth are meshed down to a diameter of {2 * inner:.4g} mm", name)
-        if self.solid:
-            yield from (notice.within(name) for notice in swept_notices(gear))
+    def pressed(self, zones: PerGear[Mapping[int, ContactZone]], *, left: bool) -> MeshPlan:
+        """The plan of a pair whose left or right flanks are pressed: they are fine in zones, by teeth."""
+        fine = {role.value: _with_zones(self.gears[role.value], each) for role, each in zones.items()}
+        return replace(self, gears=fine, left=left)
+
+    def counted(self) -> MeshPlan:
+        """The plan with as many elements in each file as the options ask for. Raises ParameterError where that cannot be."""
+        wanted = self.options.elements
+        if wanted is None:
+            return self
+        together = [list(self.gears)] if self.pair is not None else [[name] for name in self.gears]
+        return replace(self, gears={name: each for names in together for name, each in self._scaled(names, wanted).items()})
+
+    def _scaled(self, names: Sequence[str], wanted: int) -> dict[str, GearPlan]:
+        """Gears of one file, with as many elements together as are wanted; parts share them by their volumes."""
+        chosen = {name: self.gears[name] for name in names}
+        sectors = {name: each for name, each in chosen.items() if isinstance(each, SectorsPlan)}
+        parts = {name: each for name, each in chosen.items() if isinstance(each, PartPlan)}
+
+        def count(factor: float) -> int:
+            return sum(each.finer(factor).amount.elements for each in sectors.values())
+
+        factor = factor_for(wanted, count, self.element.shape.dimension) if sectors else 1.0
+        volumes = {name: each.exact for name, each in parts.items()} if len(parts) > 1 else dict.fromkeys(parts, 1.0)
+        shares = {name: round(wanted * volume / sum(volumes.values())) for name, volume in volumes.items()}
+        return {name: each.finer(factor) for name, each in sectors.items()} | {
+            name: replace(each, elements=shares[name]) for name, each in parts.items()
+        }
+
+
+def _with_zones(plan: GearPlan, zones: Mapping[int, ContactZone]) -> GearPlan:
+    """A gear that is fine where it touches: in zones, or on the whole teeth of a part."""
+    if isinstance(plan, PartPlan):
+        return replace(plan, refined_teeth=tuple(zones))
+    assert isinstance(plan, SectorsPlan)
+    return replace(plan, contacts=zones)
 
 
 def plan_mesh(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | None) -> MeshPlan:
@@ -81,7 +113,23 @@ def plan_mesh(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | 
     extent = options.extent or _usual(dimension, element_given, pair if len(chosen) == 2 else None)
     element = element_given or (Element.TET10 if extent.what is What.PART else _KINDS[dimension][0])
     _require_possible(options, extent, element, pair, chosen)
-    return MeshPlan(chosen, pair if extent.what is What.PAIR else None, extent, element, options)
+    plans = {name: _planned(gear, options, extent, element) for name, gear in chosen.items()}
+    return MeshPlan(plans, pair if extent.what is What.PAIR else None, extent, element, options)
+
+
+def _planned(gear: Gear, options: MeshOptions, extent: Extent, element: Element) -> GearPlan:
+    """How a gear is meshed."""
+    fillet = options.fillet_elements
+    if element is Element.TET10:
+        grading = TetrahedronGrading() if fillet is None else TetrahedronGrading(fillet_elements=fillet)
+        size = options.size if options.size or options.elements else _PART_SIZE * gear.normal_module
+        return PartPlan(gear=gear, size=size, elements=options.elements, grading=grading)
+    teeth = None if extent.teeth is None or extent.teeth >= gear.teeth else extent.teeth
+    inner = 0.0 if not gear.body.bore and teeth is None else inner_radius(gear)
+    sizes = body_sizes(gear, options.size)
+    if fillet is not None:
+        sizes = replace(sizes, fillet_turn=_FILLET_ARC / fillet)
+    return SectorsPlan(gear=gear, element=element, teeth=teeth, inner_radius=inner, sizes=sizes)
 
 
 def _chosen(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | None) -> Mapping[str, Gear]:

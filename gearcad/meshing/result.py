@@ -77,7 +77,7 @@ class JudgedMesh:
         off = self.deviations
         if off.between <= COARSE:
             return ()
-        instead = "smaller ones" if self.quality.element.shape.order == 2 else "smaller ones, or those of second order,"
+        instead = "smaller elements" if self.quality.element.shape.order == 2 else "smaller elements, or those of second order,"
         text = f"{off.worst} is {off.between:.2g} µm off the exact one between nodes: {instead} follow it"
         return (Notice("coarse", text),)
 

@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 
-from gearcad.geometry import Gear
-from gearcad.meshing.bodies.body_mesh import mesh_body
-from gearcad.meshing.bodies.contact_zone import ContactZone
-from gearcad.meshing.bodies.exact_size import exact_area, exact_volume
+from gearcad.errors import InputError
+from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.exactness import deviations
 from gearcad.meshing.bodies.measure import measure_side
 from gearcad.meshing.bodies.mesh import ElementMesh
 from gearcad.meshing.bodies.posed import posed
 from gearcad.meshing.bodies.quality import LEAST_SCALED_JACOBIAN, quality, require_good
-from gearcad.meshing.bodies.section_mesh import mesh_section
+from gearcad.meshing.gear_plan import GearPlan
 from gearcad.meshing.plan import MeshPlan
 from gearcad.meshing.result import COARSE, Gate, JudgedMesh, MeshResult
 from gearcad.per_gear import PerGear
 from gearcad.progress import Agenda, Progress
 
 __all__ = ["run_mesh"]
+
+_MESHING, _JUDGING = "meshing", "judging"
 
 _FOLDED = 1e-6
 """Least scaled Jacobian below which a mesh is none: such an element has no inside."""
@@ -31,46 +32,47 @@ _ON = 1e-9
 
 def run_mesh(plan: MeshPlan, name: str, progress: Progress | None = None) -> MeshResult:
     """Mesh the gears of a plan, judge what comes out, and put pairs in mesh. Raises GeometryError and SolverError."""
-    steps = [f"{step} {role}".strip() for role in plan.gears for step in ("meshing", "judging")]
+    steps = [f"{step} {role}" for role in plan.gears for step in (_MESHING, _JUDGING)]
     agenda = Agenda(progress, dict.fromkeys(steps, 1.0))
     meshes, judged = dict[str, ElementMesh](), dict[str, JudgedMesh]()
-    for role, gear in plan.gears.items():
-        agenda(f"meshing {role}")
-        meshes[role] = _meshed(gear, plan, plan.contacts.get(role, {}))
-        agenda(f"judging {role}")
-        judged[role] = _judged(meshes[role], gear, plan)
+    for role, each in plan.gears.items():
+        agenda(f"{_MESHING} {role}")
+        with _naming(role):
+            meshes[role] = each.mesh(agenda.within(f"{_MESHING} {role}"))
+        agenda(f"{_JUDGING} {role}")
+        judged[role] = _judged(meshes[role], each, plan)
     if plan.pair is not None:
         gears = PerGear(meshes.pop("pinion"), meshes.pop("wheel"))
         meshes["pair"] = posed(plan.pair, gears, plan.options.roll, left=plan.left)
     return MeshResult(name, plan, meshes, judged)
 
 
-def _meshed(gear: Gear, plan: MeshPlan, contacts: Mapping[int, ContactZone]) -> ElementMesh:
-    """The mesh of one gear."""
-    teeth, inner, sizes, kind = plan.teeth_of(gear), plan.inner_radius(gear), plan.sizes(gear), plan.element
-    if plan.solid:
-        return mesh_body(gear, teeth=teeth, inner_radius=inner, sizes=sizes, planes=None, element=kind, contacts=contacts)
-    return mesh_section(gear, teeth=teeth, inner_radius=inner, sizes=sizes, element=kind, contacts=contacts)
+@contextmanager
+def _naming(role: str) -> Iterator[None]:
+    """Let errors about a value say whose it is."""
+    try:
+        yield
+    except InputError as error:
+        raise error.within(role) from None
 
 
-def _judged(mesh: ElementMesh, gear: Gear, plan: MeshPlan) -> JudgedMesh:
+def _judged(mesh: ElementMesh, planned: GearPlan, plan: MeshPlan) -> JudgedMesh:
     """What is found of one gear's mesh. Raises SolverError for one with folded elements."""
     measured = quality(mesh)
     require_good(measured, _FOLDED)
-    teeth = plan.teeth_of(gear) or gear.teeth
     sides = {name: (len(faces), measure_side(mesh, name)) for name, faces in mesh.sides.items()}
     judged = JudgedMesh(
-        gear=gear,
-        teeth=teeth,
+        gear=planned.gear,
+        teeth=planned.count,
         nodes=len(mesh.points),
         elements=len(mesh.cells),
         bytes=mesh.nbytes,
         sides=sides,
         matched={cut: len(pairs) for cut, pairs in mesh.matched.items()},
         quality=measured,
-        deviations=deviations(mesh, gear),
+        deviations=deviations(mesh, planned.gear),
         whole=sum(measure.enclosed for _, measure in sides.values()) / mesh.element.shape.dimension,
-        exact=teeth * (exact_volume if plan.solid else exact_area)(gear, plan.inner_radius(gear)),
+        exact=planned.exact,
     )
     return replace(judged, gates=tuple(_gates(judged, plan)))
 
@@ -81,6 +83,6 @@ def _gates(judged: JudgedMesh, plan: MeshPlan) -> Iterator[Gate]:
     yield Gate("least scaled Jacobian", judged.quality.least_jacobian, LEAST_SCALED_JACOBIAN[element], "", least=True)
     yield Gate("nodes from the exact flanks and fillets", off.nodes, _ON, "mm")
     if element.shape.order == 2:
-        if plan.options.size is None:
+        if plan.usual and element is not Element.TET10:
             yield Gate("flanks and fillets between nodes from the exact ones", off.between, COARSE, "µm")
         yield Gate("surface from the exact one on the mean", judged.mean_offset, max(COARSE, off.between), "µm")

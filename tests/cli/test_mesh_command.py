@@ -116,6 +116,13 @@ def test_a_mesh_that_falls_short_is_written_and_told(here: Path, monkeypatch: py
     assert Path("output/some/gear.vtu").is_file()
 
 
+def test_as_many_elements_as_are_asked_for_are_told_before_and_made(here: Path) -> None:
+    result = run("mesh", spec(PAIR), "--elements", "9000", "--format", "vtu")
+    told = document()["summary"]
+    assert told["elements"] == pytest.approx(9000, rel=0.1)
+    assert result.stderr.replace("\u202f", "").startswith(f"makes {told['elements']} quad8, ")
+
+
 def test_straight_edges_are_said_to_be_off(here: Path) -> None:
     run("mesh", spec(GEAR), "--what", "sector", "--element", "hex8", "--size", "1", "--format", "vtu", "--quiet")
     told = document()
@@ -143,6 +150,8 @@ def test_straight_edges_are_said_to_be_off(here: Path) -> None:
         (GEAR, ["--what", "ring", "--element", "tet10"], "what = 'ring': must be part, or pair, for tet10"),
         (GEAR, ["--element", "hex27"], "element = 'hex27': must be"),
         (GEAR, ["--size", "0"], "size = 0 mm: must be a number at least"),
+        (GEAR, ["--size", "1", "--elements", "50"], "elements = 50: must not be given beside size: one follows from the other"),
+        (GEAR, ["--elements", "20"], "elements = 20: cannot be met within 10 % by this layout"),
         (GEAR, ["--format", "stl"], "format = 'stl': must be one of 'msh', 'vtu', 'inp'"),
         (GEAR, ["--format", ""], "format = '': must be a text"),
         (PAIR, ["--what", "pair", "--gear", "wheel"], "gear = 'wheel': must be both for a pair in mesh"),

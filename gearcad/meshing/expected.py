@@ -1,0 +1,29 @@
+"""What meshes will come to, and take, before they are made."""
+
+from __future__ import annotations
+
+from gearcad.meshing.bodies.elements import Element
+from gearcad.meshing.plan import MeshPlan
+from gearcad.progress import Expected
+from gearcad.reprs import grouped
+
+__all__ = ["expected_mesh"]
+
+_SECONDS = {Element.TRI6: 2e-5, Element.QUAD8: 2e-5, Element.HEX8: 1.2e-5, Element.HEX20: 2e-5}
+"""To mesh, judge and write an element in the usual formats."""
+
+_BEFORE = 0.5
+"""Seconds that it takes at least."""
+
+_COPIES = 3.0
+"""Memory at the most, over that of nodes and elements."""
+
+
+def expected_mesh(plan: MeshPlan) -> Expected | None:
+    """What a mesh is expected to be and to take; None for tetrahedra, of which nobody knows."""
+    amount = plan.amount
+    if amount is None:
+        return None
+    seconds = _BEFORE + _SECONDS[plan.element] * amount.elements
+    makes = f"makes {grouped(amount.elements)} {plan.element.value}, {grouped(amount.nodes)} nodes"
+    return Expected(seconds, _COPIES * amount.bytes, makes)

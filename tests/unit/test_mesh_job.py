@@ -1,0 +1,107 @@
+"""`gearcad.mesh`: what options ask for is what comes out."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import gearcad
+from gearcad import ISO53_C, Body, FlankModification, Gear, GearPair, Load, ParameterError
+from gearcad.meshing import Element, ElementMesh
+from gearcad.meshing.options import MeshOptions
+
+GEAR = Gear(teeth=20, normal_module=2, face_width=8, body=Body(bore=12))
+
+PAIR = GearPair(
+    pinion=Gear(teeth=17, normal_module=2, face_width=8, body=Body(bore=12)),
+    wheel=Gear(teeth=23, normal_module=2, face_width=6, body=Body(bore=20)),
+)
+
+
+def edge_turns(mesh: ElementMesh, side: str) -> np.ndarray:
+    """By how much (deg) each edge of a side turns."""
+    end, other, middle = np.moveaxis(mesh.points[mesh.face_cells(side)], 1, 0)
+    first, last = 4 * middle - 3 * end - other, 3 * other + end - 4 * middle
+    angles = [np.arctan2(each[:, 1], each[:, 0]) for each in (first, last)]
+    return np.degrees(np.abs((angles[1] - angles[0] + math.pi) % (2 * math.pi) - math.pi))
+
+
+@pytest.mark.parametrize("count", [4, 9])
+def test_fillets_have_as_many_elements_as_are_asked_for(count: int) -> None:
+    mesh = gearcad.mesh(GEAR, what="sector", fillet_elements=count).mesh
+    for side in ("left_fillet_0", "right_fillet_0"):
+        assert 30 / edge_turns(mesh, side).max() == pytest.approx(count, rel=0.15)
+
+
+def test_edges_on_flanks_are_as_long_as_asked_for() -> None:
+    for size in (0.2, 0.5):
+        mesh = gearcad.mesh(GEAR, what="sector", size=size).mesh
+        ends = mesh.points[mesh.face_cells("left_flank_0")[:, :2]]
+        longest = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).max()
+        assert 0.7 * size < longest < 1.1 * size
+
+
+@pytest.mark.parametrize("element", [Element.QUAD8, Element.HEX8])
+@pytest.mark.parametrize("roll", [0.0, 5.0])
+def test_flanks_of_a_pair_touch_at_the_roll_angle(element: Element, roll: float) -> None:
+    """The distance of a flank's nodes from the mate's: none overlaps, and some are near."""
+    mesh = gearcad.mesh(PAIR, what="pair:3", element=element.value, size=0.25 if element is Element.HEX8 else 0.1, roll=roll).mesh
+    pinion, wheel = (mesh.points[mesh.nodes(f"{gear}_left_flank_0")] for gear in ("pinion", "wheel"))
+    gap = min(np.hypot(*(wheel[:, :2] - place[:2]).T).min() for place in pinion)
+    assert gap < 0.2
+    angle = math.radians(PAIR.working_transverse_pressure_angle)
+    tangent = np.array([math.sin(angle), math.cos(angle)])
+    rolled = PAIR.path_of_contact.C + math.radians(roll) * PAIR.pinion.base_diameter / 2
+    contact = PAIR.pinion.base_diameter / 2 * np.array([math.cos(angle), -math.sin(angle)]) + rolled * tangent
+    assert np.hypot(*(pinion[:, :2] - contact).T).min() < 0.15
+
+
+def test_a_negative_torque_makes_right_flanks_touch() -> None:
+    result = gearcad.mesh(PAIR, Load(torque=-40), what="pair:3", size=0.4)
+    faces = {side: len(result.mesh.sides[f"pinion_{side}_flank_0"]) for side in ("left", "right")}
+    assert faces["right"] >= faces["left"]
+    ahead = result.mesh.points[result.mesh.nodes("pinion_right_flank_0")]
+    behind = result.mesh.points[result.mesh.nodes("wheel_right_flank_0")]
+    assert min(np.hypot(*(behind - place)[:, :2].T).min() for place in ahead) < 0.02
+    assert not result.plan.left
+
+
+def test_the_whole_part_has_keyway_and_hub() -> None:
+    body = Body(bore=6, keyway_width=2, keyway_depth=1, hub_diameter=11, hub_length=2, end_chamfer=0.5)
+    gear = Gear(teeth=9, normal_module=2, face_width=4, profile_shift=0.5, rack=ISO53_C, body=body)
+    result = gearcad.mesh(gear, what="part", size=2)
+    judged = result.judged["gear"]
+    assert {"keyway", "hub", "hub_front", "end_chamfers", "bore", "tip_8"} <= set(result.mesh.sides)
+    assert result.mesh.element is Element.TET10 and result.passed
+    assert judged.whole == pytest.approx(judged.exact, rel=1e-4)
+
+
+def test_modified_flanks_are_meshed_as_modified() -> None:
+    gear = Gear(
+        teeth=20,
+        normal_module=2,
+        face_width=8,
+        helix_angle=15,
+        body=Body(bore=12),
+        modification=FlankModification(tip_relief=20, tip_relief_length=2, lead_crowning=10),
+    )
+    result = gearcad.mesh(gear, what="sector", model="3d")
+    plain = gearcad.mesh(Gear(teeth=20, normal_module=2, face_width=8, helix_angle=15, body=Body(bore=12)), what="sector")
+    assert result.passed and result.judged["gear"].deviations.nodes < 1e-12
+    assert plain.judged["gear"].whole - result.judged["gear"].whole == pytest.approx(
+        plain.judged["gear"].exact - result.judged["gear"].exact, rel=2e-3
+    )
+
+
+def test_options_are_those_of_a_design_unless_they_are_given() -> None:
+    options = MeshOptions(what="teeth:3", element="tri6")
+    assert gearcad.mesh(GEAR, mesh=options).plan.options == options
+    assert gearcad.mesh(GEAR, mesh=options, what="sector").plan.options == MeshOptions(what="sector", element="tri6")
+    with pytest.raises(ParameterError, match=r"^mesh = 5: must be a MeshOptions$"):
+        gearcad.mesh(GEAR, mesh=5)
+    with pytest.raises(ParameterError, match=r"^what = 3: must be"):
+        gearcad.mesh(GEAR, what=3)
+    with pytest.raises(LookupError, match="there are several meshes: pinion, wheel"):
+        gearcad.mesh(PAIR, what="sector").mesh  # noqa: B018
