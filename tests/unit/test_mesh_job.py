@@ -47,7 +47,9 @@ def test_edges_on_flanks_are_as_long_as_asked_for() -> None:
 @pytest.mark.parametrize("roll", [0.0, 5.0])
 def test_flanks_of_a_pair_touch_at_the_roll_angle(element: Element, roll: float) -> None:
     """The distance of a flank's nodes from the mate's: none overlaps, and some are near."""
-    mesh = gearcad.mesh(PAIR, what="pair:3", element=element.value, size=0.25 if element is Element.HEX8 else 0.1, roll=roll).mesh
+    mesh = gearcad.mesh(
+        PAIR, what="pair:3", element=element.value, size=0.25 if element is Element.HEX8 else 0.1, roll=roll
+    ).mesh
     pinion, wheel = (mesh.points[mesh.nodes(f"{gear}_left_flank_0")] for gear in ("pinion", "wheel"))
     gap = min(np.hypot(*(wheel[:, :2] - place[:2]).T).min() for place in pinion)
     assert gap < 0.2
