@@ -7,6 +7,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 - registers the renderer
+from PIL import Image
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
@@ -21,18 +22,22 @@ from vtkmodules.vtkRenderingCore import (
     vtkWindowToImageFilter,
 )
 
-from gearcad import Gear
+import gearcad
+from gearcad import Body, Gear
 from gearcad.batch import run_table
 from gearcad.batch.study import plan_study, write_study
 from gearcad.designs import read_spec
 from gearcad.jobs.data import Data
 from gearcad.plots import plot_contours, save_plot
+from gearcad.plots.mesh import plot_body_mesh, plot_section_mesh
 from gearcad.plots.table_data import read_points
 from gearcad.solids import tessellate
 
 FOLDER = Path(__file__).parent
 SPEC = FOLDER.parent / "templates" / "volvo-13-44.toml"
 """What `gearcad new volvo` writes."""
+
+FZG_C = SPEC.with_name("fzg-c.toml")
 
 BRASS, STEEL = (0.83, 0.62, 0.30), (0.60, 0.68, 0.76)
 FEATURE_ANGLE = 25.0
@@ -117,6 +122,23 @@ def plot_study(path: Path) -> None:
         save_plot(plot_contours, points, path)
 
 
+def plot_elements(path: Path) -> None:
+    """A section of a pair where it touches, teeth of hexahedra, and a whole part of tetrahedra."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(14, 4.8), layout="constrained")
+    left, middle, right = figure.subplots(1, 3)
+    spur, helical = read_spec(FZG_C), read_spec(SPEC)
+    pitch_point = spur.pair.working_pitch_diameters.pinion / 2
+    plot_section_mesh(gearcad.mesh(spur).mesh, left, window=(pitch_point, 0, 6.5))
+    plot_body_mesh(gearcad.mesh(helical, what="teeth:3", gear="pinion").mesh, middle, yaw=105, pitch=30)
+    body = Body(bore=18, keyway_width=6, keyway_depth=2.8, hub_diameter=32, hub_length=8, end_chamfer=1)
+    gear = Gear(teeth=24, normal_module=2.5, face_width=16, helix_angle=20, body=body)
+    plot_body_mesh(gearcad.mesh(gear, what="part", size=1.6).mesh, right, yaw=20, pitch=35)
+    figure.savefig(path, dpi=110)
+    Image.open(path).convert("RGB").quantize(48).save(path, optimize=True)
+
+
 def main() -> None:
     pair = read_spec(SPEC).pair
     assert pair is not None  # the starter is one
@@ -125,6 +147,7 @@ def main() -> None:
     render(pinion + wheel, FOLDER / "pair.png", focus=(62, 0, 6), eye=(-0.3, -1.0, 0.75), scale=50)
     render(pinion + wheel, FOLDER / "mesh.png", focus=(19, 0, 18), eye=(0.0, -0.05, 1.0), scale=9)
     plot_study(FOLDER / "study.png")
+    plot_elements(FOLDER / "elements.png")
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ _FORMATS = f"Comma-separated list of {', '.join(kind.value for kind in MeshForma
 @output_option
 @click.option("--what", metavar="WHAT", help="sector, teeth:5, ring, pair, pair:5 or part.  [default: ring, or pair]")
 @click.option("--model", metavar="2d|3d", help="Section or body.  [default: 3d for helical gears]")
-@click.option("--element", metavar="KIND", help="quad8, tri6; hex20, hex8; tet10.  [default: the first, of a part tet10]")
+@click.option("--element", metavar="KIND", help="quad8, tri6; hex20, hex8; tet10.  [default: the first; of a 2d pair tri6]")
 @click.option("--gear", metavar="NAME", help="pinion, wheel or both.  [default: both]")
 @click.option("--size", type=float, metavar="MM", help="Edge of elements on the flanks; the others follow.")
 @click.option("--elements", type=int, metavar="N", help="Elements in each file, instead of a size.")

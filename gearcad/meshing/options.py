@@ -61,7 +61,7 @@ class MeshOptions:
     "auto" is the ring of a single gear, and of two the pair: where it is 3d with the teeth that carry and one beside them on
     each side. `model` is "2d" (a transverse section) or "3d" (a body); "auto" is that of the element, else 3d where teeth are
     helical. `element` is "quad8" or "tri6" of sections, "hex20" or "hex8" of bodies, "tet10" of parts; "auto" is the first of
-    them. `gear` is one of a pair, or "both".
+    them, and of sections in mesh "tri6". `gear` is one of a pair, or "both".
 
     `size` (mm) is the edge of elements on the flanks and all others follow it, or there are so many `elements` in each file
     (both None: as root stress asks for); about `fillet_elements` of them over 30 degrees of a fillet (None: 4, of

@@ -19,9 +19,6 @@ from gearcad.per_gear import PerGear
 
 __all__ = ["MeshPlan", "plan_mesh"]
 
-_KINDS = {2: (Element.QUAD8, Element.TRI6), 3: (Element.HEX20, Element.HEX8)}
-"""Elements of what is meshed tooth by tooth, the usual one first, by how many dimensions they have."""
-
 _PART_SIZE = 0.5
 """Usual edge of tetrahedra on teeth, in normal modules."""
 
@@ -111,7 +108,7 @@ def plan_mesh(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | 
     element_given = None if options.element == AUTO else Element(options.element)
     dimension = _dimension(options, element_given, chosen)
     extent = options.extent or _usual(dimension, element_given, pair if len(chosen) == 2 else None)
-    element = element_given or (Element.TET10 if extent.what is What.PART else _KINDS[dimension][0])
+    element = element_given or _usual_element(dimension, extent)
     _require_possible(options, extent, element, pair, chosen)
     plans = {name: _planned(gear, options, extent, element) for name, gear in chosen.items()}
     return MeshPlan(plans, pair if extent.what is What.PAIR else None, extent, element, options)
@@ -164,6 +161,15 @@ def _usual(dimension: int, element: Element | None, pair: GearPair | None) -> Ex
     if pair is None:
         return Extent(What.RING)
     return Extent(What.PAIR, None if dimension == 2 else _carrying(pair) + 2 * _BESIDE)
+
+
+def _usual_element(dimension: int, extent: Extent) -> Element:
+    """That of which nothing is said. Triangles become larger inwards from where a pair touches; quadrangles stand in rows."""
+    if extent.what is What.PART:
+        return Element.TET10
+    if dimension == 3:
+        return Element.HEX20
+    return Element.TRI6 if extent.what is What.PAIR else Element.QUAD8
 
 
 def _carrying(pair: GearPair) -> int:

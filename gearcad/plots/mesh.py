@@ -30,6 +30,9 @@ _SHADES = {"flank": "#5b9bd0", "fillet": "#f0a35e", "root": "#d9c27a", "tip": "#
 _LIGHT = np.array([-0.45, 0.55, 0.7])
 """From where light falls on a body, as it is seen: to the right, up, towards us."""
 
+_EDGE_ON = 1e-9
+"""Faces whose normal has less than this towards us are not seen."""
+
 _DIM = 0.45
 """Brightness of what light does not reach."""
 
@@ -79,7 +82,7 @@ def plot_body_mesh(mesh: ElementMesh, ax: Axes | None = None, *, yaw: float = 35
     for name in mesh.sides:
         seen = mesh.points[mesh.face_cells(name)] @ look.T
         normals = _normals(seen)
-        front = normals[:, 2] > 0
+        front = normals[:, 2] > _EDGE_ON
         outlines.append(seen[front][:, _rim_of_face(seen.shape[1])])
         colours.append(_shaded(_colour(name), normals[front]))
     polygons, shades = np.concatenate(outlines), np.concatenate(colours)

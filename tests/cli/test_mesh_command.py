@@ -86,7 +86,7 @@ def test_a_pair_stands_in_mesh_and_is_fine_where_its_load_presses(here: Path) ->
         faces = {side: idle["meshes"][gear]["sides"][side]["faces"] for side in ("left_flank_0", "left_flank_3")}
         touching = loaded["meshes"][gear]["sides"]["left_flank_0"]["faces"]
         assert touching > faces["left_flank_0"] + 5
-        assert loaded["meshes"][gear]["sides"]["left_flank_3"]["faces"] == faces["left_flank_3"]
+        assert loaded["meshes"][gear]["sides"]["left_flank_3"]["faces"] <= faces["left_flank_3"]
 
 
 def test_options_win_over_those_of_the_spec(here: Path) -> None:
@@ -120,7 +120,7 @@ def test_as_many_elements_as_are_asked_for_are_told_before_and_made(here: Path) 
     result = run("mesh", spec(PAIR), "--elements", "9000", "--format", "vtu")
     told = document()["summary"]
     assert told["elements"] == pytest.approx(9000, rel=0.1)
-    assert result.stderr.replace("\u202f", "").startswith(f"makes {told['elements']} quad8, ")
+    assert result.stderr.replace("\u202f", "").startswith(f"makes {told['elements']} tri6, ")
 
 
 def test_straight_edges_are_said_to_be_off(here: Path) -> None:
