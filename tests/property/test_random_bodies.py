@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,11 +9,11 @@ import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
 from support.exact import distance_to_section
-from support.modified import depth_off, roll_ends, unturned
+from support.modified import depth_off, unturned
 from support.sections import COARSE
-from support.strategies import build_gear, gear_inputs
+from support.strategies import MODIFICATIONS, build_gear, gear_inputs, modified
 
-from gearcad import FlankModification, Gear
+from gearcad import Gear
 from gearcad.errors import GeometryError, InputError, SolverError
 from gearcad.meshing.bodies import Element, ElementMesh
 from gearcad.meshing.bodies.body_mesh import mesh_body
@@ -26,13 +25,6 @@ OFF = 1e-9
 STEEP = 50.0
 """Degrees: up to this helix angle no gear is refused for its elements, but for those whose edges are straight."""
 
-AMOUNTS = {name: st.one_of(st.just(0.0), st.floats(-0.03, 0.03)) for name in ("profile_crowning", "lead_crowning", "twist")}
-AMOUNTS |= {name: st.one_of(st.just(0.0), st.floats(0.0, 0.05)) for name in ("tip_relief", "root_relief", "end_relief")}
-AMOUNTS |= {name: st.floats(-0.03, 0.03) for name in ("pressure_angle_modification", "helix_angle_modification")}
-
-MODIFICATIONS = st.one_of(st.none(), st.fixed_dictionaries({**AMOUNTS, "share": st.floats(0.02, 0.5)}))
-"""Amounts in normal modules, and the lengths of reliefs as a share of the flank."""
-
 NOTHING = {"bore": 0.0, "keyway": 0.0, "hub": 0.0, "hub_side": "front", "end_chamfer": 0.0, "end_chamfer_angle": 45.0}
 """Of what a sweep leaves out, and of which many a gear could not be made."""
 
@@ -41,16 +33,6 @@ RIMS = st.one_of(st.floats(0.1, 1.0), st.floats(0.1, 10.0))
 
 WIDTHS = st.one_of(st.just(None), st.floats(0.1, 1.0), st.floats(10.0, 50.0))
 """Face width in normal modules; None: as drawn with the gear."""
-
-
-def modified(gear: Gear, drawn: dict[str, float] | None) -> Gear:
-    if drawn is None:
-        return gear
-    first, last = roll_ends(gear)
-    lengths = {f"{end}_relief_length": drawn["share"] * (last - first) for end in ("tip", "root")}
-    amounts = {name: np.clip(1000 * drawn[name] * gear.normal_module, -999, 999) for name in AMOUNTS}
-    modification = FlankModification(**lengths, end_relief_length=drawn["share"] * gear.face_width, **amounts)
-    return replace(gear, modification=modification)
 
 
 def check_body(gear: Gear, rim: float, element: Element) -> None:

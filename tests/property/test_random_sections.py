@@ -65,7 +65,7 @@ def check_outline(gear: Gear, mesh: QuadMesh, radius: float) -> None:
         distance = np.hypot(x, y) * gear.tip_diameter
         steep = distance > gear.root_diameter / 2 * (1 + 1e-6)  # below, a radius says little about the angle
         expected = np.radians(gear.profile.half_angle(distance))
-        assert np.abs(np.abs(np.arctan2(y, x)) - expected)[steep].max() < ROUNDING
+        assert np.abs(np.abs(np.arctan2(y, x)) - expected)[steep].max(initial=0.0) < ROUNDING
     pitch = 2 * math.pi / gear.teeth
     turn = np.array([[math.cos(pitch), math.sin(pitch)], [-math.sin(pitch), math.cos(pitch)]])
     assert np.abs(places[mesh.behind] @ turn - places[mesh.ahead]).max() < ROUNDING

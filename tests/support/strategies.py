@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any
 
+import numpy as np
 from hypothesis import strategies as st
 
-from gearcad import BasicRack, Body, Gear, GearPair
+from gearcad import BasicRack, Body, FlankModification, Gear, GearPair
 from gearcad.errors import InputError
 from gearcad.geometry import HubSide
+from support.modified import roll_ends
 
-__all__ = ["build_gear", "build_pair", "gear_inputs", "names_a_field", "pair_inputs"]
+__all__ = ["MODIFICATIONS", "build_gear", "build_pair", "gear_inputs", "modified", "names_a_field", "pair_inputs"]
 
 MOST_TEETH = 300
 
@@ -118,6 +120,25 @@ def build_gear(inputs: dict[str, Any]) -> Gear:
         if inputs[f"{end}_change"] is not None:
             given[f"{end}_diameter"] = getattr(gear, f"{end}_diameter") + 2 * m * inputs[f"{end}_change"]
     return Gear(**plain, **given, body=made)
+
+
+_AMOUNTS = {name: st.one_of(st.just(0.0), st.floats(-0.03, 0.03)) for name in ("profile_crowning", "lead_crowning", "twist")}
+_AMOUNTS |= {name: st.one_of(st.just(0.0), st.floats(0.0, 0.05)) for name in ("tip_relief", "root_relief", "end_relief")}
+_AMOUNTS |= {name: st.floats(-0.03, 0.03) for name in ("pressure_angle_modification", "helix_angle_modification")}
+
+MODIFICATIONS = st.one_of(st.none(), st.fixed_dictionaries({**_AMOUNTS, "share": st.floats(0.02, 0.5)}))
+"""Amounts in normal modules, and the lengths of reliefs as a share of the flank."""
+
+
+def modified(gear: Gear, drawn: dict[str, float] | None) -> Gear:
+    """The gear with modified flanks; raises GeometryError where they do not fit."""
+    if drawn is None:
+        return gear
+    first, last = roll_ends(gear)
+    lengths = {f"{end}_relief_length": drawn["share"] * (last - first) for end in ("tip", "root")}
+    amounts = {name: np.clip(1000 * drawn[name] * gear.normal_module, -999, 999) for name in _AMOUNTS}
+    modification = FlankModification(**lengths, end_relief_length=drawn["share"] * gear.face_width, **amounts)
+    return replace(gear, modification=modification)
 
 
 @st.composite

@@ -16,7 +16,7 @@ from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.section.edge_lengths import bent_lengths
 from gearcad.meshing.section.inner import rim_radius
 from gearcad.meshing.section.layout import SectorLayout, quadrangles
-from gearcad.meshing.section.outline import HalfLengths, MeshSizes, SectorSides, Side
+from gearcad.meshing.section.outline import HalfLengths, MeshSizes, SectorSides, Side, require_fillet
 from gearcad.meshing.section.quads import fill_layout
 from gearcad.meshing.section.sector import mesh_sector
 
@@ -36,11 +36,18 @@ class SectorCount(NamedTuple):
     cut: int
 
 
+class _Kind(NamedTuple):
+    """What makes the sector of a tooth: its zone of short edges; whether it is as fine as sizes ask for."""
+
+    zone: ContactZone | None
+    fine: bool
+
+
 @dataclass(frozen=True)
 class Sectors:
     """Sectors of tooth 0 as each tooth has them; equal ones are meshed once. `inner_radius` (mm) 0 is of a full disc.
 
-    `zones` are those of the teeth by number, from 0. Raises ParameterError.
+    `zones` are those of the teeth by number, from 0. Raises ParameterError and GeometryError.
     """
 
     gear: Gear
@@ -48,7 +55,8 @@ class Sectors:
     sizes: MeshSizes
     element: Element
     zones: Mapping[int, ContactZone]
-    known: dict[tuple[ContactZone | None, bool], SectorSides] = field(default_factory=dict)
+    known: dict[_Kind, SectorSides] = field(default_factory=dict)
+    counted: dict[_Kind, SectorCount] = field(default_factory=dict)
 
     @classmethod
     def of_gear(
@@ -60,6 +68,7 @@ class Sectors:
     def __post_init__(self) -> None:
         if self.element not in (Element.QUAD8, Element.TRI6):
             raise ParameterError("element", self.element.value, 'must be "quad8" or "tri6" for a section')
+        require_fillet(self.gear)
         require_number("inner_radius", self.inner_radius, "mm", at_least=0, below=self.gear.root_diameter / 2)
 
     @property
@@ -74,31 +83,32 @@ class Sectors:
 
     def of(self, tooth: int) -> SectorSides:
         """The sector of a tooth. Raises GeometryError and SolverError."""
-        key = self._key(tooth)
-        if key not in self.known:
-            self.known[key] = self._meshed(*key)
-        return self.known[key]
+        kind = self._kind(tooth)
+        if kind not in self.known:
+            self.known[kind] = self._meshed(kind)
+        return self.known[kind]
 
     def count(self, tooth: int) -> SectorCount:
         """What it has; quadrangles need no mesh to be counted. Raises GeometryError and SolverError."""
-        if self.element is Element.QUAD8:
-            across, up, outer, deep = counts = self._layout(self._key(tooth)[0]).counts
-            return SectorCount(round(quadrangles(*counts)), 2 * (across + up + 2 * outer), across + 2 * outer, deep)
-        sector = self.of(tooth)
-        edges = {side: (len(chain) - 1) // 2 for side, chain in sector.sides.items()}
-        cut = edges[Side.AHEAD]
-        return SectorCount(len(sector.cells), sum(edges.values()) - 2 * cut, edges[Side.INNER], cut)
+        kind = self._kind(tooth)
+        if kind not in self.counted:
+            self.counted[kind] = self._count(kind) if self.element is Element.QUAD8 else _counted(self.of(tooth))
+        return self.counted[kind]
 
-    def _key(self, tooth: int) -> tuple[ContactZone | None, bool]:
-        """Zone of a tooth; whether it is as fine as sizes ask for."""
+    def _count(self, kind: _Kind) -> SectorCount:
+        across, up, outer, deep = counts = self._layout(kind.zone).counts
+        return SectorCount(round(quadrangles(*counts)), 2 * (across + up + 2 * outer), across + 2 * outer, deep)
+
+    def _kind(self, tooth: int) -> _Kind:
         near = not self.zones or any((tooth + step) % self.gear.teeth in self.zones for step in (-1, 0, 1))
-        return self.zones.get(tooth % self.gear.teeth), near or self.element is Element.QUAD8
+        return _Kind(self.zones.get(tooth % self.gear.teeth), near or self.element is Element.QUAD8)
 
-    def _meshed(self, zone: ContactZone | None, near: bool) -> SectorSides:
+    def _meshed(self, kind: _Kind) -> SectorSides:
+        zone = kind.zone
         if self.element is Element.QUAD8:
             return fill_layout(self._layout(zone))
         gear, sizes = self.gear, replace(self.sizes, cut=self._cut)
-        sizes = sizes if near else _carrying(sizes)
+        sizes = sizes if kind.fine else _carrying(sizes)
         plain, zoned = self._lengths(sizes, None), self._lengths(sizes, zone)
         left, right = (zoned, plain) if zone and zone.left else (plain, zoned)
         return mesh_sector(gear, self.inside, sizes, left, right)
@@ -119,6 +129,12 @@ class Sectors:
     def _lengths(self, sizes: MeshSizes, zone: ContactZone | None) -> HalfLengths:
         near = lengths_near(self.gear, zone) if zone else None
         return bent_lengths(self.gear, sizes, near, whole=self.element is Element.TRI6)
+
+
+def _counted(sector: SectorSides) -> SectorCount:
+    edges = {side: (len(chain) - 1) // 2 for side, chain in sector.sides.items()}
+    cut = edges[Side.AHEAD]
+    return SectorCount(len(sector.cells), sum(edges.values()) - 2 * cut, edges[Side.INNER], cut)
 
 
 def _carrying(sizes: MeshSizes) -> MeshSizes:

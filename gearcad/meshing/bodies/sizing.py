@@ -59,7 +59,7 @@ def body_sizes(gear: Gear, size: float | None = None) -> MeshSizes:
     return MeshSizes(
         flank=flank,
         corner=0.4 * flank,
-        fillet=0.6 * flank,
+        fillet=0.5 * flank,
         outline=1.6 * flank,
         cut=1.2 * flank,
         rim=8 * flank,

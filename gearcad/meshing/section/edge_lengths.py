@@ -20,7 +20,10 @@ __all__ = ["bent_lengths"]
 _FINE = 1025
 """Places of a curve at which its bend is looked at."""
 
-_TINY = 0.3
+_FARTHEST = 45.0
+"""Degrees that any edge may turn: one that turns twice as far can fold a triangle."""
+
+_TINY = 0.02
 """Share of an edge that is not worth to be one."""
 
 _CUBIC = 72 * math.sqrt(3)
@@ -29,6 +32,8 @@ _CUBIC = 72 * math.sqrt(3)
 _QUARTIC = 1536
 """Where the curvature k is constant, by k^3 L^4 over this."""
 
+_LEAST = 1e-3
+"""Normal modules: no bend asks for shorter edges. Sharp tools leave corners that fillets come out of with no radius."""
 
 _OF_DEPTH = 0.2
 """Share of the permitted deviation that a depth of modification may add."""
@@ -51,21 +56,24 @@ class _Sampled:
 def bent_lengths(gear: Gear, sizes: MeshSizes, near: HalfLengths | None = None, *, whole: bool = False) -> HalfLengths:
     """The lengths that `sizes` ask for, shorter where `fillet_turn` and `deviation` want it, and where `near` does.
 
-    Over the whole half of the tooth they grow no faster than `growth`. Edges end where reliefs begin.
-    With `whole` they are nowhere longer than the curve, however short a land is: triangles have neighbours of their size only.
+    Over the whole half of the tooth they grow no faster than `growth`. Edges end where reliefs begin, and none of the flank is
+    longer than a relief. With `whole` none is longer than its curve, however short a land is: triangles need neighbours of
+    about their size.
     """
-    plain = edge_lengths(gear, sizes, loaded=True).curves
-    runs, lengths = list[Floats](), list[Floats]()
+    plain, module = edge_lengths(gear, sizes, loaded=True).curves, gear.normal_module
+    runs, lengths, breaks = list[Floats](), list[Floats](), list[float]()
     for curve in gear.profile.curves:
         s = np.linspace(0.0, 1.0, _FINE)
         run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(curve.points(s), axis=0).T))]
-        wanted = np.minimum(plain[curve.kind](run, float(run[-1])), _by_bend(curve, s, run, sizes, gear.normal_module))
+        wanted = np.minimum(plain[curve.kind](run, float(run[-1])), _by_bend(curve, s, run, sizes, module))
         if near and curve.kind in near.curves:
             wanted = np.minimum(wanted, near.curves[curve.kind](run, float(run[-1])))
-        if isinstance(curve, Involute) and sizes.deviation is not None and gear.modification.present:
-            wanted = np.minimum(
-                wanted, _by_depth(gear, curve.roll(s) * curve.base_radius, sizes.deviation * gear.normal_module)
-            )
+        if isinstance(curve, Involute) and gear.modification.present:
+            if sizes.deviation is not None:
+                wanted = np.minimum(wanted, _by_depth(gear, curve.roll(s) * curve.base_radius, sizes.deviation * module))
+            breaks = _breaks(gear, s, run, wanted)
+            ends = np.interp([0.0, *breaks, 1.0], s, run)
+            wanted = np.minimum(wanted, np.diff(ends)[np.searchsorted(ends[1:-1], run)])
         if whole:
             wanted = np.minimum(wanted, run[-1])
         runs.append(run)
@@ -74,23 +82,19 @@ def bent_lengths(gear: Gear, sizes: MeshSizes, near: HalfLengths | None = None, 
     along = np.concatenate([run + start for run, start in zip(runs, starts[:-1], strict=True)])
     gentle = np.split(_gentle(along, np.concatenate(lengths), sizes.growth), len(runs))
     sampled = {curve.kind: _Sampled(run, own) for curve, run, own in zip(gear.profile.curves, runs, gentle, strict=True)}
-    return HalfLengths(sampled, _breaks(gear, sampled[CurveKind.INVOLUTE]), halved=True)
+    return HalfLengths(sampled, tuple(breaks), halved=True)
 
 
-def _breaks(gear: Gear, length: _Sampled) -> tuple[float, ...]:
+def _breaks(gear: Gear, s: Floats, run: Floats, wanted: Floats) -> list[float]:
     """Parameters of the involute where reliefs begin, but for those so near to others or an end that an edge would be tiny."""
-    if not gear.modification.present:
-        return ()
-    form, found = gear.flank_form, [0.0]
-    effort = 1 / length.length
-    passed = np.r_[0.0, np.cumsum((effort[1:] + effort[:-1]) / 2 * np.diff(length.run))]
-    kept = list[float]()
+    form, kept, before = gear.flank_form, list[float](), 0.0
     for roll in form.roll_breaks:
-        edge = float(np.interp((roll**2 - form.first**2) / (2 * form.base_radius), length.run, passed))
-        if edge - found[-1] > _TINY and passed[-1] - edge > _TINY:
-            found.append(edge)
-            kept.append((roll - form.first) / (form.last - form.first))
-    return tuple(kept)
+        place = (roll - form.first) / (form.last - form.first)
+        at, edge = (float(np.interp(place, s, values)) for values in (run, wanted))
+        if min(at - before, run[-1] - at) > _TINY * edge:
+            kept.append(place)
+            before = at
+    return kept
 
 
 def _gentle(run: Floats, length: Floats, growth: float) -> Floats:
@@ -106,14 +110,14 @@ def _by_bend(curve: Curve, s: Floats, run: Floats, sizes: MeshSizes, module: flo
     between = np.diff(np.unwrap(curve.direction(s))) / np.diff(run)
     middles = (run[1:] + run[:-1]) / 2
     bend = np.maximum(np.abs(np.interp(run, middles, between)), 1e-12 / run[-1])
-    longest = np.full(len(run), np.inf)
-    if sizes.fillet_turn is not None and curve.kind is CurveKind.FILLET:
-        longest = math.radians(sizes.fillet_turn) / bend
+    turn = min(sizes.fillet_turn or _FARTHEST, _FARTHEST) if curve.kind is CurveKind.FILLET else _FARTHEST
+    longest: Floats = math.radians(turn) / bend
     if sizes.deviation is not None:
         slope = np.maximum(np.abs(np.gradient(bend, run)), 1e-12 / run[-1] ** 2)
         off = sizes.deviation * module
         longest = np.minimum(longest, np.minimum(np.cbrt(_CUBIC * off / slope), (_QUARTIC * off / bend**3) ** 0.25))
-    return longest
+    found: Floats = np.maximum(longest, _LEAST * module)
+    return found
 
 
 def _by_depth(gear: Gear, lengths: Floats, deviation: float) -> Floats:

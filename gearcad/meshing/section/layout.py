@@ -20,11 +20,10 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.errors import GeometryError
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind, Land
 from gearcad.meshing.section.grading import Grading, graded
-from gearcad.meshing.section.outline import HalfLengths, MeshSizes, Side, edge_lengths
+from gearcad.meshing.section.outline import HalfLengths, MeshSizes, Side, edge_lengths, require_fillet
 
 __all__ = ["Counts", "Piece", "SectorLayout", "cartesian", "choose_counts", "polar", "quadrangles", "shares"]
 
@@ -40,9 +39,6 @@ _DEEPEST_DIP = 0.25
 
 _LEVELLED = 3.0
 """In how many times the depth of the root circle below the split the rows of the cut become level with those of the core."""
-
-_LEAST_FILLET = 1e-6
-"""Shortest fillet in normal modules that has a middle to divide it at."""
 
 
 class Counts(NamedTuple):
@@ -85,11 +81,15 @@ def cartesian(places: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class Piece:
-    """A part of one of the outline's curves, graded; the side of the outline to which it belongs, on the left."""
+    """A part of one of the outline's curves, graded; the side of the outline to which it belongs, on the left.
+
+    It has at least so many edges.
+    """
 
     side: Side
     curve: Curve
     grading: Grading
+    least: int = 1
 
     def points(self, count: int) -> Floats:
         """Ends and middles (2 count + 1, 2) of so many edges, in order (mm)."""
@@ -101,10 +101,15 @@ def edges_of(pieces: tuple[Piece, ...]) -> float:
     return sum(piece.grading.edges for piece in pieces)
 
 
+def least_of(pieces: tuple[Piece, ...]) -> int:
+    """Edges that some pieces have at least."""
+    return sum(piece.least for piece in pieces)
+
+
 def shares(pieces: tuple[Piece, ...], count: int) -> list[tuple[Piece, int]]:
-    """Each piece with its edges, at least one, of `count` in all, in proportion to what is wanted (Webster's divisors)."""
-    given = [1] * len(pieces)
-    for _ in range(count - len(pieces)):
+    """Each piece with its edges, of `count` in all, in proportion to what is wanted (Webster's divisors)."""
+    given = [piece.least for piece in pieces]
+    for _ in range(count - sum(given)):
         most = max(range(len(pieces)), key=lambda k: pieces[k].grading.edges / (given[k] + 0.5))
         given[most] += 1
     return list(zip(pieces, given, strict=True))
@@ -116,8 +121,9 @@ class SectorLayout:
 
     Inside the outline they are drawn in the plane of angle and logarithm of the radius, where circles and radii are straight
     and angles stay as they are: there gears of few teeth look like those of many. `lengths` are the edge lengths along the
-    outline, where they are not those of `sizes`; `rows` those from the split to the tip land, which decide on no other line.
-    With `even` the inner circle gets an even number of edges. Raises GeometryError for a tooth without a fillet.
+    outline, where they are not those of `sizes`, and are then nowhere exceeded; `rows` those from the split to the tip land,
+    which decide on no other line. With `even` the inner circle gets an even number of edges. Raises GeometryError for a tooth
+    without a fillet.
     """
 
     gear: Gear
@@ -128,10 +134,7 @@ class SectorLayout:
     even: bool = False
 
     def __post_init__(self) -> None:
-        ends = self._curves[CurveKind.FILLET].points(np.array([0.0, 1.0]))
-        if float(np.hypot(*(ends[1] - ends[0]))) < _LEAST_FILLET * self.gear.normal_module:
-            permitted = "must be larger for finite elements: the sharp tool leaves a corner and no fillet"
-            raise GeometryError("rack.root_radius", self.gear.rack.root_radius, permitted, "m_n")
+        require_fillet(self.gear)
 
     # ------------------------------------------------------------------ the outline
 
@@ -175,7 +178,9 @@ class SectorLayout:
 
     def _piece(self, lengths: HalfLengths, side: Side, kind: CurveKind, first: float = 0.0, last: float = 1.0) -> tuple[Piece]:
         curve = self._curves[kind]
-        return (Piece(side, curve, lengths.graded(curve, first, last)),)
+        grading = lengths.graded(curve, first, last)
+        least = 1 if self.lengths is None else max(1, math.ceil(grading.edges - 1e-9))
+        return (Piece(side, curve, grading, least),)
 
     @cached_property
     def split(self) -> float:
@@ -278,9 +283,10 @@ class SectorLayout:
     @cached_property
     def counts(self) -> Counts:
         """Edges on the sides of the blocks; each piece of a side needs one at least, the tooth two across."""
-        counts = choose_counts(self.wanted, Counts(2, len(self.flank), len(self.root), 1))
+        plain = self._flank(self._lengths)
+        counts = choose_counts(self.wanted, Counts(2, least_of(plain), least_of(self.root), 1))
         if self.even:
             counts = counts._replace(across=counts.across + counts.across % 2)
         if self.rows is None:
             return counts
-        return counts._replace(up=max(counts.up, round(counts.up * edges_of(self.flank) / self.wanted[1])))
+        return counts._replace(up=max(least_of(self.flank), round(counts.up * edges_of(self.flank) / edges_of(plain))))

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.errors import require_number
+from gearcad.errors import GeometryError, require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.meshing.section.grading import Grading, graded
@@ -31,6 +31,9 @@ __all__ = [
 
 EdgeLength = Callable[[Floats, float], Floats]
 """Wanted edge lengths (mm) at distances (mm) from the root side of a curve, of a given length in all."""
+
+_LEAST_FILLET = 1e-6
+"""Shortest fillet in normal modules."""
 
 _FINE = 513
 """Places at which a part of a curve is sampled to be measured."""
@@ -171,6 +174,15 @@ class Stretch:
     def mirrored(self, side: Side) -> Stretch:
         """The mirror image about the x axis."""
         return Stretch(side, self.points * np.array([1.0, -1.0]))
+
+
+def require_fillet(gear: Gear) -> None:
+    """Raise GeometryError for a tooth without a fillet that has a middle to divide it at."""
+    fillet = next(curve for curve in gear.profile.curves if curve.kind is CurveKind.FILLET)
+    ends = fillet.points(np.array([0.0, 1.0]))
+    if float(np.hypot(*(ends[1] - ends[0]))) < _LEAST_FILLET * gear.normal_module:
+        permitted = "must be larger for finite elements: the sharp tool leaves a corner and no fillet"
+        raise GeometryError("rack.root_radius", gear.rack.root_radius, permitted, "m_n")
 
 
 def sector_outline(
