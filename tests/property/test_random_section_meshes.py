@@ -28,13 +28,19 @@ from gearcad.meshing.bodies.section_mesh import mesh_section
 BULGE = 2e-4
 """How far edges may be from the exact outline between nodes, in normal modules."""
 
-FARTHER, MODIFIED = 1.3, 3.0
+FARTHER, MODIFIED = 1.5, 3.0
 """How many times as far they are where the bend changes along them, and where modifications bend the flanks, too."""
 
 SIZES = replace(COARSE, deviation=BULGE)
 
 OFF = 1e-9
 """mm, for gears up to a metre: the promise; of larger ones the share of it that rounding takes."""
+
+FEW, SHARP = 6, 1e-3
+"""Teeth that may have necks too thin for coarse elements; tool tips, in normal modules, that leave fillets as small as dust.
+
+And modifications may take more than a fillet is long: any of them can be refused, in a line that says where.
+"""
 
 MOST = 30
 """Teeth of which all are meshed in a quick test."""
@@ -124,7 +130,8 @@ def check_inputs(inputs: dict[str, Any], drawn: dict[str, float] | None, how: tu
         assert error.parameter == "rack.root_radius" and gear.rack.root_radius < 1e-6
     except SolverError as error:
         event("refused")
-        assert "too bad" in str(error) and gear.modification.present, "of fillets smaller than what modifications take"
+        assert "too bad" in str(error)
+        assert gear.modification.present or gear.teeth < FEW or gear.profile.tool.radius < SHARP * gear.normal_module
     else:
         event("meshed, modified" if drawn else "meshed")
 

@@ -20,8 +20,8 @@ __all__ = ["bent_lengths"]
 _FINE = 1025
 """Places of a curve at which its bend is looked at."""
 
-_FARTHEST = 45.0
-"""Degrees that any edge may turn: one that turns twice as far can fold a triangle."""
+_FARTHEST = 30.0
+"""Degrees that any edge may turn: one that turns twice as far can fold the triangle behind it."""
 
 _TINY = 0.02
 """Share of an edge that is not worth to be one."""
