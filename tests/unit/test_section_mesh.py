@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearcad import Body, Gear
+from gearcad import BasicRack, Body, Gear
 from gearcad.errors import ParameterError
 from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.elements import Element
@@ -169,3 +169,45 @@ def test_some_teeth_need_an_inner_circle() -> None:
         mesh_section(GEAR, teeth=3, inner_radius=0.0, sizes=SIZES, element=Element.QUAD8)
     with pytest.raises(ParameterError, match="inner_radius"):
         mesh_section(GEAR, teeth=3, inner_radius=GEAR.root_diameter / 2, sizes=SIZES, element=Element.QUAD8)
+
+
+def off_envelope(gear: Gear, points: np.ndarray) -> np.ndarray:
+    """How far (mm) points (n, 2) on the left fillet of tooth 0 are from what the tool's tip leaves as it rolls past.
+
+    In the tool's normal section its tip is a circle; the least distance from it, over all roll angles, is that of the point.
+    """
+    tool, pitch = gear.profile.tool, gear.reference_diameter / 2
+    radius, angle = np.hypot(*points.T), math.pi / gear.teeth - np.arctan2(points[:, 1], points[:, 0])
+    cosine = math.cos(tool.helix_angle)
+
+    def apart(roll: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        across, up = radius * np.sin(angle + roll), radius * np.cos(angle + roll) - pitch
+        return (across - pitch * roll) * cosine - tool.u, up - tool.v
+
+    every = np.stack([np.hypot(*apart(np.full(len(points), roll))) for roll in np.linspace(-1.2, 0.4, 1601)])
+    roll = np.linspace(-1.2, 0.4, 1601)[every.argmin(axis=0)]
+    for _ in range(6):  # Newton's steps to where the distance changes no more: d(across) = up, d(up) = -(across on the gear)
+        x, y = apart(roll)
+        gear_x, gear_y = radius * np.sin(angle + roll), radius * np.cos(angle + roll)
+        slope = x * (gear_y - pitch) * cosine - y * gear_x
+        bend = ((gear_y - pitch) * cosine) ** 2 - x * gear_x * cosine + gear_x**2 - y * gear_y
+        roll = roll - slope / bend
+    return np.abs(np.hypot(*apart(roll)) - tool.radius)
+
+
+@PLANE
+@pytest.mark.parametrize(
+    "gear",
+    [
+        GEAR,
+        Gear(teeth=13, normal_module=2.5, face_width=18, helix_angle=28, profile_shift=0.107),
+        Gear(teeth=60, normal_module=1.0, face_width=9, rack=BasicRack(root_radius="full")),
+        Gear(teeth=10, normal_module=20.0, face_width=9),
+    ],
+)
+def test_fillets_are_what_the_tool_leaves(gear: Gear, element: Element) -> None:
+    mesh = mesh_section(gear, teeth=1, inner_radius=0.6 * gear.root_diameter / 2, sizes=MeshSizes(), element=element)
+    points = mesh.points[mesh.nodes("left_fillet_0"), :2]
+    assert len(points) > 20
+    assert off_envelope(gear, points).max() < 1e-9
+    assert off_envelope(gear, points * (1 + 1e-6)).max() > 1e-7 * gear.normal_module
