@@ -31,6 +31,7 @@ _FORMATS = f"Comma-separated list of {', '.join(kind.value for kind in MeshForma
 @click.option("--size", type=float, metavar="MM", help="Edge of elements on the flanks; the others follow.")
 @click.option("--elements", type=int, metavar="N", help="Elements in each file, instead of a size.")
 @click.option("--fillet-elements", type=int, metavar="N", help="About so many over 30° of a fillet.  [default: 4]")
+@click.option("--refined-teeth", metavar="LIST", help="Numbers of teeth that have finer tetrahedra: 0,1.")
 @click.option("--roll", type=float, metavar="DEG", help="Where a pair stands in mesh, 0 at the pitch point.")
 @click.option("--format", metavar="LIST", help=_FORMATS)
 @json_option

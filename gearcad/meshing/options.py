@@ -64,9 +64,9 @@ class MeshOptions:
     them, and of sections in mesh "tri6". `gear` is one of a pair, or "both".
 
     `size` (mm) is the edge of elements on the flanks and all others follow it, or there are so many `elements` in each file
-    (both None: as root stress asks for); about `fillet_elements` of them over 30 degrees of a fillet (None: 4, of
-    tetrahedra 1). `roll` (deg, of the pinion) is where a pair stands in mesh, 0 at the pitch point. `format` names the formats
-    of the files, with commas between them.
+    (both None: as root stress asks for); about `fillet_elements` of them over 30 degrees of a fillet (None: 4, of tetrahedra
+    1). `refined_teeth`, numbers with commas between them, have finer tetrahedra. `roll` (deg, of the pinion) is where a pair
+    stands in mesh, 0 at the pitch point. `format` names the formats of the files, with commas between them.
     """
 
     what: Annotated[str, Words("what is meshed: sector, teeth:N, ring, pair, pair:N or part")] = AUTO
@@ -76,6 +76,7 @@ class MeshOptions:
     size: Annotated[float | None, LENGTH, Words("edge of an element on the flanks")] = None
     elements: Annotated[int | None, Whole(10, 100_000_000), Words("elements in each file")] = None
     fillet_elements: Annotated[int | None, Whole(1, 100), Words("elements over 30° of a fillet, about")] = None
+    refined_teeth: Annotated[str, Words("teeth with finer tetrahedra, by their numbers")] = ""
     format: Annotated[str, Words("formats of the files, with commas between them")] = "vtu,msh"
     roll: Annotated[float, Range("deg", 0.0, 360.0, signed=True), Words("roll angle of the pinion in mesh")] = 0.0
 
@@ -83,9 +84,18 @@ class MeshOptions:
 
     def __post_init__(self) -> None:
         require_fields(self)
-        _ = self.extent, self.formats
+        _ = self.extent, self.formats, self.refined
         if self.size is not None and self.elements is not None:
             raise ParameterError("elements", self.elements, "must not be given beside size: one follows from the other")
+
+    @property
+    def refined(self) -> tuple[int, ...]:
+        """Numbers of the teeth that have finer tetrahedra. Raises ParameterError."""
+        try:
+            return tuple(int(number) for number in self.refined_teeth.replace(",", " ").split())
+        except (AttributeError, ValueError):
+            permitted = 'must be whole numbers with commas between them, such as "0, 1"'
+            raise ParameterError("refined_teeth", self.refined_teeth, permitted) from None
 
     @property
     def formats(self) -> tuple[MeshFormat, ...]:

@@ -97,7 +97,7 @@ class MeshPlan:
 def _with_zones(plan: GearPlan, zones: Mapping[int, ContactZone]) -> GearPlan:
     """A gear that is fine where it touches: in zones, or on the whole teeth of a part."""
     if isinstance(plan, PartPlan):
-        return replace(plan, refined_teeth=tuple(zones))
+        return replace(plan, refined_teeth=(*plan.refined_teeth, *zones))
     assert isinstance(plan, SectorsPlan)
     return replace(plan, contacts=zones)
 
@@ -120,7 +120,8 @@ def _planned(gear: Gear, options: MeshOptions, extent: Extent, element: Element)
     if element is Element.TET10:
         grading = TetrahedronGrading() if fillet is None else TetrahedronGrading(fillet_elements=fillet)
         size = options.size if options.size or options.elements else _PART_SIZE * gear.normal_module
-        return PartPlan(gear=gear, size=size, elements=options.elements, grading=grading)
+        refined = options.refined
+        return PartPlan(gear=gear, size=size, elements=options.elements, grading=grading, refined_teeth=refined)
     teeth = None if extent.teeth is None or extent.teeth >= gear.teeth else extent.teeth
     inner = 0.0 if not gear.body.bore and teeth is None else inner_radius(gear)
     sizes = body_sizes(gear, options.size)
@@ -192,6 +193,10 @@ def _require_possible(
         raise GeometryError("gear", options.gear, "must be both for a pair in mesh")
     if extent.what is not What.PAIR and options.roll:
         raise GeometryError("roll", options.roll, f"must be 0 for {extent.what.value}: only a pair stands in mesh", "deg")
+    if options.refined and element is not Element.TET10:
+        raise GeometryError(
+            "refined_teeth", options.refined_teeth, f"must be left out for {element.value}: it is of tetrahedra"
+        )
     fewest = min(gear.teeth for gear in gears.values())
     if extent.what is What.TEETH and extent.teeth is not None and extent.teeth >= fewest:
         raise GeometryError("what", options.what, f"must be of fewer than {fewest} teeth, which the gear has; or ring")
