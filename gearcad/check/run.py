@@ -7,8 +7,7 @@ from gearcad.check.plane.run import PLANE_MEMORY, PLANE_STEPS, check_plane
 from gearcad.check.result import CheckResult
 from gearcad.check.solid.expected import expected_solid, solid_steps
 from gearcad.check.solid.run import check_solid
-from gearcad.check.task import CheckTask
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.check.task import check_task
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
@@ -33,7 +32,7 @@ def check_pair(
     `rating` is what the references by ISO 6336 or DIN 3990 go by.
     Raises ParameterError and GeometryError for input that cannot be checked, SolverError where a solver fails.
     """
-    task = _task(pair, material, load, options, mounting, rating)
+    task = check_task(pair, material, load, options, mounting, rating)
     if task.model is Model.PLANE:
         return check_plane(task, Agenda(progress, PLANE_STEPS))
     return check_solid(task, Agenda(progress, solid_steps(task)))
@@ -48,37 +47,7 @@ def expected_check(
     rating: RatingOptions | None = None,
 ) -> Expected:
     """What `check_pair` is expected to take. Raises what it raises for input that cannot be checked."""
-    task = _task(pair, material, load, options, mounting, rating)
+    task = check_task(pair, material, load, options, mounting, rating)
     if task.model is Model.PLANE:
         return Expected(sum(PLANE_STEPS.values()), PLANE_MEMORY)
     return expected_solid(task)
-
-
-def _task(
-    pair: GearPair,
-    material: Material,
-    load: Load,
-    options: CheckOptions | None,
-    mounting: Mounting | None,
-    rating: RatingOptions | None,
-) -> CheckTask:
-    options, mounting = options or CheckOptions(), mounting or Mounting()
-    task = CheckTask(
-        pair=mounting.mounted(pair),
-        material=material,
-        load=load,
-        mounting=mounting,
-        options=options,
-        rating_options=rating or RatingOptions(),
-    )
-    _require_meshing(task)
-    return task
-
-
-def _require_meshing(task: CheckTask) -> None:
-    """Raise for what no contact analysis can make sense of."""
-    if not task.torque:
-        raise ParameterError("load.torque", task.torque, "must not be 0: without torque there is nothing to check", "N·m")
-    if task.pair.transverse_contact_ratio < 1:
-        ratio = task.pair.transverse_contact_ratio
-        raise GeometryError("pair.transverse_contact_ratio", ratio, "must be at least 1: the teeth lose each other")

@@ -7,13 +7,14 @@ from functools import cached_property
 
 from gearcad.check.options import CheckOptions, Model
 from gearcad.contact.shared.bodies import BodyModel
+from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.rating import Rating, RatingOptions, rate
 
-__all__ = ["CheckTask"]
+__all__ = ["CheckTask", "check_task"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,3 +53,34 @@ class CheckTask:
     def rating(self) -> Rating:
         """By ISO 6336 or DIN 3990, Method B."""
         return rate(self.pair, self.material, self.load, self.rating_options)
+
+
+def check_task(
+    pair: GearPair,
+    material: Material,
+    load: Load,
+    options: CheckOptions | None = None,
+    mounting: Mounting | None = None,
+    rating: RatingOptions | None = None,
+) -> CheckTask:
+    """The task of a pair in its mounting. Raises ParameterError and GeometryError for what cannot be checked."""
+    options, mounting = options or CheckOptions(), mounting or Mounting()
+    task = CheckTask(
+        pair=mounting.mounted(pair),
+        material=material,
+        load=load,
+        mounting=mounting,
+        options=options,
+        rating_options=rating or RatingOptions(),
+    )
+    _require_meshing(task)
+    return task
+
+
+def _require_meshing(task: CheckTask) -> None:
+    """Raise for what no contact analysis can make sense of."""
+    if not task.torque:
+        raise ParameterError("load.torque", task.torque, "must not be 0: without torque there is nothing to check", "N·m")
+    if task.pair.transverse_contact_ratio < 1:
+        ratio = task.pair.transverse_contact_ratio
+        raise GeometryError("pair.transverse_contact_ratio", ratio, "must be at least 1: the teeth lose each other")

@@ -6,7 +6,7 @@ Lengths are in mm, forces in N, stresses in MPa; torques in N mm, in the deck on
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
@@ -61,7 +61,7 @@ class LoadedPairDeck:
     `mesh` has both gears, posed; `held` are the nodes of each that its hub holds: those of the wheel stand, those of the
     pinion turn about the z axis by the turn of a node of reference, on which the `torque` (N·m) is. `flanks` may touch, with
     pressures of `contact_stiffness` (MPa/mm) times their overlap. `width` (mm) is the thickness of sections, None for solids.
-    `level` are nodes that keep their height: a plane of symmetry. `words` stand in the deck as comments.
+    `words` stand in the deck as comments.
     """
 
     mesh: ElementMesh
@@ -72,8 +72,6 @@ class LoadedPairDeck:
     contact_stiffness: float
     words: Sequence[str] = ()
     width: float | None = None
-    level: Wholes = field(default_factory=lambda: np.empty(0, int))
-    element_name: str | None = None
 
     @property
     def reference(self) -> int:
@@ -86,7 +84,7 @@ class LoadedPairDeck:
             write_heading(file, self.words)
             write_nodes(file, self.mesh.points)
             write_reference(file, self.reference)
-            write_elements(file, self.mesh, self.element_name or element_type(self.mesh.element))
+            write_elements(file, self.mesh, element_type(self.mesh.element))
             self._write_sets(file)
             write_material(file, self.material, self.mesh.parts, self.width)
             write_turned(file, self.held.pinion, self.mesh.points, self.reference)
@@ -101,8 +99,6 @@ class LoadedPairDeck:
     def _write_sets(self, file: TextIO) -> None:
         for role, nodes in self.held.items():
             write_held(file, role, nodes)
-        if len(self.level):
-            write_node_set(file, "level", self.level)
         for name in dict.fromkeys(name for each in self.flanks for name in (each.pinion, each.wheel)):
             write_surface(file, name, self.mesh.sides[name])
 
@@ -110,8 +106,6 @@ class LoadedPairDeck:
         file.write(f"*BOUNDARY\n{HELD.format(Role.WHEEL.value)}, 1, {3 if self._solid else 2}\n")
         if self._solid:
             file.write(f"{HELD.format(Role.PINION.value)}, 3\n")
-        if len(self.level):
-            file.write("level, 3\n")
         file.write(f"{REFERENCE}, 2, 3\n")
 
     def _write_step(self, file: TextIO) -> None:

@@ -21,7 +21,7 @@ from gearcad.meshing.section import MeshSizes
 from gearcad.notice import Notice
 from gearcad.progress import Agenda
 
-__all__ = ["PLANE_MEMORY", "PLANE_STEPS", "check_plane", "plane_notices"]
+__all__ = ["PLANE_MEMORY", "PLANE_STEPS", "check_plane", "plane_model", "plane_notices"]
 
 _WORTH_A_WORD = 0.01
 """How much wider than the mesh a root carries before it is told."""
@@ -36,7 +36,7 @@ PLANE_MEMORY = 0.4e9
 def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     """Check in the transverse section through the middle of the common face width. Raises what `check_pair` does."""
     tell("mesh cycle")
-    model = _model(task, 1.0)
+    model = plane_model(task)
     cycle = PlaneCycle.run(model, task.torque, task.options.positions_of(Model.PLANE)).searched(PLANE)
     summary = summarise_plane(cycle, model.single_stiffness(task.torque))
     tell("convergence")
@@ -57,7 +57,8 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     )
 
 
-def _model(task: CheckTask, factor: float) -> PlanePair:
+def plane_model(task: CheckTask, factor: float = 1.0) -> PlanePair:
+    """Both sections of a task, their elements `factor` times smaller than it asks for. Raises what `check_pair` does."""
     options = task.options
     sizes = MeshSizes().refined(factor * options.refinement)
     error = task.mounting.pitch_error
@@ -66,7 +67,7 @@ def _model(task: CheckTask, factor: float) -> PlanePair:
 
 def _refined(task: CheckTask, middle: PlanePair) -> Iterator[PlaneCycle]:
     for factor in FACTORS:
-        model = middle if factor == 1 else _model(task, factor)
+        model = middle if factor == 1 else plane_model(task, factor)
         yield PlaneCycle.run(model, task.torque, FEW_POSITIONS).searched(ROOTS)
 
 

@@ -1,0 +1,27 @@
+"""What stands at the head of a deck: what it is, and what to look at in its results."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+__all__ = ["pair_words"]
+
+_PAIR = """\
+A pair of gears in mesh at the roll angle {roll_angle:.6g} deg, the pinion pressed against the wheel by {torque:.6g} N m.
+CalculiX runs this deck as it is:  ccx NAME  for NAME.inp
+
+The pinion turns about the z axis; the wheel's axis is at x = {distance:.10g} mm. Hubs hold all of the bores, and the cuts of
+bodies that are no rings: the wheel's stands, the pinion's turns with the node "reference", whose first degree of freedom
+is the angle in rad. The flanks of pairs of teeth that may touch are surfaces; pressure is a stiffness times overlap.
+
+The pinion stands turned by {approach_in_mesh:.6g} um along the line of action already, so that there is contact in the first
+iteration. The transmission error is that and the angle times the base radius, {base_radius:.10g} mm.
+
+gearcad's own check of the same gears: transmission error {transmission_error:.5g} um, angle {reference_turn:.6e} rad,
+greatest tension along the fillets, pinion {root_pinion:.5g} MPa, wheel {root_wheel:.5g} MPa."""
+
+def pair_words(expected: Mapping[str, Any], *, distance: float, base_radius: float) -> list[str]:
+    """Those of a pair; centre distance and base radius in mm."""
+    roots = {f"root_{gear}": stress for gear, stress in expected["root_stress"].items()}
+    return _PAIR.format(**expected, **roots, distance=distance, base_radius=base_radius).splitlines()
