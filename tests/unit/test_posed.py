@@ -15,7 +15,7 @@ from gearcad.geometry.curves import CurveKind
 from gearcad.meshing.bodies import Element, ElementMesh, Faces
 from gearcad.meshing.bodies.posed import contacts, posed, poses
 from gearcad.per_gear import PerGear, Role
-from tests.support.clearance import turn_to_touch
+from support.clearance import turn_to_touch
 
 Floats = NDArray[np.float64]
 
