@@ -21,6 +21,7 @@ iteration. The transmission error is that and the angle times the base radius, {
 gearcad's own check of the same gears: transmission error {transmission_error:.5g} um, angle {reference_turn:.6e} rad,
 greatest tension along the fillets, pinion {root_pinion:.5g} MPa, wheel {root_wheel:.5g} MPa."""
 
+
 def pair_words(expected: Mapping[str, Any], *, distance: float, base_radius: float) -> list[str]:
     """Those of a pair; centre distance and base radius in mm."""
     roots = {f"root_{gear}": stress for gear, stress in expected["root_stress"].items()}

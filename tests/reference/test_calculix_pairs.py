@@ -15,9 +15,7 @@ from gearcad.check.task import check_task
 from gearcad.decks.comparison import Deviations, deviations
 from gearcad.decks.plane import PLANE_SIZES, PlaneDecks
 from gearcad.designs import PairDesign, read_spec
-from gearcad.errors import InputError
 from gearcad.geometry import FlankModification
-from gearcad.mounting import Mounting
 
 pytestmark = needs_ccx
 

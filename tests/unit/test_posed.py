@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
+from support.clearance import turn_to_touch
 
 from gearcad import Gear, GearPair
 from gearcad.geometry.curves import CurveKind
 from gearcad.meshing.bodies import Element, ElementMesh, Faces
 from gearcad.meshing.bodies.posed import contacts, posed, poses
 from gearcad.per_gear import PerGear, Role
-from support.clearance import turn_to_touch
 
 Floats = NDArray[np.float64]
 
