@@ -14,7 +14,7 @@ from gearcad.meshing.files.formats import MeshFormat
 from gearcad.reprs import grouped
 
 if TYPE_CHECKING:
-    from gearcad.meshing.result import JudgedMesh, MeshResult
+    from gearcad.meshing.result import Deck, JudgedMesh, MeshResult
 
 __all__ = ["mesh"]
 
@@ -33,6 +33,8 @@ _FORMATS = f"Comma-separated list of {', '.join(kind.value for kind in MeshForma
 @click.option("--fillet-elements", type=int, metavar="N", help="About so many over 30° of a fillet.  [default: 4]")
 @click.option("--refined-teeth", metavar="LIST", help="Numbers of teeth that have finer tetrahedra: 0,1.")
 @click.option("--roll", type=float, metavar="DEG", help="Where a pair stands in mesh, 0 at the pitch point.")
+@click.option("--deck", metavar="NAME", help="pair: the pair under its load, as CalculiX runs it.  [default: none]")
+@click.option("--positions", type=int, metavar="N", help="Decks over one base pitch.  [default: 1]")
 @click.option("--format", metavar="LIST", help=_FORMATS)
 @json_option
 @quiet_option
@@ -64,6 +66,8 @@ def _show(name: str, result: MeshResult) -> None:
         click.echo("\n".join(_lines(role, judged, result)))
     if result.plan.pair is not None:
         click.echo(_of_pair(result))
+    for file, deck in result.decks.items():
+        click.echo(_of_deck(file, deck))
     echo_warnings(result.notices)
     for role, judged in result.judged.items():
         for gate in judged.gates:
@@ -92,6 +96,16 @@ def _of_pair(result: MeshResult) -> str:
     side, mesh, roll = "left" if result.plan.left else "right", result.mesh, result.plan.options.roll
     amount = f"{grouped(len(mesh.cells))} elements, {grouped(len(mesh.points))} nodes"
     return f"pair: {amount}, {side} flanks in mesh at a roll angle of {roll:g}° of the pinion"
+
+
+def _of_deck(file: str, deck: Deck) -> str:
+    """What is to be compared with, and how it is run."""
+    of, job = deck.expected, file.removesuffix(".inp")
+    error, stresses = f"{of['transmission_error']:.4g} µm", " and ".join(f"{each:.4g}" for each in of["root_stress"].values())
+    return (
+        f"{file}: at {of['roll_angle']:.4g}° our own check has a transmission error of {error} and root stresses of {stresses} "
+        f"MPa; ccx {job} runs it"
+    )
 
 
 def _extent(judged: JudgedMesh, result: MeshResult) -> str:

@@ -160,6 +160,10 @@ class PairDeck:
             "root_stress": {role.value: root.stress for role, root in of.tension.items()},
         }
 
+    def write(self, path: Path) -> None:
+        """Write the deck; `ccx` wants a name that ends with .inp."""
+        self.deck.write(path)
+
     def found(self, job: Path) -> dict[str, Any]:
         """The same figures as CalculiX has left them in the files of a job, named without suffix. Raises SolverError."""
         mesh, flanks = self.deck.mesh, {each.pinion: each for each in self.deck.flanks}

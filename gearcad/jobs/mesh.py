@@ -11,6 +11,7 @@ from gearcad.designs import Design, GearDesign, GearedDesign, Inputs, PairDesign
 from gearcad.geometry import Gear, GearPair
 from gearcad.jobs.contact_zones import contact_zones
 from gearcad.jobs.job import Job, Writer
+from gearcad.jobs.mesh_decks import make_decks
 from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
@@ -49,7 +50,9 @@ class Mesh(Job[GearedDesign, MeshResult]):
         MeshOptions(**self.given)
 
     def _run(self, design: GearedDesign, progress: Progress | None) -> MeshResult:
-        return run_mesh(self._plan(design), design.name, progress)
+        plan = self._plan(design)
+        decks = make_decks(design, plan, progress) if isinstance(design, PairDesign) else {}
+        return replace(run_mesh(plan, design.name, progress), decks=decks)
 
     def _plan(self, design: GearedDesign) -> MeshPlan:
         options = replace(design.mesh or MeshOptions(), **self.given)
@@ -78,6 +81,7 @@ class Mesh(Job[GearedDesign, MeshResult]):
         found: dict[str, Writer] = {}
         for name, each in result.meshes.items():
             found |= {f"{name}.{kind.value}": partial(kind.entry.write, each) for kind in result.plan.options.formats}
+        found |= {name: deck.write for name, deck in result.decks.items()}
         return {**found, "mesh.json": partial(self.write_document, result)}
 
     @property

@@ -30,6 +30,7 @@ def mesh_document(result: MeshResult, files: Iterable[str]) -> dict[str, Any]:
         "passed": result.passed,
         "summary": _summary(result),
         "meshes": {name: judged.to_dict() for name, judged in result.judged.items()},
+        **({"decks": {name: deck.expected for name, deck in result.decks.items()}} if result.decks else {}),
         "files": list(files),
         "notices": [notice.to_dict() for notice in result.notices],
         "warnings": list(texts(result.notices)),

@@ -66,7 +66,8 @@ class MeshOptions:
     `size` (mm) is the edge of elements on the flanks and all others follow it, or there are so many `elements` in each file
     (both None: as root stress asks for); about `fillet_elements` of them over 30 degrees of a fillet (None: 4, of tetrahedra
     1). `refined_teeth`, numbers with commas between them, have finer tetrahedra. `roll` (deg, of the pinion) is where a pair
-    stands in mesh, 0 at the pitch point. `format` names the formats of the files, with commas between them.
+    stands in mesh, 0 at the pitch point. `format` names the formats of the files, with commas between them. `deck` "pair" adds
+    the pair under its load as input of CalculiX, at `positions` evenly over one base pitch around `roll`.
     """
 
     what: Annotated[str, Words("what is meshed: sector, teeth:N, ring, pair, pair:N or part")] = AUTO
@@ -78,6 +79,8 @@ class MeshOptions:
     fillet_elements: Annotated[int | None, Whole(1, 100), Words("elements over 30° of a fillet, about")] = None
     refined_teeth: Annotated[str, Words("teeth with finer tetrahedra, by their numbers")] = ""
     format: Annotated[str, Words("formats of the files, with commas between them")] = "vtu,msh"
+    deck: Annotated[str, Choice(("none", "pair")), Words("decks of the loaded pair that CalculiX runs")] = "none"
+    positions: Annotated[int, Whole(1, 200), Words("decks over one base pitch")] = 1
     roll: Annotated[float, Range("deg", 0.0, 360.0, signed=True), Words("roll angle of the pinion in mesh")] = 0.0
 
     __repr__ = concise
@@ -87,6 +90,13 @@ class MeshOptions:
         _ = self.extent, self.formats, self.refined
         if self.size is not None and self.elements is not None:
             raise ParameterError("elements", self.elements, "must not be given beside size: one follows from the other")
+        if self.positions > 1 and not self.decks:
+            raise ParameterError("positions", self.positions, "must be 1 where no deck is wanted: a mesh stands at one of them")
+
+    @property
+    def decks(self) -> bool:
+        """Whether decks are wanted."""
+        return self.deck != "none"
 
     @property
     def refined(self) -> tuple[int, ...]:

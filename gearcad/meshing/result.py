@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Protocol
 
 from gearcad.geometry import Gear
 from gearcad.meshing.bodies.exactness import Deviations
@@ -14,7 +15,7 @@ from gearcad.meshing.bodies.quality import Quality
 from gearcad.meshing.plan import MeshPlan
 from gearcad.notice import Notice
 
-__all__ = ["COARSE", "Gate", "JudgedMesh", "MeshResult"]
+__all__ = ["COARSE", "Deck", "Gate", "JudgedMesh", "MeshResult"]
 
 COARSE = 0.5
 """How far (µm) faces may be from the exact gear between their nodes, where nobody asks for larger ones."""
@@ -106,16 +107,28 @@ class JudgedMesh:
         }
 
 
+class Deck(Protocol):
+    """Input of another solver that runs as it is."""
+
+    @property
+    def expected(self) -> dict[str, Any]:
+        """What our own check finds of the same, to be compared with."""
+
+    def write(self, path: Path) -> None:
+        """Write it."""
+
+
 @dataclass(frozen=True)
 class MeshResult:
     """The meshes of a design by the names of their files - one a gear, or that of the pair in mesh - and what was found of each
-    gear's.
+    gear's; decks by the names of their files.
     """
 
     name: str
     plan: MeshPlan
     meshes: Mapping[str, ElementMesh]
     judged: Mapping[str, JudgedMesh]
+    decks: Mapping[str, Deck] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         parts = (

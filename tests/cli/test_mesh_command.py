@@ -123,6 +123,18 @@ def test_as_many_elements_as_are_asked_for_are_told_before_and_made(here: Path) 
     assert result.stderr.replace("\u202f", "").startswith(f"makes {told['elements']} tri6, ")
 
 
+def test_decks_over_a_base_pitch_say_what_our_own_check_finds(here: Path) -> None:
+    result = run("mesh", spec(PAIR), "--deck", "pair", "--positions", "2", "--format", "vtu", "--size", "1", "--quiet")
+    decks = document()["decks"]
+    assert document()["files"] == ["pair.vtu", "pair_deck_1.inp", "pair_deck_2.inp", "mesh.json"]
+    first, second = (decks[f"pair_deck_{number}.inp"] for number in (1, 2))
+    assert second["roll_angle"] - first["roll_angle"] == pytest.approx(360 / 17 / 2)
+    assert first["torque"] == 50.0 and first["transmission_error"] > 1
+    assert f"{first['transmission_error']:.4g} µm" in result.stdout and "ccx pair_deck_2 runs it" in result.stdout
+    text = Path("output/some/pair_deck_1.inp").read_text(encoding="ascii")
+    assert "*CONTACT PAIR" in text and text.endswith("*END STEP\n")
+
+
 def test_straight_edges_are_said_to_be_off(here: Path) -> None:
     run("mesh", spec(GEAR), "--what", "sector", "--element", "hex8", "--size", "1", "--format", "vtu", "--quiet")
     told = document()
@@ -158,6 +170,10 @@ def test_straight_edges_are_said_to_be_off(here: Path) -> None:
             ["--what", "part", "--refined-teeth", "x"],
             "refined_teeth = 'x': must be whole numbers with commas between them",
         ),
+        (GEAR, ["--deck", "pair"], "deck = 'pair': needs a pair: this design is a single gear"),
+        (GEAR, ["--positions", "3"], "positions = 3: must be 1 where no deck is wanted"),
+        (PAIR, ["--deck", "tooth"], "deck = 'tooth': must be"),
+        (PAIR, ["--deck", "pair", "--model", "3d"], "deck = 'pair': needs sections so far: model 2d"),
         (GEAR, ["--format", "stl"], "format = 'stl': must be one of 'msh', 'vtu', 'inp'"),
         (GEAR, ["--format", ""], "format = '': must be a text"),
         (PAIR, ["--what", "pair", "--gear", "wheel"], "gear = 'wheel': must be both for a pair in mesh"),
