@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-__all__ = ["pair_words"]
+__all__ = ["pair_words", "tooth_words"]
 
 _PAIR = """\
 A pair of gears in mesh at the roll angle {roll_angle:.6g} deg, the pinion pressed against the wheel by {torque:.6g} N m.
@@ -21,8 +21,22 @@ iteration. The transmission error is that and the angle times the base radius, {
 gearcad's own check of the same gears: transmission error {transmission_error:.5g} um, angle {reference_turn:.6e} rad,
 greatest tension along the fillets, pinion {root_pinion:.5g} MPa, wheel {root_wheel:.5g} MPa."""
 
+_TOOTH = """\
+The {gear} under the contact pressures that gearcad's own check has found at the roll angle {roll_angle:.6g} deg,
+with {torque:.6g} N m on the pinion. CalculiX runs this deck as it is:  ccx NAME  for NAME.inp
+
+Tooth 0 is on the x axis; the hub holds all of the bore, and the cuts of a body that is no ring. The force on each tooth
+is laid on the edges of its flank as uniform pressures, which add up to it.
+
+Greatest tension along the fillets by gearcad's own check: {root_stress:.6g} MPa."""
+
 
 def pair_words(expected: Mapping[str, Any], *, distance: float, base_radius: float) -> list[str]:
     """Those of a pair; centre distance and base radius in mm."""
     roots = {f"root_{gear}": stress for gear, stress in expected["root_stress"].items()}
     return _PAIR.format(**expected, **roots, distance=distance, base_radius=base_radius).splitlines()
+
+
+def tooth_words(expected: Mapping[str, Any]) -> list[str]:
+    """Those of one gear."""
+    return _TOOTH.format(**expected).splitlines()

@@ -1,4 +1,4 @@
-"""Our contact proved by somebody else's solver: CalculiX runs decks of loaded pairs with contact of its own."""
+"""Our contact and root stress proved by somebody else's solver: CalculiX runs decks of loaded pairs, and of single teeth."""
 
 from __future__ import annotations
 
@@ -14,8 +14,10 @@ from gearcad.check.options import CheckOptions
 from gearcad.check.task import check_task
 from gearcad.decks.comparison import Deviations, deviations
 from gearcad.decks.plane import PLANE_SIZES, PlaneDecks
+from gearcad.decks.tooth import tooth_deck
 from gearcad.designs import PairDesign, read_spec
 from gearcad.geometry import FlankModification
+from gearcad.per_gear import Role
 
 pytestmark = needs_ccx
 
@@ -23,6 +25,9 @@ TEMPLATES = Path(gearcad.__file__).parents[1] / "templates"
 
 # In %. Geometry is that of the turned and bent gears in CalculiX's contact, ours is linear: that is worth 0.2 % of root stress.
 ERROR, SHARE, ROOT, PRESSURE = 0.2, 0.2, 0.5, 2.0
+
+ONE_TOOTH = 0.3
+"""Of the root stress under the same pressures."""
 
 QUICK = replace(PLANE_SIZES, fillet=0.1, growth=0.5)
 """Fewer elements, and hardly less exact."""
@@ -88,3 +93,27 @@ def test_calculix_loads_modified_flanks_as_we_do(roll_angle: float, tmp_path: Pa
 @pytest.mark.parametrize("torque", [-302.0, 30.0, 1000.0])
 def test_calculix_agrees_whatever_the_torque(torque: float, tmp_path: Path) -> None:
     _agree(_compared(_template("fzg-c", torque), -9.9375, tmp_path))
+
+
+def _one_tooth(decks: PlaneDecks, roll_angle: float, role: Role, folder: Path) -> float:
+    """Deviation of the root stress (%)."""
+    deck = tooth_deck(decks, roll_angle, role)
+    deck.write(folder / "tooth.inp")
+    run_ccx(folder, "tooth")
+    return 100 * float(deck.found(folder / "tooth")["root_stress"] / deck.expected["root_stress"] - 1)
+
+
+@pytest.mark.parametrize("role", Role)
+def test_calculix_stresses_a_tooth_as_we_do(role: Role, tmp_path: Path) -> None:
+    decks = replace(_template("fzg-c"), sizes=PLANE_SIZES)
+    assert abs(_one_tooth(decks, -9.9375, role, tmp_path)) < ONE_TOOTH
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("role", Role)
+@pytest.mark.parametrize("name", ["alm", "modified", "right flanks"])
+def test_calculix_stresses_other_teeth_as_we_do(name: str, role: Role, tmp_path: Path) -> None:
+    made = {"alm": ("alm-18-161", None), "right flanks": ("fzg-c", -302.0)}
+    decks = _modified() if name == "modified" else _template(*made[name])
+    for roll_angle in (-5.0, 0.3):
+        assert abs(_one_tooth(replace(decks, sizes=PLANE_SIZES), roll_angle, role, tmp_path)) < ONE_TOOTH

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from gearcad import Gear, GearPair, Load, Material
 from gearcad.check.options import CheckOptions
 from gearcad.check.task import check_task
 from gearcad.decks.plane import PlaneDecks
+from gearcad.decks.tooth import tooth_deck
 from gearcad.errors import InputError
 from gearcad.geometry import FlankModification
 from gearcad.mounting import Mounting
+from gearcad.per_gear import Role
 
 
 def _pair(**changes: object) -> GearPair:
@@ -75,3 +78,20 @@ def test_a_deck_loads_the_flanks_that_its_torque_presses(torque: float, tmp_path
     # Each degree of freedom of the bore of the pinion once, in equations of two terms.
     equations = text.split("*EQUATION\n")[1].split("*SURFACE")[0].splitlines()
     assert len(equations) == 4 * len(made.deck.held.pinion)
+
+
+@pytest.mark.parametrize("torque", [80.0, -80.0])
+@pytest.mark.parametrize("role", Role)
+def test_pressures_on_a_tooth_come_to_the_force_and_the_torque_of_the_check(role: Role, torque: float) -> None:
+    decks = _decks(torque=torque)
+    deck = tooth_deck(decks, -6.0, role)
+    local = np.array(deck.mesh.element.shape.faces)[deck.faces.sides]
+    ends = deck.mesh.points[deck.mesh.cells[deck.faces.elements[:, None], local[:, :2]], :2]
+    along = ends[:, 1] - ends[:, 0]
+    force = decks.pair.common_width.width * deck.pressures[:, None] * np.stack([-along[:, 1], along[:, 0]], -1)
+    x, y = ends.mean(axis=1).T
+    moment = (x * force[:, 1] - y * force[:, 0]).sum() / 1000
+    # Chords of elements of a quarter of the half width; on the wheel the teeth push the other way round than they turn.
+    expected = -torque * (1 if role is Role.PINION else decks.pair.gear_ratio)
+    assert moment == pytest.approx(expected, rel=1e-4)
+    assert np.hypot(*force.sum(axis=0)) == pytest.approx(sum(deck.expected["forces"].values()), rel=2e-4)
