@@ -33,7 +33,7 @@ _FORMATS = f"Comma-separated list of {', '.join(kind.value for kind in MeshForma
 @click.option("--fillet-elements", type=int, metavar="N", help="About so many over 30° of a fillet.  [default: 4]")
 @click.option("--refined-teeth", metavar="LIST", help="Numbers of teeth that have finer tetrahedra: 0,1.")
 @click.option("--roll", type=float, metavar="DEG", help="Where a pair stands in mesh, 0 at the pitch point.")
-@click.option("--deck", metavar="NAME", help="pair: the pair under its load, as CalculiX runs it.  [default: none]")
+@click.option("--deck", metavar="LIST", help="For CalculiX: pair, tooth, or both.  [default: none]")
 @click.option("--positions", type=int, metavar="N", help="Decks over one base pitch.  [default: 1]")
 @click.option("--format", metavar="LIST", help=_FORMATS)
 @json_option
@@ -50,7 +50,9 @@ def mesh(spec: Path, output: Path | None, as_json: bool, quiet: bool, **options:
     part      the whole part with keyway, hub and chamfers, of tetrahedra
 
     Writes a file for each gear, or one for the pair, in each format, and mesh.json, which says how good the elements are and
-    how far they are from the exact gear. Exit status 1 if that is too bad. [mesh] in SPEC holds the same options.
+    how far they are from the exact gear. Exit status 1 if that is too bad. The flanks of a pair are fine where its [load]
+    presses them. --deck pair adds *_deck.inp, the loaded pair in mesh as CalculiX runs it, --deck tooth each gear under the
+    contact loads that our own check finds, whose figures are in mesh.json. [mesh] in SPEC holds the same options.
     """
     from gearcad.jobs.mesh import Mesh
 
@@ -101,11 +103,10 @@ def _of_pair(result: MeshResult) -> str:
 def _of_deck(file: str, deck: Deck) -> str:
     """What is to be compared with, and how it is run."""
     of, job = deck.expected, file.removesuffix(".inp")
-    error, stresses = f"{of['transmission_error']:.4g} µm", " and ".join(f"{each:.4g}" for each in of["root_stress"].values())
-    return (
-        f"{file}: at {of['roll_angle']:.4g}° our own check has a transmission error of {error} and root stresses of {stresses} "
-        f"MPa; ccx {job} runs it"
-    )
+    root = of["root_stress"]
+    stress = " and ".join(f"{each:.4g}" for each in (root.values() if isinstance(root, dict) else [root]))
+    error = f"a transmission error of {of['transmission_error']:.4g} µm, " if "transmission_error" in of else ""
+    return f"{file}: at {of['roll_angle']:.4g}° our own check has {error}root stress of {stress} MPa; ccx {job} runs it"
 
 
 def _extent(judged: JudgedMesh, result: MeshResult) -> str:

@@ -1,54 +1,56 @@
-"""Decks of a pair: its teeth under its load as input that CalculiX runs, and what our own check finds of them."""
+"""Decks of a pair: its gears under its load as input that CalculiX runs, and what our own check finds of them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.task import CheckTask, check_task
-from gearcad.decks.pair import PairDecks
 from gearcad.decks.plane import PlaneDecks
+from gearcad.decks.tooth import tooth_deck
 from gearcad.designs import PairDesign
 from gearcad.material import Material
-from gearcad.meshing.options import MeshOptions
+from gearcad.meshing.options import DeckKind, MeshOptions
 from gearcad.meshing.plan import MeshPlan
 from gearcad.meshing.result import Deck
+from gearcad.per_gear import Role
 from gearcad.progress import Agenda, Progress
 
 __all__ = ["make_decks"]
 
 
 def make_decks(design: PairDesign, plan: MeshPlan, progress: Progress | None) -> dict[str, Deck]:
-    """The decks that the options of a plan ask for, by the names of their files: one for each position.
+    """The decks that the options of a plan ask for, by the names of their files.
 
     Raises ParameterError, GeometryError and SolverError for what cannot be checked.
     """
     if not plan.options.decks:
         return {}
-    angles = dict(_positions(plan.options, design))
-    agenda = Agenda(progress, dict.fromkeys(angles, 1.0))
-    decks = _decks(_task(design, plan))
+    decks = PlaneDecks(_task(design))
+    makers = dict(_makers(plan.options, decks))
+    agenda = Agenda(progress, dict.fromkeys(makers, 1.0))
     made: dict[str, Deck] = {}
-    for name, angle in angles.items():
+    for name, make in makers.items():
         agenda(name)
-        made[name] = decks.at(angle)
+        made[name] = make()
     return made
 
 
-def _positions(options: MeshOptions, design: PairDesign) -> Iterator[tuple[str, float]]:
-    """Names of files and roll angles (deg): that of the options, or so many evenly over one base pitch around it."""
-    count, pitch = options.positions, 360 / design.pair.pinion.teeth
+def _makers(options: MeshOptions, decks: PlaneDecks) -> Iterator[tuple[str, Callable[[], Deck]]]:
+    """Names of files, and what makes their decks: at the roll angle of the options, or at so many over one base pitch."""
+    count, pitch = options.positions, 360 / decks.pair.pinion.teeth
     for number in range(count):
-        name = "pair_deck.inp" if count == 1 else f"pair_deck_{number + 1:0{len(str(count))}}.inp"
-        yield name, options.roll + pitch * ((number + 0.5) / count - 0.5)
+        place = "" if count == 1 else f"_{number + 1:0{len(str(count))}}"
+        angle = options.roll + pitch * ((number + 0.5) / count - 0.5)
+        if DeckKind.PAIR in options.decks:
+            yield f"pair_deck{place}.inp", partial(decks.at, angle)
+        if DeckKind.TOOTH in options.decks:
+            yield from ((f"{role.value}_deck{place}.inp", partial(tooth_deck, decks, angle, role)) for role in Role)
 
 
-def _task(design: PairDesign, plan: MeshPlan) -> CheckTask:
+def _task(design: PairDesign) -> CheckTask:
     options = replace(design.check or CheckOptions(), model=Model.PLANE.value)
     load = design.loaded("a deck is of pressed flanks")
     return check_task(design.pair, design.material or Material(), load, options, design.mounting, design.rating)
-
-
-def _decks(task: CheckTask) -> PairDecks:
-    return PlaneDecks(task)

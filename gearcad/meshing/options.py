@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from enum import Enum
-from typing import Annotated, NamedTuple
+from typing import Annotated, NamedTuple, TypeVar
 
 from gearcad.errors import ParameterError, as_choice, require_name
 from gearcad.meshing.bodies.elements import Element
@@ -14,11 +14,13 @@ from gearcad.ranges import LENGTH, Choice, Range, Whole
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
 
-__all__ = ["AUTO", "Extent", "MeshOptions", "What"]
+__all__ = ["AUTO", "DeckKind", "Extent", "MeshOptions", "What"]
 
 AUTO = "auto"
 
 _BOTH = "both"
+
+Member = TypeVar("Member", bound=Enum)
 
 
 class What(Enum):
@@ -38,6 +40,16 @@ class What(Enum):
 
     PART = "part"
     """The whole part with its bore, keyway, hub and chamfers."""
+
+
+class DeckKind(Enum):
+    """Decks: input of CalculiX that runs as it is."""
+
+    PAIR = "pair"
+    """Both gears in mesh, pressed together by the torque."""
+
+    TOOTH = "tooth"
+    """Each gear under the contact loads that our own check finds."""
 
 
 class Extent(NamedTuple):
@@ -66,8 +78,9 @@ class MeshOptions:
     `size` (mm) is the edge of elements on the flanks and all others follow it, or there are so many `elements` in each file
     (both None: as root stress asks for); about `fillet_elements` of them over 30 degrees of a fillet (None: 4, of tetrahedra
     1). `refined_teeth`, numbers with commas between them, have finer tetrahedra. `roll` (deg, of the pinion) is where a pair
-    stands in mesh, 0 at the pitch point. `format` names the formats of the files, with commas between them. `deck` "pair" adds
-    the pair under its load as input of CalculiX, at `positions` evenly over one base pitch around `roll`.
+    stands in mesh, 0 at the pitch point. `format` names the formats of the files, with commas between them. `deck` names what
+    is added as input of CalculiX, "pair" (it under its load) and "tooth" (each gear under the contact loads of our own check),
+    at `positions` evenly over one base pitch around `roll`.
     """
 
     what: Annotated[str, Words("what is meshed: sector, teeth:N, ring, pair, pair:N or part")] = AUTO
@@ -79,7 +92,7 @@ class MeshOptions:
     fillet_elements: Annotated[int | None, Whole(1, 100), Words("elements over 30° of a fillet, about")] = None
     refined_teeth: Annotated[str, Words("teeth with finer tetrahedra, by their numbers")] = ""
     format: Annotated[str, Words("formats of the files, with commas between them")] = "vtu,msh"
-    deck: Annotated[str, Choice(("none", "pair")), Words("decks of the loaded pair that CalculiX runs")] = "none"
+    deck: Annotated[str, Words("decks that CalculiX runs: pair, tooth, or both with a comma between them")] = ""
     positions: Annotated[int, Whole(1, 200), Words("decks over one base pitch")] = 1
     roll: Annotated[float, Range("deg", 0.0, 360.0, signed=True), Words("roll angle of the pinion in mesh")] = 0.0
 
@@ -87,16 +100,16 @@ class MeshOptions:
 
     def __post_init__(self) -> None:
         require_fields(self)
-        _ = self.extent, self.formats, self.refined
+        _ = self.extent, self.formats, self.refined, self.decks
         if self.size is not None and self.elements is not None:
             raise ParameterError("elements", self.elements, "must not be given beside size: one follows from the other")
         if self.positions > 1 and not self.decks:
             raise ParameterError("positions", self.positions, "must be 1 where no deck is wanted: a mesh stands at one of them")
 
     @property
-    def decks(self) -> bool:
-        """Whether decks are wanted."""
-        return self.deck != "none"
+    def decks(self) -> tuple[DeckKind, ...]:
+        """The decks that are wanted, each once. Raises ParameterError."""
+        return _members("deck", self.deck, DeckKind)
 
     @property
     def refined(self) -> tuple[int, ...]:
@@ -111,8 +124,7 @@ class MeshOptions:
     def formats(self) -> tuple[MeshFormat, ...]:
         """The formats of the files, each once. Raises ParameterError."""
         require_name("format", self.format)
-        names = self.format.replace(",", " ").lower().split()
-        return tuple(dict.fromkeys(as_choice("format", name, MeshFormat) for name in names))
+        return _members("format", self.format, MeshFormat)
 
     @property
     def extent(self) -> Extent | None:
@@ -128,3 +140,11 @@ class MeshOptions:
         if int(count) % 2 == 0:
             raise ParameterError("what", self.what, "must be of an odd number of teeth: tooth 0 stands in the middle")
         return Extent(What(counted), int(count))
+
+
+def _members(parameter: str, text: str, kind: type[Member]) -> tuple[Member, ...]:
+    """Members of an enum by a text of their values with commas between them, each once. Raises ParameterError."""
+    if not isinstance(text, str):
+        raise ParameterError(parameter, text, "must be a text, words with commas between them")
+    names = text.replace(",", " ").lower().split()
+    return tuple(dict.fromkeys(as_choice(parameter, name, kind) for name in names))

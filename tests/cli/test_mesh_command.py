@@ -135,6 +135,15 @@ def test_decks_over_a_base_pitch_say_what_our_own_check_finds(here: Path) -> Non
     assert "*CONTACT PAIR" in text and text.endswith("*END STEP\n")
 
 
+def test_each_gear_under_its_contacts_is_a_deck(here: Path) -> None:
+    run("mesh", spec(PAIR), "--deck", "tooth", "--format", "vtu", "--size", "1", "--quiet")
+    told = document()
+    assert told["files"] == ["pair.vtu", "pinion_deck.inp", "wheel_deck.inp", "mesh.json"]
+    for gear in ("pinion", "wheel"):
+        assert told["decks"][f"{gear}_deck.inp"]["root_stress"] > 50
+        assert "*DLOAD" in Path(f"output/some/{gear}_deck.inp").read_text(encoding="ascii")
+
+
 def test_straight_edges_are_said_to_be_off(here: Path) -> None:
     run("mesh", spec(GEAR), "--what", "sector", "--element", "hex8", "--size", "1", "--format", "vtu", "--quiet")
     told = document()
@@ -172,7 +181,7 @@ def test_straight_edges_are_said_to_be_off(here: Path) -> None:
         ),
         (GEAR, ["--deck", "pair"], "deck = 'pair': needs a pair: this design is a single gear"),
         (GEAR, ["--positions", "3"], "positions = 3: must be 1 where no deck is wanted"),
-        (PAIR, ["--deck", "tooth"], "deck = 'tooth': must be"),
+        (PAIR, ["--deck", "teeth"], "deck = 'teeth': must be one of 'pair', 'tooth'"),
         (PAIR, ["--deck", "pair", "--model", "3d"], "deck = 'pair': needs sections so far: model 2d"),
         (GEAR, ["--format", "stl"], "format = 'stl': must be one of 'msh', 'vtu', 'inp'"),
         (GEAR, ["--format", ""], "format = '': must be a text"),
