@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -16,7 +17,7 @@ from gearcad.arrays import Floats
 from gearcad.errors import SolverError
 from gearcad.meshing.bodies.mesh import Cells
 
-__all__ = ["BrepFace", "EdgeLengths", "Filled", "Stage", "Surface", "fill_brep"]
+__all__ = ["BrepFace", "EdgeLengths", "Filled", "RadialLengths", "Stage", "Surface", "fill_brep"]
 
 _CURVES, _SURFACES, _VOLUMES = 1, 2, 3
 _TRIANGLE, _TETRAHEDRON = 2, 4
@@ -62,10 +63,36 @@ class BrepFace:
 
 
 @dataclass(frozen=True)
+class RadialLengths:
+    """Lengths (mm) that change with the distance from the z axis: `lengths` at `first` and then every `step` (mm).
+
+    `mean` is that of triangles of one size, were they as many.
+    """
+
+    first: float
+    step: float
+    lengths: Sequence[float]
+    mean: float
+
+    def refined(self, factor: float) -> RadialLengths:
+        """All of them shorter by a factor."""
+        return replace(self, lengths=[length / factor for length in self.lengths], mean=self.mean / factor)
+
+    def at(self, radius: float) -> float:
+        """The length at a radius (mm), or that at the next end."""
+        place = min(max((radius - self.first) / self.step, 0.0), len(self.lengths) - 1.001)
+        low = int(place)
+        return self.lengths[low] + (place - low) * (self.lengths[low + 1] - self.lengths[low])
+
+
+@dataclass(frozen=True)
 class EdgeLengths:
-    """How long edges shall be (mm): on each face, and at most inside; inwards they grow by `growth` times the distance."""
+    """How long edges shall be (mm) at most: on each face, there and on its edges by the radius too, unless that is None, and
+    inside; inwards they grow by `growth` times the distance.
+    """
 
     faces: Sequence[float]
+    radial: Sequence[RadialLengths | None]
     inside: float
     growth: float
 
@@ -84,16 +111,23 @@ def fill_brep(
 ) -> Filled:
     """Fill a shape of the CAD kernel (TopoDS_Solid). `lengths` is asked how long edges shall be, `stage` told what begins.
 
-    An interrupt waits for the end of a stage. Raises SolverError if gmsh fails, and what `lengths` raises.
+    After an interrupt all that is left of a stage is made as coarse as can be, and the interrupt raised. Raises SolverError if
+    gmsh fails, and what `lengths` raises.
     """
     with _gmsh() as gmsh:
         faces = _imported(gmsh, shape)
         wanted = lengths([_face(gmsh, tag) for tag in faces])
         with _refusals("fill the solid"):
             _set_sizes(gmsh, faces, wanted)
-            for dimension, each in enumerate(Stage, 1):
-                stage(each)
+            asked = _Asked(_by_radius(gmsh, faces, wanted.radial))
+            gmsh.model.mesh.set_size_callback(asked)
+        for dimension, each in enumerate(Stage, 1):
+            stage(each)
+            with _refusals("fill the solid"):
                 gmsh.model.mesh.generate(dimension)
+            asked.go_on()
+        with _refusals("fill the solid"):
+            gmsh.model.mesh.optimize("Relocate3D")
             return _filled(gmsh, faces)
 
 
@@ -161,7 +195,39 @@ _OPTIONS: Mapping[str, float] = {
     "MeshSizeFromPoints": 0,
     "MeshSizeExtendFromBoundary": 0,  # a field does that
     "Optimize": 1,
+    "LcIntegrationPrecision": 1e-4,  # the usual 1e-9 asks for millions of lengths
 }
+
+
+class _Asked:
+    """What gmsh asks for the length at each place. What goes wrong meanwhile, gmsh would not hear of: it is kept."""
+
+    def __init__(self, radial: Mapping[tuple[int, int], RadialLengths]) -> None:
+        self._radial = radial
+        self._stopped: BaseException | None = None
+
+    def __call__(self, dimension: int, tag: int, x: float, y: float, z: float, length: float) -> float:
+        try:
+            if self._stopped is not None:
+                return math.inf
+            radial = self._radial.get((dimension, tag))
+            return length if radial is None else min(length, radial.at(math.hypot(x, y)))
+        except BaseException as error:  # an interrupt, as likely here as anywhere in Python
+            self._stopped = error
+            return math.inf
+
+    def go_on(self) -> None:
+        """Raise what went wrong, if anything did."""
+        if self._stopped is not None:
+            raise self._stopped
+
+
+def _by_radius(gmsh: Any, faces: Sequence[int], radial: Sequence[RadialLengths | None]) -> dict[tuple[int, int], RadialLengths]:
+    """The lengths of faces and of their edges, by gmsh's dimensions and tags."""
+    found = {(_SURFACES, tag): lengths for tag, lengths in zip(faces, radial, strict=True) if lengths is not None}
+    for (_, tag), lengths in list(found.items()):
+        found |= {(_CURVES, int(curve)): lengths for curve in gmsh.model.get_adjacencies(_SURFACES, tag)[1]}
+    return found
 
 
 def _grouped(faces: Sequence[int], lengths: Sequence[float]) -> dict[float, list[int]]:

@@ -17,6 +17,7 @@ from gearcad.meshing.bodies.brep import Filled, Surface
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.exact_flanks import ExactFlank
 from gearcad.meshing.bodies.gear_faces import GearFace
+from gearcad.meshing.bodies.mended import mended
 from gearcad.meshing.bodies.mesh import Cells
 from gearcad.solids.exact.ends import End, gear_ends
 from gearcad.solids.exact.outline import tooth_outline
@@ -41,7 +42,8 @@ def quadratic(gear: Gear, faces: Sequence[GearFace], filled: Filled) -> tuple[Fl
     surface = _Surface(gear, faces, filled, edges)
     vertices, along = surface.vertices()
     points = np.concatenate([vertices, surface.middles(vertices, along)])
-    return points, np.concatenate([cells, len(vertices) + middles], 1, dtype=np.int32)
+    both = np.concatenate([cells, len(vertices) + middles], 1, dtype=np.int32)
+    return mended(points, both, surface.inner_middles), both
 
 
 def _upright(filled: Filled) -> Cells:
@@ -147,6 +149,14 @@ class _Surface:
         """Heights (mm) of the nearer end at these radii (mm)."""
         lower, upper = self._ends
         return np.where(z < self.gear.face_width / 2, lower.height(radius), upper.height(radius))
+
+    @property
+    def inner_middles(self) -> Bools:
+        """Which of all nodes, vertices before middles, are in the middle of an edge inside."""
+        free = np.ones(len(self.filled.points) + len(self.edges), bool)
+        free[: len(self.filled.points)] = False
+        free[len(self.filled.points) + np.concatenate(self._edge_numbers)] = False
+        return free
 
     # ------------------------------------------------------------------ where they go
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -45,13 +45,13 @@ def mesh_tetrahedra(
 ) -> ElementMesh:
     """Mesh the whole part with tetrahedra of second order: edges of at most `size` (mm) on teeth, or about so many `elements`.
 
-    One of both is given. `refined_teeth` are numbers of teeth (taken modulo all of them) with finer ones. Nodes of the surface
-    are on the exact faces, modified flanks among them. Sides are "left_flank_3", "right_flank_3", "left_fillet_3",
-    "right_fillet_3" and "tip_3", which has its chamfers, of each tooth; "left_root_3" and "right_root_3" if there is a root
-    land, which a jagged line parts in the middle of the space; "end_back" at z = 0, "end_front", and what there is of
-    "end_chamfers", "bore", "keyway", "hub", which is round, and its ends "hub_back" and "hub_front". `stage` is told what
-    begins. Quality is for the caller to measure. An interrupt waits until gmsh ends a stage. Raises ParameterError for sizes
-    that take too many elements, and SolverError.
+    One of both is given; with `elements` edges are as far off the flanks as comes of that. `refined_teeth` are numbers of teeth
+    (taken modulo all of them) with finer ones. Nodes of the surface are on the exact faces, modified flanks among them. Sides
+    are "left_flank_3", "right_flank_3", "left_fillet_3", "right_fillet_3" and "tip_3", which has its chamfers, of each tooth;
+    "left_root_3" and "right_root_3" if there is a root land, which a jagged line parts in the middle of the space; "end_back"
+    at z = 0, "end_front", and what there is of "end_chamfers", "bore", "keyway", "hub", which is round, and its ends "hub_back"
+    and "hub_front". `stage` is told what begins. Quality is for the caller to measure. Raises ParameterError for sizes that
+    take too many elements, and SolverError.
     """
     for tooth in refined_teeth:
         require_whole("refined_teeth", tooth, at_least=1 - gear.teeth, at_most=gear.teeth - 1)
@@ -63,7 +63,7 @@ def mesh_tetrahedra(
     if elements is None or size is not None:
         raise ParameterError("size", size, "must be given in mm, or else a number of elements")
     require_whole("elements", elements, at_least=1, at_most=_MOST)
-    return part.mesh_counted(elements)
+    return replace(part, grading=replace(grading, deviation=None)).mesh_counted(elements)
 
 
 _Expected = Callable[[float], float]

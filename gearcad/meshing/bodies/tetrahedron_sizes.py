@@ -10,15 +10,20 @@ import numpy as np
 
 from gearcad.errors import require_number
 from gearcad.geometry import Gear
-from gearcad.geometry.curves import CurveKind
+from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.geometry.turned import flank_curves
-from gearcad.meshing.bodies.brep import BrepFace, EdgeLengths, Surface
+from gearcad.meshing.bodies.brep import BrepFace, EdgeLengths, RadialLengths, Surface
 from gearcad.meshing.bodies.gear_faces import GearFace
+from gearcad.meshing.section.edge_lengths import bent_lengths
+from gearcad.meshing.section.outline import EdgeLength, MeshSizes
 
 __all__ = ["TetrahedronGrading", "edge_lengths", "expected_tetrahedra"]
 
-_FILLET_ANGLE = math.radians(30)
-"""Standards of stress in fillets count elements over so much of an arc."""
+_FILLET_ANGLE = 30.0
+"""Standards of stress in fillets count elements over so much of an arc (deg)."""
+
+_PLACES = 1025
+"""Places of a curve at which lengths are kept."""
 
 _ROUND = 24
 """Least edges round a bore or a hub."""
@@ -37,18 +42,21 @@ _THIN = 1.5
 class TetrahedronGrading:
     """How edges of tetrahedra differ in length, beside the one size that is asked for.
 
-    At least `fillet_elements` stand over 30 degrees of a fillet. On refined teeth edges are `refinement` times as fine. Inwards
-    they grow by `growth` times the distance, up to `inside` times the size. Raises ParameterError.
+    At least `fillet_elements` stand over 30 degrees of a fillet, and edges in transverse sections are at most about `deviation`
+    (µm) off the curve; None: as far as comes of it. On refined teeth edges are `refinement` times as fine. Inwards they grow by
+    `growth` times the distance, up to `inside` times the size. Raises ParameterError.
     """
 
     fillet_elements: float = 1.0
+    deviation: float | None = 0.2
     refinement: float = 3.0
     inside: float = 6.0
     growth: float = 0.3
 
     def __post_init__(self) -> None:
         for each in fields(self):
-            require_number(each.name, getattr(self, each.name), above=0)
+            if (value := getattr(self, each.name)) is not None:
+                require_number(each.name, value, above=0)
 
 
 def edge_lengths(
@@ -60,38 +68,56 @@ def edge_lengths(
     faces: Sequence[BrepFace],
 ) -> EdgeLengths:
     """Lengths on these faces, of which it was told what they are: `size` (mm) on teeth that are not `refined`, and less."""
-    fillet = _least_radius(gear) * _FILLET_ANGLE / grading.fillet_elements
     inside = min(grading.inside * size, _thickness(gear) / _THIN)
+    size = min(size, inside)
+    usual = _along_flanks(gear, size, grading)
+    fine = {kind: lengths.refined(grading.refinement) for kind, lengths in usual.items()}
     kinds = [curve.curve.kind for curve in flank_curves(gear)]
 
     def wanted(face: GearFace) -> float:
-        finer = grading.refinement if face.tooth in refined else 1.0
-        if face.curve is not None and kinds[face.curve] is CurveKind.FILLET:
-            return min(size, fillet) / finer
         if face.surface is Surface.CYLINDER and face.radius < gear.root_diameter / 2:
             return min(inside, 2 * math.pi * face.radius / _ROUND)
-        return min(size, inside) / finer if face.surface in (Surface.SPLINE, Surface.CYLINDER) else inside
+        if face.surface not in (Surface.SPLINE, Surface.CYLINDER):
+            return inside
+        return size / grading.refinement if face.tooth in refined else size
 
-    return EdgeLengths(
-        [min(wanted(face), _NARROW * shape.width) for face, shape in zip(told, faces, strict=True)], inside, grading.growth
-    )
+    limits = [min(wanted(face), _NARROW * shape.width) for face, shape in zip(told, faces, strict=True)]
+    radial = [None if face.curve is None else (fine if face.tooth in refined else usual)[kinds[face.curve]] for face in told]
+    return EdgeLengths(limits, radial, inside, grading.growth)
+
+
+def _along_flanks(gear: Gear, size: float, grading: TetrahedronGrading) -> dict[CurveKind, RadialLengths]:
+    """Lengths on what flanks are swept from, as sections have them: at most `size` (mm), less where they bend."""
+    module, cosine = gear.normal_module, math.cos(math.radians(gear.helix_angle))
+    plain = dict.fromkeys(("flank", "corner", "fillet", "outline", "cut", "rim"), size / module)
+    turn = _FILLET_ANGLE * cosine**2 / grading.fillet_elements  # in the section normal to the helix fillets bend the more
+    off = None if grading.deviation is None else grading.deviation / 1000 / module
+    sizes = MeshSizes(**plain, growth=grading.growth, fillet_turn=turn, deviation=off)
+    lengths = bent_lengths(gear, sizes).curves
+    return {
+        curve.kind: _by_radius(curve, lengths[curve.kind])
+        for curve in gear.profile.curves
+        if curve.kind not in (CurveKind.ROOT, CurveKind.TIP)
+    }
+
+
+def _by_radius(curve: Curve, length: EdgeLength) -> RadialLengths:
+    s = np.linspace(0.0, 1.0, _PLACES)
+    run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(curve.points(s), axis=0).T))]
+    lengths, radius = length(run, float(run[-1])), curve.polar(s)[0]
+    even = np.linspace(radius[0], radius[-1], _PLACES)
+    mean = float(np.trapezoid(lengths**-2, run) / run[-1]) ** -0.5
+    return RadialLengths(float(even[0]), float(even[1] - even[0]), np.interp(even, radius, lengths).tolist(), mean)
 
 
 def expected_tetrahedra(lengths: EdgeLengths, faces: Sequence[BrepFace]) -> float:
     """About how many there will be: most stand on the triangles of the surface, the more the slower edges grow inwards."""
-    triangles = sum(face.area / length**2 for face, length in zip(faces, lengths.faces, strict=True)) * 4 / math.sqrt(3)
+    usual = [
+        limit if radial is None else min(limit, radial.mean)
+        for limit, radial in zip(lengths.faces, lengths.radial, strict=True)
+    ]
+    triangles = sum(face.area / length**2 for face, length in zip(faces, usual, strict=True)) * 4 / math.sqrt(3)
     return triangles * (_ABOVE + _GROWN / lengths.growth)
-
-
-def _least_radius(gear: Gear) -> float:
-    """Least radius of curvature (mm) of a fillet. It is less in the section normal to the helix than in the transverse one."""
-    s = np.linspace(0.0, 1.0, 257)
-    least = math.inf
-    for piece in flank_curves(gear):
-        if piece.curve.kind is CurveKind.FILLET:
-            length = np.hypot(*np.diff(piece.curve.points(s), axis=0).T)
-            least = min(least, float((length / np.abs(np.diff(piece.curve.direction(s)))).min()))
-    return least * math.cos(math.radians(gear.helix_angle)) ** 2
 
 
 def _thickness(gear: Gear) -> float:
