@@ -150,3 +150,11 @@ def test_worst_elements_have_their_place() -> None:
     with pytest.raises(GearcadError, match=r"Jacobian 0\.035, must be at least 0\.05; element 2 at .* near tip_1$"):
         require_good(found)
     require_good(found, 0.03)
+
+
+def test_an_element_as_good_as_flat_is_refused() -> None:
+    thin = local_places("hex20") * [1, 1, 1e-5]
+    found = measure(Element.HEX20, thin)
+    assert found.least_jacobian == pytest.approx(1) and found.largest_aspect == pytest.approx(1e5)
+    with pytest.raises(GearcadError, match=r"an edge is 1e\+05 times as long as another"):
+        require_good(found)

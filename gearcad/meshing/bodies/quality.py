@@ -17,7 +17,7 @@ from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.interpolation import local_places, shape_slopes
 from gearcad.meshing.bodies.mesh import ElementMesh
 
-__all__ = ["LEAST_SCALED_JACOBIAN", "Quality", "WorstElement", "quality", "require_good"]
+__all__ = ["LARGEST_ASPECT", "LEAST_SCALED_JACOBIAN", "Quality", "WorstElement", "quality", "require_good"]
 
 
 LEAST_SCALED_JACOBIAN = {
@@ -28,6 +28,9 @@ LEAST_SCALED_JACOBIAN = {
     Element.TET10: 0.02,
 }
 """Below it an element is too distorted to be used. Sections swept at 45 degrees lose half at the tips of few teeth."""
+
+LARGEST_ASPECT = 1e4
+"""Above it an element is as good as flat: it is over a land of some nanometres, or a sliver."""
 
 _CHUNK = 1024
 """Elements that are looked at together: what that takes is small beside any mesh that fills memory."""
@@ -121,12 +124,19 @@ def quality(mesh: ElementMesh) -> Quality:
 
 
 def require_good(measured: Quality, least: float | None = None) -> None:
-    """Raise SolverError, with the place of the worst element, for a mesh below the gate of its kind of element or another."""
+    """Raise SolverError for a mesh with a scaled Jacobian below the gate of its kind of element, or another, with the place of
+    the worst element, or with an element that is as good as flat.
+    """
     gate = LEAST_SCALED_JACOBIAN[measured.element] if least is None else least
     if not measured.least_jacobian >= gate:
         worst = measured.worst[0]
         raise SolverError(
             f"the mesh is too bad: least scaled Jacobian {worst.scaled_jacobian:.3f}, must be at least {gate}; {worst}"
+        )
+    if not measured.largest_aspect <= LARGEST_ASPECT:
+        raise SolverError(
+            f"the mesh is too bad: an edge is {measured.largest_aspect:.3g} times as long as another of its element, must be "
+            f"at most {LARGEST_ASPECT:.0f}: some land of the gear is next to nothing"
         )
 
 
