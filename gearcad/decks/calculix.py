@@ -109,7 +109,7 @@ class LoadedPairDeck:
         file.write(f"{REFERENCE}, 2, 3\n")
 
     def _write_step(self, file: TextIO) -> None:
-        file.write("*STEP, INC=100\n*STATIC\n1., 1.\n")
+        file.write("*STEP, INC=100\n*STATIC\n1., 1., 1.e-5, 1.\n")
         file.write(f"*CLOAD\n{REFERENCE}, 1, {number(self.torque * 1000)}\n")
         file.write("*NODE FILE, NSET=nodes\nU\n*EL FILE\nS\n*CONTACT FILE\nCDIS, CSTR\n")
         file.write(f"*NODE PRINT, NSET={REFERENCE}\nU\n")

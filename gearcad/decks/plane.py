@@ -41,7 +41,7 @@ _REACH = 1.6
 _NARROWEST = 0.3
 """Half width below which that of a pair is not followed, over that of the widest contact: such a pair carries 1/10."""
 
-_LEAST = 1 / 200
+_LEAST = 1 / 500
 """Least half width of the widest contact over the length of a flank: pressures of narrower ones are uneven (measured)."""
 
 
