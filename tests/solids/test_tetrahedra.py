@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import signal
 from dataclasses import replace
 
 import numpy as np
@@ -181,3 +182,14 @@ def test_what_cannot_be_is_refused() -> None:
         mesh_tetrahedra(SPUR, size=1.0, elements=10_000)
     with pytest.raises(ParameterError, match="refined_teeth = 9: must be a whole number from -8 to 8"):
         mesh_tetrahedra(SPUR, size=1.0, refined_teeth=[9])
+
+
+def test_an_interrupt_leaves_nothing_behind() -> None:
+    """It is raised, gmsh is closed, and the next interrupt is as any."""
+    import gmsh
+
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        mesh_tetrahedra(SPUR, size=0.6, stage=lambda _stage: signal.raise_signal(signal.SIGINT))
+    assert not gmsh.isInitialized()
+    assert signal.getsignal(signal.SIGINT) is before

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import Event, current_thread, main_thread
 from typing import Any
 
 import numpy as np
@@ -22,6 +24,9 @@ __all__ = ["BrepFace", "EdgeLengths", "Filled", "RadialLengths", "Stage", "Surfa
 _CURVES, _SURFACES, _VOLUMES = 1, 2, 3
 _TRIANGLE, _TETRAHEDRON = 2, 4
 """gmsh's numbers of dimensions and of kinds of elements."""
+
+_LONGEST = 1e22
+"""gmsh's own greatest length."""
 
 _FRONTAL, _HXT = 6, 10
 """gmsh's numbers of its algorithms for faces and for volumes."""
@@ -119,13 +124,14 @@ def fill_brep(
         wanted = lengths([_face(gmsh, tag) for tag in faces])
         with _refusals("fill the solid"):
             _set_sizes(gmsh, faces, wanted)
-            asked = _Asked(_by_radius(gmsh, faces, wanted.radial))
-            gmsh.model.mesh.set_size_callback(asked)
-        for dimension, each in enumerate(Stage, 1):
-            stage(each)
-            with _refusals("fill the solid"):
-                gmsh.model.mesh.generate(dimension)
-            asked.go_on()
+        with _interrupts_kept() as interrupted:
+            gmsh.model.mesh.set_size_callback(_asked(_by_radius(gmsh, faces, wanted.radial), interrupted))
+            for dimension, each in enumerate(Stage, 1):
+                stage(each)
+                with _refusals("fill the solid"):
+                    gmsh.model.mesh.generate(dimension)
+                if interrupted.is_set():
+                    break
         with _refusals("fill the solid"):
             gmsh.model.mesh.optimize("Relocate3D")
             return _filled(gmsh, faces)
@@ -199,27 +205,32 @@ _OPTIONS: Mapping[str, float] = {
 }
 
 
-class _Asked:
-    """What gmsh asks for the length at each place. What goes wrong meanwhile, gmsh would not hear of: it is kept."""
+@contextmanager
+def _interrupts_kept() -> Iterator[Event]:
+    """Keep an interrupt until the end, and tell of it meanwhile: raised in what gmsh calls, it would be lost."""
+    interrupted = Event()
+    if current_thread() is not main_thread():  # no other one hears of interrupts, or may ask for them
+        yield interrupted
+        return
+    before = signal.signal(signal.SIGINT, lambda _number, _frame: interrupted.set())
+    try:
+        yield interrupted
+    finally:
+        signal.signal(signal.SIGINT, before if before is not None else signal.SIG_DFL)
+        if interrupted.is_set():
+            signal.raise_signal(signal.SIGINT)
 
-    def __init__(self, radial: Mapping[tuple[int, int], RadialLengths]) -> None:
-        self._radial = radial
-        self._stopped: BaseException | None = None
 
-    def __call__(self, dimension: int, tag: int, x: float, y: float, z: float, length: float) -> float:
-        try:
-            if self._stopped is not None:
-                return math.inf
-            radial = self._radial.get((dimension, tag))
-            return length if radial is None else min(length, radial.at(math.hypot(x, y)))
-        except BaseException as error:  # an interrupt, as likely here as anywhere in Python
-            self._stopped = error
-            return math.inf
+def _asked(radial: Mapping[tuple[int, int], RadialLengths], interrupted: Event) -> Callable[..., float]:
+    """What tells gmsh the length at a place: after an interrupt the greatest there is, so that it is done soon."""
 
-    def go_on(self) -> None:
-        """Raise what went wrong, if anything did."""
-        if self._stopped is not None:
-            raise self._stopped
+    def length(dimension: int, tag: int, x: float, y: float, _z: float, length: float) -> float:
+        if interrupted.is_set():
+            return _LONGEST
+        lengths = radial.get((dimension, tag))
+        return length if lengths is None else min(length, lengths.at(math.hypot(x, y)))
+
+    return length
 
 
 def _by_radius(gmsh: Any, faces: Sequence[int], radial: Sequence[RadialLengths | None]) -> dict[tuple[int, int], RadialLengths]:
