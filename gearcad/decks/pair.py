@@ -31,9 +31,6 @@ __all__ = ["PairDeck", "PairDecks", "held_nodes"]
 _STIFFNESS = 10.0
 """Pressure by overlap, over modulus by edge: overlaps are then far below an edge, and iterations still end."""
 
-_BEGUN = 0.05
-"""Share of the elastic approach that is put into the mesh: so there is contact in the first iteration."""
-
 
 @dataclass(frozen=True)
 class PairDecks(ABC):
@@ -45,6 +42,9 @@ class PairDecks(ABC):
     task: CheckTask
 
     solid: ClassVar[bool]
+
+    begun: ClassVar[float]
+    """Share of the elastic approach that is put into the mesh: with it contact is about as wide as Hertz's from the start."""
 
     def __post_init__(self) -> None:
         require_treatable(self.task)
@@ -101,7 +101,7 @@ class PairDecks(ABC):
     def at(self, roll_angle: float) -> PairDeck:
         """The pair at a roll angle (deg). Raises ParameterError, GeometryError and SolverError."""
         position = self.cycle.solve(roll_angle)
-        approach = position.rigid_approach + _BEGUN * (position.approach - position.rigid_approach)
+        approach = position.rigid_approach + self.begun * (position.approach - position.rigid_approach)
         zones = PerGear.each(lambda role: self.zones(roll_angle, role))
         meshes = PerGear.each(lambda role: self.mesh(role, zones.pick(role)))
         mesh = posed(self.pair, meshes, roll_angle, approach, left=self.left)

@@ -52,6 +52,7 @@ class PlaneDecks(PairDecks):
     sizes: MeshSizes = PLANE_SIZES
 
     solid: ClassVar[bool] = False
+    begun: ClassVar[float] = 0.05
 
     def __post_init__(self) -> None:
         super().__post_init__()

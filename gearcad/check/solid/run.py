@@ -18,9 +18,9 @@ from gearcad.check.task import CheckTask
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, loaded_left, solid_pair
 from gearcad.notice import Notice
-from gearcad.progress import Agenda, Share
+from gearcad.progress import Agenda, Share, unheard
 
-__all__ = ["check_solid"]
+__all__ = ["check_solid", "solid_model"]
 
 _EDGE_RATIO = 1.5
 """Pressure beside an edge, over the greatest away from edges, from which on it is worth a warning."""
@@ -33,7 +33,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     turns helix angles over and leaves heights and radii as they are, and all results are those of its left flanks. The
     mounting's misalignment is always that of the flanks that carry.
     """
-    model = _model(task, 1.0, agenda.within(BODIES))
+    model = solid_model(task, 1.0, agenda.within(BODIES))
     positions = task.options.positions_of(Model.SOLID)
     cycle = SolidCycle.run(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
     summary = summarise_solid(cycle, model.single_stiffness(task.torque))
@@ -54,7 +54,11 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     )
 
 
-def _model(task: CheckTask, factor: float, tell: Share) -> SolidPair:
+def solid_model(task: CheckTask, factor: float = 1.0, tell: Share = unheard) -> SolidPair:
+    """Both bodies of a task, their elements `factor` times smaller than it asks for; left flanks carry.
+
+    Raises what `check_pair` does.
+    """
     sizes = sizes_of(task, factor)
     pair, mounting = loaded_left(task.pair, task.torque), replace(task.mounting, centre_distance_change=0.0)
     return solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, tell=tell)
@@ -63,9 +67,9 @@ def _model(task: CheckTask, factor: float, tell: Share) -> SolidPair:
 def _refined(task: CheckTask, middle: SolidPair, agenda: Agenda) -> Iterator[SolidCycle]:
     """The cycles of coarser, own and finer bodies; none but the own are kept."""
     coarser, _, finer = SOLID_FACTORS
-    yield _few(_model(task, coarser, agenda.within(COARSER)), task)
+    yield _few(solid_model(task, coarser, agenda.within(COARSER)), task)
     yield _few(middle, task)
-    yield _few(_model(task, finer, agenda.within(FINER)), task)
+    yield _few(solid_model(task, finer, agenda.within(FINER)), task)
 
 
 def _few(model: SolidPair, task: CheckTask) -> SolidCycle:

@@ -30,7 +30,7 @@ from gearcad.per_gear import PerGear, Role
 from gearcad.progress import Expected, Share, unheard
 from gearcad.rating.hertz import reduced_modulus
 
-__all__ = ["SolidPair", "SolidSizes", "expected_bodies", "loaded_left", "solid_pair"]
+__all__ = ["SolidPair", "SolidSizes", "expected_bodies", "loaded_left", "solid_pair", "teeth_moved"]
 
 
 _SOFT = 8000.0
@@ -189,7 +189,7 @@ def solid_pair(
     `tell` hears how much is done, from the thread that called. Raises SolverError, ParameterError and GeometryError.
     """
     body, sizes, mounting = (body or BodyModel()).for_solids(), sizes or SolidSizes(), mounting or Mounting()
-    neighbours = _neighbours(pair)
+    neighbours = teeth_moved(pair)
     starts = PerGear(pair.path_of_contact.A, line_of_action(pair).whole - pair.path_of_contact.E)
     jobs = []
     for gear, mesh, support, start in zip(pair.gears, _meshes(pair, body, sizes), body.supports(pair), starts, strict=True):
@@ -207,11 +207,11 @@ def expected_bodies(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> Expec
     """What `solid_pair` is expected to take. Raises what it does for bodies that cannot be meshed."""
     body = body.for_solids()
     meshes = zip(pair.gears, _meshes(pair, body, sizes), strict=True)
-    costs = [body_cost(mesh, body.teeth_held(gear) or gear.teeth, _neighbours(pair)) for gear, mesh in meshes]
+    costs = [body_cost(mesh, body.teeth_held(gear) or gear.teeth, teeth_moved(pair)) for gear, mesh in meshes]
     return Expected(SIDE_BY_SIDE * sum(cost.seconds for cost in costs), sum(cost.memory for cost in costs))
 
 
-def _neighbours(pair: GearPair) -> int:
+def teeth_moved(pair: GearPair) -> int:
     """Teeth on each side of the loaded one that others' loads can move."""
     return max(1, math.floor(pair.total_contact_ratio + 0.2))
 
