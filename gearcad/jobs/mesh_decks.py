@@ -8,7 +8,10 @@ from functools import partial
 
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.task import CheckTask, check_task
+from gearcad.decks.pair import PairDecks
 from gearcad.decks.plane import PlaneDecks
+from gearcad.decks.solid import SolidDecks, solid_task
+from gearcad.decks.solid_tooth import solid_tooth_deck
 from gearcad.decks.tooth import tooth_deck
 from gearcad.designs import PairDesign
 from gearcad.material import Material
@@ -28,7 +31,8 @@ def make_decks(design: PairDesign, plan: MeshPlan, progress: Progress | None) ->
     """
     if not plan.options.decks:
         return {}
-    decks = PlaneDecks(_task(design))
+    model = Model.SOLID if plan.solid else Model.PLANE
+    decks = _decks(_task(design, model))
     makers = dict(_makers(plan.options, decks))
     agenda = Agenda(progress, dict.fromkeys(makers, 1.0))
     made: dict[str, Deck] = {}
@@ -38,7 +42,7 @@ def make_decks(design: PairDesign, plan: MeshPlan, progress: Progress | None) ->
     return made
 
 
-def _makers(options: MeshOptions, decks: PlaneDecks) -> Iterator[tuple[str, Callable[[], Deck]]]:
+def _makers(options: MeshOptions, decks: PairDecks) -> Iterator[tuple[str, Callable[[], Deck]]]:
     """Names of files, and what makes their decks: at the roll angle of the options, or at so many over one base pitch."""
     count, pitch = options.positions, 360 / decks.pair.pinion.teeth
     for number in range(count):
@@ -47,10 +51,21 @@ def _makers(options: MeshOptions, decks: PlaneDecks) -> Iterator[tuple[str, Call
         if DeckKind.PAIR in options.decks:
             yield f"pair_deck{place}.inp", partial(decks.at, angle)
         if DeckKind.TOOTH in options.decks:
-            yield from ((f"{role.value}_deck{place}.inp", partial(tooth_deck, decks, angle, role)) for role in Role)
+            yield from ((f"{role.value}_deck{place}.inp", partial(_tooth, decks, angle, role)) for role in Role)
 
 
-def _task(design: PairDesign) -> CheckTask:
-    options = replace(design.check or CheckOptions(), model=Model.PLANE.value)
+def _tooth(decks: PairDecks, angle: float, role: Role) -> Deck:
+    if isinstance(decks, SolidDecks):
+        return solid_tooth_deck(decks, angle, role)
+    assert isinstance(decks, PlaneDecks)
+    return tooth_deck(decks, angle, role)
+
+
+def _decks(task: CheckTask) -> PairDecks:
+    return SolidDecks(solid_task(task)) if task.model is Model.SOLID else PlaneDecks(task)
+
+
+def _task(design: PairDesign, model: Model) -> CheckTask:
+    options = replace(design.check or CheckOptions(), model=model.value)
     load = design.loaded("a deck is of pressed flanks")
     return check_task(design.pair, design.material or Material(), load, options, design.mounting, design.rating)

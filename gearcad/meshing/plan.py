@@ -199,8 +199,6 @@ def _require_possible(
         )
     if options.decks and pair is None:
         raise GeometryError("deck", options.deck, "needs a pair: this design is a single gear")
-    if options.decks and element.shape.dimension == 3:
-        raise GeometryError("deck", options.deck, "needs sections so far: model 2d")
     fewest = min(gear.teeth for gear in gears.values())
     if extent.what is What.TEETH and extent.teeth is not None and extent.teeth >= fewest:
         raise GeometryError("what", options.what, f"must be of fewer than {fewest} teeth, which the gear has; or ring")

@@ -182,7 +182,6 @@ def test_straight_edges_are_said_to_be_off(here: Path) -> None:
         (GEAR, ["--deck", "pair"], "deck = 'pair': needs a pair: this design is a single gear"),
         (GEAR, ["--positions", "3"], "positions = 3: must be 1 where no deck is wanted"),
         (PAIR, ["--deck", "teeth"], "deck = 'teeth': must be one of 'pair', 'tooth'"),
-        (PAIR, ["--deck", "pair", "--model", "3d"], "deck = 'pair': needs sections so far: model 2d"),
         (GEAR, ["--format", "stl"], "format = 'stl': must be one of 'msh', 'vtu', 'inp'"),
         (GEAR, ["--format", ""], "format = '': must be a text"),
         (PAIR, ["--what", "pair", "--gear", "wheel"], "gear = 'wheel': must be both for a pair in mesh"),
