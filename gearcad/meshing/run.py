@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import nullcontext
 from dataclasses import replace
 
-from gearcad.errors import InputError
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.exactness import deviations
 from gearcad.meshing.bodies.measure import measure_side
@@ -16,7 +15,7 @@ from gearcad.meshing.bodies.quality import LEAST_SCALED_JACOBIAN, quality, requi
 from gearcad.meshing.gear_plan import GearPlan
 from gearcad.meshing.plan import MeshPlan
 from gearcad.meshing.result import COARSE, Gate, JudgedMesh, MeshResult
-from gearcad.per_gear import PerGear
+from gearcad.per_gear import PerGear, Role, naming
 from gearcad.progress import Agenda, Progress
 
 __all__ = ["run_mesh"]
@@ -37,7 +36,7 @@ def run_mesh(plan: MeshPlan, name: str, progress: Progress | None = None) -> Mes
     meshes, judged = dict[str, ElementMesh](), dict[str, JudgedMesh]()
     for role, each in plan.gears.items():
         agenda(f"{_MESHING} {role}")
-        with _naming(role):
+        with naming(Role(role)) if len(plan.gears) > 1 else nullcontext():
             meshes[role] = each.mesh(agenda.within(f"{_MESHING} {role}"))
         agenda(f"{_JUDGING} {role}")
         judged[role] = _judged(meshes[role], each, plan)
@@ -45,15 +44,6 @@ def run_mesh(plan: MeshPlan, name: str, progress: Progress | None = None) -> Mes
         gears = PerGear(meshes.pop("pinion"), meshes.pop("wheel"))
         meshes["pair"] = posed(plan.pair, gears, plan.options.roll, left=plan.left)
     return MeshResult(name, plan, meshes, judged)
-
-
-@contextmanager
-def _naming(role: str) -> Iterator[None]:
-    """Let errors about a value say whose it is."""
-    try:
-        yield
-    except InputError as error:
-        raise error.within(role) from None
 
 
 def _judged(mesh: ElementMesh, planned: GearPlan, plan: MeshPlan) -> JudgedMesh:

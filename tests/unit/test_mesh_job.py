@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gearcad
-from gearcad import ISO53_C, Body, FlankModification, Gear, GearPair, Load, ParameterError
+from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Load, ParameterError
 from gearcad.meshing import Element, ElementMesh
 from gearcad.meshing.options import MeshOptions
 
@@ -72,8 +72,8 @@ def test_a_negative_torque_makes_right_flanks_touch() -> None:
 
 def test_the_whole_part_has_keyway_and_hub() -> None:
     body = Body(bore=6, keyway_width=2, keyway_depth=1, hub_diameter=11, hub_length=2, end_chamfer=0.5)
-    gear = Gear(teeth=9, normal_module=2, face_width=4, profile_shift=0.5, rack=ISO53_C, body=body)
-    result = gearcad.mesh(gear, what="part", size=2)
+    gear = Gear(teeth=9, normal_module=2, face_width=4, profile_shift=0.5, rack=BasicRack(root_radius="full"), body=body)
+    result = gearcad.mesh(gear, what="part", elements=20_000)
     judged = result.judged["gear"]
     assert {"keyway", "hub", "hub_front", "end_chamfers", "bore", "tip_8"} <= set(result.mesh.sides)
     assert result.mesh.element is Element.TET10 and result.passed
