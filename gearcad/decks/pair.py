@@ -144,6 +144,7 @@ class PairDeck:
         return {
             "roll_angle": of.roll_angle,
             "torque": self.deck.torque,
+            "body": self.decks.task.body.describe(pair),
             "approach_in_mesh": self.approach * 1000,
             "transmission_error": of.transmission_error,
             "reference_turn": math.copysign(turn, self.deck.torque),

@@ -1,26 +1,22 @@
-"""One solid gear under the loads along lines that our own check found, as a deck: its root stress by another solver."""
+"""A solid gear under the loads along lines of contact that our own check has found, as a deck."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, TextIO
+from typing import TextIO
 
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.contact.shared.engaged import roll_lengths
-from gearcad.contact.solid.cycle import SolidPosition
 from gearcad.contact.solid.places import Places
-from gearcad.decks.calculix import HELD, number, write_heading, write_held, write_material
-from gearcad.decks.pair import held_nodes
-from gearcad.decks.results import displacements
+from gearcad.decks.calculix import number
 from gearcad.decks.solid import SolidDecks
+from gearcad.decks.tooth import ToothDeck
 from gearcad.meshing.bodies import ElementMesh
 from gearcad.meshing.bodies.interpolation import shape_values
 from gearcad.meshing.bodies.mesh import joined
-from gearcad.meshing.files.inp import element_type, write_elements, write_nodes
 from gearcad.per_gear import Role
 
 __all__ = ["SolidToothDeck", "solid_tooth_deck"]
@@ -31,50 +27,17 @@ _MIRRORED = np.array([1.0, -1.0, 1.0])
 
 
 @dataclass(frozen=True)
-class SolidToothDeck:
-    """A gear held at its bore and cuts, with `forces` (n, 3) in N on its nodes (n,): what its flanks carry at a position."""
+class SolidToothDeck(ToothDeck):
+    """Forces (n, 3) in N on `nodes` (n,) of a body."""
 
-    decks: SolidDecks
-    role: Role
-    position: SolidPosition
-    mesh: ElementMesh
     nodes: Wholes
     forces: Floats
 
-    def write(self, path: Path) -> None:
-        """Write the deck; `ccx` wants a name that ends with .inp."""
-        with path.open("w", encoding="ascii", newline="\n") as file:
-            write_heading(file, [f"{self.role.value} under the loads along its lines of contact"])
-            write_nodes(file, self.mesh.points)
-            write_elements(file, self.mesh, element_type(self.mesh.element))
-            write_held(file, self.role, held_nodes(self.mesh, f"{self.role.value}_"))
-            write_material(file, self.decks.task.material, self.mesh.parts)
-            file.write(f"*BOUNDARY\n{HELD.format(self.role.value)}, 1, 3\n")
-            self._write_step(file)
-
-    def _write_step(self, file: TextIO) -> None:
-        file.write("*STEP\n*STATIC\n*CLOAD\n")
+    def write_loads(self, file: TextIO) -> None:
+        """Forces on nodes."""
+        file.write("*CLOAD\n")
         for node, force in zip(self.nodes.tolist(), self.forces.tolist(), strict=True):
             file.writelines(f"{node + 1}, {axis}, {number(part)}\n" for axis, part in enumerate(force, 1) if part)
-        file.write("*NODE FILE, NSET=nodes\nU\n*EL FILE\nS\n")
-        file.write(f"*NODE PRINT, NSET={HELD.format(self.role.value)}, TOTALS=ONLY\nRF\n*END STEP\n")
-
-    @property
-    def expected(self) -> dict[str, Any]:
-        """Figures of our own check to compare with: the greatest root stress in MPa, the force of each loaded flank in N."""
-        flanks = {
-            self.decks.side(self.role, self.decks.tooth(self.role, contact.tooth), "flank"): contact.force
-            for contact in self.position.contacts
-        }
-        root = self.position.tension.pick(self.role).stress
-        return {"roll_angle": self.position.roll_angle, "forces": flanks, "root_stress": {self.role.value: root}}
-
-    def found(self, job: Path) -> dict[str, Any]:
-        """The root stress as CalculiX has left it in the files of a job, named without suffix. Raises SolverError."""
-        moved = displacements(job.with_name(f"{job.name}.frd"), len(self.mesh.points))
-        teeth = (self.decks.tooth(self.role, contact.tooth) for contact in self.position.contacts)
-        stresses = (self.decks.root_tension(self.mesh, moved, self.role, tooth, 0.0) for tooth in teeth)
-        return {"root_stress": {self.role.value: max(stresses)}}
 
 
 def solid_tooth_deck(decks: SolidDecks, roll_angle: float, role: Role) -> SolidToothDeck:
@@ -90,7 +53,7 @@ def solid_tooth_deck(decks: SolidDecks, roll_angle: float, role: Role) -> SolidT
         turned = _turned(pressing, 2 * math.pi * tooth / gear.teeth)
         _lay(forces, mesh, decks.side(role, tooth, "flank"), gear.base_diameter / 2, places, turned)
     nodes = np.flatnonzero(forces.any(axis=1))
-    return SolidToothDeck(decks, role, position, mesh, nodes, forces[nodes])
+    return SolidToothDeck(decks, role, mesh, position, nodes, forces[nodes])
 
 
 def _lay(forces: Floats, mesh: ElementMesh, flank: str, base_radius: float, places: Places, pressing: Floats) -> None:

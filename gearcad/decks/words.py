@@ -22,13 +22,21 @@ gearcad's own check of the same gears: transmission error {transmission_error:.5
 greatest tension along the fillets, pinion {root_pinion:.5g} MPa, wheel {root_wheel:.5g} MPa."""
 
 _TOOTH = """\
-The {gear} under the contact pressures that gearcad's own check has found at the roll angle {roll_angle:.6g} deg,
+The {gear} under the loads that gearcad's own check has found on its flanks at the roll angle {roll_angle:.6g} deg,
 with {torque:.6g} N m on the pinion. CalculiX runs this deck as it is:  ccx NAME  for NAME.inp
 
-Tooth 0 is on the x axis; the hub holds all of the bore, and the cuts of a body that is no ring. The force on each tooth
-is laid on the edges of its flank as uniform pressures, which add up to it.
+Tooth 0 is on the x axis; the hub holds all of the bore, and the cuts of a body that is no ring. {laid}
 
 Greatest tension along the fillets by gearcad's own check: {root_stress:.6g} MPa."""
+
+
+_LAID_ON_EDGES = """\
+The force on each tooth
+is laid on the edges of its flank as uniform pressures, which add up to it."""
+
+_LAID_ON_NODES = """\
+The loads along the
+lines of contact are forces on nodes of the flanks, shared as the shape functions of their faces do."""
 
 
 def pair_words(expected: Mapping[str, Any], *, distance: float, base_radius: float) -> list[str]:
@@ -37,6 +45,6 @@ def pair_words(expected: Mapping[str, Any], *, distance: float, base_radius: flo
     return _PAIR.format(**expected, **roots, distance=distance, base_radius=base_radius).splitlines()
 
 
-def tooth_words(expected: Mapping[str, Any]) -> list[str]:
+def tooth_words(expected: Mapping[str, Any], *, solid: bool) -> list[str]:
     """Those of one gear."""
-    return _TOOTH.format(**expected).splitlines()
+    return _TOOTH.format(**expected, laid=_LAID_ON_NODES if solid else _LAID_ON_EDGES).splitlines()

@@ -10,9 +10,9 @@ from gearcad.check.options import CheckOptions, Model
 from gearcad.check.task import CheckTask, check_task
 from gearcad.decks.pair import PairDecks
 from gearcad.decks.plane import PlaneDecks
+from gearcad.decks.plane_tooth import plane_tooth_deck
 from gearcad.decks.solid import SolidDecks, solid_task
 from gearcad.decks.solid_tooth import solid_tooth_deck
-from gearcad.decks.tooth import tooth_deck
 from gearcad.designs import PairDesign
 from gearcad.material import Material
 from gearcad.meshing.options import DeckKind, MeshOptions
@@ -31,9 +31,7 @@ def make_decks(design: PairDesign, plan: MeshPlan, progress: Progress | None) ->
     """
     if not plan.options.decks:
         return {}
-    model = Model.SOLID if plan.solid else Model.PLANE
-    decks = _decks(_task(design, model))
-    makers = dict(_makers(plan.options, decks))
+    makers = dict(_makers(plan.options, *_decks(design, plan)))
     agenda = Agenda(progress, dict.fromkeys(makers, 1.0))
     made: dict[str, Deck] = {}
     for name, make in makers.items():
@@ -42,7 +40,18 @@ def make_decks(design: PairDesign, plan: MeshPlan, progress: Progress | None) ->
     return made
 
 
-def _makers(options: MeshOptions, decks: PairDecks) -> Iterator[tuple[str, Callable[[], Deck]]]:
+def _decks(design: PairDesign, plan: MeshPlan) -> tuple[PairDecks, Callable[[float, Role], Deck]]:
+    """Decks of the pair, and what makes that of one gear at a roll angle (deg)."""
+    if plan.solid:
+        solid = SolidDecks(solid_task(_task(design, Model.SOLID)))
+        return solid, partial(solid_tooth_deck, solid)
+    plane = PlaneDecks(_task(design, Model.PLANE))
+    return plane, partial(plane_tooth_deck, plane)
+
+
+def _makers(
+    options: MeshOptions, decks: PairDecks, tooth: Callable[[float, Role], Deck]
+) -> Iterator[tuple[str, Callable[[], Deck]]]:
     """Names of files, and what makes their decks: at the roll angle of the options, or at so many over one base pitch."""
     count, pitch = options.positions, 360 / decks.pair.pinion.teeth
     for number in range(count):
@@ -51,18 +60,7 @@ def _makers(options: MeshOptions, decks: PairDecks) -> Iterator[tuple[str, Calla
         if DeckKind.PAIR in options.decks:
             yield f"pair_deck{place}.inp", partial(decks.at, angle)
         if DeckKind.TOOTH in options.decks:
-            yield from ((f"{role.value}_deck{place}.inp", partial(_tooth, decks, angle, role)) for role in Role)
-
-
-def _tooth(decks: PairDecks, angle: float, role: Role) -> Deck:
-    if isinstance(decks, SolidDecks):
-        return solid_tooth_deck(decks, angle, role)
-    assert isinstance(decks, PlaneDecks)
-    return tooth_deck(decks, angle, role)
-
-
-def _decks(task: CheckTask) -> PairDecks:
-    return SolidDecks(solid_task(task)) if task.model is Model.SOLID else PlaneDecks(task)
+            yield from ((f"{role.value}_deck{place}.inp", partial(tooth, angle, role)) for role in Role)
 
 
 def _task(design: PairDesign, model: Model) -> CheckTask:

@@ -14,7 +14,7 @@ from gearcad.check.options import CheckOptions
 from gearcad.check.task import check_task
 from gearcad.decks.comparison import Deviations, deviations
 from gearcad.decks.plane import PLANE_SIZES, PlaneDecks
-from gearcad.decks.tooth import tooth_deck
+from gearcad.decks.plane_tooth import plane_tooth_deck
 from gearcad.designs import PairDesign, read_spec
 from gearcad.geometry import FlankModification
 from gearcad.per_gear import Role
@@ -97,7 +97,7 @@ def test_calculix_agrees_whatever_the_torque(torque: float, tmp_path: Path) -> N
 
 def _one_tooth(decks: PlaneDecks, roll_angle: float, role: Role, folder: Path) -> float:
     """Deviation of the root stress (%)."""
-    deck = tooth_deck(decks, roll_angle, role)
+    deck = plane_tooth_deck(decks, roll_angle, role)
     deck.write(folder / "tooth.inp")
     run_ccx(folder, "tooth")
     return 100 * float(deck.found(folder / "tooth")["root_stress"] / deck.expected["root_stress"] - 1)

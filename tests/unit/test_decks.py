@@ -11,7 +11,7 @@ from gearcad import Gear, GearPair, Load, Material
 from gearcad.check.options import CheckOptions
 from gearcad.check.task import check_task
 from gearcad.decks.plane import PlaneDecks
-from gearcad.decks.tooth import tooth_deck
+from gearcad.decks.plane_tooth import plane_tooth_deck
 from gearcad.errors import InputError
 from gearcad.geometry import FlankModification
 from gearcad.mounting import Mounting
@@ -84,7 +84,7 @@ def test_a_deck_loads_the_flanks_that_its_torque_presses(torque: float, tmp_path
 @pytest.mark.parametrize("role", Role)
 def test_pressures_on_a_tooth_come_to_the_force_and_the_torque_of_the_check(role: Role, torque: float) -> None:
     decks = _decks(torque=torque)
-    deck = tooth_deck(decks, -6.0, role)
+    deck = plane_tooth_deck(decks, -6.0, role)
     local = np.array(deck.mesh.element.shape.faces)[deck.faces.sides]
     ends = deck.mesh.points[deck.mesh.cells[deck.faces.elements[:, None], local[:, :2]], :2]
     along = ends[:, 1] - ends[:, 0]
