@@ -102,7 +102,7 @@ class PairDecks(ABC):
         """The pair at a roll angle (deg). Raises ParameterError, GeometryError and SolverError."""
         position = self.cycle.solve(roll_angle)
         approach = position.rigid_approach + self.begun * (position.approach - position.rigid_approach)
-        zones = PerGear.each(lambda role: self.zones(roll_angle, role))
+        zones = PerGear(*(self.zones(roll_angle, role) for role in Role))  # what they refuse is neither gear's own
         meshes = PerGear.each(lambda role: self.mesh(role, zones.pick(role)))
         mesh = posed(self.pair, meshes, roll_angle, approach, left=self.left)
         edge = min(zone.edge for each in zones for zone in each.values())

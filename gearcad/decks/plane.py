@@ -19,6 +19,7 @@ from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE
 from gearcad.decks.pair import PairDecks
 from gearcad.decks.treatable import require_same_flanks
 from gearcad.errors import ParameterError
+from gearcad.geometry.limits import at_least
 from gearcad.meshing.bodies import Element, ElementMesh
 from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.section_mesh import mesh_section
@@ -96,7 +97,7 @@ class PlaneDecks(PairDecks):
             (gear.flank_form.last**2 - gear.flank_form.first**2) / gear.base_diameter for gear in self.pair.gears
         )
         if half < least:
-            permitted = f"must be at least {abs(self.task.torque) * (least / half) ** 2:.2g} N·m in size for a deck"
+            permitted = f"must be at least {at_least(abs(self.task.torque) * (least / half) ** 2)} N·m in size for a deck"
             why = f"the contact is only {2 * half:.2g} mm wide"
             raise ParameterError("load.torque", self.task.torque, f"{permitted}: {why}", "N·m")
 
