@@ -46,6 +46,8 @@ COARSE = TetrahedronGrading(deviation=None)
 
 SPUR = Gear(teeth=9, normal_module=1, face_width=1.5, profile_shift=0.4, body=Body(bore=3))
 
+THIN = replace(SPUR, teeth=20, normal_module=0.5, face_width=0.3, body=Body(bore=7))
+
 
 @pytest.fixture(scope="module")
 def part() -> ElementMesh:
@@ -55,6 +57,11 @@ def part() -> ElementMesh:
 @pytest.fixture(scope="module")
 def spur() -> ElementMesh:
     return mesh_tetrahedra(SPUR, size=0.6, refined_teeth=[-1], grading=COARSE)
+
+
+@pytest.fixture(scope="module")
+def thin() -> ElementMesh:
+    return mesh_tetrahedra(THIN, size=0.6)
 
 
 def nodes_of(mesh: ElementMesh, *words: str) -> np.ndarray:
@@ -135,22 +142,21 @@ def test_elements_are_good(part: ElementMesh, spur: ElementMesh) -> None:
         require_good(quality(mesh))
 
 
-def test_faces_bulge_as_flanks_do() -> None:
+def test_faces_bulge_as_flanks_do(thin: ElementMesh) -> None:
     """0.5 µm between nodes is promised of default sizes."""
-    gear = replace(SPUR, face_width=0.7)
-    off = deviations(mesh_tetrahedra(gear, size=0.6), gear)
+    off = deviations(thin, THIN)
     assert off.nodes < EXACT
     assert off.between < 0.5
 
 
-def test_linear_fields_are_exact(spur: ElementMesh) -> None:
+def test_linear_fields_are_exact(thin: ElementMesh) -> None:
     """The patch test: what is linear on the surface is so inside, curved elements or not."""
     from skfem import Basis, ElementTetP2, condense, solve
     from skfem.models.poisson import laplace
 
     from gearcad.meshing.bodies.conversions import skfem_mesh
 
-    mesh = skfem_mesh(spur)
+    mesh = skfem_mesh(thin)
     basis = Basis(mesh, ElementTetP2())
     exact = basis.project(lambda x: 1 + 2 * x[0] - 3 * x[1] + 0.5 * x[2])
     found = solve(*condense(laplace.assemble(basis), x=exact, D=basis.get_dofs()))
@@ -166,8 +172,8 @@ def test_refined_teeth_have_finer_edges(spur: ElementMesh) -> None:
 
 def test_as_many_elements_as_asked_for() -> None:
     stages: list[Stage] = []
-    mesh = mesh_tetrahedra(SPUR, elements=30_000, stage=stages.append)
-    assert len(mesh.cells) == pytest.approx(30_000, rel=0.2)
+    mesh = mesh_tetrahedra(SPUR, elements=25_000, stage=stages.append)
+    assert len(mesh.cells) == pytest.approx(25_000, rel=0.2)
     assert stages[:3] == list(Stage)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -17,8 +17,9 @@ from gearcad.meshing.bodies.brep import Filled, Surface
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.exact_flanks import ExactFlank
 from gearcad.meshing.bodies.gear_faces import GearFace
-from gearcad.meshing.bodies.mended import mended
+from gearcad.meshing.bodies.mended import mended, poor_elements
 from gearcad.meshing.bodies.mesh import Cells
+from gearcad.meshing.bodies.parted import inner_edges, part_edges
 from gearcad.solids.exact.ends import End, gear_ends
 from gearcad.solids.exact.outline import tooth_outline
 
@@ -26,6 +27,9 @@ __all__ = ["quadratic"]
 
 _OFF = 1e-5
 """A node that is farther (mm) from the face it is said to be on is on another one."""
+
+_TRIES = 4
+"""Times that poor elements are parted: those beside them may be the next."""
 
 _ROUND = ((0, 1), (1, 2), (2, 0))
 """Edges of a triangle."""
@@ -37,13 +41,26 @@ def quadratic(gear: Gear, faces: Sequence[GearFace], filled: Filled) -> tuple[Fl
     Nodes on flanks, fillets, chamfers and lands are on the exact, modified ones. Raises SolverError if a vertex is not on
     the face that it was said to be on.
     """
-    cells = _upright(filled)
-    edges, middles = _edges(cells)
+    filled = replace(filled, tetrahedra=_upright(filled))
+    for _ in range(_TRIES):
+        points, cells, free = _curved(gear, faces, filled)
+        poor = poor_elements(points, cells)
+        edges = inner_edges(filled.tetrahedra[poor], free[cells[poor, 4:]])
+        if not edges:
+            break
+        parted = part_edges(filled.points, filled.tetrahedra, edges)
+        filled = replace(filled, points=parted[0], tetrahedra=parted[1])
+    return points, cells
+
+
+def _curved(gear: Gear, faces: Sequence[GearFace], filled: Filled) -> tuple[Floats, Cells, Bools]:
+    """Points, cells, and which of the points are middles of edges inside."""
+    edges, middles = _edges(filled.tetrahedra)
     surface = _Surface(gear, faces, filled, edges)
     vertices, along = surface.vertices()
     points = np.concatenate([vertices, surface.middles(vertices, along)])
-    both = np.concatenate([cells, len(vertices) + middles], 1, dtype=np.int32)
-    return mended(points, both, surface.inner_middles), both
+    cells = np.concatenate([filled.tetrahedra, len(vertices) + middles], 1, dtype=np.int32)
+    return mended(points, cells, surface.inner_middles), cells, surface.inner_middles
 
 
 def _upright(filled: Filled) -> Cells:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from gearcad.arrays import Bools, Floats
+from gearcad.arrays import Bools, Floats, Indices
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.mesh import Cells
 from gearcad.meshing.bodies.quality import scaled_jacobians
 
-__all__ = ["mended"]
+__all__ = ["mended", "poor_elements"]
 
 _POOR = 0.06
 """Scaled Jacobian below which it is tried to make an element better."""
@@ -29,7 +29,7 @@ def mended(points: Floats, cells: Cells, free: Bools) -> Floats:
     the others of its element have gone from half-way, and stays where the worst element that has it is best.
     """
     points = points.copy()
-    quality = np.concatenate([_least(points, cells[start : start + _CHUNK]) for start in range(0, len(cells), _CHUNK)])
+    quality = _of_all(points, cells)
     for _ in range(_ROUNDS):
         poor = np.flatnonzero(quality < _POOR)
         before = quality[poor].copy()
@@ -41,6 +41,15 @@ def mended(points: Floats, cells: Cells, free: Bools) -> Floats:
         if np.allclose(quality[poor], before, atol=1e-4):
             break
     return points
+
+
+def poor_elements(points: Floats, cells: Cells) -> Indices:
+    """Numbers of the elements that are poor."""
+    return np.flatnonzero(_of_all(points, cells) < _POOR)
+
+
+def _of_all(points: Floats, cells: Cells) -> Floats:
+    return np.concatenate([_least(points, cells[start : start + _CHUNK]) for start in range(0, len(cells), _CHUNK)])
 
 
 def _least(points: Floats, cells: Cells) -> Floats:
