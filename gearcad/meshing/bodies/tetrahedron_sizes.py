@@ -48,7 +48,7 @@ class TetrahedronGrading:
     """
 
     fillet_elements: float = 1.0
-    deviation: float | None = 0.2
+    deviation: float | None = 0.1
     refinement: float = 3.0
     inside: float = 6.0
     growth: float = 0.3
