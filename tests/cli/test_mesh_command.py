@@ -155,7 +155,7 @@ def test_solid_gears_are_decks_of_few_teeth(here: Path) -> None:
     text = PAIR + "[check]\nrefinement = 0.5\n"
     run("mesh", spec(text), "--deck", "tooth", "--model", "3d", "--what", "pair:3", "--format", "vtu", "--size", "2", "--quiet")
     pinion = document()["decks"]["pinion_deck.inp"]
-    assert pinion["body"].startswith("5 teeth with fixed cuts")
+    assert pinion["body"].startswith("7 teeth with fixed cuts")
     deck = Path("output/some/pinion_deck.inp").read_text(encoding="ascii")
     assert "*CLOAD" in deck and "TYPE=C3D20, ELSET=pinion" in deck
 
