@@ -24,6 +24,7 @@ __all__ = [
     "as_choice",
     "format_number",
     "is_finite_number",
+    "out_of_memory",
     "plain_numbers",
     "printable",
     "require_name",
@@ -205,3 +206,9 @@ def as_choice(parameter: str, value: Any, kind: type[Choice]) -> Choice:
     except ValueError:
         choices = ", ".join(repr(member.value) for member in kind)
         raise ParameterError(parameter, value, f"must be one of {choices}") from None
+
+
+def out_of_memory(error: MemoryError) -> str:
+    """What to tell of it: one line, with what was asked for where that is known."""
+    reason = " ".join(str(error).split())
+    return f"there is not enough memory{f' ({shown(reason)})' if reason else ''}; ask for less, or free some"

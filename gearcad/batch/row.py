@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 from gearcad.batch.manifest import Manifest, Part, inputs_hash, publish, read_manifest
 from gearcad.batch.stages import DATA, make_parts
 from gearcad.designs.table import Row
-from gearcad.errors import GearcadError, OutputError, SpecError
+from gearcad.errors import GearcadError, OutputError, SpecError, out_of_memory
 from gearcad.jobs.job import Job
 from gearcad.output import UNWRITABLE, unwritable
 from gearcad.per_gear import PerGear
@@ -82,6 +82,9 @@ def make_row(task: Task) -> Record:
         # An error of the table says where it is; of a full disk or the like it does not matter.
         text = str(error) if stop or isinstance(error, SpecError) else f"{task.row.where('')}: {error}"
         return Record(number=number, status=Status.FAILED, error=text, seconds=_since(began), stop=stop)
+    except MemoryError as error:
+        text = f"{task.row.where('')}: {out_of_memory(error)}"
+        return Record(number=number, status=Status.FAILED, error=text, seconds=_since(began))
     except Exception as error:
         what = " ".join(f"unexpected {type(error).__name__}: {error}".split())
         text = f"{task.row.where('')}: {what} (a fault of gearcad: please report it)"

@@ -13,7 +13,7 @@ from typing import Any, NoReturn, TypeVar
 
 import click
 
-from gearcad.errors import GearcadError, ParameterError, SolverError, as_choice, printable, shown
+from gearcad.errors import GearcadError, ParameterError, SolverError, as_choice, out_of_memory, printable, shown
 from gearcad.jobs import VERBS
 from gearcad.output import source_date
 
@@ -67,6 +67,9 @@ class Commands(click.Group):
                 ctx.exit(1 if isinstance(error, SolverError) else 2)
             if isinstance(error, OSError):  # the system's fault, such as a full disk behind stdout
                 click.echo(f"Error: {printable(error.strerror or str(error))}", err=True)
+                ctx.exit(1)
+            if isinstance(error, MemoryError):
+                click.echo(f"Error: {out_of_memory(error)}", err=True)
                 ctx.exit(1)
             what = shown(" ".join(f"{type(error).__name__}: {error}".split()), _LONGEST_FAULT)
             click.echo(f"Error: unexpected {what} (a fault of gearcad: please report it, with what --debug shows)", err=True)

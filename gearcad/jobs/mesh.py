@@ -23,6 +23,7 @@ from gearcad.meshing.files.formats import SUFFIXES
 from gearcad.meshing.options import MeshOptions
 from gearcad.meshing.plan import MeshPlan, plan_mesh
 from gearcad.meshing.result import MeshResult
+from gearcad.meshing.room import require_room
 from gearcad.meshing.run import run_mesh
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear
@@ -51,6 +52,7 @@ class Mesh(Job[GearedDesign, MeshResult]):
 
     def _run(self, design: GearedDesign, progress: Progress | None) -> MeshResult:
         plan = self._plan(design)
+        require_room(plan)
         decks = make_decks(design, plan, progress) if isinstance(design, PairDesign) else {}
         return replace(run_mesh(plan, design.name, progress), decks=decks)
 
@@ -67,11 +69,14 @@ class Mesh(Job[GearedDesign, MeshResult]):
         return plan.counted()
 
     def _expected(self, design: GearedDesign) -> Expected | None:
-        return expected_mesh(self._plan(design))
+        plan = self._plan(design)
+        require_room(plan)
+        return expected_mesh(plan)
 
     def document(self, result: MeshResult) -> dict[str, Any]:
         """What mesh.json holds."""
-        return mesh_document(result, self.files(result))
+        beside = [f"{name}{end}" for name in result.meshes for kind in result.plan.options.formats for end in kind.entry.beside]
+        return mesh_document(result, [*self.files(result), *beside])
 
     def notices(self, result: MeshResult) -> Sequence[Notice]:
         return result.notices

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from gearcad.meshing.bodies.elements import Element
+from gearcad.meshing.bodies.sizing import Amount
 from gearcad.meshing.plan import MeshPlan
 from gearcad.progress import Expected
 from gearcad.reprs import grouped
 
-__all__ = ["expected_mesh"]
+__all__ = ["expected_memory", "expected_mesh"]
 
 _SECONDS = {Element.TRI6: 1e-5, Element.QUAD8: 8e-6, Element.HEX8: 6e-6, Element.HEX20: 1.2e-5}
 """To mesh, judge and write an element in the usual formats."""
@@ -26,4 +27,9 @@ def expected_mesh(plan: MeshPlan) -> Expected | None:
         return None
     seconds = _BEFORE + _SECONDS[plan.element] * amount.elements
     makes = f"makes {grouped(amount.elements)} {plan.element.value}, {grouped(amount.nodes)} nodes"
-    return Expected(seconds, _IMPORTS + _COPIES * amount.bytes, makes)
+    return Expected(seconds, expected_memory(amount), makes)
+
+
+def expected_memory(amount: Amount) -> float:
+    """Bytes that meshing, judging and writing so much take at the most."""
+    return _IMPORTS + _COPIES * amount.bytes

@@ -16,12 +16,18 @@ from support.boxes import AREAS, SIZE, box, outward, two_boxes
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
+import gearcad
+from gearcad import Body, Gear
 from gearcad.batch.manifest import MANIFEST, Manifest, Part, read_manifest
+from gearcad.designs import GearDesign
 from gearcad.errors import ParameterError
 from gearcad.jobs.mesh import Mesh
 from gearcad.meshing import Element, ElementMesh
 from gearcad.meshing.bodies.conversions import MESHIO_WORDS
 from gearcad.meshing.files.formats import MeshFormat, write
+from gearcad.meshing.files.inp import node_sets
+
+GEAR = Gear(teeth=20, normal_module=2, face_width=8, body=Body(bore=16))
 
 ROUNDING = 1e-12
 """mm: what binary formats and twelve decimals keep of a box of 8 mm."""
@@ -174,6 +180,24 @@ def test_files_beside_are_a_rows_to_keep(tmp_path: Path) -> None:
     manifest = Manifest("", {"mesh": Part({}, dict.fromkeys(names, 1))})
     (tmp_path / MANIFEST).write_text(manifest.text())
     assert read_manifest(tmp_path) == manifest
+
+
+def test_mesh_json_names_files_beside_too(tmp_path: Path) -> None:
+    pytest.importorskip("h5py")
+    job = Mesh(given={"what": "sector", "format": "xdmf"})
+    result = job.run(GearDesign(name="some", gear=GEAR))
+    job.write(result, tmp_path)
+    assert sorted(job.document(result)["files"]) == sorted(path.name for path in tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("element", [Element.QUAD8, Element.TRI6])
+def test_sets_of_cuts_say_that_they_are_unsorted_only_where_they_are(element: Element, tmp_path: Path) -> None:
+    """The k-th of one meets the k-th of the other, and CalculiX, which knows no such word, keeps every order."""
+    mesh = gearcad.mesh(GEAR, what="sector", element=element.value).mesh
+    write(mesh, tmp_path / "mesh.inp")
+    assert ("UNSORTED" in (tmp_path / "mesh.inp").read_text()) == (element is Element.TRI6)
+    behind, ahead = (node_sets(mesh)[f"cut_{end}"] for end in ("behind", "ahead"))
+    assert set(zip(behind, ahead, strict=True)) == set(map(tuple, mesh.matched["cut"]))
 
 
 @pytest.mark.parametrize("element", Element)

@@ -39,13 +39,13 @@ class MeshFormat(Enum):
 
 @dataclass(frozen=True)
 class Entry:
-    """One format: what it holds, in words; what writes it, and what suffix other files have that it writes beside; which
+    """One format: what it holds, in words; what writes it, and how names of other files end that it writes beside; which
     library it needs that gearcad does without.
     """
 
     words: str
     write: Callable[[ElementMesh, Path], None]
-    beside: str = ""
+    beside: tuple[str, ...] = ()
     library: str = ""
 
 
@@ -100,8 +100,10 @@ _ENTRIES = {
     MeshFormat.BDF: Entry("Nastran; properties, and sets of nodes", _bdf),
     MeshFormat.MED: Entry("Code_Aster, Salome; groups of elements and of sides", _with_gmsh),
     MeshFormat.UNV: Entry("Salome, FreeCAD and others; groups of elements, sides and nodes", _with_gmsh),
-    MeshFormat.XDMF: Entry("FEniCS, ParaView; sides in a file of their own", _xdmf, beside="h5", library="h5py"),
+    MeshFormat.XDMF: Entry(
+        "FEniCS, ParaView; sides in a file of their own", _xdmf, beside=(".h5", "_sides.xdmf"), library="h5py"
+    ),
 }
 
-SUFFIXES = frozenset(suffix for kind in MeshFormat for suffix in (kind.value, kind.entry.beside) if suffix)
+SUFFIXES = frozenset(name.rpartition(".")[2] for kind in MeshFormat for name in (kind.value, *kind.entry.beside))
 """Of all files that formats write."""

@@ -66,13 +66,19 @@ def write_elements(file: TextIO, mesh: ElementMesh, kind: str) -> None:
 
 def node_sets(mesh: ElementMesh) -> Mapping[str, NDArray[np.integer]]:
     """Nodes of all sides, by name; of matched cuts in such an order that the k-th of one meets the k-th of the other."""
-    matched = {f"{cut}_{end}": pairs[:, k] for cut, pairs in mesh.matched.items() for k, end in enumerate(("behind", "ahead"))}
+    ascending = {cut: pairs[np.argsort(pairs[:, 0])] for cut, pairs in mesh.matched.items()}  # of quadrangles both are, then
+    matched = {f"{cut}_{end}": pairs[:, k] for cut, pairs in ascending.items() for k, end in enumerate(("behind", "ahead"))}
     return {name: mesh.nodes(name) for name in mesh.sides} | matched
 
 
 def write_node_set(file: TextIO, name: str, nodes: NDArray[np.integer]) -> None:
     """A node set; where its nodes (from 0) do not ascend their order matters, and is to be kept."""
-    file.write(f"*NSET, NSET={name}{'' if np.all(np.diff(nodes) > 0) else ', UNSORTED'}\n")
+    ascending = bool(np.all(np.diff(nodes) > 0))
+    if not ascending:
+        file.write(
+            "** The order matters. Abaqus keeps it where UNSORTED says so; CalculiX always does, and warns of this word.\n"
+        )
+    file.write(f"*NSET, NSET={name}{'' if ascending else ', UNSORTED'}\n")
     digits, full = _digits(int(nodes.max()) + 1), len(nodes) // _ENTRIES * _ENTRIES
     for row in (nodes[:full].reshape(-1, _ENTRIES), nodes[full:].reshape(1, -1)):
         if row.size:
