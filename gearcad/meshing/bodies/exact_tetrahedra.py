@@ -45,7 +45,7 @@ def quadratic(gear: Gear, faces: Sequence[GearFace], filled: Filled) -> tuple[Fl
     for _ in range(_TRIES):
         points, cells, free = _curved(gear, faces, filled)
         poor = poor_elements(points, cells)
-        edges = inner_edges(filled.tetrahedra[poor], free[cells[poor, 4:]])
+        edges = inner_edges(filled.points, filled.tetrahedra[poor], free[cells[poor, 4:]])
         if not edges:
             break
         parted = part_edges(filled.points, filled.tetrahedra, edges)
