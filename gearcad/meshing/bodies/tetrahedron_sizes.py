@@ -25,6 +25,11 @@ _FILLET_ANGLE = 30.0
 _PLACES = 1025
 """Places of a curve at which lengths are kept."""
 
+_CUSP, _SLACK = 0.03, 2.5
+"""Where an involute begins at its base circle it bends without end, and an edge of length h is off by so much of
+h (h/r_b)^(1/2), measured; there edges may be off this many times as far as they should, else lengths would vanish.
+"""
+
 _ROUND = 24
 """Least edges round a bore or a hub."""
 
@@ -94,17 +99,20 @@ def _along_flanks(gear: Gear, size: float, grading: TetrahedronGrading) -> dict[
     off = None if grading.deviation is None else grading.deviation / 1000 / module
     sizes = MeshSizes(**plain, growth=grading.growth, fillet_turn=turn, deviation=off)
     lengths = bent_lengths(gear, sizes).curves
+    base = gear.base_diameter / 2
+    least = 0.0 if off is None else min(size, base * (_SLACK * off * module / _CUSP / base) ** (2 / 3))
     return {
-        curve.kind: _by_radius(curve, lengths[curve.kind])
+        curve.kind: _by_radius(curve, lengths[curve.kind], least)
         for curve in gear.profile.curves
         if curve.kind not in (CurveKind.ROOT, CurveKind.TIP)
     }
 
 
-def _by_radius(curve: Curve, length: EdgeLength) -> RadialLengths:
+def _by_radius(curve: Curve, length: EdgeLength, least: float) -> RadialLengths:
+    """Lengths over the radius, `least` (mm) at the least."""
     s = np.linspace(0.0, 1.0, _PLACES)
     run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(curve.points(s), axis=0).T))]
-    lengths, radius = length(run, float(run[-1])), curve.polar(s)[0]
+    lengths, radius = np.maximum(length(run, float(run[-1])), least), curve.polar(s)[0]
     even = np.linspace(radius[0], radius[-1], _PLACES)
     mean = float(np.trapezoid(lengths**-2, run) / run[-1]) ** -0.5
     return RadialLengths(float(even[0]), float(even[1] - even[0]), np.interp(even, radius, lengths).tolist(), mean)
