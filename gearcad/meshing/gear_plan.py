@@ -41,6 +41,11 @@ class GearPlan(ABC):
         """Teeth that are meshed."""
 
     @property
+    @abstractmethod
+    def bore_radius(self) -> float:
+        """Radius (mm) of the inner circle, which meshes call bore; 0 if there is none."""
+
+    @property
     def amount(self) -> Amount | None:
         """What it will come to, where that is known."""
         return None
@@ -73,6 +78,10 @@ class SectorsPlan(GearPlan):
     @property
     def count(self) -> int:
         return self.teeth or self.gear.teeth
+
+    @property
+    def bore_radius(self) -> float:
+        return self.inner_radius
 
     @property
     def _solid(self) -> bool:
@@ -124,6 +133,10 @@ class PartPlan(GearPlan):
     @property
     def count(self) -> int:
         return self.gear.teeth
+
+    @property
+    def bore_radius(self) -> float:
+        return self.gear.body.bore / 2
 
     @property
     def exact(self) -> float:

@@ -9,8 +9,9 @@ from typing import Any, Protocol
 
 from gearcad.geometry import Gear
 from gearcad.meshing.bodies.exactness import Deviations
-from gearcad.meshing.bodies.measure import Measure
+from gearcad.meshing.bodies.measure import Measure, openness, together
 from gearcad.meshing.bodies.mesh import ElementMesh
+from gearcad.meshing.bodies.other_sides import SideDeviations
 from gearcad.meshing.bodies.quality import Quality
 from gearcad.meshing.plan import MeshPlan
 from gearcad.notice import Notice
@@ -50,8 +51,8 @@ class Gate:
 class JudgedMesh:
     """What was found of the mesh of one gear, in the gear's own coordinates.
 
-    `teeth` are those that are meshed; `whole` is the area (mm²) of a section or the volume (mm³) of a body, `exact` what the
-    gear has there.
+    `teeth` are those that are meshed; `others` are the sides that are no flanks and fillets; `unmatched` is by how much (mm)
+    nodes of cuts miss each other; `exact` is the area (mm²) of a section or the volume (mm³) of a body that the gear has there.
     """
 
     gear: Gear
@@ -63,7 +64,8 @@ class JudgedMesh:
     matched: Mapping[str, int]
     quality: Quality
     deviations: Deviations
-    whole: float
+    others: SideDeviations
+    unmatched: float
     exact: float
     gates: tuple[Gate, ...] = ()
 
@@ -83,10 +85,28 @@ class JudgedMesh:
         return (Notice("coarse", text),)
 
     @property
+    def _surface(self) -> Measure:
+        return together(measure for _, measure in self.sides.values())
+
+    @property
+    def whole(self) -> float:
+        """Area (mm²) of a section or volume (mm³) of a body, by its sides."""
+        return self._surface.enclosed / self.quality.element.shape.dimension
+
+    @property
+    def openness(self) -> float:
+        """What share of the surface has no name, or two; 0 if every side is there once."""
+        return openness(self._surface, self.quality.element.shape.dimension)
+
+    @property
     def mean_offset(self) -> float:
         """How far (µm) the surface is from the exact one on the mean: by how much area or volume differ."""
-        surface = sum(measure.size for _, measure in self.sides.values())
-        return 1000 * abs(self.whole - self.exact) / surface
+        return 1000 * abs(self.whole - self.exact) / self._surface.size
+
+    @property
+    def greatest_offset(self) -> float:
+        """How far (µm) the surface is from the exact one at the most, as far as it is measured between nodes."""
+        return max(self.deviations.between, self.others.between)
 
     def to_dict(self) -> dict[str, Any]:
         """As mesh.json has it."""
@@ -99,6 +119,7 @@ class JudgedMesh:
             "bytes": self.bytes,
             "quality": self.quality.to_dict(),
             "deviations": self.deviations.to_dict(),
+            "other_sides": self.others.to_dict(),
             "volume" if solid else "area": {"mesh": self.whole, "exact": self.exact},
             "sides": {name: {"faces": count, size: measure.size} for name, (count, measure) in self.sides.items()},
             "matched": dict(self.matched),

@@ -13,13 +13,13 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.geometry import Gear
-from gearcad.geometry.curves import CurveKind, Fillet, Involute
+from gearcad.geometry.curves import Chamfer, CurveKind, Fillet, Involute
 from gearcad.geometry.helix import twist
 from gearcad.geometry.turned import FlankCurve, flank_curves
 from gearcad.meshing.bodies.interpolation import shape_values
 from gearcad.meshing.bodies.mesh import ElementMesh
 
-__all__ = ["Deviations", "deviations"]
+__all__ = ["Deviations", "chamfer_distances", "deviations", "face_samples"]
 
 
 _SIDE = re.compile(r"(left|right)_(flank|fillet)_(\d+)")
@@ -29,6 +29,9 @@ _STEPS = 3
 
 _SMALL = 1e-6
 """Step of a curve's parameter over which its speed is taken."""
+
+_CHUNK = 20_000
+"""Faces that are looked at together."""
 
 _CUBIC = 1 / math.sqrt(3)
 """Where a parabola through the ends and the middle of a cubic is farthest off, from -1 to 1; a straight line is at 0."""
@@ -57,15 +60,27 @@ def deviations(mesh: ElementMesh, gear: Gear) -> Deviations:
     """
     nodes, between, worst = 0.0, 0.0, ""
     solid = mesh.element.shape.dimension == 3
-    shapes = shape_values(mesh.element.shape.face, _places(mesh.element.shape.face))
     for name, surface in _surfaces(mesh, gear, solid=solid):
-        faces = mesh.face_cells(name)
-        nodes = max(nodes, float(surface.distances(mesh.points[np.unique(faces)]).max()))
-        samples = np.einsum("pa,mac->mpc", shapes, mesh.points[faces]).reshape(-1, 3)
-        off = 1000 * float(surface.distances(samples).max())
+        nodes = max(nodes, float(surface.distances(mesh.points[mesh.nodes(name)]).max()))
+        off = 1000 * max(float(surface.distances(samples).max()) for samples in face_samples(mesh, name))
         if off > between or not worst:
             between, worst = off, name
     return Deviations(nodes, between, worst)
+
+
+def face_samples(mesh: ElementMesh, name: str) -> Iterator[Floats]:
+    """Places (n, 3) on the faces of a side, some thousand faces at a time."""
+    faces = mesh.face_cells(name)
+    shapes = shape_values(mesh.element.shape.face, _places(mesh.element.shape.face))
+    for start in range(0, len(faces), _CHUNK):
+        yield np.einsum("pa,mac->mpc", shapes, mesh.points[faces[start : start + _CHUNK]]).reshape(-1, 3)
+
+
+def chamfer_distances(gear: Gear, tooth: int, points: Floats, *, solid: bool) -> list[Floats]:
+    """Distances (n,) in mm of points (n, 3) near them from the left and the right tip chamfer of a tooth, if it has them."""
+    place = 2 * math.pi * tooth / gear.teeth
+    chamfers = [each for each in flank_curves(gear) if each.curve.kind is CurveKind.CHAMFER]
+    return [_Surface(gear, each, left, place, solid).distances(points) for each in chamfers for left in (True, False)]
 
 
 def _surfaces(mesh: ElementMesh, gear: Gear, *, solid: bool) -> Iterator[tuple[str, _Surface]]:
@@ -116,6 +131,9 @@ class _Surface:
             base = curve.base_radius
             roll = np.sqrt(np.maximum((radius - base) * (radius + base), 0.0)) / base
             found = (roll - curve.first) / (curve.last - curve.first)
+        elif isinstance(curve, Chamfer):
+            run = (np.sqrt(np.maximum(2 * radius**2 - curve.radius**2, 0.0)) - curve.radius) / 2
+            found = run / curve.run
         else:
             assert isinstance(curve, Fillet)
             theta = curve.tool.theta_at(radius, curve.last)

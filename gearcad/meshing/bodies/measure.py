@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from itertools import product
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from gearcad.arrays import Floats
 from gearcad.meshing.bodies.interpolation import shape_slopes, shape_values
 from gearcad.meshing.bodies.mesh import ElementMesh
 
-__all__ = ["Measure", "measure_side", "measure_whole"]
+__all__ = ["Measure", "measure_side", "measure_whole", "openness", "together"]
 
 
 _CHUNK = 100_000
@@ -28,17 +28,41 @@ _TRIANGLE = ((0.445948490915965, 0.223381589678011), (0.091576213509771, 0.10995
 
 
 class Measure(NamedTuple):
-    """Length (mm) or area (mm²) of a side, and the integral of x·n over it (mm² or mm³)."""
+    """Length (mm) or area (mm²) of a side; its outward area as a vector (3,), and the integrals (3,) of x n_x, y n_y and z n_z
+    over it (mm² or mm³).
+    """
 
     size: float
-    enclosed: float
+    outward: Floats
+    moments: Floats
+
+    @property
+    def enclosed(self) -> float:
+        """The integral of x·n (mm² or mm³)."""
+        return float(self.moments.sum())
+
+
+def together(measures: Iterable[Measure]) -> Measure:
+    """The measure of sides together."""
+    size, outward, moments = 0.0, np.zeros(3), np.zeros(3)
+    for each in measures:
+        size, outward, moments = size + each.size, outward + each.outward, moments + each.moments
+    return Measure(size, outward, moments)
+
+
+def openness(whole: Measure, dimension: int) -> float:
+    """0 if these are all sides of a body, each once: their outward areas add up to nothing, and it is as large by x as by y
+    and z. What is missing of one or the other, in shares of the surface and of the body.
+    """
+    size = whole.moments[:dimension]
+    return max(float(np.linalg.norm(whole.outward)) / whole.size, float(np.ptp(size)) / abs(float(size.mean())))
 
 
 def measure_side(mesh: ElementMesh, name: str) -> Measure:
     """The measure of a named side."""
     nodes, face = mesh.face_cells(name), mesh.element.shape.face
     parts = [_measure(mesh.points[nodes[start : start + _CHUNK]], face) for start in range(0, len(nodes), _CHUNK)]
-    return Measure(sum(part.size for part in parts), sum(part.enclosed for part in parts))
+    return together(parts)
 
 
 def measure_whole(mesh: ElementMesh) -> float:
@@ -49,13 +73,14 @@ def measure_whole(mesh: ElementMesh) -> float:
 def _measure(places: Floats, face: str) -> Measure:
     """Of faces together, with nodes at `places` (n, nodes, 3)."""
     local, weights = _quadrature(face)
-    size = enclosed = 0.0
+    size, outward, moments = 0.0, np.zeros(3), np.zeros(3)
     for values, slopes, weight in zip(shape_values(face, local), shape_slopes(face, local), weights, strict=True):
         at, along = np.einsum("a,nac->nc", values, places), np.einsum("da,nac->dnc", slopes, places)
         normal = np.cross(along[0], along[1] if len(along) == 2 else [0.0, 0.0, 1.0])
         size += weight * float(np.linalg.norm(normal, axis=-1).sum())
-        enclosed += weight * float((at * normal).sum())
-    return Measure(size, enclosed)
+        outward += weight * normal.sum(axis=0)
+        moments += weight * (at * normal).sum(axis=0)
+    return Measure(size, outward, moments)
 
 
 @cache
