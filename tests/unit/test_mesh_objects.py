@@ -10,8 +10,11 @@ import pytest
 from skfem import Basis, FacetBasis, Functional
 from support.boxes import AREAS, box, two_boxes
 
+import gearcad
+from gearcad import Body, Gear
 from gearcad.meshing import Element, ElementMesh
 from gearcad.meshing.bodies.interpolation import shape_slopes
+from gearcad.meshing.bodies.measure import measure_side
 
 
 @Functional
@@ -69,6 +72,15 @@ def test_nodes_that_scikit_fem_wants_do_not_change_curved_elements(element: Elem
     dimension = element.shape.dimension
     volume = float((np.linalg.det(slopes[..., :dimension]) @ weights).sum())
     assert size.assemble(Basis(theirs, own, intorder=8)) == pytest.approx(volume, rel=1e-12)
+
+
+def test_scikit_fem_finds_its_places_on_small_faces_far_from_the_origin() -> None:
+    gear = Gear(teeth=23, normal_module=2, face_width=12, helix_angle=-18, body=Body(bore=20))
+    mesh = gearcad.mesh(gear, what="sector", element="hex20", size=1.0).mesh
+    theirs = mesh.to_skfem()
+    for name in ("left_flank_0", "end_front"):
+        area = size.assemble(FacetBasis(theirs, theirs.elem(), facets=name))
+        assert area == pytest.approx(measure_side(mesh, name).size, rel=1e-10)
 
 
 @pytest.mark.parametrize("element", Element)

@@ -92,9 +92,12 @@ def skfem_mesh(mesh: ElementMesh) -> Any:
     """A mesh of scikit-fem, of second order as ours is; parts are its subdomains, sides its boundaries.
 
     hex20 and quad8 gain the nodes inside of faces and elements that scikit-fem wants, where their own shape functions put
-    them: the geometry stays as it is. Nodes have numbers of scikit-fem's own.
+    them: the geometry stays as it is. Nodes have numbers of scikit-fem's own. Its search for places in hexahedra and
+    quadrangles ends where rounding does; meshes that it makes of this one, by refining it or so, have its own search again.
     """
     from skfem.io.meshio import from_meshio
+
+    from gearcad.meshing.bodies.rounded_mapping import RoundedMapping
 
     mesh = _vertices_first(mesh)
     kind, points, cells = mesh.element.value, mesh.points, mesh.cells
@@ -102,7 +105,10 @@ def skfem_mesh(mesh: ElementMesh) -> Any:
         kind, (points, cells) = "hex27", _with_centres(*_with_face_nodes(mesh), np.arange(20), "hex20")
     elif mesh.element is Element.QUAD8:
         kind, (points, cells) = "quad9", _with_centres(points, cells, np.arange(8), "quad8")
-    return from_meshio(_with_sets(mesh, kind, points, cells, _LINEAR_FACES[mesh.element.shape.face]), ignore_orientation=True)
+    found = from_meshio(_with_sets(mesh, kind, points, cells, _LINEAR_FACES[mesh.element.shape.face]), ignore_orientation=True)
+    if not found.affine:
+        found._cached_mapping = RoundedMapping(found, found.elem(), found.bndelem)
+    return found
 
 
 def _vertices_first(mesh: ElementMesh) -> ElementMesh:
