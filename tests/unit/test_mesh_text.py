@@ -76,10 +76,7 @@ def test_parts_are_element_sets_and_sides_are_sets_and_surfaces(tmp_path: Path) 
         "*HEADING",
         "*NODE, NSET=nodes",
         *(f"*ELEMENT, TYPE=C3D10, ELSET={part}" for part in ("pinion", "wheel")),
-        *(
-            f"*NSET, NSET={name}{', UNSORTED' if name.endswith('cut_ahead') or name.endswith('cut_behind') else ''}"
-            for name in mesh.sides
-        ),
+        *(f"*NSET, NSET={name}" for name in mesh.sides),
         *(f"*SURFACE, NAME={name}, TYPE=ELEMENT" for name in mesh.sides),
     ]
     assert _numbers(tmp_path / "mesh.inp", "*ELEMENT, TYPE=C3D10, ELSET=wheel")[0][0] == mesh.parts["wheel"].start + 1
@@ -94,9 +91,10 @@ def test_surfaces_are_the_sides(tmp_path: Path) -> None:
 
 
 def test_nodes_of_cuts_meet_in_order(tmp_path: Path) -> None:
+    """They ascend in both sets, so that any program keeps their order."""
     mesh: ElementMesh = box(Element.HEX20)
     write_inp(mesh, tmp_path / "mesh.inp")
-    sets = [_numbers(tmp_path / "mesh.inp", f"*NSET, NSET=cut_{end}, UNSORTED") for end in ("behind", "ahead")]
+    sets = [_numbers(tmp_path / "mesh.inp", f"*NSET, NSET=cut_{end}") for end in ("behind", "ahead")]
     behind, ahead = (mesh.points[np.concatenate(numbers) - 1] for numbers in sets)
     assert np.abs(ahead - behind - [0.0, 2.0, 0.0]).max() < 1e-12
 
