@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 import os
+from dataclasses import replace
 
 import numpy as np
 
 from gearcad.errors import GeometryError, InputError, ParameterError
+from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.expected import expected_memory
+from gearcad.meshing.gear_plan import SectorsPlan
 from gearcad.meshing.plan import MeshPlan
 
 __all__ = ["require_room"]
@@ -24,6 +27,16 @@ def require_room(plan: MeshPlan) -> None:
     """Raise ParameterError, or GeometryError where nobody asks for an amount, for more nodes than can be numbered, or more
     memory than the machine has. Of tetrahedra nobody knows before.
     """
+    if plan.element is Element.TRI6:
+        # Triangles are counted by meshing a sector: there must not be too many for that.
+        quads = {
+            name: replace(each, element=Element.QUAD8) for name, each in plan.gears.items() if isinstance(each, SectorsPlan)
+        }
+        _require(replace(plan, gears=quads))
+    _require(plan)
+
+
+def _require(plan: MeshPlan) -> None:
     amount = plan.amount
     if amount is None:
         return

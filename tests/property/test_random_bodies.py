@@ -26,6 +26,9 @@ OFF = 1e-9
 STEEP = 50.0
 """Degrees: up to this helix angle no gear is refused for its elements, but for those whose edges are straight."""
 
+NEXT_TO_NOTHING = 1e-3
+"""Normal modules: a land or fillet so short makes elements that no refinement makes less narrow."""
+
 NOTHING = {"bore": 0.0, "keyway": 0.0, "hub": 0.0, "hub_side": "front", "end_chamfer": 0.0, "end_chamfer_angle": 45.0}
 """Of what a sweep leaves out, and of which many a gear could not be made."""
 
@@ -83,9 +86,16 @@ def check_inputs(
         assert error.parameter == "rack.root_radius" and gear.rack.root_radius < 1e-6
     except SolverError as error:
         event("refused")
-        assert "too bad" in str(error) and (abs(gear.helix_angle) > STEEP or element is Element.HEX8)
+        assert "too bad" in str(error)
+        assert abs(gear.helix_angle) > STEEP or element is Element.HEX8 or _shortest_curve(gear) < NEXT_TO_NOTHING
     else:
         event("meshed, modified" if drawn else "meshed")
+
+
+def _shortest_curve(gear: Gear) -> float:
+    """Length of the shortest curve of the profile over the normal module."""
+    ends = [curve.points(np.array([0.0, 1.0])) for curve in gear.profile.curves]
+    return min(float(np.hypot(*(end - start))) for start, end in ends) / gear.normal_module
 
 
 DRAWN = (gear_inputs(), MODIFICATIONS, RIMS, WIDTHS, st.sampled_from([Element.HEX20, Element.HEX8]))

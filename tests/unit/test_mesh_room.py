@@ -27,6 +27,12 @@ def test_more_nodes_than_numbers_are_refused(monkeypatch: pytest.MonkeyPatch) ->
         gearcad.mesh(HELICAL, size=0.01)
 
 
+def test_too_many_triangles_are_refused_before_a_sector_is_meshed_to_count_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(room, "_memory", lambda: LITTLE)
+    with pytest.raises(ParameterError, match=r"^size = 0.001 mm: makes [0-9.e+]+ tri6"):
+        gearcad.mesh(HELICAL, size=0.001, element="tri6")
+
+
 class Meshes(Exception):
     """It was not refused."""
 

@@ -136,7 +136,7 @@ def require_good(measured: Quality, least: float | None = None) -> None:
     if not measured.largest_aspect <= LARGEST_ASPECT:
         raise SolverError(
             f"the mesh is too bad: an edge is {measured.largest_aspect:.3g} times as long as another of its element, must be "
-            f"at most {LARGEST_ASPECT:.0f}: some land of the gear is next to nothing"
+            f"at most {LARGEST_ASPECT:.0f}: some land or fillet of the gear is next to nothing"
         )
 
 
