@@ -11,13 +11,15 @@ from numpy.typing import NDArray
 from support.gap import gap_along_action, middle_height
 from support.hertz import hertz_ellipse
 
-from gearcad import FlankModification, Gear, GearPair, Material, Mounting, ReliefShape
+from gearcad import Body, FlankModification, Gear, GearPair, Material, Mounting, ReliefShape
 from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.contact.solid.boussinesq import half_space_displacement, half_space_traction, surface_displacement
 from gearcad.contact.solid.contact_lines import ContactLine, Gaps, contact_lines, gaps
 from gearcad.contact.solid.flank import SolidFlank
 from gearcad.contact.solid.hexahedra import lame
 from gearcad.contact.solid.line_contact import Responses, solve_lines
+from gearcad.contact.solid.pair import SolidSizes, solid_pair
+from gearcad.errors import SolverError
 from gearcad.per_gear import PerGear
 
 Floats = NDArray[np.float64]
@@ -217,3 +219,10 @@ def test_solution_is_complementary() -> None:
     assert apart.approach - plain.approach == pytest.approx(0.01, rel=1e-9)
     assert apart.rigid == pytest.approx(0.01 + gap.min())
     assert sum(plain.parts) == pytest.approx(plain.approach - plain.forces @ gap / 500, rel=1e-9)
+
+
+def test_flanks_of_too_few_elements_are_refused() -> None:
+    """Loads stand on vertices where the flank carries; of one row nothing is known between."""
+    pinion, wheel = (Gear(teeth=teeth, normal_module=2, face_width=8, body=Body(bore=12)) for teeth in (17, 23))
+    with pytest.raises(SolverError, match="the flanks of the gear with 17 teeth have too few elements to be loaded"):
+        solid_pair(GearPair(pinion=pinion, wheel=wheel), STEEL, sizes=SolidSizes().refined(0.25))

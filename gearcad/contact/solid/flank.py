@@ -18,6 +18,7 @@ from gearcad.contact.solid.boussinesq import surface_displacement
 from gearcad.contact.solid.faces import boundary_faces
 from gearcad.contact.solid.images import Images, TakenOff
 from gearcad.contact.solid.places import Grid, GridSpline, Places, SolidFlank
+from gearcad.errors import SolverError
 from gearcad.geometry import Gear
 from gearcad.material import Material
 from gearcad.meshing.section.outline import Side
@@ -27,8 +28,8 @@ from gearcad.progress import Share, unheard
 __all__ = ["SolidCompliance", "solid_compliance"]
 
 
-_ROWS = 8
-"""Unit loads up the flank."""
+_ROWS, _FEWEST_ROWS = 8, 2
+"""Unit loads up the flank, and the least between which a spline can run."""
 
 
 @dataclass(frozen=True)
@@ -169,10 +170,14 @@ def _flank_grid(flank: SolidFlank, mesh: SweptMesh) -> tuple[Wholes, Grid]:
 def _load_grid(grid: Grid, gear: Gear, start: float) -> Grid:
     """Rows on vertices of the flank but for its tip corner, the first not above `start`; a column half-way up every layer.
 
-    An undercut flank ends in a corner at the root as well, where no load can be taken off as one on a half-space.
+    An undercut flank ends in a corner at the root as well, where no load can be taken off as one on a half-space. Raises
+    SolverError where there is one row only, and nothing between rows.
     """
     vertices = grid.lengths[::2][int(gear.undercut) : -1]
     vertices = vertices[max(0, int(np.searchsorted(vertices, start, side="right")) - 1) :]
+    if len(vertices) < _FEWEST_ROWS:
+        text = f"the flanks of the gear with {gear.teeth} teeth have too few elements to be loaded: the mesh must be finer"
+        raise SolverError(f"{text} (refinement of [check])")
     return Grid(vertices[_spread(len(vertices), _ROWS)], (grid.heights[1:] + grid.heights[:-1]) / 2)
 
 
