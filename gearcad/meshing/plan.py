@@ -10,7 +10,7 @@ from gearcad.geometry import Gear, GearPair
 from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.sizing import Amount, body_sizes, factor_for
-from gearcad.meshing.bodies.tetrahedron_sizes import TetrahedronGrading
+from gearcad.meshing.bodies.tetrahedron_sizes import FILLET_ANGLE, TetrahedronGrading
 from gearcad.meshing.gear_plan import GearPlan, PartPlan, SectorsPlan
 from gearcad.meshing.options import AUTO, Extent, MeshOptions, What
 from gearcad.meshing.section.inner import inner_radius
@@ -21,9 +21,6 @@ __all__ = ["MeshPlan", "plan_mesh"]
 
 _PART_SIZE = 0.5
 """Usual edge of tetrahedra on teeth, in normal modules."""
-
-_FILLET_ARC = 30.0
-"""Degrees over which elements of a fillet are counted."""
 
 _BESIDE = 1
 """Teeth meshed on each side of those that carry."""
@@ -126,7 +123,7 @@ def _planned(gear: Gear, options: MeshOptions, extent: Extent, element: Element)
     inner = 0.0 if not gear.body.bore and teeth is None else inner_radius(gear)
     sizes = body_sizes(gear, options.size)
     if fillet is not None:
-        sizes = replace(sizes, fillet_turn=_FILLET_ARC / fillet)
+        sizes = replace(sizes, fillet_turn=FILLET_ANGLE / fillet)
     return SectorsPlan(gear=gear, element=element, teeth=teeth, inner_radius=inner, sizes=sizes)
 
 

@@ -17,9 +17,9 @@ from gearcad.meshing.bodies.gear_faces import GearFace
 from gearcad.meshing.section.edge_lengths import bent_lengths
 from gearcad.meshing.section.outline import EdgeLength, MeshSizes
 
-__all__ = ["TetrahedronGrading", "edge_lengths", "expected_tetrahedra"]
+__all__ = ["FILLET_ANGLE", "TetrahedronGrading", "edge_lengths", "expected_tetrahedra"]
 
-_FILLET_ANGLE = 30.0
+FILLET_ANGLE = 30.0
 """Standards of stress in fillets count elements over so much of an arc (deg)."""
 
 _PLACES = 1025
@@ -95,7 +95,7 @@ def _along_flanks(gear: Gear, size: float, grading: TetrahedronGrading) -> dict[
     """Lengths on what flanks are swept from, as sections have them: at most `size` (mm), less where they bend."""
     module, cosine = gear.normal_module, math.cos(math.radians(gear.helix_angle))
     plain = dict.fromkeys(("flank", "corner", "fillet", "outline", "cut", "rim"), size / module)
-    turn = _FILLET_ANGLE * cosine**2 / grading.fillet_elements  # in the section normal to the helix fillets bend the more
+    turn = FILLET_ANGLE * cosine**2 / grading.fillet_elements  # in the section normal to the helix fillets bend the more
     off = None if grading.deviation is None else grading.deviation / 1000 / module
     sizes = MeshSizes(**plain, growth=grading.growth, fillet_turn=turn, deviation=off)
     lengths = bent_lengths(gear, sizes).curves
