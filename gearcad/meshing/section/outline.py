@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from enum import Enum
@@ -82,7 +83,7 @@ class Side(Enum):
     BEHIND = "cut at minus half a pitch"
 
 
-class SectorSides:
+class SectorSides(ABC):
     """A sector's mesh: `points` (n, 2) in mm, vertices first, `sides` its nodes by the sides of its outline.
 
     These are in order along it: end, middle, end, middle ... end.
@@ -92,9 +93,9 @@ class SectorSides:
     sides: Mapping[Side, Wholes]
 
     @property
+    @abstractmethod
     def cells(self) -> Wholes:
         """Nodes of every element: its vertices counter-clockwise, then those between them."""
-        raise NotImplementedError
 
     @property
     def ahead(self) -> Wholes:
