@@ -68,16 +68,27 @@ class Range(NamedTuple):
 
 
 class Whole(NamedTuple):
-    """The least and most that a whole number can be; one that `may_vanish` is 0 or from `least` on."""
+    """The least and most that a whole number can be; one that `may_vanish` is 0 or from `least` on.
+
+    With `negative` it may be from minus `most` to that too, which stands for something else.
+    """
 
     least: int
     most: int
     may_vanish: bool = False
+    negative: tuple[int, str] | None = None
 
     def require(self, parameter: str, value: Any) -> None:
         """Raise ParameterError unless `value` is a whole number inside."""
-        if not (self.may_vanish and value == 0):
-            require_whole(parameter, value, at_least=self.least, at_most=self.most)
+        if self.may_vanish and value == 0:
+            return
+        if self.negative and is_finite_number(value) and value < 0:
+            highest, meaning = self.negative
+            if not isinstance(value, int) or not -self.most <= value <= highest:
+                also = f"or from {-self.most} to {highest} ({meaning})"
+                raise ParameterError(parameter, value, f"must be a whole number from {self.least} to {self.most}, {also}")
+            return
+        require_whole(parameter, value, at_least=self.least, at_most=self.most)
 
 
 class Choice(NamedTuple):

@@ -90,8 +90,9 @@ _GEAR = dict(_flat(Gear))
 _PAIR = schema_of(GearPair)
 
 _PLAIN_SHARED = ("normal_module", "helix_angle", "face_width", "tip_alteration", "tooth_thinning")
-SHARED = (*_PLAIN_SHARED, *(key for key in _GEAR if key.partition(".")[0] in PARTS))
-"""Keys of a gear that may stand in [pair] for both; the helix angle there is the pinion's."""
+_OF_ONE = ("cutter",)
+SHARED = (*_PLAIN_SHARED, *(key for key in _GEAR if (part := key.partition(".")[0]) in PARTS and part not in _OF_ONE))
+"""Keys of a gear that may stand in [pair] for both; the helix angle there is the pinion's, and no cutter makes both."""
 
 FIELDS: dict[str, dict[str, FieldSchema]] = {
     "gear": _GEAR,

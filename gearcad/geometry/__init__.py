@@ -1,8 +1,10 @@
 """Exact geometry of cylindrical gears: numpy, and scipy inside functions. Lengths in mm, angles in degrees."""
 
 from gearcad.geometry.body import Body, HubSide
+from gearcad.geometry.cutter import ShaperCutter
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.inspection import Inspection
+from gearcad.geometry.internal_profile import InternalProfile
 from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.geometry.modification import FlankForm, FlankModification, ReliefShape
 from gearcad.geometry.pair import GearPair
@@ -37,9 +39,11 @@ __all__ = [
     "GearPair",
     "HubSide",
     "Inspection",
+    "InternalProfile",
     "PathOfContact",
     "Pose",
     "ReliefShape",
+    "ShaperCutter",
     "ShiftSplit",
     "ToothProfile",
     "inverse_involute",

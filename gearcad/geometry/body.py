@@ -8,7 +8,7 @@ from typing import Annotated
 
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry.limits import at_most
-from gearcad.ranges import Range
+from gearcad.ranges import Range, Whole
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields, schema_of
 
@@ -37,6 +37,7 @@ class Body:
     `end_chamfer` is the axial length of the cone turned on both ends of the tip cylinder, `end_chamfer_angle` the angle
     between that cone and the gear axis, so that the radial depth is end_chamfer * tan(end_chamfer_angle).
     `tip_chamfer` is the radial height of the 45-degree chamfer along both tip edges of each tooth (transverse section).
+    A ring has no bore, hub or keyway; its `bolt_circle` (mm) has `bolt_holes` holes of `bolt_diameter`, the first on +x.
     `web_thickness` b_s and `rim_thickness` s_R (below the root circle) are those of a blank that is no solid disc: only the
     rating knows them (C_R, Y_B), the solid is a full disc.
     Raises ParameterError, or GeometryError for a keyway that does not fit its bore.
@@ -49,6 +50,9 @@ class Body:
     hub_length: Annotated[float, FEATURE, Words("hub length on each side")] = 0.0
     hub_side: Annotated[HubSide, Words("side of the hub")] = HubSide.FRONT
     rim_diameter: Annotated[float | None, Range("mm", 0, None, ends="(]"), Words("rim diameter (internal gears)")] = None
+    bolt_circle: Annotated[float, FEATURE, Words("bolt circle diameter (internal gears)")] = 0.0
+    bolt_holes: Annotated[int, Whole(1, 1000, may_vanish=True), Words("number of bolt holes (internal gears)")] = 0
+    bolt_diameter: Annotated[float, FEATURE, Words("diameter of the bolt holes (internal gears)")] = 0.0
     end_chamfer: Annotated[float, FEATURE, Words("end chamfer, axial length")] = 0.0
     end_chamfer_angle: Annotated[float, Range("deg", 5, 85), Words("end chamfer, angle to the axis")] = 45.0
     tip_chamfer: Annotated[float, FEATURE, Words("tip chamfer, radial height", "h_K", "6.1")] = 0.0
@@ -64,13 +68,17 @@ class Body:
                 raise ParameterError(name, value, f"must be 0 or at least {LEAST_FEATURE} mm", "mm")
         for pair in (("keyway_width", "keyway_depth"), ("hub_diameter", "hub_length"), ("web_thickness", "rim_thickness")):
             self._check_both(*pair)
+        for pair in (("bolt_circle", "bolt_holes"), ("bolt_holes", "bolt_diameter"), ("bolt_diameter", "bolt_circle")):
+            self._check_both(*pair)
         self._check_keyway()
 
     def _check_both(self, first: str, second: str) -> None:
         """Two sizes of one feature: neither stands alone."""
         for one, other in ((first, second), (second, first)):
             if getattr(self, one) and not getattr(self, other):
-                raise GeometryError(other, getattr(self, other), f"must be above 0 mm, as {one} is given", "mm")
+                unit = "" if other == "bolt_holes" else "mm"
+                permitted = f"must be above 0{unit and f' {unit}'}, as {one} is given"
+                raise GeometryError(other, getattr(self, other), permitted, unit)
 
     def _check_keyway(self) -> None:
         if self.keyway_width and self.keyway_width > 0.9 * self.bore:

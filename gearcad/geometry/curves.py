@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
 from gearcad.geometry.involute import involute_at_roll
-from gearcad.geometry.trochoid import ToolTip
+from gearcad.geometry.trochoid import FilletTool
 
 __all__ = ["Chamfer", "Curve", "CurveKind", "Fillet", "Involute", "Land", "parameters_within"]
 
@@ -80,9 +80,9 @@ class Land(_Cartesian):
 
 @dataclass(frozen=True)
 class Fillet(_Cartesian):
-    """Trochoid cut by the tool tip up to theta = `last`; s is linear in arcsinh(tan theta), which spreads the bend."""
+    """What the tool tip cuts up to theta = `last`; s is linear in arcsinh(tan theta), which spreads the bend."""
 
-    tool: ToolTip
+    tool: FilletTool
     last: float
     half_pitch: float
     kind: CurveKind = CurveKind.FILLET
@@ -95,19 +95,21 @@ class Fillet(_Cartesian):
         return radius, self.half_pitch - angle
 
     def direction(self, s: ArrayLike) -> Floats:
-        theta = self.theta(s)
-        slope: Floats = np.arctan(np.tan(theta) * math.cos(self.tool.helix_angle))
-        return self.half_pitch + np.asarray(self.tool.roll(theta)) - np.pi / 2 + slope
+        return self.tool.direction(self.theta(s), self.half_pitch)
 
 
 @dataclass(frozen=True)
 class Involute(_Cartesian):
-    """Involute between two roll angles (rad); s is linear in the roll angle."""
+    """Involute between two roll angles (rad); s is linear in the roll angle.
+
+    On an `internal` tooth, whose tip is the end of the lesser roll, the half angle grows outwards.
+    """
 
     base_radius: float
     base_half_angle: float
     first: float
     last: float
+    internal: bool = False
     kind: CurveKind = CurveKind.INVOLUTE
 
     def roll(self, s: ArrayLike) -> Floats:
@@ -115,27 +117,36 @@ class Involute(_Cartesian):
 
     def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
         roll = self.roll(s)
-        return self.base_radius * np.hypot(1.0, roll), self.base_half_angle - involute_at_roll(roll)
+        turned = involute_at_roll(roll)
+        angle = self.base_half_angle + turned if self.internal else self.base_half_angle - turned
+        return self.base_radius * np.hypot(1.0, roll), angle
 
     def direction(self, s: ArrayLike) -> Floats:
+        if self.internal:
+            return self.base_half_angle + self.roll(s) - np.pi
         return self.base_half_angle - self.roll(s)
 
 
 @dataclass(frozen=True)
 class Chamfer(_Cartesian):
-    """Straight tip chamfer at 45 degrees to the radius through its lower end; `run` is its radial extent there (mm)."""
+    """Straight tip chamfer at 45 degrees to the radius through its end on the flank; `run` is its radial extent there (mm).
+
+    It runs outwards, or inwards on an `internal` tooth.
+    """
 
     radius: float
     angle: float
     run: float
+    internal: bool = False
     kind: CurveKind = CurveKind.CHAMFER
 
     def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
         run = np.asarray(s, float) * self.run
-        return np.hypot(self.radius + run, run), self.angle - np.arctan2(run, self.radius + run)
+        along = self.radius - run if self.internal else self.radius + run
+        return np.hypot(along, run), self.angle - np.arctan2(run, along)
 
     def direction(self, s: ArrayLike) -> Floats:
-        return np.full(np.shape(s), self.angle - np.pi / 4)
+        return np.full(np.shape(s), self.angle - (3 if self.internal else 1) * np.pi / 4)
 
 
 def parameters_within(curve: Curve, chord_error: float) -> Floats:

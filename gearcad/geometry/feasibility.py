@@ -9,11 +9,14 @@ import math
 
 from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.geometry.body import Body
+from gearcad.geometry.cutter import ShaperCutter
 from gearcad.geometry.derived import is_given
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.rack import BasicRack
+from gearcad.geometry.shaping import check_shaper
+from gearcad.geometry.tooling import shaped
 from gearcad.schema import require_fields
 
 __all__ = ["check_body", "check_numbers", "check_tool"]
@@ -34,9 +37,21 @@ def check_numbers(gear: GearData) -> None:
     require_fields(gear)
     if 0 < abs(gear.helix_angle) < LEAST_HELIX:
         raise ParameterError("helix_angle", gear.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
-    for part, kind in (("rack", BasicRack), ("body", Body), ("modification", FlankModification)):
+    parts: tuple[tuple[str, type], ...] = (
+        ("rack", BasicRack),
+        ("cutter", ShaperCutter),
+        ("body", Body),
+        ("modification", FlankModification),
+    )
+    for part, kind in parts:
         if not isinstance(getattr(gear, part), kind):
             raise ParameterError(part, getattr(gear, part), f"must be a {kind.__name__}")
+    for name in ("tip_diameter", "root_diameter"):
+        if is_given(given := getattr(gear, name)) and given * gear.teeth <= 0:
+            permitted = (
+                "must be a number below 0 mm, as teeth are (ISO 21771)" if gear.internal else "must be a number above 0 mm"
+            )
+            raise ParameterError(name, given, permitted, "mm")
     if gear.face_width < 0.01 * gear.normal_module:
         least = at_least(0.01 * gear.normal_module)
         raise GeometryError("face_width", gear.face_width, f"must be at least {least} mm (0.01 m_n)", "mm")
@@ -51,9 +66,13 @@ def check_numbers(gear: GearData) -> None:
 
 def check_tool(gear: GearData) -> None:
     """The tool must be able to exist: its tip radius fits between its flanks, and it leaves some tooth."""
+    _check_thickness(gear)
+    (check_shaper if shaped(gear) else _check_hob)(gear)
+
+
+def _check_thickness(gear: GearData) -> None:
+    """Some tooth on the reference circle, and some depth below it."""
     m, angle = gear.normal_module, gear.rack.pressure_angle
-    thinning = f"thinning {gear.tooth_thinning:g} mm" if gear.tooth_thinning else "no thinning"
-    terms = f"for dedendum {gear.dedendum:.6g}, pressure angle {angle:g} deg, {thinning}"
     least_shift = -math.pi / 4 / math.tan(math.radians(angle))
     if gear.profile_shift <= least_shift:
         raise GeometryError(
@@ -71,6 +90,13 @@ def check_tool(gear: GearData) -> None:
         raise GeometryError(
             "root_diameter", gear.root_diameter, f"must be below {at_most(limit)} mm (no tool depth left)", "mm"
         )
+
+
+def _check_hob(gear: GearData) -> None:
+    """The tip of a hob or rack: wide enough for its radius."""
+    m, angle = gear.normal_module, gear.rack.pressure_angle
+    thinning = f"thinning {gear.tooth_thinning:g} mm" if gear.tooth_thinning else "no thinning"
+    terms = f"for dedendum {gear.dedendum:.6g}, pressure angle {angle:g} deg, {thinning}"
     full = gear.rack.full_root_radius(gear.dedendum, gear.tooth_thinning / m)
     if full < 0:
         most = (math.pi / 4 + gear.tooth_thinning / m / 2) / math.tan(math.radians(angle))
@@ -88,9 +114,28 @@ def check_tool(gear: GearData) -> None:
 
 
 def check_body(gear: GearData) -> None:
-    """Bore, keyway and hub must leave a rim, the end chamfers some end face."""
-    if gear.body.rim_diameter is not None:
-        raise GeometryError("body.rim_diameter", gear.body.rim_diameter, "must be left out: it is for internal gears", "mm")
+    """Bore, keyway and hub must leave a rim, the end chamfers some end face; a ring must fit in its rim."""
+    (_check_ring if gear.internal else _check_disc)(gear)
+
+
+def _check_ring(gear: GearData) -> None:
+    """What is outside the teeth of a ring."""
+    body, wall = gear.body, LEAST_RIM * gear.normal_module
+    for name in ("bore", "keyway_width", "hub_diameter"):
+        if getattr(body, name):
+            raise GeometryError(f"body.{name}", getattr(body, name), "must be left out: it is for external gears", "mm")
+    root = abs(gear.root_diameter)
+    least = root + 2 * wall
+    if body.rim_diameter is not None and body.rim_diameter < least:
+        permitted = f"must be at least {at_least(least)} mm (a rim of {LEAST_RIM} m_n outside the root circle {root:.6g} mm)"
+        raise GeometryError("body.rim_diameter", body.rim_diameter, permitted, "mm")
+
+
+def _check_disc(gear: GearData) -> None:
+    """What is inside the teeth of an external gear."""
+    for name in ("rim_diameter", "bolt_circle"):
+        if getattr(gear.body, name):
+            raise GeometryError(f"body.{name}", getattr(gear.body, name), "must be left out: it is for internal gears", "mm")
     body, wall = gear.body, LEAST_RIM * gear.normal_module
     root = gear.root_diameter - 2 * wall
     rim = f"a rim of {LEAST_RIM} m_n inside the root circle {gear.root_diameter:.6g} mm"

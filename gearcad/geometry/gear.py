@@ -1,4 +1,4 @@
-"""Gear: one external cylindrical gear, and everything that follows from what was given (ISO 21771)."""
+"""Gear: one cylindrical gear, external or internal, and everything that follows from what was given (ISO 21771)."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from gearcad.geometry.derived import derive
 from gearcad.geometry.feasibility import check_body, check_numbers, check_tool
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.inspection import Inspection
+from gearcad.geometry.internal_profile import InternalProfile
 from gearcad.geometry.modification import FlankForm, check_flanks
 from gearcad.geometry.picture import gear_html
 from gearcad.geometry.profile import ToothProfile, base_half_angle
-from gearcad.geometry.trochoid import ToolTip
+from gearcad.geometry.tooling import fillet_tool
 from gearcad.notice import Notice, texts
 from gearcad.reprs import concise
 
@@ -36,12 +37,15 @@ _DERIVED = (
 
 @dataclass(frozen=True, kw_only=True)
 class Gear(GearData):
-    """One external spur or helical gear. Lengths in mm, angles in degrees.
+    """One spur or helical gear, external or internal (z < 0). Lengths in mm, angles in degrees.
 
     `helix_angle` is signed: right hand positive. `profile_shift` x and `tip_alteration` k are coefficients of the
     normal module; `tooth_thinning` is the reduction of the normal tooth thickness (mm). `tip_diameter` and
     `root_diameter` may be given, else they are derived, and read as numbers either way (see `Derived`): a given tip
     circle wins over k, a given root circle prescribes the depth of the tool, which then follows from the gear.
+    An internal gear has the signs of ISO 21771: teeth and all diameters are negative, and x > 0 makes its teeth thicker (KHK
+    and others give x the opposite sign); its `profile` and everything along a flank are magnitudes. `cutter` is the shaper
+    cutter that makes its roots, else they are form roots.
     `modification` of the flanks leaves all of that as it is: diameters and thicknesses are those of the exact involute.
     Raises ParameterError for one value out of range, GeometryError for a combination that makes no gear.
     """
@@ -68,38 +72,37 @@ class Gear(GearData):
     @cached_property
     def profile(self) -> ToothProfile:
         """The exact outline of one tooth."""
-        m, helix = self.normal_module, math.radians(self.helix_angle)
-        shift = self.profile_shift * m
-        tool = ToolTip.cutting(
-            normal_module=m,
-            pressure_angle=math.radians(self.rack.pressure_angle),
-            helix_angle=helix,
-            reference_radius=self.reference_diameter / 2,
-            depth=self.dedendum * m - shift,
-            shift=shift,
-            radius=self.root_radius * m,
-            thinning=self.tooth_thinning,
-        )
-        return ToothProfile(
-            teeth=self.teeth,
-            reference_diameter=self.reference_diameter,
-            base_diameter=self.base_diameter,
-            tip_diameter=self.tip_diameter,
-            root_diameter=self.root_diameter,
-            base_half_angle=base_half_angle(self.teeth, self.normal_tooth_thickness, m, self.transverse_pressure_angle),
-            tool=tool,
+        kind = InternalProfile if self.internal else ToothProfile
+        return kind(
+            teeth=self.tooth_count,
+            reference_diameter=abs(self.reference_diameter),
+            base_diameter=abs(self.base_diameter),
+            tip_diameter=abs(self.tip_diameter),
+            root_diameter=abs(self.root_diameter),
+            base_half_angle=self.base_half_angle * self._side,
+            tool=fillet_tool(self),
             tip_chamfer=self.body.tip_chamfer,
         )
 
     @property
+    def _side(self) -> int:
+        """The sign of its diameters."""
+        return -1 if self.internal else 1
+
+    @property
+    def base_half_angle(self) -> float:
+        """Half tooth angle on the base circle in degrees, signed like the diameters: s_n/(m_n z) + inv alpha_t (ISO 21771)."""
+        return base_half_angle(self.teeth, self.normal_tooth_thickness, self.normal_module, self.transverse_pressure_angle)
+
+    @property
     def tip_form_diameter(self) -> float:
         """d_Fa: the tip circle less the tip chamfers."""
-        return self.profile.tip_form_diameter
+        return self._side * self.profile.tip_form_diameter
 
     @property
     def form_diameter(self) -> float:
         """Root form circle d_Ff, where the involute begins."""
-        return self.profile.form_diameter
+        return self._side * self.profile.form_diameter
 
     @cached_property
     def flank_form(self) -> FlankForm:
@@ -132,7 +135,7 @@ class Gear(GearData):
             base_helix_angle=self.base_helix_angle,
             base_diameter=self.base_diameter,
             normal_tooth_thickness=self.normal_tooth_thickness,
-            base_half_angle=self.profile.base_half_angle,
+            base_half_angle=self.base_half_angle,
             middle_diameter=min(max(middle, self.form_diameter), self.tip_form_diameter),
             addendum=(self.tip_diameter - self.reference_diameter) / 2,
             lead=self.lead,
@@ -201,12 +204,15 @@ class Gear(GearData):
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
-        inputs = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("rack", "body", "modification")}
+        inputs = {
+            f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("rack", "cutter", "body", "modification")
+        }
         rack = {f.name: getattr(self.rack, f.name) for f in fields(self.rack)}
         body = {f.name: getattr(self.body, f.name) for f in fields(self.body)} | {"hub_side": self.body.hub_side.value}
+        cutter = {f.name: getattr(self.cutter, f.name) for f in fields(self.cutter)}
         modification = self.modification.to_dict()
         derived = {name: getattr(self, name) for name in _DERIVED}
         if math.isinf(self.lead):
             derived["lead"] = None
         warnings = {"warnings": list(self.warnings), "notices": [notice.to_dict() for notice in self.notices]}
-        return {**inputs, "rack": rack, "body": body, "modification": modification, **derived, **warnings}
+        return {**inputs, "rack": rack, "cutter": cutter, "body": body, "modification": modification, **derived, **warnings}

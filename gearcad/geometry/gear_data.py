@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Annotated
 
 from gearcad.geometry.body import Body
+from gearcad.geometry.cutter import ShaperCutter
 from gearcad.geometry.derived import NOT_GIVEN, is_given
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.rack import ISO53_A, BasicRack
@@ -19,16 +20,21 @@ __all__ = ["GearData"]
 
 _COEFFICIENT = Range("", -5, 5)
 
-_DIAMETER = Range("mm", 0, 2e6, ends="(]")
-"""Of circles that are given: no permitted teeth and module make a larger gear."""
+_TEETH = Whole(3, 2000, negative=(-10, "internal gear"))
+
+_DIAMETER = Range("mm", -2e6, 2e6)
+"""Of circles that are given, negative on a ring: no permitted teeth and module make a larger gear."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class GearData:
-    """The fields of a `Gear`, unchecked, and sizes that need no outline of a tooth. Lengths in mm, angles in degrees."""
+    """The fields of a `Gear`, unchecked, and sizes that need no outline of a tooth. Lengths in mm, angles in degrees.
+
+    Those of an internal gear have the signs of ISO 21771: teeth and diameters are negative.
+    """
 
     name: Annotated[str, Words("name")] = "gear"
-    teeth: Annotated[int, Whole(3, 2000), Words("number of teeth", "z", "4.1")]
+    teeth: Annotated[int, _TEETH, Words("number of teeth", "z", "4.1")]
     normal_module: Annotated[float, Range("mm", 0.01, 200), Words("normal module", "m_n", "4.2")]
     face_width: Annotated[float, Range("mm", 0, 10000, ends="(]"), Words("face width", "b", "4.1")]
     helix_angle: Annotated[float, Range("deg", -75, 75), Words("helix angle (right hand +)", "β", "4.2")] = 0.0
@@ -36,10 +42,21 @@ class GearData:
     tip_alteration: Annotated[float, _COEFFICIENT, Words("tip alteration coefficient", "k", "4.5")] = 0.0
     tooth_thinning: Annotated[float, Range("mm", 0, None), Words("tooth thinning (normal)", "A_sn", "7.3")] = 0.0
     rack: BasicRack = field(default=ISO53_A)
+    cutter: ShaperCutter = field(default=ShaperCutter())
     body: Body = field(default=Body())
     modification: FlankModification = field(default=FlankModification())
     tip_diameter: Annotated[float, _DIAMETER, Words("tip diameter", "d_a", "4.5")] = NOT_GIVEN
     root_diameter: Annotated[float, _DIAMETER, Words("root diameter", "d_f", "4.5")] = NOT_GIVEN
+
+    @property
+    def internal(self) -> bool:
+        """Whether it is an internal gear (a ring): z < 0."""
+        return self.teeth < 0
+
+    @property
+    def tooth_count(self) -> int:
+        """|z|."""
+        return abs(self.teeth)
 
     @property
     def standard_tip_diameter(self) -> float:
@@ -61,7 +78,7 @@ class GearData:
 
     @property
     def root_radius(self) -> float:
-        """Tip radius of the tool in normal modules, with "full" resolved for this gear."""
+        """Tip radius of a hob in normal modules, with "full" resolved for this gear."""
         if self.rack.root_radius == "full":
             return self.rack.full_root_radius(self.dedendum, self.tooth_thinning / self.normal_module)
         return float(self.rack.root_radius)
@@ -119,7 +136,7 @@ class GearData:
         """Lead p_z = pi d / tan |beta|; infinite for a spur gear."""
         if self.helix_angle == 0:
             return math.inf
-        return math.pi * self.reference_diameter / math.tan(math.radians(abs(self.helix_angle)))
+        return math.pi * abs(self.reference_diameter) / math.tan(math.radians(abs(self.helix_angle)))
 
     @property
     def twist(self) -> float:

@@ -14,4 +14,4 @@ def twist(gear: GearData, height: float = 1.0) -> float:
 
     That of 1 mm is the twist rate (rad/mm).
     """
-    return height * math.tan(math.radians(gear.helix_angle)) / (gear.reference_diameter / 2)
+    return height * math.tan(math.radians(gear.helix_angle)) / (abs(gear.reference_diameter) / 2)

@@ -5,8 +5,12 @@ Raises ParameterError or GeometryError, whose limits can be used as they are pri
 
 from __future__ import annotations
 
+import math
+
 from gearcad.errors import GeometryError, ParameterError, format_number, require_name
+from gearcad.geometry.derived import is_given
 from gearcad.geometry.gear import Gear
+from gearcad.geometry.involute import tangent_length
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.pair_data import PairData
 from gearcad.geometry.path import farthest_centre_distance
@@ -27,20 +31,28 @@ def check_inputs(pair: PairData) -> None:
         if not isinstance(gear, Gear):
             raise ParameterError(role.value, gear, "must be a Gear")
     require_fields(pair)
+    if is_given(distance := pair.centre_distance) and distance * (pair.pinion.teeth + pair.wheel.teeth) <= 0:
+        permitted = "must be a number below 0 mm with a ring (ISO 21771)" if pair.internal else "must be a number above 0 mm"
+        raise ParameterError("centre_distance", distance, permitted, "mm")
     require_name("name", pair.name)
 
 
 def check_mates(pair: PairData) -> None:
     """Module, pressure angle and helix angle belong together, and the gears face each other."""
     pinion, wheel = pair.gears
+    if pinion.internal:
+        raise GeometryError("pinion.teeth", pinion.teeth, "must be above 0: of an internal pair the ring is the wheel")
+    if wheel.internal and wheel.tooth_count <= pinion.teeth:
+        raise GeometryError("wheel.teeth", wheel.teeth, f"must be below {-pinion.teeth}: the pinion stands inside the ring")
     for name, unit, one, other in (
         ("normal_module", "mm", pinion.normal_module, wheel.normal_module),
         ("rack.pressure_angle", "deg", pinion.rack.pressure_angle, wheel.rack.pressure_angle),
     ):
         if abs(one - other) > _SAME:
             raise GeometryError(f"wheel.{name}", other, f"must be {format_number(one)} {unit}, as on the pinion", unit)
-    if abs(pinion.helix_angle + wheel.helix_angle) > _SAME:
-        permitted = f"must be {format_number(-pinion.helix_angle)} deg, opposite to the pinion"
+    hand, words = (1, "as on the pinion of an internal pair") if wheel.internal else (-1, "opposite to the pinion")
+    if abs(wheel.helix_angle - hand * pinion.helix_angle) > _SAME:
+        permitted = f"must be {format_number(hand * pinion.helix_angle)} deg, {words}"
         raise GeometryError("wheel.helix_angle", wheel.helix_angle, permitted, "deg")
     if pair.common_width.width <= 0:
         most = at_most((pinion.face_width + wheel.face_width) / 2)
@@ -51,19 +63,26 @@ def check_mates(pair: PairData) -> None:
 def check_shift_sum(pair: PairData) -> None:
     """Some centre distance must mesh without backlash, where none is given."""
     pinion, wheel = pair.gears
-    least = shift_sum_limit(
+    limit = shift_sum_limit(
         teeth=pair.gears.map(lambda gear: gear.teeth),
         helix_angle=pinion.helix_angle,
         pressure_angle=pinion.rack.pressure_angle,
     )
-    if pair.profile_shift_sum <= least:
-        permitted = f"must be above {at_least(least - pinion.profile_shift)}: no centre distance meshes without backlash"
+    if (pair.profile_shift_sum - limit) * (-1 if pair.internal else 1) <= 0:
+        most = limit - pinion.profile_shift
+        side = f"below {at_most(most)}" if pair.internal else f"above {at_least(most)}"
+        permitted = f"must be {side}: no centre distance meshes without backlash"
         raise GeometryError("wheel.profile_shift", wheel.profile_shift, permitted)
 
 
 def check_centre_distance(pair: PairData) -> None:
     """Beyond that of the base circles."""
     least = (pair.pinion.base_diameter + pair.wheel.base_diameter) / 2
+    if pair.internal:
+        if pair.centre_distance >= least:
+            permitted = f"must be below {at_most(least)} mm, where the base circles touch"
+            raise GeometryError("centre_distance", pair.centre_distance, permitted, "mm")
+        return
     if pair.centre_distance <= least:
         permitted = f"must be above {at_least(least)} mm, where the base circles touch"
         raise GeometryError("centre_distance", pair.centre_distance, permitted, "mm")
@@ -77,10 +96,22 @@ def check_teeth(pair: PairData) -> None:
             tip = pair.gears.pick(role).tip_diameter
             permitted = f"must be below {tip + 2 * clearance:.6f} mm: the tip reaches the {role.mate.value}'s root circle"
             raise GeometryError(f"{role.value}.tip_diameter", tip, permitted, "mm")
+    if pair.internal:
+        _check_path(pair)
+        return
     farthest = farthest_centre_distance(
         pair.gears.map(lambda gear: gear.base_diameter), pair.gears.map(lambda gear: gear.tip_form_diameter)
     )
     if pair.centre_distance >= farthest:
+        permitted = f"must be below {at_most(farthest)} mm, where the tips reach each other's flanks"
+        raise GeometryError("centre_distance", pair.centre_distance, permitted, "mm")
+
+
+def _check_path(pair: PairData) -> None:
+    """Some path of contact in a ring: E beyond A, T1T2 < t_a1 + t_a2."""
+    reach = sum(tangent_length(gear.tip_form_diameter, gear.base_diameter) for gear in pair.gears)
+    bases = sum(gear.base_diameter for gear in pair.gears) / 2
+    if reach < 0 and pair.centre_distance >= (farthest := -math.hypot(bases, reach)):
         permitted = f"must be below {at_most(farthest)} mm, where the tips reach each other's flanks"
         raise GeometryError("centre_distance", pair.centre_distance, permitted, "mm")
 

@@ -138,6 +138,7 @@ class FlankModification:
 class FlankForm:
     """The modified flanks of a gear: roll lengths from `first` to `last` and heights from 0 to `width`, all in mm.
 
+    Roll lengths of a ring are negative, as its radii of curvature are (ISO 21771): they too grow from root to tip.
     `hand` is 1 for a right-hand helix and spur gears, -1 for a left-hand one.
     """
 
@@ -151,8 +152,8 @@ class FlankForm:
     @classmethod
     def of(cls, modification: FlankModification, profile: ToothProfile, face_width: float, helix_angle: float) -> FlankForm:
         """That of teeth of this profile; face width in mm, helix angle in degrees."""
-        base = profile.base_diameter
-        first, last = tangent_length(profile.form_diameter, base), tangent_length(profile.tip_form_diameter, base)
+        base, side = profile.base_diameter, -1 if profile.internal else 1
+        first, last = (side * tangent_length(end, base) for end in (profile.form_diameter, profile.tip_form_diameter))
         return cls(modification, first, last, face_width, base / 2, -1 if helix_angle < 0 else 1)
 
     def depth(self, lengths: ArrayLike, heights: ArrayLike, *, left: bool = True) -> Floats:
@@ -179,7 +180,8 @@ class FlankForm:
     def turn(self, lengths: ArrayLike, heights: ArrayLike, *, left: bool = True) -> Floats:
         """Angle (rad), counter-clockwise, by which the flank's point at a roll length and height is turned: depth/r_b.
 
-        Taking material off turns the left flank clockwise and the right one counter-clockwise.
+        Taking material off turns the left flank clockwise and the right one counter-clockwise. The left one is that with
+        y > 0 of a tooth on +x.
         """
         return self.depth(lengths, heights, left=left) / self.base_radius * (-1 if left else 1)
 

@@ -1,4 +1,4 @@
-"""GearPair: two external gears on parallel axes, and how they mesh (ISO 21771)."""
+"""GearPair: two gears on parallel axes, the wheel external or a ring, and how they mesh (ISO 21771)."""
 
 from __future__ import annotations
 
@@ -166,9 +166,9 @@ class GearPair(PairData):
         for role, gear in self.gears.items():
             active, owner, other = self.active_root_diameters.pick(role), role.value, role.mate.value
             form = f"its root form circle {gear.form_diameter:.4f} mm"
-            if gear.form_diameter > active:
+            if abs(gear.form_diameter) > abs(active) and not self.internal:
                 text = f"the {other}'s tip reaches diameter {active:.4f} mm of the {owner}, below {form}"
-            elif cut := self._fillet_cut(role):
+            elif not self.internal and (cut := self._fillet_cut(role)):
                 at = f"diameter {cut.diameter:.4f} mm, below {form}"
                 text = f"the edge of the {other}'s tip cuts {cut.depth:.2g} mm into the {owner}'s fillet at {at}"
             else:

@@ -18,7 +18,7 @@ from gearcad.schema import Words
 __all__ = ["CommonWidth", "PairData"]
 
 
-_DISTANCE = Range("mm", 0, None, ends="(]")
+_DISTANCE = Range("mm", None, None)
 
 
 class CommonWidth(NamedTuple):
@@ -30,7 +30,10 @@ class CommonWidth(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class PairData:
-    """The fields of a `GearPair`, unchecked, and what needs no path of contact. Lengths in mm, angles in degrees."""
+    """The fields of a `GearPair`, unchecked, and what needs no path of contact. Lengths in mm, angles in degrees.
+
+    With a ring as the wheel gear ratio, centre distance and the wheel's pitch diameter are negative (ISO 21771).
+    """
 
     pinion: Gear
     wheel: Gear
@@ -42,6 +45,11 @@ class PairData:
     def gears(self) -> PerGear[Gear]:
         """Pinion and wheel."""
         return PerGear(self.pinion, self.wheel)
+
+    @property
+    def internal(self) -> bool:
+        """Whether the wheel is a ring."""
+        return self.wheel.internal
 
     # ------------------------------------------------------------------ working data
 
@@ -122,7 +130,7 @@ class PairData:
         working = involute(self.working_transverse_pressure_angle)
         gap = 2 * math.pi / self.pinion.teeth
         for gear, turn in ((self.pinion, 1.0), (self.wheel, self.gear_ratio)):
-            gap -= 2 * turn * (math.radians(gear.profile.base_half_angle) - working)
+            gap -= 2 * turn * (math.radians(gear.base_half_angle) - working)
         return gap * self.working_pitch_diameters.pinion / 2
 
     @property

@@ -22,6 +22,9 @@ class Pose(NamedTuple):
 
 
 def wheel_pose(*, teeth: PerGear[int], centre_distance: float, z: float, turn: float) -> Pose:
-    """Pose of a wheel that begins at height `z` (mm), where the pinion's section is turned by `turn` (degrees)."""
-    facing = 0.0 if teeth.wheel % 2 else 180 / teeth.wheel
+    """Pose of a wheel that begins at height `z` (mm), where the pinion's section is turned by `turn` (degrees).
+
+    A ring stands at minus x: like the pinion's, the teeth of it that mesh are on its side of +x.
+    """
+    facing = 0.0 if teeth.wheel > 0 and teeth.wheel % 2 else 180 / abs(teeth.wheel)
     return Pose(facing - turn / (teeth.wheel / teeth.pinion), centre_distance, z)

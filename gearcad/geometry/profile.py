@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,25 +15,24 @@ from gearcad.errors import GeometryError, ParameterError, require_number
 from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Fillet, Involute, Land, parameters_within
 from gearcad.geometry.involute import inverse_involute, involute, involute_at_roll
 from gearcad.geometry.limits import at_least, at_most
-from gearcad.geometry.trochoid import ToolTip
+from gearcad.geometry.trochoid import FilletTool
 
-__all__ = ["ToothProfile"]
-
+__all__ = ["LEAST_LAND", "RADIUS_SLACK", "ToothProfile", "base_half_angle"]
 
 LEAST_LAND = 4e-6
 """Arcs shorter than this (mm) are left out: they are below the tolerance of a solid (and of any machine)."""
 
-_SLACK = 1e-9
+RADIUS_SLACK = 1e-9
 """Relative excess of a radius over the tip or under the root that counts as rounding."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ToothProfile:
-    """Exact transverse outline of one external tooth: root land, trochoid, involute, tip chamfer, tip land.
+    """Exact transverse outline of one external tooth: root land, fillet, involute, tip chamfer, tip land.
 
     Tooth 0 is centred on +x. `teeth` is any number for the virtual gear of a helical one. Diameters in mm, `base_half_angle`
-    (half tooth angle on the base circle) in degrees, `tool` the tip of the hob, `tip_chamfer` its radial height in mm.
-    Normally obtained as `gear.profile`.
+    (half tooth angle on the base circle) in degrees, `tool` the tip of hob or shaper, `tip_chamfer` its radial height in mm.
+    That of a ring is an `InternalProfile`, whose numbers are magnitudes too. Normally obtained as `gear.profile`.
     Raises GeometryError where these make no tooth: pointed, cut off by undercut, or with no involute left.
     """
 
@@ -43,8 +42,11 @@ class ToothProfile:
     tip_diameter: float
     root_diameter: float
     base_half_angle: float
-    tool: ToolTip
+    tool: FilletTool
     tip_chamfer: float = 0.0
+
+    internal: ClassVar[bool] = False
+    """Whether the tip is inside the root."""
 
     def __repr__(self) -> str:
         return f"<ToothProfile: {self.teeth:.6g} teeth, diameters {self.root_diameter:.6g} to {self.tip_diameter:.6g} mm>"
@@ -114,17 +116,15 @@ class ToothProfile:
 
     @cached_property
     def undercut(self) -> bool:
-        """True if the tool's tip cuts away part of the involute: h > r sin^2 alpha_t."""
-        return self.tool.flank_depth > self.reference_diameter / 2 * self._sin_transverse_angle**2
+        """True if the tool's tip cuts away part of the involute."""
+        return self.tool.undercuts(self.base_diameter / 2, self._sin_transverse_angle)
 
     @cached_property
     def form_diameter(self) -> float:
         """Root form circle d_Ff (mm), where involute and trochoid meet (ISO 21771)."""
         if self.undercut:
             return 2 * float(self.tool.cut(self._last_theta)[0])
-        sine = self._sin_transverse_angle
-        roll_length = self.reference_diameter / 2 * sine - self.tool.flank_depth / sine
-        return 2 * math.hypot(self.base_diameter / 2, roll_length)
+        return 2 * self.tool.form_radius(self.base_diameter / 2, self._sin_transverse_angle)
 
     @property
     def tip_form_diameter(self) -> float:
@@ -243,7 +243,7 @@ class ToothProfile:
         """
         given = np.asarray(radius, float)
         root, tip = self.root_diameter / 2, self.tip_diameter / 2
-        outside = ~((given >= root * (1 - _SLACK)) & (given <= tip * (1 + _SLACK)))
+        outside = ~((given >= root * (1 - RADIUS_SLACK)) & (given <= tip * (1 + RADIUS_SLACK)))
         if np.any(outside):
             worst = float(given[outside].flat[0])
             raise ParameterError("radius", worst, f"must be from {root:.10g} to {tip:.10g} mm (root to tip circle)", "mm")

@@ -10,12 +10,34 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["ToolTip"]
+__all__ = ["FilletTool", "ToolTip"]
+
+
+class FilletTool(Protocol):
+    """The rounded tip of what cuts the fillets of a gear, from theta = 0 on the root circle to `last_angle` at the flank."""
+
+    @property
+    def last_angle(self) -> float: ...
+
+    def cut(self, theta: ArrayLike) -> tuple[Any, Any]:
+        """Points that the tip cuts: radius (mm) and angle from the middle of the tooth space (rad)."""
+
+    def direction(self, theta: ArrayLike, half_pitch: float) -> NDArray[np.float64]:
+        """Direction of travel from root to tip (rad), on the flank y > 0 of a tooth on +x."""
+
+    def theta_at(self, radius: ArrayLike, last: float) -> NDArray[np.float64]:
+        """theta in [0, last] that cuts at a radius (mm), to machine precision."""
+
+    def undercuts(self, base_radius: float, sine: float) -> bool:
+        """Whether part of the involute is cut away; base radius in mm, `sine` of the transverse pressure angle."""
+
+    def form_radius(self, base_radius: float, sine: float) -> float:
+        """Radius (mm) of the root form circle where nothing is undercut."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,6 +113,21 @@ class ToolTip:
         across = -eta * np.tan(theta) * math.cos(self.helix_angle)
         along = self.reference_radius + eta
         return np.hypot(across, along), np.arctan2(across, along) - self.roll(theta)
+
+    def direction(self, theta: ArrayLike, half_pitch: float) -> NDArray[np.float64]:
+        """Direction of travel from root to tip (rad), on the flank y > 0 of a tooth on +x."""
+        theta = np.asarray(theta, float)
+        slope: NDArray[np.float64] = np.arctan(np.tan(theta) * math.cos(self.helix_angle))
+        return half_pitch + np.asarray(self.roll(theta)) - np.pi / 2 + slope
+
+    def undercuts(self, base_radius: float, sine: float) -> bool:
+        """True if the tip cuts away part of the involute: h > r sin^2 alpha_t; `sine` of the transverse pressure angle."""
+        return self.flank_depth > self.reference_radius * sine**2
+
+    def form_radius(self, base_radius: float, sine: float) -> float:
+        """Radius (mm) of the root form circle where nothing is undercut; base radius in mm, `sine` of alpha_t."""
+        roll_length = self.reference_radius * sine - self.flank_depth / sine
+        return math.hypot(base_radius, roll_length)
 
     def theta_at(self, radius: ArrayLike, last: float) -> NDArray[np.float64]:
         """Inverse of `cut`: theta in [0, last] that cuts at `radius` (mm), to machine precision.

@@ -65,7 +65,7 @@ def flank_curves(gear: Gear) -> list[FlankCurve]:
         elif isinstance(curve, Involute):
             breaks = form.roll_breaks if gear.modification.present else ()
             lengths = [form.first, *breaks, form.last]
-            rolls = [curve.first, *(length / curve.base_radius for length in breaks), curve.last]
+            rolls = [curve.first, *(abs(length) / curve.base_radius for length in breaks), curve.last]
             pieces = [replace(curve, first=first, last=last) for first, last in pairwise(rolls)]
             found += [FlankCurve(piece, *ends) for piece, ends in zip(pieces, pairwise(lengths), strict=True)]
     return found
@@ -79,8 +79,8 @@ def _root_land_stays(gear: Gear) -> bool:
     form = gear.flank_form
     z = np.union1d(np.linspace(0.0, gear.face_width, _HEIGHTS), form.height_breaks)
     right, left = (form.turn(form.first, z, left=side) for side in (False, True))
-    width = 2 * (math.pi / gear.teeth - float(land.polar(1.0)[1])) + right - left
-    return float(width.min()) * gear.root_diameter / 2 >= LEAST_LAND
+    width = 2 * (math.pi / gear.tooth_count - float(land.polar(1.0)[1])) + right - left
+    return float(width.min()) * gear.profile.root_diameter / 2 >= LEAST_LAND
 
 
 # ---------------------------------------------------------------------- the section at mid face width

@@ -299,7 +299,8 @@ def test_a_cell_without_a_heading_is_a_fault_and_hides_the_rest_of_its_row() -> 
     assert faults_of("name,,teeth,normal_module,face_width\na,,20,2,18,3\nb,x,-1,2,10\nc,,-1,2,10,,\n") == [
         f"t.csv row 2 column F (a): '3': has no heading above it{comma}",
         f"t.csv row 3 column B (b): 'x': has no heading above it{comma}",
-        "t.csv row 4 column C (c): gear.teeth = -1: must be a whole number from 3 to 2000",
+        "t.csv row 4 column C (c): gear.teeth = -1: must be a whole number from 3 to 2000, "
+        "or from -2000 to -10 (internal gear)",
     ]
     assert faults_of("name\tteeth\n../a\t-1\tx\n") == ["t.csv row 2 column C (../a): 'x': has no heading above it"]
 

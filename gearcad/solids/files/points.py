@@ -60,7 +60,8 @@ def gear_points(gear: Gear, chord_error: float = 0.0005) -> list[PointBlock]:
     outline, the roll angle of the gear along the tool's path, else the half angle.
     """
     require_number("chord_error", chord_error, "mm", above=0)
-    return [*_tooth(gear, chord_error), *_tool(gear, chord_error)]
+    tool = gear.profile.tool
+    return [*_tooth(gear, chord_error), *(_tool(gear, tool, chord_error) if isinstance(tool, ToolTip) else ())]
 
 
 def _tooth(gear: Gear, chord_error: float) -> Iterator[PointBlock]:
@@ -98,12 +99,11 @@ def _tool_in_gear(tool: ToolTip, teeth: int, xi: ArrayLike, eta: ArrayLike, roll
     return np.stack([radius * np.cos(angle), radius * np.sin(angle)], -1)
 
 
-def _tool_outline(gear: Gear, chord_error: float) -> tuple[Floats, Floats, Floats]:
+def _tool_outline(gear: Gear, tool: ToolTip, chord_error: float) -> tuple[Floats, Floats, Floats]:
     """Half of the tool's tooth in the transverse section, towards tooth 0: theta (rad), xi and eta (mm), each (n,).
 
     From the middle of its tip over the tip arc (an ellipse there) and along the straight flank to the tip circle's line.
     """
-    tool = gear.profile.tool
     theta = np.zeros(1)
     if tool.radius:
         # An ellipse is a stretched circle, and so is the chord's distance from it.
@@ -119,10 +119,9 @@ def _tool_outline(gear: Gear, chord_error: float) -> tuple[Floats, Floats, Float
     return np.r_[0.0, theta], np.r_[0.0, xi], np.r_[eta[0], eta]
 
 
-def _tool(gear: Gear, chord_error: float) -> Iterator[PointBlock]:
-    tool = gear.profile.tool
+def _tool(gear: Gear, tool: ToolTip, chord_error: float) -> Iterator[PointBlock]:
     fillet = next(curve for curve in gear.profile.curves if isinstance(curve, Fillet))
-    theta, xi, eta = _tool_outline(gear, chord_error)
+    theta, xi, eta = _tool_outline(gear, tool, chord_error)
     whole = np.r_[-xi[:0:-1], xi], np.r_[eta[:0:-1], eta]
     yield PointBlock(
         "tool outline", np.degrees(np.r_[-theta[:0:-1], theta]), _tool_in_gear(tool, gear.teeth, whole[0], whole[1])

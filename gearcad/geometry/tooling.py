@@ -1,0 +1,99 @@
+"""Which tool cuts the teeth of a gear: the counterpart of its rack, a shaper cutter, or nothing but a fillet of its own.
+
+A tooth that is thinned comes from a thicker tooth of the tool. Angles are radians in here.
+"""
+
+from __future__ import annotations
+
+import math
+
+from gearcad.geometry.gear_data import GearData
+from gearcad.geometry.involute import inverse_involute, involute
+from gearcad.geometry.shaper import ShaperTip
+from gearcad.geometry.trochoid import FilletTool, ToolTip
+
+__all__ = ["corner_radius", "fillet_tool", "full_corner_radius", "generating_involute", "shaped", "shaper_tip"]
+
+_HALVINGS = 60
+
+
+def shaped(gear: GearData) -> bool:
+    """Whether its fillets are those of a cutter's corner, not of a rack: on rings, and where a shaper cutter is named."""
+    return gear.internal or gear.cutter.teeth is not None
+
+
+def fillet_tool(gear: GearData) -> FilletTool:
+    """The rounded tip of what cuts the fillets, once the tool is known to be feasible."""
+    if shaped(gear):
+        return shaper_tip(gear, corner_radius(gear))
+    m, shift = gear.normal_module, gear.profile_shift * gear.normal_module
+    return ToolTip.cutting(
+        normal_module=m,
+        pressure_angle=math.radians(gear.rack.pressure_angle),
+        helix_angle=math.radians(gear.helix_angle),
+        reference_radius=gear.reference_diameter / 2,
+        depth=gear.dedendum * m - shift,
+        shift=shift,
+        radius=gear.root_radius * m,
+        thinning=gear.tooth_thinning,
+    )
+
+
+def generating_involute(gear: GearData) -> float:
+    """inv alpha_w0 = inv alpha_t + 2 tan alpha_n (x + x_0)/(z + z_0); not above 0 where the cutter cannot work."""
+    angle, teeth = involute(gear.transverse_pressure_angle), gear.cutter.teeth
+    if teeth is None:
+        return angle
+    shift = 2 * math.tan(math.radians(gear.rack.pressure_angle)) * (gear.profile_shift + gear.cutter.profile_shift)
+    return angle + shift / (gear.teeth + teeth)
+
+
+def shaper_tip(gear: GearData, radius: float) -> ShaperTip:
+    """The cutter's corner of a radius in normal modules, as it is set to reach the root circle.
+
+    Without a cutter that of the ring's own counterpart, which has |z| teeth, the profile shift -x and the ring's axis.
+    """
+    m, teeth, own = gear.normal_module, gear.cutter.teeth or gear.tooth_count, gear.cutter.teeth is None
+    angle, root = math.radians(gear.transverse_pressure_angle), abs(gear.root_diameter) / 2
+    working = math.radians(inverse_involute(generating_involute(gear)))
+    apart = 0.0 if own else abs(gear.teeth + teeth) * gear.transverse_module / 2 * math.cos(angle) / math.cos(working)
+    shift = -gear.profile_shift if own else gear.cutter.profile_shift
+    thickness = m * (math.pi / 2 + 2 * shift * math.tan(math.radians(gear.rack.pressure_angle))) + gear.tooth_thinning
+    return ShaperTip(
+        radius=radius * m,
+        tip_radius=root - apart if gear.internal else apart - root,
+        base_radius=teeth * gear.transverse_module / 2 * math.cos(angle),
+        base_half_angle=thickness / (m * teeth) + involute(gear.transverse_pressure_angle),
+        helix_angle=math.radians(gear.helix_angle),
+        centre_distance=apart,
+        teeth=gear.tooth_count,
+        cutter_teeth=teeth,
+        internal=gear.internal,
+    )
+
+
+def full_corner_radius(gear: GearData) -> float:
+    """Largest radius of the corner (in normal modules), where both corners of the cutter's tip meet: psi_M = 0.
+
+    Negative where even a sharp cutter's flanks meet before its tip circle, or that lies inside its base circle.
+    """
+
+    def room(radius: float) -> float:
+        tip = shaper_tip(gear, radius)
+        return tip.middle_angle if tip.feasible else -1.0
+
+    if room(0.0) < 0:
+        return -1.0
+    low, high = 0.0, 5.0
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if room(middle) >= 0 else (low, middle)
+    return low
+
+
+def corner_radius(gear: GearData) -> float:
+    """Radius of the corner in normal modules: the cutter's own, else the rack's or the full one, whichever is smaller."""
+    if gear.cutter.tip_radius is not None:
+        return gear.cutter.tip_radius
+    full = full_corner_radius(gear)
+    return full if gear.rack.root_radius == "full" else min(float(gear.rack.root_radius), full)
