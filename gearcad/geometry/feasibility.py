@@ -19,7 +19,7 @@ from gearcad.geometry.shaping import check_shaper
 from gearcad.geometry.tooling import shaped
 from gearcad.schema import require_fields
 
-__all__ = ["check_body", "check_numbers", "check_tool"]
+__all__ = ["check_body", "check_numbers", "check_tool", "least_rim_diameter"]
 
 LEAST_RIM = 0.1
 """Least wall between bore, keyway or hub and the circle they must stay inside, in normal modules."""
@@ -118,14 +118,18 @@ def check_body(gear: GearData) -> None:
     (_check_ring if gear.internal else _check_disc)(gear)
 
 
+def least_rim_diameter(gear: GearData) -> float:
+    """Least rim diameter (mm) of a ring: some wall outside its root circle."""
+    return abs(gear.root_diameter) + 2 * LEAST_RIM * gear.normal_module
+
+
 def _check_ring(gear: GearData) -> None:
     """What is outside the teeth of a ring."""
-    body, wall = gear.body, LEAST_RIM * gear.normal_module
+    body = gear.body
     for name in ("bore", "keyway_width", "hub_diameter"):
         if getattr(body, name):
             raise GeometryError(f"body.{name}", getattr(body, name), "must be left out: it is for external gears", "mm")
-    root = abs(gear.root_diameter)
-    least = root + 2 * wall
+    root, least = abs(gear.root_diameter), least_rim_diameter(gear)
     if body.rim_diameter is not None and body.rim_diameter < least:
         permitted = f"must be at least {at_least(least)} mm (a rim of {LEAST_RIM} m_n outside the root circle {root:.6g} mm)"
         raise GeometryError("body.rim_diameter", body.rim_diameter, permitted, "mm")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.errors import SolverError, require_number
+from gearcad.errors import GeometryError, SolverError, require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.geometry.turned import middle_section
@@ -37,6 +37,8 @@ def gear_contour(gear: Gear, accuracy: float = 0.0005) -> Floats:
     Profile modifications are in it as they are at mid face width.
     """
     require_number("accuracy", accuracy, "mm", at_least=1e-7)
+    if gear.internal:
+        raise GeometryError("teeth", gear.teeth, "must be above 0: contours of internal gears are not drawn yet")
     curves = middle_section(gear)
     flank = _joined([_arcs_of(curve, accuracy) for curve in curves if curve.kind not in (CurveKind.ROOT, CurveKind.TIP)])
     half_pitch = math.pi / gear.teeth
