@@ -122,6 +122,12 @@ def rate(
 
 
 def _check(pair: GearPair, load: Load) -> None:
+    if pair.internal:
+        raise GeometryError("wheel.teeth", pair.wheel.teeth, "must be above 0 for a rating: rings are not rated yet")
+    for role, gear in pair.gears.items():
+        if gear.cutter.teeth is not None:
+            permitted = "must be left out for a rating: the formulas of the root are those of a hobbed gear"
+            raise GeometryError(f"{role.value}.cutter.teeth", gear.cutter.teeth, permitted)
     if load.torque == 0:
         raise ParameterError("torque", load.torque, "must not be 0 N·m: a rating needs a load", "N·m")
     ratio = pair.transverse_contact_ratio

@@ -54,6 +54,9 @@ class StiffnessMethod(ABC):
     def __post_init__(self) -> None:
         if self.positions != 0:
             require_whole("positions", self.positions, at_least=FEWEST_POSITIONS, at_most=MOST_POSITIONS)
+        if self.pair.internal:
+            permitted = f"must be above 0 for {self.name}: no mesh stiffness of rings is known yet"
+            raise GeometryError("wheel.teeth", self.pair.wheel.teeth, permitted)
         ratio = self.mounted.usable_contact_ratio
         if ratio < 1:
             whole = self.mounted.transverse_contact_ratio
