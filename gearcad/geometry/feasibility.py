@@ -11,6 +11,7 @@ from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.geometry.body import Body
 from gearcad.geometry.cutter import ShaperCutter
 from gearcad.geometry.derived import is_given
+from gearcad.geometry.double_helix import DoubleHelix
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.modification import FlankModification
@@ -40,6 +41,7 @@ def check_numbers(gear: GearData) -> None:
     parts: tuple[tuple[str, type], ...] = (
         ("rack", BasicRack),
         ("cutter", ShaperCutter),
+        ("double_helix", DoubleHelix),
         ("body", Body),
         ("modification", FlankModification),
     )
@@ -52,16 +54,28 @@ def check_numbers(gear: GearData) -> None:
                 "must be a number below 0 mm, as teeth are (ISO 21771)" if gear.internal else "must be a number above 0 mm"
             )
             raise ParameterError(name, given, permitted, "mm")
-    if gear.face_width < 0.01 * gear.normal_module:
+    if gear.double_helix.present:
+        _check_double_helix(gear)
+    if gear.half_width < 0.01 * gear.normal_module:
         least = at_least(0.01 * gear.normal_module)
         raise GeometryError("face_width", gear.face_width, f"must be at least {least} mm (0.01 m_n)", "mm")
     if gear.twist > MOST_TWIST:
-        raise GeometryError(
-            "face_width",
-            gear.face_width,
-            f"must be at most {at_most(MOST_TWIST / 360 * gear.lead)} mm ({MOST_TWIST:g} deg of twist)",
-            "mm",
-        )
+        most = MOST_TWIST / 360 * gear.lead
+        if gear.double_helix.present:
+            most = 2 * most + (gear.double_helix.gap_width or 0.0)
+        permitted = f"must be at most {at_most(most)} mm ({MOST_TWIST:g} deg of twist)"
+        raise GeometryError("face_width", gear.face_width, permitted, "mm")
+
+
+def _check_double_helix(gear: GearData) -> None:
+    """Two hands need a helix, and halves of some width beside the gap."""
+    double = gear.double_helix
+    if gear.helix_angle == 0:
+        raise GeometryError("helix_angle", 0.0, "must not be 0 deg on a double helical gear", "deg")
+    least = 0.02 * gear.normal_module
+    if gear.face_width - (double.gap_width or 0.0) < least:
+        permitted = f"must be at most {at_most(max(gear.face_width - least, 0.0))} mm, to leave two halves of the face width"
+        raise GeometryError("double_helix.gap_width", double.gap_width, permitted, "mm")
 
 
 def check_tool(gear: GearData) -> None:
@@ -116,6 +130,21 @@ def _check_hob(gear: GearData) -> None:
 def check_body(gear: GearData) -> None:
     """Bore, keyway and hub must leave a rim, the end chamfers some end face; a ring must fit in its rim."""
     (_check_ring if gear.internal else _check_disc)(gear)
+    if (given := gear.double_helix.gap_diameter) is not None:
+        _check_gap(gear, given)
+
+
+def _check_gap(gear: GearData, given: float) -> None:
+    """What is between the halves of a double helical gear lies below the teeth and leaves a wall."""
+    body, wall, root = gear.body, 2 * LEAST_RIM * gear.normal_module, abs(gear.root_diameter)
+    if gear.internal:
+        inner, outer = root, math.inf if body.rim_diameter is None else body.rim_diameter - wall
+    else:
+        inner, outer = max(body.opening_diameter + wall, 0.0), root
+    if not inner <= given <= outer:
+        limits = f"at least {at_least(inner)} mm" + ("" if math.isinf(outer) else f" and at most {at_most(outer)} mm")
+        permitted = f"must be {limits}, between the root circle and what the body leaves"
+        raise GeometryError("double_helix.gap_diameter", given, permitted, "mm")
 
 
 def least_rim_diameter(gear: GearData) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from functools import cached_property
 from typing import Any
 
@@ -107,7 +107,7 @@ class Gear(GearData):
     @cached_property
     def flank_form(self) -> FlankForm:
         """The modified flanks: how far they are taken back from the exact involute, and where."""
-        return FlankForm.of(self.modification, self.profile, self.face_width, self.helix_angle)
+        return FlankForm.of(self.modification, self.profile, self.half_width, self.helix_angle)
 
     @property
     def undercut(self) -> bool:
@@ -204,15 +204,12 @@ class Gear(GearData):
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs and derived properties under their field names, for JSON: a lead that is infinite becomes None."""
-        inputs = {
-            f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("rack", "cutter", "body", "modification")
-        }
-        rack = {f.name: getattr(self.rack, f.name) for f in fields(self.rack)}
-        body = {f.name: getattr(self.body, f.name) for f in fields(self.body)} | {"hub_side": self.body.hub_side.value}
-        cutter = {f.name: getattr(self.cutter, f.name) for f in fields(self.cutter)}
-        modification = self.modification.to_dict()
+        parts = {name: asdict(getattr(self, name)) for name in ("rack", "cutter", "double_helix", "body")}
+        parts["body"]["hub_side"] = self.body.hub_side.value
+        parts["modification"] = self.modification.to_dict()
+        inputs = {each.name: getattr(self, each.name) for each in fields(self) if each.name not in parts}
         derived = {name: getattr(self, name) for name in _DERIVED}
         if math.isinf(self.lead):
             derived["lead"] = None
         warnings = {"warnings": list(self.warnings), "notices": [notice.to_dict() for notice in self.notices]}
-        return {**inputs, "rack": rack, "cutter": cutter, "body": body, "modification": modification, **derived, **warnings}
+        return {**inputs, **parts, **derived, **warnings}

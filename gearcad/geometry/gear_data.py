@@ -10,6 +10,7 @@ from typing import Annotated
 from gearcad.geometry.body import Body
 from gearcad.geometry.cutter import ShaperCutter
 from gearcad.geometry.derived import NOT_GIVEN, is_given
+from gearcad.geometry.double_helix import DoubleHelix
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.rack import ISO53_A, BasicRack
 from gearcad.ranges import Range, Whole
@@ -24,6 +25,10 @@ _TEETH = Whole(3, 2000, negative=(-10, "internal gear"))
 
 _DIAMETER = Range("mm", -2e6, 2e6)
 """Of circles that are given, negative on a ring: no permitted teeth and module make a larger gear."""
+
+
+_GAP_DEPTH = 0.5
+"""How much less the diameter between the halves of a double helical gear is than the root circle's, in normal modules."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,6 +48,7 @@ class GearData:
     tooth_thinning: Annotated[float, Range("mm", 0, None), Words("tooth thinning (normal)", "A_sn", "7.3")] = 0.0
     rack: BasicRack = field(default=ISO53_A)
     cutter: ShaperCutter = field(default=ShaperCutter())
+    double_helix: DoubleHelix = field(default=DoubleHelix())
     body: Body = field(default=Body())
     modification: FlankModification = field(default=FlankModification())
     tip_diameter: Annotated[float, _DIAMETER, Words("tip diameter", "d_a", "4.5")] = NOT_GIVEN
@@ -139,9 +145,22 @@ class GearData:
         return math.pi * abs(self.reference_diameter) / math.tan(math.radians(abs(self.helix_angle)))
 
     @property
+    def gap_diameter(self) -> float:
+        """Diameter between the halves of a double helical gear (mm), a magnitude."""
+        if self.double_helix.gap_diameter is not None:
+            return self.double_helix.gap_diameter
+        return abs(self.root_diameter - _GAP_DEPTH * self.normal_module)
+
+    @property
+    def half_width(self) -> float:
+        """Width of teeth of one hand (mm): of one half of a double helical gear, b_B = (b - b_g)/2, else b."""
+        gap = self.double_helix.gap_width
+        return self.face_width if gap is None else (self.face_width - gap) / 2
+
+    @property
     def twist(self) -> float:
-        """Rotation of the section over the face width in degrees (magnitude): 360 b / p_z."""
-        return 0.0 if self.helix_angle == 0 else 360 * self.face_width / self.lead
+        """Rotation of the section over the width of one hand in degrees (magnitude): 360 b / p_z."""
+        return 0.0 if self.helix_angle == 0 else 360 * self.half_width / self.lead
 
     @property
     def virtual_teeth(self) -> float:

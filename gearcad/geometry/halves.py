@@ -1,0 +1,31 @@
+"""The halves of a double helical gear, each a single helical gear in its place."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+from gearcad.geometry.double_helix import DoubleHelix
+from gearcad.geometry.gear import Gear
+
+__all__ = ["Half", "halves"]
+
+
+class Half(NamedTuple):
+    """One half: a gear of its width and hand, that begins at height `z` (mm) and is turned by `rotation` (degrees)."""
+
+    gear: Gear
+    z: float
+    rotation: float
+
+
+def halves(gear: Gear) -> tuple[Half, Half]:
+    """Lower and upper half of a double helical gear.
+
+    The upper one goes on as the lower one ends, turned by the offset; modifications along the face are those of each half.
+    """
+    lower = replace(gear, face_width=gear.half_width, double_helix=DoubleHelix())
+    upper = replace(lower, helix_angle=-gear.helix_angle)
+    rotation = 360 * gear.half_width / gear.lead * (1 if gear.helix_angle > 0 else -1)
+    turned = rotation + 360 / gear.tooth_count * gear.double_helix.offset
+    return Half(lower, 0.0, 0.0), Half(upper, gear.face_width - gear.half_width, turned)
