@@ -102,6 +102,9 @@ def _with_zones(plan: GearPlan, zones: Mapping[int, ContactZone]) -> GearPlan:
 def plan_mesh(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | None) -> MeshPlan:
     """What is meshed of a design's `gears`, which are those of a `pair` or one alone. Raises ParameterError, GeometryError."""
     chosen = _chosen(options, gears, pair)
+    for gear in chosen.values():
+        if gear.internal:
+            raise GeometryError("teeth", gear.teeth, "must be above 0: rings are not meshed yet")
     element_given = None if options.element == AUTO else Element(options.element)
     dimension = _dimension(options, element_given, chosen)
     extent = options.extent or _usual(dimension, element_given, pair if len(chosen) == 2 else None)

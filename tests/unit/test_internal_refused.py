@@ -4,7 +4,9 @@ import re
 
 import pytest
 
-from gearcad import Gear, GearPair, Load, dynamics, rate, stiffness
+from gearcad import Gear, GearPair, Load, Material, dynamics, mesh, rate, stiffness
+from gearcad.contact.plane.pair import plane_pair
+from gearcad.contact.solid.pair import solid_pair
 from gearcad.errors import GeometryError
 from gearcad.geometry import ShaperCutter
 
@@ -24,6 +26,9 @@ SHAPED = GearPair(
         (lambda: rate(RING, Load(torque=50)), "wheel.teeth = -70: must be above 0 for a rating: rings are not rated yet"),
         (lambda: rate(SHAPED, Load(torque=50)), "pinion.cutter.teeth = 25: must be left out for a rating"),
         (lambda: stiffness(RING, Load(torque=50)), "wheel.teeth = -70: must be above 0 for potential-energy"),
+        (lambda: plane_pair(RING, Material()), "wheel.teeth = -70: must be above 0: contact of sections with a ring"),
+        (lambda: solid_pair(RING, Material()), "wheel.teeth = -70: must be above 0: contact of solids with a ring"),
+        (lambda: mesh(RING), "teeth = -70: must be above 0: rings are not meshed yet"),
         (lambda: dynamics(RING, Load(torque=50, speed=100)), "wheel.teeth = -70: must be above 0: the dynamics"),
     ],
 )

@@ -120,6 +120,10 @@ def plane_pair(
 
     The pair is taken as it is mounted; `pitch_error` (µm) is how far the flanks of its middle pair of teeth stand proud.
     """
+    if pair.internal:
+        raise GeometryError(
+            "wheel.teeth", pair.wheel.teeth, "must be above 0: contact of sections with a ring is not treated yet"
+        )
     elasticity, body, sizes = PlaneElasticity(material, plane), body or BodyModel(), sizes or MeshSizes()
     # As many neighbours as can touch at once, with one more place for a corner that touches early or late.
     neighbours = max(1, math.floor(pair.transverse_contact_ratio + 0.2))

@@ -217,6 +217,10 @@ def teeth_moved(pair: GearPair) -> int:
 
 
 def _meshes(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> list[SweptMesh]:
+    if pair.internal:
+        raise GeometryError(
+            "wheel.teeth", pair.wheel.teeth, "must be above 0: contact of solids with a ring is not treated yet"
+        )
     gears = zip(pair.gears, body.inner_radii(pair), strict=True)
     return [sweep(gear, mesh_quads(gear, radius, sizes.section), sizes.layers(gear)) for gear, radius in gears]
 

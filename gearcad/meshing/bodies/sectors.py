@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.errors import ParameterError, require_number
+from gearcad.errors import GeometryError, ParameterError, require_number
 from gearcad.geometry import Gear
 from gearcad.meshing.bodies.contact_zone import ContactZone, lengths_near
 from gearcad.meshing.bodies.elements import Element
@@ -68,6 +68,8 @@ class Sectors:
     def __post_init__(self) -> None:
         if self.element not in (Element.QUAD8, Element.TRI6):
             raise ParameterError("element", self.element.value, 'must be "quad8" or "tri6" for a section')
+        if self.gear.internal:
+            raise GeometryError("teeth", self.gear.teeth, "must be above 0: rings are not meshed yet")
         require_fillet(self.gear)
         require_number("inner_radius", self.inner_radius, "mm", at_least=0, below=self.gear.root_diameter / 2)
 
