@@ -13,8 +13,9 @@ from gearcad.check.options import CheckOptions, Model
 from gearcad.contact.optimum.search import Found, Search, conditions
 from gearcad.contact.optimum.start import start_search
 from gearcad.contact.optimum.variants import AMOUNTS, with_amounts
+from gearcad.contact.shared.loaded_left import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.contact.solid.pair import SolidPair, SolidSizes, loaded_left, solid_pair
+from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.designs import Design, Inputs, PairDesign
 from gearcad.errors import GeometryError, ParameterError, as_choice
 from gearcad.geometry import GearPair, ReliefShape

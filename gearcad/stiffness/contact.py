@@ -16,8 +16,9 @@ from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
 from gearcad.contact.plane.limits import thin_faces
 from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.contact.shared.engaged import EngagedPair
+from gearcad.contact.shared.loaded_left import loaded_left
 from gearcad.contact.solid.cost import POSITION_SECONDS
-from gearcad.contact.solid.pair import SolidPair, SolidSizes, expected_bodies, loaded_left, solid_pair
+from gearcad.contact.solid.pair import SolidPair, SolidSizes, expected_bodies, solid_pair
 from gearcad.errors import GeometryError
 from gearcad.load import Load
 from gearcad.mesh_cycle import MeshCycle

@@ -18,7 +18,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from gearcad import FlankModification, Gear, GearPair
 from gearcad.cli import main
-from gearcad.contact.solid.pair import loaded_left
+from gearcad.contact.shared.loaded_left import loaded_left
 
 HELICAL = """
 [pair]

@@ -14,8 +14,8 @@ from gearcad import Mounting
 from gearcad.contact.optimum.search import Found, Search
 from gearcad.contact.optimum.start import start_search
 from gearcad.contact.optimum.variants import AMOUNTS, Condition, with_amounts
+from gearcad.contact.shared.loaded_left import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.contact.solid.pair import loaded_left
 from gearcad.geometry import ReliefShape
 from gearcad.jobs.modify import _best, unmirrored
 from tests.support.coarse import PAIRS, TORQUES, coarse_model, coarse_pair

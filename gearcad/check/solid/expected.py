@@ -5,8 +5,9 @@ from __future__ import annotations
 from gearcad.check.convergence import FEW_POSITIONS, SOLID_FACTORS
 from gearcad.check.options import Model
 from gearcad.check.task import CheckTask
+from gearcad.contact.shared.loaded_left import loaded_left
 from gearcad.contact.solid.cost import POSITION_SECONDS
-from gearcad.contact.solid.pair import SolidSizes, expected_bodies, loaded_left
+from gearcad.contact.solid.pair import SolidSizes, expected_bodies
 from gearcad.progress import Expected
 
 __all__ = ["BODIES", "COARSER", "CYCLE", "FINER", "RATING", "SWEEP", "expected_solid", "sizes_of", "solid_steps"]

@@ -15,8 +15,9 @@ from gearcad.check.solid.result import SolidCheck
 from gearcad.check.solid.summary import SolidSummary, summarise_solid
 from gearcad.check.sweep import sweep_points
 from gearcad.check.task import CheckTask
+from gearcad.contact.shared.loaded_left import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle
-from gearcad.contact.solid.pair import SolidPair, loaded_left, solid_pair
+from gearcad.contact.solid.pair import SolidPair, solid_pair
 from gearcad.notice import Notice
 from gearcad.progress import Agenda, Share, unheard
 

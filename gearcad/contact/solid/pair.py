@@ -30,7 +30,7 @@ from gearcad.per_gear import PerGear, Role
 from gearcad.progress import Expected, Share, unheard
 from gearcad.rating.hertz import reduced_modulus
 
-__all__ = ["SolidPair", "SolidSizes", "expected_bodies", "loaded_left", "solid_pair", "teeth_moved"]
+__all__ = ["SolidPair", "SolidSizes", "expected_bodies", "solid_pair", "teeth_moved"]
 
 
 _SOFT = 8000.0
@@ -248,16 +248,3 @@ def _side_by_side(jobs: Sequence[tuple[_Heard, Callable[[], SolidCompliance]]], 
             done = (heard.cost.seconds if job.done() else heard.seconds for (heard, _), job in zip(jobs, running, strict=True))
             tell(sum(done) / whole)
         return [job.result() for job in running]
-
-
-def loaded_left(pair: GearPair, torque: float) -> GearPair:
-    """The pair if a torque on its pinion loads left flanks, else its mirror image."""
-    return pair if torque > 0 else replace(pair, pinion=_mirrored(pair.pinion), wheel=_mirrored(pair.wheel))
-
-
-def _mirrored(gear: Gear) -> Gear:
-    if gear.helix_angle:
-        return replace(gear, helix_angle=-gear.helix_angle)
-    # A spur gear has no hand of its own, so that of its modification turns over.
-    change = replace(gear.modification, helix_angle_modification=-gear.modification.helix_angle_modification)
-    return replace(gear, modification=change)
