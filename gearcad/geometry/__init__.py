@@ -1,5 +1,6 @@
 """Exact geometry of cylindrical gears: numpy, and scipy inside functions. Lengths in mm, angles in degrees."""
 
+from gearcad.geometry.basic_rack import ISO53_A, ISO53_B, ISO53_C, ISO53_D, NAMED_RACKS, BasicRack
 from gearcad.geometry.body import Body, HubSide
 from gearcad.geometry.cutter import ShaperCutter
 from gearcad.geometry.gear import Gear
@@ -12,7 +13,6 @@ from gearcad.geometry.pair_data import CommonWidth
 from gearcad.geometry.path import BaseTangent, ContactLineLengths, ContactZone, PathOfContact
 from gearcad.geometry.pose import Pose
 from gearcad.geometry.profile import ToothProfile
-from gearcad.geometry.rack import ISO53_A, ISO53_B, ISO53_C, ISO53_D, NAMED_RACKS, BasicRack
 from gearcad.geometry.shift import (
     ShiftSplit,
     profile_shift_sum,

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 from gearcad.errors import GeometryError, ParameterError, require_name
+from gearcad.geometry.basic_rack import BasicRack
 from gearcad.geometry.body import Body
 from gearcad.geometry.cutter import ShaperCutter
 from gearcad.geometry.derived import is_given
@@ -15,7 +16,6 @@ from gearcad.geometry.double_helix import DoubleHelix
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.modification import FlankModification
-from gearcad.geometry.rack import BasicRack
 from gearcad.geometry.shaping import check_shaper
 from gearcad.geometry.tooling import shaped
 from gearcad.schema import require_fields

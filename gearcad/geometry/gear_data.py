@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Annotated
 
+from gearcad.geometry.basic_rack import ISO53_A, BasicRack
 from gearcad.geometry.body import Body
 from gearcad.geometry.cutter import ShaperCutter
 from gearcad.geometry.derived import NOT_GIVEN, is_given
 from gearcad.geometry.double_helix import DoubleHelix
 from gearcad.geometry.modification import FlankModification
-from gearcad.geometry.rack import ISO53_A, BasicRack
 from gearcad.ranges import Range, Whole
 from gearcad.schema import Words
 
