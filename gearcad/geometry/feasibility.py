@@ -1,4 +1,4 @@
-"""Can this gear exist? Each number by itself, the tool that must cut it, and the body around the teeth.
+"""Can this gear exist? Each number by itself, and the tool that must cut it.
 
 Raises ParameterError or GeometryError, whose limits can be used as they are printed.
 """
@@ -20,10 +20,7 @@ from gearcad.geometry.shaping import check_shaper
 from gearcad.geometry.tooling import shaped
 from gearcad.schema import require_fields
 
-__all__ = ["check_body", "check_numbers", "check_tool", "least_rim_diameter"]
-
-LEAST_RIM = 0.1
-"""Least wall between bore, keyway or hub and the circle they must stay inside, in normal modules."""
+__all__ = ["check_numbers", "check_tool"]
 
 LEAST_HELIX = 1e-6
 """Smallest helix angle (degrees) of a helical gear; less moves a tooth by less than 2e-8 of the face width."""
@@ -124,85 +121,4 @@ def _check_hob(gear: GearData) -> None:
     if gear.rack.root_radius != "full" and float(gear.rack.root_radius) > full:
         raise GeometryError(
             "rack.root_radius", gear.rack.root_radius, f"must be at most {at_most(full, 4)} (full radius) {terms}"
-        )
-
-
-def check_body(gear: GearData) -> None:
-    """Bore, keyway and hub must leave a rim, the end chamfers some end face; a ring must fit in its rim."""
-    (_check_ring if gear.internal else _check_disc)(gear)
-    if (given := gear.double_helix.gap_diameter) is not None:
-        _check_gap(gear, given)
-
-
-def _check_gap(gear: GearData, given: float) -> None:
-    """What is between the halves of a double helical gear lies below the teeth and leaves a wall."""
-    body, wall, root = gear.body, 2 * LEAST_RIM * gear.normal_module, abs(gear.root_diameter)
-    if gear.internal:
-        inner, outer = root, math.inf if body.rim_diameter is None else body.rim_diameter - wall
-    else:
-        inner, outer = max(body.opening_diameter + wall, 0.0), root
-    if not inner <= given <= outer:
-        limits = f"at least {at_least(inner)} mm" + ("" if math.isinf(outer) else f" and at most {at_most(outer)} mm")
-        permitted = f"must be {limits}, between the root circle and what the body leaves"
-        raise GeometryError("double_helix.gap_diameter", given, permitted, "mm")
-
-
-def least_rim_diameter(gear: GearData) -> float:
-    """Least rim diameter (mm) of a ring: some wall outside its root circle."""
-    return abs(gear.root_diameter) + 2 * LEAST_RIM * gear.normal_module
-
-
-def _check_ring(gear: GearData) -> None:
-    """What is outside the teeth of a ring."""
-    body = gear.body
-    for name in ("bore", "keyway_width", "hub_diameter"):
-        if getattr(body, name):
-            raise GeometryError(f"body.{name}", getattr(body, name), "must be left out: it is for external gears", "mm")
-    root, least = abs(gear.root_diameter), least_rim_diameter(gear)
-    if body.rim_diameter is not None and body.rim_diameter < least:
-        permitted = f"must be at least {at_least(least)} mm (a rim of {LEAST_RIM} m_n outside the root circle {root:.6g} mm)"
-        raise GeometryError("body.rim_diameter", body.rim_diameter, permitted, "mm")
-
-
-def _check_disc(gear: GearData) -> None:
-    """What is inside the teeth of an external gear."""
-    for name in ("rim_diameter", "bolt_circle"):
-        if getattr(gear.body, name):
-            raise GeometryError(f"body.{name}", getattr(gear.body, name), "must be left out: it is for internal gears", "mm")
-    body, wall = gear.body, LEAST_RIM * gear.normal_module
-    root = gear.root_diameter - 2 * wall
-    rim = f"a rim of {LEAST_RIM} m_n inside the root circle {gear.root_diameter:.6g} mm"
-    for name, opening in (
-        ("bore", body.bore),
-        ("keyway_depth", body.opening_diameter),
-        ("hub_diameter", body.hub_diameter),
-    ):
-        if opening > root:
-            spare = f"must be at most {at_most(max(root, 0))} mm ({rim})"
-            if name == "keyway_depth":
-                spare = f"must leave {rim}: bore and keyway reach out to diameter {opening:.6g} mm"
-            raise GeometryError(f"body.{name}", getattr(body, name), spare, "mm")
-    if body.hub_diameter and body.opening_diameter > body.hub_diameter - 2 * wall:
-        least = body.opening_diameter + 2 * wall
-        raise GeometryError(
-            "body.hub_diameter", body.hub_diameter, f"must be at least {at_least(least)} mm, to hold bore and keyway", "mm"
-        )
-    if body.rim_thickness > (deep := (gear.root_diameter - body.opening_diameter) / 2):
-        permitted = f"must be at most {at_most(deep)} mm, what bore and keyway leave below the root circle"
-        raise GeometryError("body.rim_thickness", body.rim_thickness, permitted, "mm")
-    if body.end_chamfer:
-        _check_end_chamfer(gear, max(body.opening_diameter, body.hub_diameter) + 2 * wall)
-
-
-def _check_end_chamfer(gear: GearData, least_face: float) -> None:
-    length = gear.body.end_chamfer
-    slope = math.tan(math.radians(gear.body.end_chamfer_angle))
-    most = min(0.49 * gear.face_width, (gear.tip_diameter - least_face) / 2 / slope)
-    if length > most:
-        raise GeometryError(
-            "body.end_chamfer",
-            length,
-            f"must be at most {at_most(max(most, 0))} mm at {gear.body.end_chamfer_angle:g} deg"
-            " (0.49 of the face width, and some end face left)",
-            "mm",
         )

@@ -10,7 +10,7 @@ from typing import Any
 
 from gearcad.errors import InputError
 from gearcad.geometry.derived import derive
-from gearcad.geometry.feasibility import check_body, check_numbers, check_tool
+from gearcad.geometry.feasibility import check_numbers, check_tool
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.inspection import Inspection
 from gearcad.geometry.internal_profile import InternalProfile
@@ -18,6 +18,7 @@ from gearcad.geometry.modification import FlankForm, check_flanks
 from gearcad.geometry.picture import gear_html
 from gearcad.geometry.profile import ToothProfile, base_half_angle
 from gearcad.geometry.tooling import fillet_tool
+from gearcad.geometry.walls import check_body
 from gearcad.notice import Notice, texts
 from gearcad.reprs import concise
 

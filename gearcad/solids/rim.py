@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear
-from gearcad.geometry.feasibility import least_rim_diameter
 from gearcad.geometry.limits import at_least
+from gearcad.geometry.walls import least_rim_diameter
 
 __all__ = ["require_rim"]
 
