@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -22,10 +23,11 @@ class Half(NamedTuple):
 def halves(gear: Gear) -> tuple[Half, Half]:
     """Lower and upper half of a double helical gear.
 
-    The upper one goes on as the lower one ends, turned by the offset; modifications along the face are those of each half.
+    The upper one is the mirror image of the lower one, turned by the offset. Modifications along the face are those of each
+    half.
     """
     lower = replace(gear, face_width=gear.half_width, double_helix=DoubleHelix())
-    upper = replace(lower, helix_angle=-gear.helix_angle)
-    rotation = 360 * gear.half_width / gear.lead * (1 if gear.helix_angle > 0 else -1)
-    turned = rotation + 360 / gear.tooth_count * gear.double_helix.offset
+    mirrored = replace(gear.modification, twist=0.0 - gear.modification.twist)
+    upper = replace(lower, helix_angle=-gear.helix_angle, modification=mirrored)
+    turned = math.copysign(gear.twist, gear.helix_angle) + 360 / gear.tooth_count * gear.double_helix.offset
     return Half(lower, 0.0, 0.0), Half(upper, gear.face_width - gear.half_width, turned)

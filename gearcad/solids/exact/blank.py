@@ -11,11 +11,11 @@ from gearcad.geometry.gear import Gear
 from gearcad.solids.exact.kernel import Edges, Kernel, backward
 from gearcad.solids.keyway import keyway_half_angle
 
-__all__ = ["add_blank"]
+__all__ = ["Contour", "add_blank", "add_tube", "circle"]
 
 
 @dataclass(frozen=True)
-class _Contour:
+class Contour:
     """Edges of a closed contour at one height, counter-clockwise seen from +z, and the vertex each starts from."""
 
     edges: list[Any]
@@ -41,8 +41,8 @@ def add_blank(gear: Gear, kernel: Kernel, lower: Edges, upper: Edges) -> None:
         face_z = gear.face_width * which
         hole = opening[which].loop(along=False) if opening else None
         if hub:
-            rings = [_circle(kernel, body.hub_diameter / 2, z) for z in sorted((face_z, heights[which]))]
-            _add_tube(kernel, body.hub_diameter / 2, rings[0], rings[1], sorted((face_z, heights[which])), outward=True)
+            rings = [circle(kernel, body.hub_diameter / 2, z) for z in sorted((face_z, heights[which]))]
+            add_tube(kernel, body.hub_diameter / 2, rings[0], rings[1], sorted((face_z, heights[which])), outward=True)
             inner, outer = (rings[1], rings[0]) if which == 0 else (rings[0], rings[1])
             kernel.face(kernel.plane(face_z), [loop, inner.loop(along=False)], outward=which == 1)
             loop = outer.loop(along=True)
@@ -50,9 +50,10 @@ def add_blank(gear: Gear, kernel: Kernel, lower: Edges, upper: Edges) -> None:
         kernel.face(kernel.plane(heights[which]), loops, outward=which == 1)
 
 
-def _circle(kernel: Kernel, radius: float, z: float) -> _Contour:
+def circle(kernel: Kernel, radius: float, z: float) -> Contour:
+    """A full circle about the axis (mm)."""
     start = kernel.vertex((radius, 0.0, z))
-    return _Contour([kernel.edge(kernel.circle(radius, z), start, start, 0.0, 2 * math.pi)], [start])
+    return Contour([kernel.edge(kernel.circle(radius, z), start, start, 0.0, 2 * math.pi)], [start])
 
 
 def _keyway_corners(gear: Gear) -> list[tuple[float, float]]:
@@ -63,11 +64,11 @@ def _keyway_corners(gear: Gear) -> list[tuple[float, float]]:
     return [(wall, half), (wall, -half), (floor, -half), (floor, half)]
 
 
-def _opening(gear: Gear, kernel: Kernel, z: float) -> _Contour:
+def _opening(gear: Gear, kernel: Kernel, z: float) -> Contour:
     """Contour of bore and keyway at height z: the arc of the bore, lower wall, floor, upper wall."""
     radius = gear.body.bore / 2
     if not gear.body.keyway_width:
-        return _circle(kernel, radius, z)
+        return circle(kernel, radius, z)
     corners = _keyway_corners(gear)
     starts = [kernel.vertex((x, y, z)) for x, y in corners]
     angle = keyway_half_angle(gear.body)
@@ -76,10 +77,10 @@ def _opening(gear: Gear, kernel: Kernel, z: float) -> _Contour:
         after = (k + 1) % 4
         line, length = kernel.line((*corners[k], z), (*corners[after], z))
         edges.append(kernel.edge(line, starts[k], starts[after], 0.0, length))
-    return _Contour(edges, starts)
+    return Contour(edges, starts)
 
 
-def _add_tube(kernel: Kernel, radius: float, low: _Contour, high: _Contour, heights: Sequence[float], *, outward: bool) -> None:
+def add_tube(kernel: Kernel, radius: float, low: Contour, high: Contour, heights: Sequence[float], *, outward: bool) -> None:
     """A full cylinder between two circles; its seam lies on +x."""
     surface = kernel.cylinder(radius)
     line, length = kernel.line((radius, 0.0, heights[0]), (radius, 0.0, heights[1]))
@@ -91,11 +92,11 @@ def _add_tube(kernel: Kernel, radius: float, low: _Contour, high: _Contour, heig
     kernel.face(surface, [loop], outward=outward)
 
 
-def _add_opening(gear: Gear, kernel: Kernel, low: _Contour, high: _Contour, heights: tuple[float, float]) -> None:
+def _add_opening(gear: Gear, kernel: Kernel, low: Contour, high: Contour, heights: tuple[float, float]) -> None:
     """The wall of bore and keyway."""
     radius = gear.body.bore / 2
     if not gear.body.keyway_width:
-        _add_tube(kernel, radius, low, high, heights, outward=False)
+        add_tube(kernel, radius, low, high, heights, outward=False)
         return
     corners = _keyway_corners(gear)
     angle = keyway_half_angle(gear.body)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from copy import copy
 from functools import cache
 from typing import Any
 
@@ -105,6 +106,18 @@ class Kernel:
         self._axis = gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))
         self._frame = gp_Ax3(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0))
 
+    def moved(self, z: float, angle: float) -> Kernel:
+        """The same kernel, but what is made by it stands higher by `z` (mm) and turned by `angle` (rad) in the same solid."""
+        from OCP.gp import gp_Trsf, gp_Vec
+        from OCP.TopLoc import TopLoc_Location
+
+        moved, place, rotation = copy(self), gp_Trsf(), gp_Trsf()
+        place.SetTranslation(gp_Vec(0, 0, z))
+        rotation.SetRotation(self._axis, angle)
+        place.Multiply(rotation)
+        moved.here = TopLoc_Location(place)
+        return moved
+
     # ------------------------------------------------------------------ geometry about the z axis
 
     def turned(self, angle: float) -> Any:
@@ -114,7 +127,7 @@ class Kernel:
 
         rotation = gp_Trsf()
         rotation.SetRotation(self._axis, angle)
-        return TopLoc_Location(rotation)
+        return self.here * TopLoc_Location(rotation)
 
     def frame(self, z: float, *, up: bool = True) -> Any:
         """Right-handed frame at height z with its X on +x and its Z along +z or -z."""
@@ -170,7 +183,10 @@ class Kernel:
     def vertex(self, point: Sequence[float]) -> tuple[Any, Any]:
         """A vertex as (forward, reversed)."""
         vertex = self._vertex()
-        self._builder.MakeVertex(vertex, self._point(*point), self.tolerance)
+        place = self._point(*point)
+        if not self.here.IsIdentity():
+            place.Transform(self.here.Transformation())
+        self._builder.MakeVertex(vertex, place, self.tolerance)
         return vertex, vertex.Reversed()
 
     def edge(

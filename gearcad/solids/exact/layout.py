@@ -17,8 +17,9 @@ from gearcad.geometry.gear import Gear
 from gearcad.solids.exact import bezier
 from gearcad.solids.exact.ends import End, gear_ends
 from gearcad.solids.exact.kernel import Kernel, bezier_curve, bezier_curve_2d
+from gearcad.solids.exact.mirrored import whole_sweep
 from gearcad.solids.exact.outline import FlankSpan, LandArc, Piece, accuracy_for, parameter_at_radius, tooth_outline
-from gearcad.solids.exact.sweep import required, sweep_of
+from gearcad.solids.exact.sweep import required
 
 __all__ = ["Drawn", "Rise", "Segment", "SideEdge", "ToothLayout"]
 
@@ -99,7 +100,7 @@ class ToothLayout:
 
     def _shape(self, pieces: tuple[Piece, ...]) -> None:
         self.pieces = pieces
-        self.sweep = sweep_of(self.gear, pieces)
+        self.sweep = whole_sweep(self.gear, pieces)
         self.junctions = np.array([piece.start for piece in pieces])
 
     # -------------------------------------------------------------- stations of the outline

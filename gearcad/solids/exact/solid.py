@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from gearcad.errors import GeometryError
 from gearcad.geometry.gear import Gear
 from gearcad.solids.exact.blank import add_blank
+from gearcad.solids.exact.gap import add_halves
 from gearcad.solids.exact.kernel import Kernel
 from gearcad.solids.exact.outline import accuracy_for
 from gearcad.solids.exact.teeth import add_teeth
@@ -29,6 +30,6 @@ def gear_solid(gear: Gear) -> cadquery.Solid:
         raise GeometryError("teeth", gear.teeth, "must be above 0: there are no exact solids of internal gears yet")
 
     kernel = Kernel(accuracy_for(gear))
-    lower, upper = add_teeth(gear, kernel)
+    lower, upper = (add_halves if gear.double_helix.gap_width else add_teeth)(gear, kernel)
     add_blank(gear, kernel, lower, upper)
     return cadquery.Solid(kernel.solid())
