@@ -52,11 +52,14 @@ GEAR = {
     "transverse_pitch": Symbol("p_t", "mm", "4.4", "transverse pitch"),
     "transverse_base_pitch": Symbol("p_bt", "mm", "4.4", "transverse base pitch"),
     "span_teeth": Symbol("k", "", "Annex A", "teeth spanned"),
+    "span_spaces": Symbol("k", "", "Annex A", "spaces spanned (spur rings)"),
     "span_measurement": Symbol("W_k", "mm", "Annex A", "span measurement"),
     "span_contact_diameter": Symbol("d_yk", "mm", "Annex A", "span touches at diameter"),
     "ball_diameter": Symbol("D_M", "mm", "Annex A", "ball or pin diameter"),
     "over_balls": Symbol("M_dK", "mm", "Annex A", "over two balls"),
     "over_pins": Symbol("M_dR", "mm", "Annex A", "over two pins"),
+    "between_balls": Symbol("M_dK", "mm", "Annex A", "between two balls (rings)"),
+    "between_pins": Symbol("M_dR", "mm", "Annex A", "between two pins (spur rings)"),
     "pin_axial_shift": Symbol("", "mm", "", "pins apart along the axis"),
 }
 

@@ -29,10 +29,12 @@ def _of_part(part: str) -> str:
 _GEAR_BLOCKS = {
     "Teeth": "teeth normal_module helix_angle profile_shift tip_alteration tooth_thinning face_width virtual_teeth lead",
     "Basic rack": _of_part("rack"),
+    "Shaper cutter": _of_part("cutter"),
     "Transverse section": "transverse_module transverse_pressure_angle base_helix_angle transverse_pitch transverse_base_pitch",
     "Diameters": "tip_diameter tip_form_diameter reference_diameter base_diameter form_diameter root_diameter undercut",
     "Tooth thickness": "normal_tooth_thickness transverse_tooth_thickness tip_thickness",
-    "Inspection": "span_teeth span_measurement span_contact_diameter ball_diameter over_balls over_pins pin_axial_shift",
+    "Inspection": "span_teeth span_spaces span_measurement span_contact_diameter ball_diameter over_balls over_pins"
+    " between_balls between_pins pin_axial_shift",
     "Flank modifications": _of_part("modification"),
     "Body": _of_part("body"),
 }
@@ -48,12 +50,13 @@ _PAIR_BLOCKS = {
 }
 
 _BELONGS_TO = {
+    "cutter.profile_shift": "cutter.teeth",
     "body.keyway_depth": "body.keyway_width",
     "body.hub_length": "body.hub_diameter",
     "body.hub_side": "body.hub_diameter",
     "body.end_chamfer_angle": "body.end_chamfer",
 }
-"""Features of a body that mean nothing without another one."""
+"""Features of a body, and of a cutter, that mean nothing without another one."""
 
 _ABSENT = "-"
 
@@ -127,7 +130,8 @@ def _warnings(design: Design) -> Iterator[_Line]:
 def _title(design: Design) -> str:
     teeth = " / ".join(str(gear.teeth) for gear in design.gears.values())
     helical = any(gear.helix_angle for gear in design.gears.values())
-    return f"{'helical' if helical else 'spur'} {design.kind.value}, z = {teeth}"
+    internal = any(gear.internal for gear in design.gears.values())
+    return f"{'internal ' if internal else ''}{'helical' if helical else 'spur'} {design.kind.value}, z = {teeth}"
 
 
 def _flat(document: Mapping[str, Any]) -> dict[str, Any]:
@@ -142,9 +146,10 @@ def _flat(document: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _shown(values: Mapping[str, Any], key: str) -> str:
-    """The value, or a dash for a feature of the body or a modification that is not there."""
+    """The value, or a dash for a feature of the body, a cutter or a modification that is not there."""
     owner = _BELONGS_TO.get(key, key)
-    return _ABSENT if owner.startswith("body.") and not values[owner] else _value(values.get(key))
+    missing = (None, 0) if owner.startswith("body.") else (None,)
+    return _ABSENT if "." in owner and values.get(owner) in missing else _value(values.get(key))
 
 
 def _value(value: Any) -> str:

@@ -24,9 +24,9 @@ class ShaperCutter:
     smaller. Raises ParameterError.
     """
 
-    teeth: Annotated[int | None, Whole(3, 2000), Words("shaper cutter: number of teeth", "z_0", "")] = None
-    profile_shift: Annotated[float, _SHIFT, Words("shaper cutter: profile shift coefficient", "x_0", "")] = 0.0
-    tip_radius: Annotated[float | None, _RADIUS, Words("shaper cutter: tip radius", "ρ_aP0*", "")] = None
+    teeth: Annotated[int | None, Whole(3, 2000), Words("cutter, number of teeth", "z_0")] = None
+    profile_shift: Annotated[float, _SHIFT, Words("cutter, profile shift coefficient", "x_0")] = 0.0
+    tip_radius: Annotated[float | None, _RADIUS, Words("cutter, tip radius", "ρ_aP0*")] = None
 
     __repr__ = concise
 

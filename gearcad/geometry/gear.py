@@ -13,6 +13,7 @@ from gearcad.geometry.derived import derive
 from gearcad.geometry.feasibility import check_numbers, check_tool
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.inspection import Inspection
+from gearcad.geometry.internal_inspection import InternalInspection
 from gearcad.geometry.internal_profile import InternalProfile
 from gearcad.geometry.modification import FlankForm, check_flanks
 from gearcad.geometry.picture import gear_html
@@ -30,10 +31,11 @@ THIN_TIP = 0.2
 _DERIVED = (
     "transverse_module transverse_pressure_angle base_helix_angle reference_diameter base_diameter tip_form_diameter "
     "form_diameter undercut normal_tooth_thickness transverse_tooth_thickness tip_thickness transverse_pitch "
-    "transverse_base_pitch lead virtual_teeth span_teeth span_measurement span_contact_diameter ball_diameter over_balls "
-    "over_pins pin_axial_shift"
+    "transverse_base_pitch lead virtual_teeth"
 ).split()
-"""What a document has beside the inputs."""
+_MEASURED = "span_teeth span_measurement span_contact_diameter ball_diameter over_balls over_pins pin_axial_shift".split()
+_MEASURED_INSIDE = "span_spaces span_measurement span_contact_diameter ball_diameter between_balls between_pins".split()
+"""What a document has beside the inputs; the measurements are those of external gears, or of rings."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -126,8 +128,9 @@ class Gear(GearData):
     @cached_property
     def inspection(self) -> Inspection:
         """Measuring the teeth, with any gauge; the properties below are those of the gauges suggested."""
+        kind = InternalInspection if self.internal else Inspection
         middle = self.reference_diameter + 2 * self.profile_shift * self.normal_module
-        return Inspection(
+        return kind(
             teeth=self.teeth,
             normal_module=self.normal_module,
             pressure_angle=self.rack.pressure_angle,
@@ -143,19 +146,26 @@ class Gear(GearData):
         )
 
     @property
-    def span_teeth(self) -> int:
-        """Number k of teeth to span so that the anvils touch nearest to the middle of the flanks."""
-        return self.inspection.span_teeth
+    def span_teeth(self) -> int | None:
+        """Number k of teeth to span so that the anvils touch nearest to the middle of the flanks; None for a ring."""
+        return None if self.internal else self.inspection.spanned
 
     @property
-    def span_measurement(self) -> float:
-        """Base tangent length W_k over `span_teeth` teeth."""
-        return self.inspection.span_measurement(self.span_teeth)
+    def span_spaces(self) -> int | None:
+        """The same of a spur ring, whose anvils span spaces; None for a helical ring and an external gear."""
+        return self.inspection.spanned if self.internal else None
 
     @property
-    def span_contact_diameter(self) -> float:
-        """Diameter on which the anvils touch over `span_teeth` teeth."""
-        return self.inspection.span_contact_diameter(self.span_teeth)
+    def span_measurement(self) -> float | None:
+        """Base tangent length W_k over `span_teeth` teeth or `span_spaces` spaces; None for a helical ring."""
+        count = self.inspection.spanned
+        return None if count is None else self.inspection.span_measurement(count)
+
+    @property
+    def span_contact_diameter(self) -> float | None:
+        """Diameter on which the anvils touch; None for a helical ring."""
+        count = self.inspection.spanned
+        return None if count is None else self.inspection.span_contact_diameter(count)
 
     @property
     def ball_diameter(self) -> float:
@@ -163,14 +173,24 @@ class Gear(GearData):
         return self.inspection.ball_diameter
 
     @cached_property
-    def over_balls(self) -> float:
-        """Dimension over two balls of `ball_diameter`."""
-        return self.inspection.over_balls(self.ball_diameter)
+    def over_balls(self) -> float | None:
+        """Dimension over two balls of `ball_diameter`; None for a ring."""
+        return None if self.internal else self.inspection.over_balls(self.ball_diameter)
 
     @cached_property
-    def over_pins(self) -> float:
-        """Dimension over two pins of `ball_diameter`, free to shift along the axis."""
-        return self.inspection.over_pins(self.ball_diameter)
+    def over_pins(self) -> float | None:
+        """Dimension over two pins of `ball_diameter`, free to shift along the axis; None for a ring."""
+        return None if self.internal else self.inspection.over_pins(self.ball_diameter)
+
+    @cached_property
+    def between_balls(self) -> float | None:
+        """Dimension between two balls of `ball_diameter` in a ring; None for an external gear."""
+        return self.inspection.between_balls(self.ball_diameter) if self.internal else None
+
+    @property
+    def between_pins(self) -> float | None:
+        """The same with pins in a spur ring; None for a helical ring, whose hollow flanks a straight pin does not fit."""
+        return None if self.helix_angle else self.between_balls
 
     @property
     def pin_axial_shift(self) -> float:
@@ -209,7 +229,8 @@ class Gear(GearData):
         parts["body"]["hub_side"] = self.body.hub_side.value
         parts["modification"] = self.modification.to_dict()
         inputs = {each.name: getattr(self, each.name) for each in fields(self) if each.name not in parts}
-        derived = {name: getattr(self, name) for name in _DERIVED}
+        measured = _MEASURED_INSIDE if self.internal else _MEASURED
+        derived = {name: getattr(self, name) for name in (*_DERIVED, *measured)}
         if math.isinf(self.lead):
             derived["lead"] = None
         warnings = {"warnings": list(self.warnings), "notices": [notice.to_dict() for notice in self.notices]}

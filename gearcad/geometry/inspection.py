@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from gearcad.errors import GeometryError, require_number, require_whole
 from gearcad.geometry.involute import inverse_involute, involute
@@ -31,11 +31,15 @@ class ChordalThickness(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Inspection:
-    """What gauges find on the teeth of a gear.
+    """What gauges find on the teeth of an external gear; that of a ring is an `InternalInspection`.
 
     `middle_diameter` is where a gauge had best touch: d + 2 x m_n, kept on the involute. `base_half_angle` is the half tooth
-    angle on the base circle, `addendum` (mm) stands over the reference circle, `lead` is infinite for a spur gear.
+    angle on the base circle, `addendum` (mm) stands over the reference circle, `lead` is infinite for a spur gear. Teeth,
+    diameters and `base_half_angle` have the signs of ISO 21771; what a gauge reads is positive.
     """
+
+    spanned_is: ClassVar[str] = "teeth"
+    """What lies between the anvils of a span."""
 
     teeth: int
     normal_module: float
@@ -72,14 +76,19 @@ class Inspection:
         return math.hypot(self.base_diameter, reach)
 
     @cached_property
-    def span_teeth(self) -> int:
-        """Number of teeth whose anvils touch nearest to d + 2 x m_n."""
+    def spanned(self) -> int | None:
+        """Number of teeth (of spaces, on a ring) whose anvils touch nearest to d + 2 x m_n; None where none can be spanned."""
         square = max(self.middle_diameter**2 - self.base_diameter**2, 0)
         wanted = math.sqrt(square) / math.cos(math.radians(self.base_helix_angle))
         count = 1 + round((wanted - self.span_measurement(1)) / self._normal_base_pitch)
-        return min(max(count, 1), self.teeth)
+        return min(max(count, 1), abs(self.teeth))
 
-    # ------------------------------------------------------------------ over balls and pins
+    # ------------------------------------------------------------------ balls and pins
+
+    @property
+    def _space_at_base(self) -> float:
+        """Half space angle on the base circle (rad), signed like the diameters."""
+        return math.pi / self.teeth - math.radians(self.base_half_angle)
 
     def _ball_circle(self, ball: float) -> float:
         """Diameter d_K on which the ball's centre lies: inv alpha_Kt = inv alpha_t + D/(d_b cos beta_b) - space half angle."""
@@ -88,8 +97,12 @@ class Inspection:
         reach = ball / (self.base_diameter * math.cos(math.radians(self.base_helix_angle)))
         value = involute(self.transverse_pressure_angle) + reach - half_space
         if value <= 0:
-            raise GeometryError("ball_diameter", ball, "must be larger: the ball falls to the base circle", "mm")
+            raise self._at_base_circle(ball)
         return self.base_diameter / math.cos(math.radians(inverse_involute(value)))
+
+    def _at_base_circle(self, ball: float) -> GeometryError:
+        """The fault of a ball whose centre comes to the base circle."""
+        return GeometryError("ball_diameter", ball, "must be larger: the ball falls to the base circle", "mm")
 
     @cached_property
     def ball_diameter(self) -> float:
@@ -100,13 +113,10 @@ class Inspection:
         In the wide spaces of very few teeth these normals meet far out or never; the ball is then made to touch lower, perhaps
         off the involute (see `ball_contact_diameter`).
         """
-        touching = math.acos(min(self.base_diameter / self.middle_diameter, 1.0))
-        space_at_base = math.pi / self.teeth - math.radians(self.base_half_angle)
-        farthest = max(_FARTHEST_CENTRE, (touching + math.pi / 2) / 2)
-        touching = min(touching, math.atan(farthest - space_at_base))
-        space = space_at_base + math.tan(touching) - touching
+        touching = self._touching(math.acos(min(self.base_diameter / self.middle_diameter, 1.0)))
+        space = self._space_at_base + math.tan(touching) - touching
         base_helix = math.radians(self.base_helix_angle)
-        low, high = touching, min(touching + space, math.pi / 2 - 1e-9)
+        low, high = self._centres(touching, space)
         for _ in range(60):  # the left side less the right grows steadily with alpha_K
             centre = (low + high) / 2
             if centre - touching - space + math.tan(base_helix) ** 2 * (math.tan(centre) - math.tan(touching)) < 0:
@@ -116,6 +126,15 @@ class Inspection:
         ideal = self.base_diameter * (math.tan(centre) - math.tan(touching)) / math.cos(base_helix)
         step = 10.0 ** (math.floor(math.log10(ideal)) - 1)
         return round(math.ceil(ideal / step) * step, 9)
+
+    def _touching(self, wanted: float) -> float:
+        """Pressure angle (rad) where the ball touches: the one wanted, or less where the centre would be too far out."""
+        farthest = max(_FARTHEST_CENTRE, (wanted + math.pi / 2) / 2)
+        return min(wanted, math.atan(farthest - self._space_at_base))
+
+    def _centres(self, touching: float, space: float) -> tuple[float, float]:
+        """Bounds of the pressure angle (rad) at the centre of a ball that touches at one, half the space there given (rad)."""
+        return touching, min(touching + space, math.pi / 2 - 1e-9)
 
     def ball_contact_diameter(self, ball: float) -> float:
         """Diameter on which a ball of diameter `ball` touches the flanks: tan alpha_y = tan alpha_K - D cos beta_b/d_b.
@@ -134,6 +153,10 @@ class Inspection:
         """
         circle = self._ball_circle(ball)
         return circle * (math.cos(math.pi / (2 * self.teeth)) if self.teeth % 2 else 1.0) + ball
+
+    def between_balls(self, ball: float) -> float:
+        """Dimension between two balls in opposite spaces of a ring. Raises GeometryError for an external gear."""
+        raise GeometryError("teeth", self.teeth, "must be below 0: an external gear is measured over balls, not between them")
 
     def over_pins(self, pin: float) -> float:
         """Dimension over two pins of diameter `pin` between parallel planes.
@@ -170,7 +193,7 @@ class Inspection:
 
     def notices(self, lowest: float, highest: float, face_width: float) -> Iterator[Notice]:
         """Gauges that touch off the involute, which reaches from diameter `lowest` to `highest`, or beside the face (mm)."""
-        if not lowest <= (touching := self.span_contact_diameter(self.span_teeth)) <= highest:
+        if self.spanned and not lowest <= (touching := self.span_contact_diameter(self.spanned)) <= highest:
             yield Notice("span-off-involute", f"span: the anvils would touch at diameter {touching:.4f} mm, off the involute")
         ball = self.ball_diameter
         if not lowest <= (touching := self.ball_contact_diameter(ball)) <= highest:
@@ -179,7 +202,9 @@ class Inspection:
         if face_width < (width := self.pin_axial_shift):
             text = f"pins: the dimension over two pins needs a face width of {width:.4f} mm; use balls, or one pin"
             yield Notice("narrow-for-pins", text)
-        width = self.span_measurement(self.span_teeth) * math.sin(math.radians(abs(self.base_helix_angle)))
+        if not self.spanned:
+            return
+        width = self.span_measurement(self.spanned) * math.sin(math.radians(abs(self.base_helix_angle)))
         if face_width < width:
-            text = f"span: measuring over {self.span_teeth} teeth needs a face width of {width:.4f} mm"
+            text = f"span: measuring over {self.spanned} {self.spanned_is} needs a face width of {width:.4f} mm"
             yield Notice("narrow-for-span", text)

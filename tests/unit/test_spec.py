@@ -90,6 +90,14 @@ def test_pinion_takes_the_opposite_hand_of_a_wheel_that_alone_has_one() -> None:
     assert (pair.pinion.helix_angle, pair.wheel.helix_angle) == (-12.5, 12.5)
 
 
+@pytest.mark.parametrize("owner", ["pair", "pinion", "wheel"])
+def test_a_ring_takes_the_same_hand(owner: str) -> None:
+    made: dict[str, dict[str, Any]] = {"pair": {}, "pinion": {"teeth": 22}, "wheel": {"teeth": -70, "profile_shift": -0.5}}
+    made[owner]["helix_angle"] = 17
+    pair = design(**made).pair
+    assert (pair.pinion.helix_angle, pair.wheel.helix_angle) == (17.0, 17.0)
+
+
 def test_spur_wheel_has_no_negative_zero() -> None:
     pair = design(pair={"helix_angle": 0}).pair
     assert pair is not None

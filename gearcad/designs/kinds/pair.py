@@ -1,6 +1,6 @@
 """A pair of gears: `[pair]`, `[pinion]` and `[wheel]`.
 
-What both gears share may stand in `[pair]`; a gear's own value wins, and the wheel takes the opposite hand.
+What both gears share may stand in `[pair]`; a gear's own value wins, and the wheel takes the opposite hand, a ring the same.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ class _PairSpec(Spec):
     def pair(self, name: str) -> GearPair:
         """The pair of `[pair]`, `[pinion]` and `[wheel]`, with every "auto" resolved."""
         self._share_values()
-        self._oppose_helix()
+        self._match_helix()
         inputs = PerGear(*map(self._inputs, Role))
         with self.blame("pair"):
             given = self._pair_inputs()
@@ -125,12 +125,16 @@ class _PairSpec(Spec):
                 if not (renamed and field.startswith("rack")):
                     self.values.setdefault(f"{role.value}.{field}", given)
 
-    def _oppose_helix(self) -> None:
-        """The gear without a helix angle takes the mate's, of the opposite hand."""
+    def _match_helix(self) -> None:
+        """The gear without a helix angle takes the mate's: of the opposite hand, or of the same hand in a ring."""
+        teeth = self.values.get("wheel.teeth")
+        ring = teeth is not None and isinstance(teeth.value, int) and teeth.value < 0
         for role in (Role.WHEEL, Role.PINION):
             own, given = f"{role.value}.helix_angle", self.values.get(f"{role.mate.value}.helix_angle")
-            if given is not None and own not in self.values:
-                self.values[own] = given._replace(value=0.0 - given.value if isinstance(given.value, float) else given.value)
+            if given is None or own in self.values:
+                continue
+            opposed = isinstance(given.value, float) and not ring
+            self.values[own] = given._replace(value=0.0 - given.value) if opposed else given
 
     def _resolve_auto(
         self, inputs: PerGear[dict[str, Any]], distance: float | None, split: ShiftSplit | None
