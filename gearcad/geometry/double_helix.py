@@ -20,10 +20,10 @@ _OFFSET = Range("", -0.5, 0.5)
 class DoubleHelix:
     """What is between the halves of a double helical gear; without a gap width the teeth are those of a single helix.
 
-    `gap_width` (mm) is part of the face width; 0 lets the halves meet in a sharp apex, in one section. `offset` is how far the
-    teeth of the upper half (beyond the gap) are turned on, counter-clockwise, in pitches: 0 where each tooth goes on behind
-    the gap, 0.5 where it faces a space. `gap_diameter` (mm) is that of the gear between the halves, None a quarter of a
-    module below the root circle. The gear's helix angle is that of the lower half, which begins at z = 0.
+    `gap_width` (mm) is part of the face width; 0 lets the halves meet in a sharp apex, in one section. `offset` is how far
+    the teeth of the upper half (beyond the gap) are turned on, counter-clockwise, in pitches: 0 where each tooth goes on
+    behind the gap, 0.5 where it faces a space; -0.5 is the same. `gap_diameter` (mm) is that of the gear between the halves,
+    None a quarter of a module below the root circle. The gear's helix angle is that of the lower half, which begins at z = 0.
     Raises ParameterError, or GeometryError for an offset without a gap.
     """
 

@@ -50,6 +50,7 @@ def check_mates(pair: PairData) -> None:
     ):
         if abs(one - other) > _SAME:
             raise GeometryError(f"wheel.{name}", other, f"must be {format_number(one)} {unit}, as on the pinion", unit)
+    _check_halves(pair)
     hand, words = (1, "as on the pinion of an internal pair") if wheel.internal else (-1, "opposite to the pinion")
     if abs(wheel.helix_angle - hand * pinion.helix_angle) > _SAME:
         permitted = f"must be {format_number(hand * pinion.helix_angle)} deg, {words}"
@@ -58,6 +59,30 @@ def check_mates(pair: PairData) -> None:
         most = at_most((pinion.face_width + wheel.face_width) / 2)
         permitted = f"must be between -{most} and {most} mm, for the gears to face each other"
         raise GeometryError("axial_offset", pair.axial_offset, permitted, "mm")
+
+
+def _check_halves(pair: PairData) -> None:
+    """Both gears have two halves or none, whose teeth are offset alike and face each other in pairs."""
+    pinion, wheel = pair.gears.map(lambda gear: gear.double_helix)
+    if pinion.present != wheel.present:
+        permitted = "must be given for both gears of a double helical pair, or for neither"
+        raise GeometryError("wheel.double_helix.gap_width", wheel.gap_width, permitted, "mm")
+    if not pinion.present:
+        return
+    wanted = pinion.offset if pair.internal else -pinion.offset
+    if abs((wheel.offset - wanted + 0.5) % 1 - 0.5) > _SAME:
+        permitted = f"must be {format_number(wanted)}, for both halves to mesh"
+        raise GeometryError("wheel.double_helix.offset", wheel.offset, permitted)
+    if pair.axial_offset:
+        permitted = "must be 0 mm: double helical gears centre each other"
+        raise GeometryError("axial_offset", pair.axial_offset, permitted, "mm")
+    if pair.common_width.width <= 0:
+        most = min(gear.face_width for gear in pair.gears)
+        permitted = f"must be below {at_most(most)} mm, for the halves to face each other"
+        role = max(pair.gears.items(), key=lambda item: item[1].double_helix.gap_width or 0.0)[0]
+        raise GeometryError(
+            f"{role.value}.double_helix.gap_width", pair.gears.pick(role).double_helix.gap_width, permitted, "mm"
+        )
 
 
 def check_shift_sum(pair: PairData) -> None:

@@ -93,9 +93,14 @@ class GearPair(PairData):
 
     @property
     def overlap_ratio(self) -> float:
-        """epsilon_beta = b sin |beta|/(pi m_n) on the common face width."""
+        """epsilon_beta = b sin |beta|/(pi m_n) on the common face width, that of one half of double helical gears."""
         sine = math.sin(math.radians(abs(self.pinion.helix_angle)))
-        return self.common_width.width * sine / (math.pi * self.pinion.normal_module)
+        return self._width_of_one_hand * sine / (math.pi * self.pinion.normal_module)
+
+    @property
+    def _width_of_one_hand(self) -> float:
+        width = self.common_width.width
+        return width / 2 if self.double_helical else width
 
     @property
     def total_contact_ratio(self) -> float:
@@ -109,9 +114,10 @@ class GearPair(PairData):
 
     @cached_property
     def _zone(self) -> ContactZone:
-        pinion, width = self.pinion, self.common_width.width
+        pinion, width = self.pinion, self._width_of_one_hand
         pitch, helix = pinion.transverse_base_pitch, pinion.base_helix_angle
-        return ContactZone(self.path_of_contact, pitch, width, helix, pinion.base_diameter)
+        phases = (0.0, pinion.double_helix.offset) if self.double_helical else (0.0,)
+        return ContactZone(self.path_of_contact, pitch, width, helix, pinion.base_diameter, phases)
 
     def contact_line_length(self, roll_angle: ArrayLike) -> Any:
         """Total length (mm) of the lines of contact at a roll angle of the pinion (degrees), scalar or array.

@@ -22,7 +22,10 @@ _DISTANCE = Range("mm", None, None)
 
 
 class CommonWidth(NamedTuple):
-    """Width (mm) over which the gears face each other, and the offset (mm) of its middle from the pinion's middle."""
+    """Width (mm) over which the gears face each other, and the offset (mm) of its middle from the pinion's middle.
+
+    Of double helical gears that of both halves together, without the gap.
+    """
 
     width: float
     offset: float
@@ -50,6 +53,11 @@ class PairData:
     def internal(self) -> bool:
         """Whether the wheel is a ring."""
         return self.wheel.internal
+
+    @property
+    def double_helical(self) -> bool:
+        """Whether the teeth of both gears have two halves of opposite hand."""
+        return all(gear.double_helix.present for gear in self.gears)
 
     # ------------------------------------------------------------------ working data
 
@@ -143,5 +151,8 @@ class PairData:
     def common_width(self) -> CommonWidth:
         """Common face width and where its middle lies, seen from the pinion's middle."""
         own, mate = self.pinion.face_width / 2, self.wheel.face_width / 2
+        if self.double_helical:
+            gap = max(gear.double_helix.gap_width or 0.0 for gear in self.gears)
+            return CommonWidth(2 * min(own, mate) - gap, 0.0)
         low, high = max(-own, self.axial_offset - mate), min(own, self.axial_offset + mate)
         return CommonWidth(high - low, (high + low) / 2)

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gearcad.arrays import Floats
 from gearcad.geometry.involute import tangent_length
 from gearcad.per_gear import PerGear
 
@@ -93,6 +94,8 @@ class ContactZone:
     """Where flanks touch in the plane of action: a rectangle, the path of contact times the common face width (mm).
 
     Lines cross it at the base helix angle (degrees), one transverse base pitch apart; `base_diameter` is the pinion's.
+    A double helical pair has two such rectangles, of the width of one half; `phases` (base pitches) is how far lines are on
+    in each.
     """
 
     path: PathOfContact
@@ -100,6 +103,7 @@ class ContactZone:
     width: float
     base_helix_angle: float
     base_diameter: float
+    phases: tuple[float, ...] = (0.0,)
 
     @property
     def _helix(self) -> float:
@@ -116,18 +120,23 @@ class ContactZone:
 
         Roll angle 0 puts contact at the pitch point in the middle plane of the common face width.
         """
+        travel = self.path.C + np.radians(np.asarray(roll_angle, float)) * self.base_diameter / 2
+        total = sum(self._length(travel + phase * self.pitch) for phase in self.phases)
+        return float(total) if np.ndim(total) == 0 else total
+
+    def _length(self, travel: Floats) -> Floats:
+        """Length (mm) of the lines in one rectangle where one of them is at `travel` (mm) on the line of action."""
         path, pitch, reach = self.path, self.pitch, self._reach
-        travel = path.C + np.radians(np.asarray(roll_angle, float)) * self.base_diameter / 2
         most = math.ceil((path.E - path.A + reach) / pitch) + 1
         middle = path.A + np.mod(travel - path.A, pitch)
         places = middle[..., None] + np.arange(-most, most + 1) * pitch
         if reach < 1e-12 * self.width:
             inside = (places >= path.A) & (places <= path.E)
-            total = self.width * inside.sum(-1).astype(float)
+            total: Floats = self.width * inside.sum(-1).astype(float)
         else:
             overlap = np.minimum(places + reach / 2, path.E) - np.maximum(places - reach / 2, path.A)
             total = np.clip(overlap, 0, None).sum(-1) / math.sin(self._helix)
-        return float(total) if total.ndim == 0 else total
+        return total
 
     @property
     def line_lengths(self) -> ContactLineLengths:
@@ -138,9 +147,9 @@ class ContactZone:
         """
         path, pitch, reach = self.path, self.pitch, self._reach
         corners = np.array([path.A - reach / 2, path.A + reach / 2, path.E - reach / 2, path.E + reach / 2])
-        inner = np.sort(np.mod(corners - path.A, pitch))
+        inner = np.sort(np.mod(np.concatenate([corners - path.A - phase * pitch for phase in self.phases]), pitch))
         between = (inner + np.r_[inner[1:], inner[0] + pitch]) / 2
         places = np.r_[inner, between] if reach > 0 else between
         total = self.line_length(np.degrees((path.A + places - path.C) / (self.base_diameter / 2)))
-        mean = (path.E - path.A) / pitch * self.width / math.cos(self._helix)
+        mean = (path.E - path.A) / pitch * self.width / math.cos(self._helix) * len(self.phases)
         return ContactLineLengths(float(total.min()), mean, float(total.max()))
