@@ -13,7 +13,7 @@ from gearcad.meshing.bodies.sizing import Amount, body_sizes, factor_for
 from gearcad.meshing.bodies.tetrahedron_sizes import FILLET_ANGLE, TetrahedronGrading
 from gearcad.meshing.gear_plan import GearPlan, PartPlan, SectorsPlan
 from gearcad.meshing.options import AUTO, Extent, MeshOptions, What
-from gearcad.meshing.section.inner import inner_radius
+from gearcad.meshing.section.held import held_radius
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear
 
@@ -123,7 +123,7 @@ def _planned(gear: Gear, options: MeshOptions, extent: Extent, element: Element)
         refined = options.refined
         return PartPlan(gear=gear, size=size, elements=options.elements, grading=grading, refined_teeth=refined)
     teeth = None if extent.teeth is None or extent.teeth >= gear.teeth else extent.teeth
-    inner = 0.0 if not gear.body.bore and teeth is None else inner_radius(gear)
+    inner = 0.0 if not gear.body.bore and teeth is None else held_radius(gear)
     sizes = body_sizes(gear, options.size)
     if fillet is not None:
         sizes = replace(sizes, fillet_turn=FILLET_ANGLE / fillet)

@@ -69,7 +69,7 @@ def check_outline(gear: Gear, mesh: QuadMesh, radius: float) -> None:
     pitch = 2 * math.pi / gear.teeth
     turn = np.array([[math.cos(pitch), math.sin(pitch)], [-math.sin(pitch), math.cos(pitch)]])
     assert np.abs(places[mesh.behind] @ turn - places[mesh.ahead]).max() < ROUNDING
-    assert np.abs(np.hypot(*mesh.points[mesh.sides[Side.INNER]].T) - radius).max() < ROUNDING * gear.tip_diameter
+    assert np.abs(np.hypot(*mesh.points[mesh.sides[Side.HELD]].T) - radius).max() < ROUNDING * gear.tip_diameter
 
 
 def check_inputs(inputs: dict[str, Any], rim: float | None, factor: float) -> None:

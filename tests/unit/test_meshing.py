@@ -96,7 +96,7 @@ def test_tip_root_and_hub_are_round(mesh: SectorMesh) -> None:
         (Side.TIP, Z18.tip_diameter / 2),
         (Side.LEFT_ROOT, Z18.root_diameter / 2),
         (Side.RIGHT_ROOT, Z18.root_diameter / 2),
-        (Side.INNER, inner_radius(Z18, 4)),
+        (Side.HELD, inner_radius(Z18, 4)),
     ):
         assert np.hypot(*mesh.points[mesh.sides[side]].T) == pytest.approx(radius, abs=ROUNDING)
 

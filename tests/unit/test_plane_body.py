@@ -134,7 +134,7 @@ def explicit(mesh: SectorMesh, teeth: int, cuts: Cuts | None) -> tuple[Any, Any]
 
 def _permitted(mesh: SectorMesh, number: Any, turned: list[Any], points: Any, cuts: Cuts | None) -> Any:
     """Columns: the motions left free by the hub and by what holds the cuts."""
-    held = {int(node) for row in number for node in row[mesh.sides[Side.INNER]]}
+    held = {int(node) for row in number for node in row[mesh.sides[Side.HELD]]}
     sliding: set[int] = set()
     for row, nodes in ((number[0], mesh.behind), (number[-1], mesh.ahead)):
         if cuts is Cuts.FIXED:

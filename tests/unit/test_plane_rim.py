@@ -98,7 +98,7 @@ def _turn(angle: float) -> Any:
 def _bore_weights(mesh: SectorMesh) -> Any:
     """Integral of N (e.m) e over the bore, e along it, m a turn and two shifts: three points an edge, by Simpson's elements."""
     weights = np.zeros((2 * len(mesh.points), 3))
-    arc = mesh.sides[Side.INNER]
+    arc = mesh.sides[Side.HELD]
     s, weight = np.polynomial.legendre.leggauss(6)
     for a, b, c in zip(arc[:-1:2], arc[1::2], arc[2::2], strict=True):
         for at, w in zip(s, weight, strict=True):
@@ -150,7 +150,7 @@ def test_a_shaft_is_that_of_the_ring_in_full(mesh: SectorMesh) -> None:
     """A hollow shaft of another modulus, its section led by the torque in the mean."""
     support = support_of(GEAR, INNER, Hold.SHAFT, Material(youngs_modulus=70000.0), 8.0)
     whole = with_support(mesh, support)
-    assert np.hypot(*whole.points[whole.sides[Side.INNER]].T) == pytest.approx(4.0)
+    assert np.hypot(*whole.points[whole.sides[Side.HELD]].T) == pytest.approx(4.0)
     gear, shaft = np.arange(len(mesh.triangles)), np.arange(len(mesh.triangles), len(whole.triangles))
     soft = PlaneElasticity(Material(youngs_modulus=70000.0))
     stiffness = stiffness_matrix(whole, ELASTIC, gear) + stiffness_matrix(whole, soft, shaft)
@@ -205,7 +205,7 @@ def annulus(outer: float, inner: float, sectors: int, along: int, through: int) 
             triangles.append([cell[0, 0], cell[2, 2], cell[0, 2], cell[1, 1], cell[1, 2], cell[0, 1]])
     sides = {
         Side.AHEAD: number[:, 0],
-        Side.INNER: number[-1],
+        Side.HELD: number[-1],
         Side.BEHIND: number[::-1, -1],
         Side.TIP: number[0, ::-1],
     }

@@ -238,7 +238,7 @@ def _bore_weights(sector: SolidSector) -> Any:
 
     mesh, element = sector.mesh, ElementQuadS2()
     found = np.zeros((mesh.nodes, 3, 6))
-    arc = mesh.side(Side.INNER)
+    arc = mesh.side(Side.HELD)
     s, w = np.polynomial.legendre.leggauss(3)  # the area is no polynomial: other rules differ by 1e-7
     middle = GEAR.face_width / 2
     for layer in range(mesh.layers):

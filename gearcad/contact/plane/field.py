@@ -26,7 +26,7 @@ __all__ = ["ToothField", "contact_frame", "tooth_field"]
 _CORNERS = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
 """The nodes of a triangle in its own coordinates."""
 
-_INSIDE = (Side.AHEAD, Side.INNER, Side.BEHIND)
+_INSIDE = (Side.AHEAD, Side.HELD, Side.BEHIND)
 """Sides of a sector that are no profile."""
 
 _COARSE, _FINE = 2, 16

@@ -116,7 +116,7 @@ class PlaneCompliance(FlankCompliance):
     def hub_radius(self) -> float:
         """Where the body is held (mm)."""
         mesh = self.ring.sector.mesh
-        return float(np.hypot(*mesh.points[mesh.sides[Side.INNER][0]]))
+        return float(np.hypot(*mesh.points[mesh.sides[Side.HELD][0]]))
 
     @property
     def nodes(self) -> int:

@@ -136,7 +136,7 @@ def plane_pair(
 
 def flank_body(
     gear: Gear,
-    inner_radius: float,
+    held_radius: float,
     elasticity: PlaneElasticity,
     body: BodyModel,
     neighbours: int,
@@ -144,10 +144,10 @@ def flank_body(
     solve: Callable[[Gear, Ring, PlaneElasticity], PlaneCompliance] = flank_compliance,
     support: Support | None = None,
 ) -> PlaneCompliance:
-    """One gear, held at `inner_radius` (mm), with so many `neighbours` in full on each side of the loaded tooth."""
+    """One gear, held at `held_radius` (mm), with so many `neighbours` in full on each side of the loaded tooth."""
     sizes = sizes or MeshSizes()
     if (held := body.teeth_held(gear)) is not None:
         held = max(held, 2 * neighbours + 1)
-    fine, coarse = mesh_sector(gear, inner_radius, sizes), mesh_sector(gear, inner_radius, sizes.coarse())
+    fine, coarse = mesh_sector(gear, held_radius, sizes), mesh_sector(gear, held_radius, sizes.coarse())
     ring = assemble(fine, coarse, gear.teeth, min(neighbours, (gear.teeth - 1) // 2), elasticity, held, body.cuts, support)
     return solve(gear, ring, elasticity)

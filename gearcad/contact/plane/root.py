@@ -63,7 +63,7 @@ class Fillets:
         """The largest tension (MPa) on the surface of a bore that nothing keeps round."""
         if not self.body.ring.support.bends:
             return None
-        return float(max(stress.max() for stress in self._all_round(Side.INNER, loads, 1)))
+        return float(max(stress.max() for stress in self._all_round(Side.HELD, loads, 1)))
 
     def _all_round(self, side: Side, loads: list[ToothLoad], sign: int) -> Iterator[Floats]:
         """Stresses of every tooth of the gear, with the key where it adds most tension (1) or compression (-1)."""
@@ -84,7 +84,7 @@ class Fillets:
 
     @cached_property
     def _sides(self) -> tuple[Side, ...]:
-        return (*_ROOT, Side.INNER) if self.body.ring.support.bends else (Side.LEFT_FILLET, Side.RIGHT_FILLET)
+        return (*_ROOT, Side.HELD) if self.body.ring.support.bends else (Side.LEFT_FILLET, Side.RIGHT_FILLET)
 
     @cached_property
     def _geometry(self) -> dict[Side, tuple[Floats, Floats, Any]]:

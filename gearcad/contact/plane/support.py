@@ -36,7 +36,7 @@ def with_support(mesh: SectorMesh, support: Support) -> SectorMesh:
 
 def held_nodes(mesh: SectorMesh, support: Support) -> Wholes:
     """Nodes that belong to the hub."""
-    return np.empty(0, int) if support.floats else mesh.sides[Side.INNER]
+    return np.empty(0, int) if support.floats else mesh.sides[Side.HELD]
 
 
 def hub_seen_by(tooth: int, support: Support) -> Floats:
@@ -76,7 +76,7 @@ def rigid_motions(points: Floats) -> Floats:
 
 def _on_bore(mesh: SectorMesh, half: float) -> Floats:
     """Nodal forces (2 n, 3) by rigid motions' parts along the bore, as tractions up to `half` (rad) from its middle."""
-    edges = edges_of(mesh.sides[Side.INNER])
+    edges = edges_of(mesh.sides[Side.HELD])
     s, weight = np.polynomial.legendre.leggauss(_GAUSS)
     s = (np.arange(_PARTS)[:, None] + (s + 1) / 2).ravel() * 2 / _PARTS - 1
     weight = np.tile(weight / _PARTS, _PARTS)

@@ -9,7 +9,7 @@ from gearcad.contact.shared.holding import Hold, Support, support_of
 from gearcad.errors import GeometryError, ParameterError, format_number, require_number, require_whole
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import STEEL_MODULUS, Material
-from gearcad.meshing.section.inner import inner_radius
+from gearcad.meshing.section.held import held_radius
 from gearcad.per_gear import PerGear, Role, naming
 
 __all__ = ["BodyModel"]
@@ -22,7 +22,7 @@ _NO_BORES = PerGear(0.0, 0.0)
 
 @dataclass(frozen=True, kw_only=True)
 class BodyModel:
-    """The part of each gear that is flexible: all teeth, or `teeth` of them (odd) between cuts; held on an inner circle.
+    """The part of each gear that is flexible: all teeth, or `teeth` of them (odd) between cuts; held on a circle.
 
     `inner_diameters` (mm) None stands for the bore, or 4 m_n below the root circle where there is none; `holds` is how they are
     held there, with a shaft of `shaft_modulus` (MPa) and `shaft_bores` (mm, 0 for solid ones). `solid` bodies know no shaft and
@@ -96,4 +96,4 @@ def _inner_radius(gear: Gear, inner_diameter: float | None) -> float:
             most = gear.root_diameter - 0.2 * gear.normal_module
             raise GeometryError("inner_diameter", inner_diameter, f"must be at most {most:.6g} mm, below the root circle", "mm")
         return inner_diameter / 2
-    return inner_radius(gear)
+    return held_radius(gear)

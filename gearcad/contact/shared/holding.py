@@ -78,23 +78,23 @@ _WORDS = {
 }
 
 
-def rim_ratio(gear: Gear, inner_radius: float) -> float:
+def rim_ratio(gear: Gear, held_radius: float) -> float:
     """s_R/h_t: the rim from the root circle down to a radius (mm), or to the keyway if that is the bore, over tooth depth."""
-    opening = gear.body.opening_diameter / 2 if abs(inner_radius - gear.body.bore / 2) < _SAME else inner_radius
+    opening = gear.body.opening_diameter / 2 if abs(held_radius - gear.body.bore / 2) < _SAME else held_radius
     return (gear.root_diameter / 2 - opening) / ((gear.tip_diameter - gear.root_diameter) / 2)
 
 
 def support_of(
-    gear: Gear, inner_radius: float, hold: Hold = Hold.AUTO, shaft: Material | None = None, shaft_bore: float = 0.0
+    gear: Gear, held_radius: float, hold: Hold = Hold.AUTO, shaft: Material | None = None, shaft_bore: float = 0.0
 ) -> Support:
-    """What holds a gear at `inner_radius` (mm). Raises GeometryError if there is no keyway, or no room for the shaft's bore."""
+    """What holds a gear at `held_radius` (mm). Raises GeometryError if there is no keyway, or no room for the shaft's bore."""
     if hold is Hold.AUTO:
         thin = Hold.KEY if gear.body.keyway_width else Hold.FREE
-        hold = Hold.RIGID if rim_ratio(gear, inner_radius) >= RIM_LIMIT else thin
+        hold = Hold.RIGID if rim_ratio(gear, held_radius) >= RIM_LIMIT else thin
     if hold is Hold.KEY and not gear.body.keyway_width:
         raise GeometryError("body.keyway_width", 0.0, "must be given where the key holds the bore", "mm")
-    if hold is Hold.SHAFT and shaft_bore > _THINNEST_SHAFT * 2 * inner_radius:
-        most = format_number(_THINNEST_SHAFT * 2 * inner_radius)
+    if hold is Hold.SHAFT and shaft_bore > _THINNEST_SHAFT * 2 * held_radius:
+        most = format_number(_THINNEST_SHAFT * 2 * held_radius)
         raise GeometryError("shaft_bore", shaft_bore, f"must be at most {most} mm ({_THINNEST_SHAFT} of the gear's bore)", "mm")
-    key = math.asin(min(1.0, gear.body.keyway_width / 2 / inner_radius))
+    key = math.asin(min(1.0, gear.body.keyway_width / 2 / held_radius))
     return Support(hold, gear.teeth, shaft or Material(), shaft_bore, key)

@@ -60,7 +60,7 @@ class SolidCompliance(FlankCompliance):
     def hub_radius(self) -> float:
         """Where the body is held (mm)."""
         mesh = self.body.sector.mesh
-        return float(np.hypot(*mesh.section.points[mesh.side(Side.INNER)[0]]))
+        return float(np.hypot(*mesh.section.points[mesh.side(Side.HELD)[0]]))
 
     @property
     def nodes(self) -> int:

@@ -32,8 +32,8 @@ def rigid_motions(points: Floats, middle: float) -> Floats:
 def bore_forces(mesh: SweptMesh) -> Floats:
     """Nodal forces (3 nodes, 6) in the turning axes, by tractions on the bore like a rigid motion's part along its surface."""
     section = mesh.section
-    inner = np.isin(section.quads, mesh.side(Side.INNER))
-    faces = boundary_faces(mesh, np.flatnonzero(inner.sum(axis=1) >= _ON_ARC)).among(mesh.over(mesh.side(Side.INNER)))
+    inner = np.isin(section.quads, mesh.side(Side.HELD))
+    faces = boundary_faces(mesh, np.flatnonzero(inner.sum(axis=1) >= _ON_ARC)).among(mesh.over(mesh.side(Side.HELD)))
     middle = (mesh.planes[0] + mesh.planes[-1]) / 2
 
     def sheared(points: Floats, normals: Floats) -> Floats:

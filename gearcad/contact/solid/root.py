@@ -134,7 +134,7 @@ class SolidFillet:
         neighbours = self.body.neighbours
         teeth = range(-neighbours, neighbours + 1)
         moved = {tooth: self.body.displacements[neighbours + tooth] for tooth in teeth}
-        if self.side is Side.INNER:
+        if self.side is Side.HELD:
             # The fields are taken off the tooth; the elements of the bore have all of what is far from the load.
             moved[0] = moved[0] + self.body.taken_off
             return {tooth: self._stresses(each) for tooth, each in moved.items()}
@@ -190,7 +190,7 @@ class SolidFillets(NamedTuple):
 
 def solid_fillets(body: SolidCompliance) -> SolidFillets:
     """The fillets of tooth 0 of a body, and its bore."""
-    bore = SolidFillet(body, Side.INNER) if body.body.sector.free else None
+    bore = SolidFillet(body, Side.HELD) if body.body.sector.free else None
     return SolidFillets(SolidFillet(body, Side.LEFT_FILLET), SolidFillet(body, Side.RIGHT_FILLET), bore)
 
 

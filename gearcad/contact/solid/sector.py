@@ -55,7 +55,7 @@ class SolidSector:
     @cached_property
     def hub(self) -> Wholes:
         """Dofs that belong to the hub."""
-        return np.empty(0, int) if self.free else _dofs(self.mesh.over(self.mesh.side(Side.INNER)))
+        return np.empty(0, int) if self.free else _dofs(self.mesh.over(self.mesh.side(Side.HELD)))
 
     @property
     def cut_radii(self) -> Floats:
@@ -101,7 +101,7 @@ class SolidSector:
     def condensed(self) -> Condensed:
         """The sector with its hub held, condensed to its cuts."""
         section = self.mesh.section
-        held = np.empty(0, int) if self.free else self.mesh.side(Side.INNER)
+        held = np.empty(0, int) if self.free else self.mesh.side(Side.HELD)
         part = parts_of(section.points, section.quads, np.r_[section.behind, section.ahead, held])
         layers = list(self._layers(section.quads))
         local = np.full(self.dofs, -1)
@@ -159,7 +159,7 @@ class SolidSector:
         if self.free:
             free: Floats = self.cut_turn.T @ bore_forces(self.mesh)
             return free
-        near = np.flatnonzero(np.isin(self.mesh.section.quads, self.mesh.side(Side.INNER)).any(axis=1))
+        near = np.flatnonzero(np.isin(self.mesh.section.quads, self.mesh.side(Side.HELD)).any(axis=1))
         result: Floats = self.cut_turn.T @ (self.stiffness(near) @ (self.cut_turn @ self.hub_turn))
         return result[:, None]
 

@@ -126,7 +126,7 @@ def _numbers(sectors: Sequence[SectorSides], vertices: int, *, closed: bool) -> 
 def _named(sector: SectorSides, element: Element, tooth: int, place: int, count: int, closed: bool) -> dict[str, Faces]:
     """Sides of one of `count` sectors under the names that they have in the whole."""
     found = {f"{name}_{tooth}": _faces(sector, side, element) for side, name in _OF_TEETH.items() if side in sector.sides}
-    found[BORE] = _faces(sector, Side.INNER, element)
+    found[BORE] = _faces(sector, Side.HELD, element)
     if not closed and place == 0:
         found["cut_behind"] = _faces(sector, Side.BEHIND, element)
     if not closed and place == count - 1:

@@ -14,7 +14,7 @@ from gearcad.geometry import Gear
 from gearcad.meshing.bodies.contact_zone import ContactZone, lengths_near
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.section.edge_lengths import bent_lengths
-from gearcad.meshing.section.inner import rim_radius
+from gearcad.meshing.section.held import rim_radius
 from gearcad.meshing.section.layout import SectorLayout, quadrangles
 from gearcad.meshing.section.outline import HalfLengths, MeshSizes, SectorSides, Side, require_fillet
 from gearcad.meshing.section.quads import fill_layout
@@ -136,7 +136,7 @@ class Sectors:
 def _counted(sector: SectorSides) -> SectorCount:
     edges = {side: (len(chain) - 1) // 2 for side, chain in sector.sides.items()}
     cut = edges[Side.AHEAD]
-    return SectorCount(len(sector.cells), sum(edges.values()) - 2 * cut, edges[Side.INNER], cut)
+    return SectorCount(len(sector.cells), sum(edges.values()) - 2 * cut, edges[Side.HELD], cut)
 
 
 def _carrying(sizes: MeshSizes) -> MeshSizes:

@@ -1,12 +1,12 @@
 """How a tooth sector is laid out in blocks of quadrangles, and how many edges each of their sides gets.
 
-tip circle         +---------+
+tip circle         +---------+             (of a ring: seen with the tip up)
                    |  tooth  |            across: edges from flank to flank
 end of fillet     /           \\           up: edges from the split of the fillet to the tip
 split of fillet  +-------------+
 root circle  +--+ |           | +--+      outer: edges of root land and lower fillet
-             |  | |   core    | |  |      deep: edges from the fillet to the inner circle
-inner circle +--+-+-----------+-+--+
+             |  | |   core    | |  |      deep: edges from the fillet to the held circle
+held circle  +--+-+-----------+-+--+
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from gearcad.geometry.curves import Curve, CurveKind, Land
 from gearcad.meshing.section.grading import Grading, graded
 from gearcad.meshing.section.outline import HalfLengths, MeshSizes, Side, edge_lengths, require_fillet
 
-__all__ = ["Counts", "Piece", "SectorLayout", "cartesian", "choose_counts", "polar", "quadrangles", "shares"]
+__all__ = ["Counts", "LogPlane", "Piece", "SectorLayout", "choose_counts", "quadrangles", "shares"]
 
 
 _WEIGHT_OF_ALL = 30.0
 """How much more the number of all quadrangles matters than that on one side, squares of logarithms compared."""
 
 _LEAST_BEND = 0.15
-"""Slope with which the line below the split leans, at the least, towards where it ends on the inner circle."""
+"""Slope with which the line below the split leans, at the least, towards where it ends on the held circle."""
 
 _DEEPEST_DIP = 0.25
 """Share of the body's depth by which the line across the tooth may dip."""
@@ -68,15 +68,30 @@ def choose_counts(wanted: tuple[float, ...], least: Counts) -> Counts:
     return Counts(*min(itertools.product(*near), key=off))
 
 
-def polar(points: Floats) -> Floats:
-    """Angle (rad) and logarithm of the radius of points (n, 2)."""
-    return np.stack([np.arctan2(points[..., 1], points[..., 0]), np.log(np.hypot(points[..., 0], points[..., 1]))], -1)
+@dataclass(frozen=True)
+class LogPlane:
+    """The plane of angle (rad) and logarithm of the radius (mm), in which circles and radii are straight and angles stay.
 
+    Tips are up in it: of a ring it has the logarithm `inward`, of 1 over the radius, and so is a mirror image.
+    """
 
-def cartesian(places: Floats) -> Floats:
-    """Points of angles and logarithms of radii (n, 2)."""
-    result: Floats = np.exp(places[..., 1:]) * np.stack([np.cos(places[..., 0]), np.sin(places[..., 0])], -1)
-    return result
+    inward: bool
+
+    def height(self, radius: float) -> float:
+        """Logarithm of a radius (mm)."""
+        log = math.log(radius)
+        return -log if self.inward else log
+
+    def places(self, points: Floats) -> Floats:
+        """Places (..., 2) of points (..., 2) in mm."""
+        log = np.log(np.hypot(points[..., 0], points[..., 1]))
+        return np.stack([np.arctan2(points[..., 1], points[..., 0]), -log if self.inward else log], -1)
+
+    def points(self, places: Floats) -> Floats:
+        """Points (..., 2) in mm of places (..., 2)."""
+        log = -places[..., 1:] if self.inward else places[..., 1:]
+        result: Floats = np.exp(log) * np.stack([np.cos(places[..., 0]), np.sin(places[..., 0])], -1)
+        return result
 
 
 @dataclass(frozen=True)
@@ -119,15 +134,14 @@ def shares(pieces: tuple[Piece, ...], count: int) -> list[tuple[Piece, int]]:
 class SectorLayout:
     """The lines between the blocks of the left half of tooth 0's sector, and the edges that the sizes ask for on them.
 
-    Inside the outline they are drawn in the plane of angle and logarithm of the radius, where circles and radii are straight
-    and angles stay as they are: there gears of few teeth look like those of many. `lengths` are the edge lengths along the
-    outline, where they are not those of `sizes`, and are then nowhere exceeded; `rows` those from the split to the tip land,
-    which decide on no other line. With `even` the inner circle gets an even number of edges. Raises GeometryError for a tooth
-    without a fillet.
+    Inside the outline they are drawn in its `plane`, where gears of few teeth look like those of many. `lengths` are the edge
+    lengths along the outline, where they are not those of `sizes`, and are then nowhere exceeded; `rows` those from the split
+    to the tip land, which decide on no other line. With `even` the held circle gets an even number of edges. Raises
+    GeometryError for a tooth without a fillet.
     """
 
     gear: Gear
-    inner_radius: float
+    held_radius: float
     sizes: MeshSizes
     lengths: HalfLengths | None = None
     rows: HalfLengths | None = None
@@ -135,6 +149,11 @@ class SectorLayout:
 
     def __post_init__(self) -> None:
         require_fillet(self.gear)
+
+    @cached_property
+    def plane(self) -> LogPlane:
+        """Angle and logarithm of the radius, the tip up."""
+        return LogPlane(inward=self.gear.internal)
 
     # ------------------------------------------------------------------ the outline
 
@@ -195,14 +214,14 @@ class SectorLayout:
         """Angle (rad) of the fillet to the radius at parameters (n,): a right one at the root circle, less further up."""
         fillet = self._curves[CurveKind.FILLET]
         result: Floats = fillet.polar(s)[1] - fillet.direction(s)
-        return result
+        return math.pi - result if self.plane.inward else result
 
     # ------------------------------------------------------------------ lines through the inside
 
     @cached_property
     def corner(self) -> Floats:
         """Angle and logarithm of the radius (2,) of the split."""
-        result: Floats = polar(self._curves[CurveKind.FILLET].points(np.array([self.split])))[0]
+        result: Floats = self.plane.places(self._curves[CurveKind.FILLET].points(np.array([self.split])))[0]
         return result
 
     @cached_property
@@ -211,8 +230,8 @@ class SectorLayout:
 
     @cached_property
     def depth(self) -> float:
-        """From the split to the inner circle, in logarithms of radii."""
-        return float(self.corner[1]) - math.log(self.inner_radius)
+        """From the split to the held circle, in logarithms of radii."""
+        return float(self.corner[1]) - self.plane.height(self.held_radius)
 
     def across_line(self, s: Floats) -> Floats:
         """Angles and logarithms (n, 2) along the line across the tooth, s from 0 at the left split to 1 at the right one.
@@ -226,9 +245,9 @@ class SectorLayout:
         return np.stack([half * place, self.corner[1] - dip * (1 - place**2)], -1)
 
     def down_line(self, s: Floats) -> Floats:
-        """Angles and logarithms (n, 2) along the line from the inner circle (s = 0) up to the left split (s = 1)."""
+        """Angles and logarithms (n, 2) along the line from the held circle (s = 0) up to the left split (s = 1)."""
         slope = max(math.tan(math.pi / 3 - self._corner_lean), _LEAST_BEND)
-        way = math.pi / self.gear.teeth * self._core_share - self.corner[0]
+        way = math.pi / self.gear.tooth_count * self._core_share - self.corner[0]
         down = self.depth * (1 - s)
         moved = way * -np.expm1(-slope * down / max(abs(way), 1e-12))
         return np.stack([self.corner[0] + moved, self.corner[1] - down], -1)
@@ -238,10 +257,11 @@ class SectorLayout:
 
         The root circle is deeper than the split; what that takes off is made up for within a few times as much.
         """
-        drop = max(float(self.corner[1]) - math.log(self.gear.root_diameter / 2), 1e-9 * self.depth)
+        root = self.plane.height(self.gear.profile.root_diameter / 2)
+        drop = max(float(self.corner[1]) - root, 1e-9 * self.depth)
         below, fades = self.corner[1] - down[:, 1], _LEVELLED * drop
         left = 1 - np.expm1(-below / fades) / math.expm1(-self.depth / fades)
-        return np.stack([np.full(len(down), math.pi / self.gear.teeth), down[:, 1] - drop * left], -1)
+        return np.stack([np.full(len(down), math.pi / self.gear.tooth_count), down[:, 1] - drop * left], -1)
 
     # ------------------------------------------------------------------ edges on them
 
@@ -254,7 +274,7 @@ class SectorLayout:
             grown = fillet + self.sizes.growth * np.minimum(run, whole - run)
             return np.minimum(self.sizes.outline * module, grown)
 
-        return graded(lambda s: cartesian(self.across_line(s)), size)
+        return graded(lambda s: self.plane.points(self.across_line(s)), size)
 
     @cached_property
     def down(self) -> Grading:
@@ -264,7 +284,7 @@ class SectorLayout:
         def size(run: Floats, whole: float) -> Floats:
             return np.minimum(sizes.rim * module, sizes.fillet * module + sizes.growth * (whole - run))
 
-        return graded(lambda s: cartesian(self.down_line(s)), size)
+        return graded(lambda s: self.plane.points(self.down_line(s)), size)
 
     @cached_property
     def wanted(self) -> tuple[float, float, float, float]:
@@ -277,7 +297,7 @@ class SectorLayout:
 
     @cached_property
     def _core_share(self) -> float:
-        """Share of the inner circle that belongs to the core, for edges of one length there."""
+        """Share of the held circle that belongs to the core, for edges of one length there."""
         return self._across / (self._across + 2 * edges_of(self.root))
 
     @cached_property

@@ -36,6 +36,9 @@ EdgeLength = Callable[[Floats, float], Floats]
 _LEAST_FILLET = 1e-6
 """Shortest fillet in normal modules."""
 
+_SHORTEST_HALF = 0.05
+"""Half of a ring's fillet, in normal modules, that is an edge of its own: one edge for all of it would fold its triangle."""
+
 _FINE = 513
 """Places at which a part of a curve is sampled to be measured."""
 
@@ -79,14 +82,15 @@ class Side(Enum):
     LEFT_FILLET = "left fillet"
     LEFT_ROOT = "left root land"
     AHEAD = "cut at plus half a pitch"
-    INNER = "inner circle"
+    HELD = "held circle"
     BEHIND = "cut at minus half a pitch"
 
 
 class SectorSides(ABC):
     """A sector's mesh: `points` (n, 2) in mm, vertices first, `sides` its nodes by the sides of its outline.
 
-    These are in order along it: end, middle, end, middle ... end.
+    These are in order along it - end, middle, end, middle ... end - and run counter-clockwise about the gear's axis over the
+    tooth: so does the whole outline of an external tooth about its sector, while that of a ring's runs clockwise.
     """
 
     points: Floats
@@ -99,12 +103,12 @@ class SectorSides(ABC):
 
     @property
     def ahead(self) -> Wholes:
-        """Nodes of the cut at plus half a pitch, from the root inwards."""
+        """Nodes of the cut at plus half a pitch, from the root to the held circle."""
         return self.sides[Side.AHEAD]
 
     @property
     def behind(self) -> Wholes:
-        """Nodes of the cut at minus half a pitch, from the root inwards: the k-th meets the k-th of `ahead`."""
+        """Nodes of the cut at minus half a pitch, from the root to the held circle: the k-th meets the k-th of `ahead`."""
         return self.sides[Side.BEHIND][::-1]
 
 
@@ -183,29 +187,33 @@ def require_fillet(gear: Gear) -> None:
     ends = fillet.points(np.array([0.0, 1.0]))
     if float(np.hypot(*(ends[1] - ends[0]))) < _LEAST_FILLET * gear.normal_module:
         permitted = "must be larger for finite elements: the sharp tool leaves a corner and no fillet"
+        if gear.cutter.tip_radius is not None:
+            raise GeometryError("cutter.tip_radius", gear.cutter.tip_radius, permitted, "m_n")
         raise GeometryError("rack.root_radius", gear.rack.root_radius, permitted, "m_n")
 
 
 def sector_outline(
-    gear: Gear, inner_radius: float, sizes: MeshSizes, left: HalfLengths | None = None, right: HalfLengths | None = None
+    gear: Gear, held_radius: float, sizes: MeshSizes, left: HalfLengths | None = None, right: HalfLengths | None = None
 ) -> list[Stretch]:
-    """The closed outline of tooth 0 and its share of the body down to `inner_radius` (mm), counter-clockwise.
+    """The closed outline of tooth 0 and its share of the body up to `held_radius` (mm), in the order of `SectorSides`.
 
     Halves without edge lengths of their own have those of `sizes`: the left one those of the loaded flank. Both cuts have the
-    same nodes, whatever the lengths on the teeth, so that sectors fit together.
+    same nodes, whatever the lengths on the teeth, so that sectors fit together. Raises GeometryError for a tooth without a
+    fillet.
     """
-    half_pitch = math.pi / gear.teeth
+    require_fillet(gear)
+    half_pitch = math.pi / gear.tooth_count
     first = _half_tooth(gear, right or edge_lengths(gear, sizes, loaded=False))
     second = _half_tooth(gear, left or edge_lengths(gear, sizes, loaded=True))
-    cut = _cut(gear.root_diameter / 2, inner_radius, half_pitch, sizes, gear.normal_module)
+    cut = _cut(gear.profile.root_diameter / 2, held_radius, half_pitch, sizes, gear.normal_module)
     behind = cut.mirrored(Side.BEHIND).backwards()
     last = float(np.hypot(*(cut.ends[-1] - cut.ends[-2])))
-    inner = _arc(inner_radius, half_pitch, last)
+    held = _arc(held_radius, half_pitch, last)
     return [
         *(stretch.mirrored(OTHER_SIDE[stretch.side]) for stretch in first),
         *(stretch.backwards() for stretch in reversed(second)),
         cut,
-        inner,
+        held,
         behind,
     ]
 
@@ -230,6 +238,7 @@ def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> HalfLengths:
     """The wanted edge lengths on the curves of half a tooth."""
     module, grow = gear.normal_module, sizes.growth
     fillet, other = sizes.fillet * module, sizes.outline * module
+    bent = min(fillet, max(_half_fillet(gear), _SHORTEST_HALF * module)) if gear.internal else fillet
     flank, corner = (sizes.flank * module, sizes.corner * module) if loaded else (other, other)
 
     def on_flank(run: Floats, whole: float) -> Floats:
@@ -237,12 +246,17 @@ def edge_lengths(gear: Gear, sizes: MeshSizes, *, loaded: bool) -> HalfLengths:
 
     curves: dict[CurveKind, EdgeLength] = {
         CurveKind.ROOT: lambda run, whole: np.minimum(sizes.cut * module, fillet + grow * (whole - run)),
-        CurveKind.FILLET: lambda run, _whole: np.full_like(run, fillet),
+        CurveKind.FILLET: lambda run, _whole: np.full_like(run, bent),
         CurveKind.INVOLUTE: on_flank,
         CurveKind.CHAMFER: lambda run, _whole: np.minimum(other, corner + grow * run),
         CurveKind.TIP: lambda run, _whole: np.minimum(other, corner + grow * run),
     }
     return HalfLengths(curves)
+
+
+def _half_fillet(gear: Gear) -> float:
+    """Half the length (mm) of a fillet."""
+    return _measured(next(curve for curve in gear.profile.curves if curve.kind is CurveKind.FILLET), 1.0) / 2
 
 
 def _half_tooth(gear: Gear, lengths: HalfLengths) -> list[Stretch]:
@@ -258,13 +272,13 @@ def _stretch(curve: Curve, lengths: HalfLengths, first: float, last: float) -> S
     return Stretch(_SIDES[curve.kind], curve.points(s))
 
 
-def _cut(outer: float, inner: float, angle: float, sizes: MeshSizes, module: float) -> Stretch:
-    """The radial cut from the root circle inwards, edges growing up to the rim's."""
+def _cut(root: float, held: float, angle: float, sizes: MeshSizes, module: float) -> Stretch:
+    """The radial cut from the root circle to the held one, edges growing up to the rim's."""
     direction = np.array([math.cos(angle), math.sin(angle)])
     rim, cut = sizes.rim * module, sizes.cut * module
 
     def points(s: Floats) -> Floats:
-        result: Floats = (outer + s[:, None] * (inner - outer)) * direction
+        result: Floats = (root + s[:, None] * (held - root)) * direction
         return result
 
     grading = graded(points, lambda run, _whole: np.minimum(rim, cut + sizes.growth * run))
@@ -272,7 +286,7 @@ def _cut(outer: float, inner: float, angle: float, sizes: MeshSizes, module: flo
 
 
 def _arc(radius: float, half_angle: float, size: float) -> Stretch:
-    """The inner circle from plus to minus half a pitch."""
+    """The held circle from plus to minus half a pitch."""
     edges = max(1, math.ceil(2 * half_angle * radius / size))
     angles = np.linspace(half_angle, -half_angle, 2 * edges + 1)
-    return Stretch(Side.INNER, radius * np.stack([np.cos(angles), np.sin(angles)], -1))
+    return Stretch(Side.HELD, radius * np.stack([np.cos(angles), np.sin(angles)], -1))

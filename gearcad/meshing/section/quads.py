@@ -12,7 +12,7 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
-from gearcad.meshing.section.layout import Piece, SectorLayout, cartesian, polar, shares
+from gearcad.meshing.section.layout import LogPlane, Piece, SectorLayout, shares
 from gearcad.meshing.section.outline import OTHER_SIDE, MeshSizes, SectorSides, Side
 from gearcad.meshing.section.quality import LEAST_SCALED_JACOBIAN, scaled_jacobians
 from gearcad.meshing.section.transfinite import transfinite
@@ -42,13 +42,13 @@ class QuadMesh(SectorSides):
         return self.quads
 
 
-def mesh_quads(gear: Gear, inner_radius: float, sizes: MeshSizes) -> QuadMesh:
-    """Mesh tooth 0 of the transverse section down to `inner_radius` (mm), symmetric about the middle of the tooth.
+def mesh_quads(gear: Gear, held_radius: float, sizes: MeshSizes) -> QuadMesh:
+    """Mesh tooth 0 of the transverse section up to `held_radius` (mm), symmetric about the middle of the tooth.
 
     The number of quadrangles follows the square of the sizes. Raises GeometryError for a tooth without a fillet, SolverError
     where quadrangles would be too distorted.
     """
-    return fill_layout(SectorLayout(gear, inner_radius, sizes))
+    return fill_layout(SectorLayout(gear, held_radius, sizes))
 
 
 def fill_layout(layout: SectorLayout) -> QuadMesh:
@@ -65,12 +65,16 @@ def fill_layout(layout: SectorLayout) -> QuadMesh:
 
 @dataclass(frozen=True)
 class _Blocks:
-    """The sector as two grids of vertices, columns from the left (y > 0) to the right, rows outwards: body and tooth.
+    """The sector as two grids of vertices, columns from the left (y > 0) to the right, rows towards the tip: body and tooth.
 
     The tooth stands on the middle of the body's last row.
     """
 
     layout: SectorLayout
+
+    @property
+    def _plane(self) -> LogPlane:
+        return self.layout.plane
 
     @cached_property
     def root(self) -> Floats:
@@ -90,8 +94,8 @@ class _Blocks:
     @cached_property
     def tooth(self) -> Floats:
         """Vertices (up + 1, across + 1, 2) as angles and logarithms of radii."""
-        left = polar(self.flank[::2])
-        return transfinite(self._across, polar(self.tip[::2]), left, left * _FLIPPED)
+        left = self._plane.places(self.flank[::2])
+        return transfinite(self._across, self._plane.places(self.tip[::2]), left, left * _FLIPPED)
 
     @cached_property
     def body(self) -> Floats:
@@ -99,7 +103,7 @@ class _Blocks:
         layout, counts = self.layout, self.layout.counts
         down = layout.down_line(layout.down.ends(counts.deep))
         cut = layout.cut_line(down)
-        left = transfinite(np.linspace(cut[0], down[0], counts.outer + 1), polar(self.root[::2]), cut, down)
+        left = transfinite(np.linspace(cut[0], down[0], counts.outer + 1), self._plane.places(self.root[::2]), cut, down)
         core = transfinite(np.linspace(down[0], down[0] * _FLIPPED, counts.across + 1), self._across, down, down * _FLIPPED)
         return np.concatenate([left[:, :-1], core, left[:, -2::-1] * _FLIPPED], axis=1)
 
@@ -120,13 +124,14 @@ class _Blocks:
     def points(self) -> Floats:
         """All vertices (n, 2) in mm, as they are numbered."""
         places = np.concatenate([self.body.reshape(-1, 2), self.tooth[1:].reshape(-1, 2)])
-        return cartesian(places)
+        return self._plane.points(places)
 
     @property
     def quads(self) -> Wholes:
         """Vertices (m, 4) of all quadrangles, counter-clockwise."""
         grids = ([grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]] for grid in self.numbers)
-        return np.concatenate([np.stack([part.ravel() for part in grid], -1) for grid in grids])
+        quads = np.concatenate([np.stack([part.ravel() for part in grid], -1) for grid in grids])
+        return quads[:, ::-1] if self._plane.inward else quads
 
     @cached_property
     def sides(self) -> list[tuple[Side, Wholes, Floats]]:
@@ -149,12 +154,12 @@ class _Blocks:
             (Side.TIP, tooth[-1, ::-1], self.tip[::-1]),
             *((side, left[ends][::-1], points[both][::-1]) for side, ends, both in reversed(up)),
             (Side.AHEAD, body[::-1, 0], self._straight(self.body[::-1, 0])),
-            (Side.INNER, body[0], cartesian(arc)),
+            (Side.HELD, body[0], self._plane.points(arc)),
             (Side.BEHIND, body[:, -1], self._straight(self.body[:, -1])),
         ]
 
     def _straight(self, places: Floats) -> Floats:
-        return _with_middles(cartesian(places))
+        return _with_middles(self._plane.points(places))
 
 
 def _along(pieces: tuple[Piece, ...], count: int) -> Floats:

@@ -42,16 +42,17 @@ class SectorMesh(SectorSides):
 
 def mesh_sector(
     gear: Gear,
-    inner_radius: float,
+    held_radius: float,
     sizes: MeshSizes | None = None,
     left: HalfLengths | None = None,
     right: HalfLengths | None = None,
 ) -> SectorMesh:
-    """Mesh tooth 0 of the gear's transverse section down to `inner_radius` (mm). Raises SolverError if gmsh fails.
+    """Mesh tooth 0 of the gear's transverse section up to `held_radius` (mm). Raises SolverError if gmsh fails,
+    GeometryError for a tooth without a fillet.
 
     `left` and `right` are edge lengths along the halves of the tooth, where they are not those of `sizes`.
     """
-    outline = sector_outline(gear, inner_radius, sizes or MeshSizes(), left, right)
+    outline = sector_outline(gear, held_radius, sizes or MeshSizes(), left, right)
     corners = np.concatenate([stretch.ends[:-1] for stretch in outline])
     points, triangles = fill_polygon(corners)
     return _quadratic(points, triangles, outline)

@@ -1,4 +1,4 @@
-"""A wedge of shaft in the bore under one tooth sector: quadratic triangles on the nodes of the sector's inner circle."""
+"""A wedge of shaft in the bore under one tooth sector: quadratic triangles on the nodes of its bore."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ _GROWTH = 1.3
 def with_shaft(mesh: SectorMesh, shaft_bore: float) -> SectorMesh:
     """The sector and its share of a shaft with a bore of `shaft_bore` (mm), 0 for a solid one.
 
-    The sector's nodes and triangles come first; its cuts go on through the shaft, and its inner circle is the shaft's bore.
+    The sector's nodes and triangles come first; its cuts go on through the shaft, and it is held in the shaft's bore.
     """
-    arc = mesh.sides[Side.INNER]
+    arc = mesh.sides[Side.HELD]
     outer, angle = np.hypot(*mesh.points[arc[0]]), 2 * np.arctan2(*mesh.points[arc[0], ::-1])
     radii = _radii(float(outer), max(shaft_bore / 2, _HOLLOW * float(outer)), float(angle) / (len(arc) // 2))
     added = (radii[1:, None, None] / outer) * mesh.points[arc]
@@ -34,7 +34,7 @@ def with_shaft(mesh: SectorMesh, shaft_bore: float) -> SectorMesh:
     sides = dict(mesh.sides)
     sides[Side.AHEAD] = np.r_[sides[Side.AHEAD], numbers[1:, 0]]
     sides[Side.BEHIND] = np.r_[numbers[:0:-1, -1], sides[Side.BEHIND]]
-    sides[Side.INNER] = numbers[-1]
+    sides[Side.HELD] = numbers[-1]
     return SectorMesh(np.r_[mesh.points, added.reshape(-1, 2)], np.r_[mesh.triangles, _triangles(numbers)], sides)
 
 
