@@ -13,7 +13,7 @@ from gearcad.errors import format_number
 from gearcad.geometry import Gear
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
-from gearcad.rating.iso6336_3 import RIM_LIMIT
+from gearcad.rating.rim import RIM_LIMIT
 
 __all__ = ["bending_limits", "bending_notes", "rim_gates", "rim_notices"]
 

@@ -7,10 +7,11 @@ from gearcad.rating.hertz import LineContact, Peak, Stresses, reduced_modulus, r
 from gearcad.rating.iso1328 import Accuracy
 from gearcad.rating.iso6336_1 import MeshStiffness, gear_blank_factor
 from gearcad.rating.iso6336_2 import FlankRating
-from gearcad.rating.iso6336_3 import RootRating, RootSection
+from gearcad.rating.iso6336_3 import RootRating
 from gearcad.rating.mesh_contact import base_normal_force, contact_at, pitch_point_contact
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import Rating, rate
+from gearcad.rating.root_section import RootSection
 from gearcad.rating.running_in import RunningIn, running_in_alpha, running_in_beta
 from gearcad.rating.virtual import LoadPoint, VirtualGear
 

@@ -129,11 +129,11 @@ class DynamicFactor:
         options = options or RatingOptions()
         rating = rate(pair, material, load, options)
         tolerances = [
-            flank_tolerances(options.accuracy_grade, gear.reference_diameter, gear.normal_module, options.accuracy)
+            flank_tolerances(options.accuracy_grade, abs(gear.reference_diameter), gear.normal_module, options.accuracy)
             for gear in pair.gears
         ]
         across = math.cos(math.radians(pair.pinion.transverse_pressure_angle))
-        radii = pair.gears.map(lambda gear: gear.base_diameter / 2)
+        radii = pair.gears.map(lambda gear: abs(gear.base_diameter) / 2)
         kind = RunningIn.SURFACE_HARDENED if material.group is None else RunningIn.of(material.group)
         if kind.needs_flank_limit and material.contact_endurance_limit is None:
             permitted = f"must be given for material group {material.group}: how its flanks run in depends on it"

@@ -58,7 +58,7 @@ def reduced_modulus(youngs_moduli: tuple[float, float], poisson_ratios: tuple[fl
 
 
 def reduced_radius(radii: tuple[float, float]) -> float:
-    """R of two convex cylinders (mm): 1/R = 1/R_1 + 1/R_2 (Johnson, before 4.21)."""
+    """R of two cylinders (mm): 1/R = 1/R_1 + 1/R_2 (Johnson, before 4.21); the radius of a hollow one is negative."""
     return radii[0] * radii[1] / (radii[0] + radii[1])
 
 

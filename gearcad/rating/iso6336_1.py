@@ -1,7 +1,8 @@
 """Tooth and mesh stiffness by ISO 6336-1:2006, clause 9, Method B (the same in DIN 3990-1:1987).
 
 Stiffness per face width in N/(mm·µm), flexibility in mm·µm/N, helix and pressure angles in degrees. Gear 1 is the one with
-fewer teeth; equations are those of ISO 6336-1:2006.
+fewer teeth; equations are those of ISO 6336-1:2006. A ring is gear 2, and in q' a rack: 1/z_n2 = 0 (to be verified), x_2 with
+the sign of ISO 21771.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from dataclasses import dataclass
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material
 from gearcad.notice import Notice
-from gearcad.rating.iso6336_3 import RIM_LIMIT, rim_thickness_ratio
+from gearcad.rating.rim import RIM_LIMIT, rim_thickness_ratio, ring_rim_ratio
 
 __all__ = [
     "MeshStiffness",
@@ -104,7 +105,10 @@ class MeshStiffness:
 
 
 def tooth_flexibility(virtual_teeth: tuple[float, float], profile_shifts: tuple[float, float]) -> float:
-    """q' (82): least flexibility of a pair of teeth, by the series of table 9. Gear 1, with fewer teeth, comes first."""
+    """q' (82): least flexibility of a pair of teeth, by the series of table 9. Gear 1, with fewer teeth, comes first.
+
+    `math.inf` virtual teeth are those of a rack, or of a ring.
+    """
     (z_n1, z_n2), (x_1, x_2) = virtual_teeth, profile_shifts
     return (
         0.04723
@@ -168,7 +172,7 @@ def mesh_stiffness(pair: GearPair, material: Material, specific_load: float) -> 
     """Stiffness of a pair at a specific load F_t K_A/b (N/mm); C_R, as C_B, is the mean of both gears."""
     first, second = _by_teeth(pair)
     blank = sum(gear_blank_factor(*_blank(gear)) for gear in (first, second)) / 2
-    q = tooth_flexibility((first.virtual_teeth, second.virtual_teeth), (first.profile_shift, second.profile_shift))
+    q = tooth_flexibility((_virtual_teeth(first), _virtual_teeth(second)), (first.profile_shift, second.profile_shift))
     rack = sum(basic_rack_factor(gear.dedendum, gear.rack.pressure_angle) for gear in (first, second)) / 2  # (87)
     xi = material_factor(material.youngs_modulus)
     return MeshStiffness(
@@ -204,7 +208,9 @@ def stiffness_notices(pair: GearPair, specific_load: float) -> Iterator[Notice]:
 def _blank_notices(gear: Gear, owner: str) -> Iterator[Notice]:
     """Where the body of a gear ("pinion" or "wheel") is not one that C_R knows."""
     web, rim = _blank(gear)
-    if not gear.body.web_thickness and (height := rim_thickness_ratio(gear)) < RIM_LIMIT:
+    if gear.internal:
+        yield from _ring_notices(gear)
+    elif not gear.body.web_thickness and (height := rim_thickness_ratio(gear)) < RIM_LIMIT:
         text = f"c': C_R is 1 of a solid disc, but the {owner} has only {height:.3g} tooth heights under the root"
         yield Notice("stiffness-solid-disc", text)
     if not THIN_WEB <= web <= THICK_WEB:
@@ -216,6 +222,20 @@ def _blank_notices(gear: Gear, owner: str) -> Iterator[Notice]:
         yield Notice("stiffness-rim", text)
 
 
+def _ring_notices(gear: Gear) -> Iterator[Notice]:
+    """That C_R, which is of webs, leaves out the rim of a ring."""
+    if not gear.body.web_thickness:
+        rim = ring_rim_ratio(gear)
+        known = "not given" if rim is None else f"{rim:.3g} m_n"
+        text = f"c': C_R is 1 for the ring, which has no web; its rim (s_R {known}) is not in c'"
+        yield Notice("stiffness-ring-rim", text)
+
+
+def _virtual_teeth(gear: Gear) -> float:
+    """z_n as q' has it."""
+    return math.inf if gear.internal else gear.virtual_teeth
+
+
 def _blank(gear: Gear) -> tuple[float, float]:
     """b_s/b and s_R/m_n; 1 and 1, for which C_R is 1, of a solid disc."""
     body = gear.body
@@ -224,5 +244,5 @@ def _blank(gear: Gear) -> tuple[float, float]:
 
 def _by_teeth(pair: GearPair) -> tuple[Gear, Gear]:
     """Gear 1 and gear 2 of the standard: fewer teeth first, with equal teeth the larger profile shift first."""
-    first, second = sorted(pair.gears, key=lambda gear: (gear.teeth, -gear.profile_shift))
+    first, second = sorted(pair.gears, key=lambda gear: (gear.tooth_count, -gear.profile_shift))
     return first, second

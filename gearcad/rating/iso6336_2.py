@@ -95,7 +95,8 @@ def single_contact_curvature(pair: GearPair) -> PerGear[float]:
     """M_1 (17) and M_2 (18): how much the inner point of single contact of either gear is more curved than the pitch point.
 
     M_1 = tan alpha_wt/sqrt((sqrt(d_a1^2/d_b1^2 - 1) - 2 pi/z_1) (sqrt(d_a2^2/d_b2^2 - 1) - (eps_alpha - 1) 2 pi/z_2)), with
-    the tip form circles for d_a; M_2 with the gears exchanged. Raises GeometryError where such a point is off the involute.
+    the tip form circles for d_a; M_2 with the gears exchanged, z_2 < 0 for a ring. Raises GeometryError where such a point is
+    off the involute.
     """
     rest = pair.transverse_contact_ratio - 1
     tangent = math.tan(math.radians(pair.working_transverse_pressure_angle))
@@ -117,7 +118,7 @@ def single_contact_curvature(pair: GearPair) -> PerGear[float]:
 
 
 def nominal_contact_stress(pair: GearPair, factors: float, tangential_force: float) -> float:
-    """sigma_H0 = Z_H Z_E Z_eps Z_beta sqrt(F_t/(d_1 b) (u + 1)/u) (clause 5), b the common face width.
+    """sigma_H0 = Z_H Z_E Z_eps Z_beta sqrt(F_t/(d_1 b) (u + 1)/u) (clause 5), b the common face width, u < 0 for a ring.
 
     `factors` is the product of the four Z; F_t at the reference circle, in N.
     """
@@ -133,6 +134,8 @@ def flank_rating(pair: GearPair, material: Material, tangential_force: float, ed
     ratio = contact_ratio_factor(pair.transverse_contact_ratio, pair.overlap_ratio)
     helix = helix_angle_factor(pinion.helix_angle, edition)
     curvatures = single_contact_curvature(pair) if pair.overlap_ratio < 1 else PerGear(1.0, 1.0)
+    if pair.internal:
+        curvatures = PerGear(curvatures.pinion, 1.0)  # Z_D is 1 for a ring (6.2, to be verified)
     return FlankRating(
         zone_factor=zone,
         elasticity_factor=elasticity,

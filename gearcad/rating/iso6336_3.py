@@ -1,9 +1,8 @@
 """Tooth root stress by ISO 6336-3:2006, Method B (the same in DIN 3990-3:1987 but for Y_B and Y_DT).
 
-The load acts at the outer point of single pair contact of the virtual gear; the section is where tangents at 30 degrees to
-the middle of the tooth touch the fillet. The standard's E, G, H and theta describe the very trochoid that gear.profile is
-made of, so both give the same section; tool, thinning and root circle are those of the gear as it is cut: a thinned tooth
-comes from a thicker tooth of the tool, not from a deeper cut (the standard's x_E).
+The load acts at the outer point of single pair contact of the virtual gear, and bends the tooth at its `root_section`. Tool,
+thinning and root circle are those of the gear as it is cut: a thinned tooth comes from a thicker tooth of the tool, not from
+a deeper cut (the standard's x_E).
 
 Lengths in mm, stresses in MPa, angles in degrees; equations and clauses are those of ISO 6336-3:2006.
 """
@@ -11,63 +10,66 @@ Lengths in mm, stresses in MPa, angles in degrees; equations and clauses are tho
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.tooling import shaped
 from gearcad.notice import Notice
 from gearcad.per_gear import Role
 from gearcad.rating.editions import Edition
+from gearcad.rating.rim import rim_of
+from gearcad.rating.ring_formula import ring_section, substitute_radius
+from gearcad.rating.root_section import RootSection, lean_of, root_section
 from gearcad.rating.virtual import LoadPoint, VirtualGear, load_point
 
 __all__ = [
+    "FormulaRoot",
     "RootRating",
-    "RootSection",
     "deep_tooth_factor",
     "form_factor",
     "helix_angle_factor",
     "loaded_width",
     "nominal_root_stress",
-    "rim_thickness_factor",
-    "rim_thickness_ratio",
     "root_notices",
     "root_rating",
-    "root_section",
     "stress_correction_factor",
-    "tangent_angle",
 ]
-
-RIM_LIMIT = 1.2
-"""s_R/h_t (external gears) from which on a rim is as good as a solid body."""
 
 LOAD_DISTRIBUTION_FACTOR = 1.0
 """f_eps of the form factor: 1 in both editions. It came with ISO 6336-3:2019, for helical gears and eps_alphan >= 2."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class RootSection:
-    """Section at the 30-degree tangents: `tangent_angle` theta (deg), chord s_Fn, fillet radius rho_F, and the arm h_Fe (mm).
+class FormulaRoot:
+    """What the formulas for rings give in place of the generated fillet: rho_fPv (mm), section, Y_F, Y_S, sigma_F0 (MPa)."""
 
-    `on_fillet` is False where the tangent would touch beyond the fillet, on the flank: then the formulas do not hold.
-    """
+    tool_radius: float
+    section: RootSection
+    form_factor: float
+    stress_correction_factor: float
+    nominal_stress: float
 
-    tangent_angle: float
-    chord: float
-    fillet_radius: float
-    moment_arm: float
-    on_fillet: bool
-
-    @property
-    def notch_parameter(self) -> float:
-        """q_s = s_Fn/(2 rho_F) (38)."""
-        return self.chord / (2 * self.fillet_radius)
+    def to_dict(self) -> dict[str, float]:
+        """Values under their symbols."""
+        return {
+            "rho_fPv": self.tool_radius,
+            "s_Fn": self.section.chord,
+            "rho_F": self.section.fillet_radius,
+            "h_Fe": self.section.moment_arm,
+            "Y_F": self.form_factor,
+            "Y_S": self.stress_correction_factor,
+            "sigma_F0": self.nominal_stress,
+        }
 
 
 @dataclass(frozen=True, kw_only=True)
 class RootRating:
-    """Root stress of one gear: its section, factors, the width that carries (mm) and sigma_F0 without load factors (MPa)."""
+    """Root stress of one gear: its section, factors, the width that carries (mm) and sigma_F0 without load factors (MPa).
+
+    `formula` has what the standard's formulas say beside it, of a ring that a shaper cutter makes.
+    """
 
     section: RootSection
     load_point: LoadPoint
@@ -78,9 +80,11 @@ class RootRating:
     deep_tooth_factor: float
     width: float
     nominal_stress: float
+    formula: FormulaRoot | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Values under their symbols."""
+        beside = {} if self.formula is None else {"formula": self.formula.to_dict()}
         return {
             "theta": self.section.tangent_angle,
             "s_Fn": self.section.chord,
@@ -96,56 +100,8 @@ class RootRating:
             "Y_DT": self.deep_tooth_factor,
             "b": self.width,
             "sigma_F0": self.nominal_stress,
+            **beside,
         }
-
-
-def tool_half_width(gear: Gear) -> float:
-    """E (10) (mm): from the middle of the tool's tooth to the centre of its tip arc.
-
-    pi m_n/4 - h_fP tan alpha_n - (1 - sin alpha_n) rho_fP/cos alpha_n, plus half the tooth thinning. No protuberance.
-    """
-    m_n, alpha_n = gear.normal_module, math.radians(gear.rack.pressure_angle)
-    corner = (1 - math.sin(alpha_n)) * gear.root_radius / math.cos(alpha_n)
-    return m_n * (math.pi / 4 - gear.dedendum * math.tan(alpha_n) - corner) + gear.tooth_thinning / 2
-
-
-def tangent_angle(g: float, h: float, virtual_teeth: float) -> float | None:
-    """theta (rad) of theta = (2 G/z_n) tan theta - H (14), by Newton from the standard's pi/6; None where there is none."""
-    slope, theta, step = 2 * g / virtual_teeth, math.pi / 6, math.inf
-    for _ in range(50):
-        step = (theta - slope * math.tan(theta) + h) / (1 - slope / math.cos(theta) ** 2)
-        theta -= step
-        if abs(step) < 1e-15:
-            break
-    return theta if abs(step) < 1e-12 and 1e-9 < theta < math.pi / 2 else None
-
-
-def root_section(gear: Gear, virtual: VirtualGear, load: LoadPoint) -> RootSection:
-    """The section at the 30-degree tangents and the arm at which the load bends it.
-
-    G = rho_fP/m_n - h_fP/m_n + x (12), H = (2/z_n) (pi/2 - E/m_n) - pi/3 (13), then s_Fn (15), rho_F (17) and h_Fe (18).
-    Raises GeometryError for teeth without such a section, as of a gear with three.
-    """
-    m_n, z_n, rho = gear.normal_module, virtual.teeth, gear.root_radius
-    g = rho - gear.dedendum + gear.profile_shift
-    h = 2 / z_n * (math.pi / 2 - tool_half_width(gear) / m_n) - math.pi / 3
-    theta = tangent_angle(g, h, z_n)
-    if theta is None:
-        raise GeometryError("teeth", gear.teeth, "must be more for a rating: no tangent at 30 deg touches the fillet")
-    centre = g / math.cos(theta) - rho
-    s_fn = z_n * math.sin(math.pi / 3 - theta) + math.sqrt(3) * centre
-    rho_f = rho + 2 * g**2 / (math.cos(theta) * (z_n * math.cos(theta) ** 2 - 2 * g))
-    gamma_e, alpha_fen = math.radians(load.half_angle), math.radians(load.load_angle)
-    lever = (math.cos(gamma_e) - math.sin(gamma_e) * math.tan(alpha_fen)) * load.diameter / m_n
-    height = z_n * math.cos(math.pi / 3 - theta) + centre
-    return RootSection(
-        tangent_angle=math.degrees(theta),
-        chord=m_n * s_fn,
-        fillet_radius=m_n * rho_f,
-        moment_arm=m_n * (lever - height) / 2,
-        # Undercut takes away only the top of the fillet, where it leans by less than the involute there.
-        on_fillet=theta <= math.pi / 2 - math.radians(virtual.pressure_angle),
-    )
 
 
 def form_factor(section: RootSection, load: LoadPoint, virtual: VirtualGear) -> float:
@@ -165,17 +121,6 @@ def stress_correction_factor(section: RootSection) -> float:
 def helix_angle_factor(helix_angle: float, overlap_ratio: float) -> float:
     """Y_beta = 1 - eps_beta |beta|/120 deg (clause 8), with eps_beta at most 1 and |beta| at most 30 deg."""
     return 1 - min(overlap_ratio, 1.0) * min(abs(helix_angle), 30.0) / 120
-
-
-def rim_thickness_ratio(gear: Gear) -> float:
-    """s_R/h_t: rim below the root circle, down to the web if one is given, else to bore and keyway, over the tooth height."""
-    rim = gear.body.rim_thickness or (gear.root_diameter - gear.body.opening_diameter) / 2
-    return rim / ((gear.tip_diameter - gear.root_diameter) / 2)
-
-
-def rim_thickness_factor(ratio: float, edition: Edition) -> float:
-    """Y_B = 1.6 ln(2.242 h_t/s_R) (clause 9) for s_R/h_t below 1.2, else 1; DIN 3990-3 has none."""
-    return 1.0 if ratio >= RIM_LIMIT or edition is Edition.DIN_1987 else 1.6 * math.log(2.242 / ratio)
 
 
 def deep_tooth_factor(virtual_contact_ratio: float, accuracy_grade: int, edition: Edition) -> float:
@@ -209,9 +154,14 @@ def root_rating(pair: GearPair, role: Role, tangential_force: float, edition: Ed
     section = root_section(gear, virtual, load)
     y_f, y_s = form_factor(section, load, virtual), stress_correction_factor(section)
     y_beta = helix_angle_factor(gear.helix_angle, pair.overlap_ratio)
-    y_b = rim_thickness_factor(rim_thickness_ratio(gear), edition)
+    y_b = rim_of(gear).factor(edition)
     y_dt = deep_tooth_factor(ratio, accuracy_grade, edition)
     width = loaded_width(pair, role)
+
+    def stress(form: float, correction: float) -> float:
+        factors = form * correction * y_beta * y_b * y_dt
+        return nominal_root_stress(tangential_force, width, gear.normal_module, factors)
+
     return RootRating(
         section=section,
         load_point=load,
@@ -221,7 +171,22 @@ def root_rating(pair: GearPair, role: Role, tangential_force: float, edition: Ed
         rim_thickness_factor=y_b,
         deep_tooth_factor=y_dt,
         width=width,
-        nominal_stress=nominal_root_stress(tangential_force, width, gear.normal_module, y_f * y_s * y_beta * y_b * y_dt),
+        nominal_stress=stress(y_f, y_s),
+        formula=_formula(gear, virtual, load, stress),
+    )
+
+
+def _formula(gear: Gear, virtual: VirtualGear, load: LoadPoint, stress: Callable[[float, float], float]) -> FormulaRoot | None:
+    """Of a ring with a shaper cutter, for which the substitute rack is made; None also where that has no section."""
+    if not gear.internal or gear.cutter.teeth is None:
+        return None
+    radius = substitute_radius(gear, gear.cutter.teeth)
+    section = ring_section(gear, virtual, load, radius)
+    if section is None:
+        return None
+    y_f, y_s = form_factor(section, load, virtual), stress_correction_factor(section)
+    return FormulaRoot(
+        tool_radius=radius, section=section, form_factor=y_f, stress_correction_factor=y_s, nominal_stress=stress(y_f, y_s)
     )
 
 
@@ -230,21 +195,39 @@ def _virtual_contact_ratio(pair: GearPair) -> float:
     return pair.transverse_contact_ratio / math.cos(math.radians(pair.pinion.base_helix_angle)) ** 2
 
 
-def root_notices(pair: GearPair, role: Role, rating: RootRating) -> Iterator[Notice]:
+def root_notices(pair: GearPair, role: Role, rating: RootRating, edition: Edition) -> Iterator[Notice]:
     """Where one gear leaves the range that part 3 states for its formulas."""
     gear, root = pair.gears.pick(role), f"{role.value} root"
+    yield from _section_notices(gear, rating, root)
+    if not 1 <= (notch := rating.section.notch_parameter) < 8:
+        yield Notice("notch-parameter", f"Y_S is stated for q_s from 1 to 8, here {notch:.3g}", root)
+    yield from rim_of(gear).notices(edition, f"{role.value} rim")
+    if (ratio := _virtual_contact_ratio(pair)) >= 2:
+        text = f"Y_F assumes that one pair of teeth carries alone, but eps_alphan is {ratio:.4f}"
+        yield Notice("deep-teeth", text, root)
+
+
+def _section_notices(gear: Gear, rating: RootRating, root: str) -> Iterator[Notice]:
+    """What the section is, or is not."""
+    if shaped(gear):
+        yield Notice("generated-root", _generated(gear, rating), root)
+        return
     if not rating.section.on_fillet:
         text = "the tangent at 30 deg touches beyond the fillet, so Y_F and Y_S do not hold"
         yield Notice("tangent-off-fillet", text, root)
     if gear.root_radius == 0:
         yield Notice("sharp-tool", "Y_F and Y_S are stated for a tool with a rounded tip, here it is sharp", root)
-    if not 1 <= (notch := rating.section.notch_parameter) < 8:
-        yield Notice("notch-parameter", f"Y_S is stated for q_s from 1 to 8, here {notch:.3g}", root)
-    if (rim := rim_thickness_ratio(gear)) < RIM_LIMIT:
-        said = "is at most 0.5, which the standard asks to avoid" if rim <= 0.5 else f"weakens the root (below {RIM_LIMIT:g})"
-        factor = rating.rim_thickness_factor
-        known = f"Y_B = {factor:.4g}" if factor > 1 else "the standard chosen has no factor for it"
-        yield Notice("thin-rim", f"{rim:.3g} tooth heights under the root {said}; {known}", f"{role.value} rim")
-    if (ratio := _virtual_contact_ratio(pair)) >= 2:
-        text = f"Y_F assumes that one pair of teeth carries alone, but eps_alphan is {ratio:.4f}"
-        yield Notice("deep-teeth", text, root)
+
+
+def _generated(gear: Gear, rating: RootRating) -> str:
+    """That the section is ours, and what the standard's formulas say."""
+    own = f"Y_F and Y_S are those of the fillet as it is generated, at tangents of {lean_of(gear):g} deg (ours, no clause)"
+    if not gear.internal:
+        return f"{own}; the standard's formulas are of hobs"
+    if gear.cutter.teeth is None:
+        return f"{own}; the standard's formulas are of shaper cutters, not of a form root"
+    if rating.formula is None:
+        return f"{own}; the standard's formulas give no section here"
+    values = f"Y_F {rating.formula.form_factor:.4g}, Y_S {rating.formula.stress_correction_factor:.4g}"
+    here = f"instead of {rating.form_factor:.4g} and {rating.stress_correction_factor:.4g}"
+    return f"{own}; the formulas of 2006 have {values} {here}"

@@ -26,11 +26,14 @@ def contact_at(
 
     `force` is what this pair of teeth carries, normal to the flanks (N), `length` the line that it spreads over evenly (mm;
     None: a line across the common face width, b/cos beta_b). The radii of curvature are those of the normal section,
-    distance/cos beta_b and (T1T2 - distance)/cos beta_b. Raises GeometryError for a place that is not between T1 and T2.
+    distance/cos beta_b and (T1T2 - distance)/cos beta_b, negative on the hollow flank of a ring. Raises GeometryError for a
+    place that is not between T1 and T2, of an internal pair not beyond T1.
     """
     whole = pair.base_tangent.length
-    if not 0 < distance < whole:
+    if not 0 < distance < (math.inf if pair.internal else whole):
         permitted = f"must be above 0 and below {at_most(whole)} mm, between the base tangent points T1 and T2"
+        if pair.internal:
+            permitted = "must be above 0 mm, beyond the base tangent point T1"
         raise GeometryError("distance", distance, permitted, "mm")
     lean = math.cos(math.radians(pair.pinion.base_helix_angle))
     if length is None:

@@ -23,6 +23,9 @@ from gearcad.rating.options import RatingOptions
 
 __all__ = ["Rating", "rate"]
 
+_RECALLED = ("q_prime", "Z_D", "wheel.Y_B", "wheel.formula")
+"""Of rings."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Rating:
@@ -42,6 +45,8 @@ class Rating:
     roots: PerGear[RootRating]
     pitch_point: LineContact
     notices: tuple[Notice, ...]
+    verify: tuple[str, ...] = ()
+    """Symbols of what rests on a text of the standard that was not at hand."""
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -78,6 +83,7 @@ class Rating:
             "p_0": contact.peak_pressure,
             "b_H": contact.half_width,
             **gears,
+            **({"verify": list(self.verify)} if self.verify else {}),
             "warnings": list(self.warnings),
             "notices": [notice.to_dict() for notice in self.notices],
         }
@@ -111,23 +117,19 @@ def rate(
         flank=flank_rating(pair, material, force, edition),
         roots=roots,
         pitch_point=pitch_point_contact(pair, material, load.torque),
+        verify=_RECALLED if pair.internal else (),
         notices=(
             *_scope_notices(pair),
+            *_ring_notices(pair),
             *_fillet_notices(pair),
             *stiffness_notices(pair, specific),
             *flank_notices(pair),
-            *(notice for role in Role for notice in root_notices(pair, role, roots.pick(role))),
+            *(notice for role in Role for notice in root_notices(pair, role, roots.pick(role), edition)),
         ),
     )
 
 
 def _check(pair: GearPair, load: Load) -> None:
-    if pair.internal:
-        raise GeometryError("wheel.teeth", pair.wheel.teeth, "must be above 0 for a rating: rings are not rated yet")
-    for role, gear in pair.gears.items():
-        if gear.cutter.teeth is not None:
-            permitted = "must be left out for a rating: the formulas of the root are those of a hobbed gear"
-            raise GeometryError(f"{role.value}.cutter.teeth", gear.cutter.teeth, permitted)
     if load.torque == 0:
         raise ParameterError("torque", load.torque, "must not be 0 N·m: a rating needs a load", "N·m")
     ratio = pair.transverse_contact_ratio
@@ -143,6 +145,16 @@ def _scope_notices(pair: GearPair) -> Iterator[Notice]:
         yield Notice("scope-pressure-angle", text)
     if (helix := abs(pair.pinion.helix_angle)) > 30:
         yield Notice("scope-helix-angle", f"ISO 6336 is confirmed for helix angles up to 30 deg, here {helix:g} deg")
+
+
+def _ring_notices(pair: GearPair) -> Iterator[Notice]:
+    """What of the rating of a ring is to be verified."""
+    if pair.internal:
+        text = (
+            "q' with 1/z_n2 = 0, Z_D = 1, Y_B and the root formulas of rings are as remembered of ISO 6336:2006, whose text was"
+            " not at hand: verify them before they decide"
+        )
+        yield Notice("ring-to-verify", text)
 
 
 def _fillet_notices(pair: GearPair) -> Iterator[Notice]:

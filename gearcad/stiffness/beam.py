@@ -21,7 +21,7 @@ from gearcad.errors import GeometryError, ParameterError
 from gearcad.load import Load
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
-from gearcad.rating.iso6336_3 import RIM_LIMIT
+from gearcad.rating.rim import RIM_LIMIT
 from gearcad.stiffness.foundation import sainsot_foundation, sainsot_range, weber_foundation
 from gearcad.stiffness.section import BeamLoad, BeamTooth
 from gearcad.stiffness.slice_method import SliceMethod

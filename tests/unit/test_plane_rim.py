@@ -27,7 +27,7 @@ from gearcad.meshing.section import MeshSizes, SectorMesh, mesh_sector
 from gearcad.meshing.section.outline import Side
 from gearcad.per_gear import PerGear
 from gearcad.rating.editions import Edition
-from gearcad.rating.iso6336_3 import rim_thickness_factor
+from gearcad.rating.rim import rim_thickness_factor
 
 STEEL = Material()
 ELASTIC = PlaneElasticity(STEEL)

@@ -15,7 +15,7 @@ from support.strategies import build_pair, pair_inputs
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError, Load, ParameterError, symbols
 from gearcad.errors import InputError
 from gearcad.rating import Edition, Rating, RatingOptions, rate
-from gearcad.rating.iso6336_3 import rim_thickness_ratio
+from gearcad.rating.rim import rim_thickness_ratio
 
 EXACT = 1e-12
 """Relative: the same quantity by two formulas."""

@@ -15,13 +15,9 @@ from gearcad.geometry.curves import CurveKind, Fillet
 from gearcad.geometry.trochoid import ToolTip
 from gearcad.per_gear import Role
 from gearcad.rating import Edition, VirtualGear, rate
-from gearcad.rating.iso6336_3 import (
-    deep_tooth_factor,
-    helix_angle_factor,
-    loaded_width,
-    rim_thickness_factor,
-    root_section,
-)
+from gearcad.rating.iso6336_3 import deep_tooth_factor, helix_angle_factor, loaded_width
+from gearcad.rating.rim import rim_thickness_factor
+from gearcad.rating.root_section import root_section
 from gearcad.rating.virtual import load_point
 
 EXACT = 1e-12

@@ -9,7 +9,7 @@ from enum import Enum
 from gearcad.errors import GeometryError, format_number
 from gearcad.geometry import Gear
 from gearcad.material import Material
-from gearcad.rating.iso6336_3 import RIM_LIMIT
+from gearcad.rating.rim import RIM_LIMIT
 
 __all__ = ["Hold", "Support", "rim_ratio", "support_of"]
 
