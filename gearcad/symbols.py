@@ -75,6 +75,7 @@ PAIR = {
     "tip_alteration": Symbol("k", "", "5.2", "tip alteration that keeps clearance"),
     "transverse_contact_ratio": Symbol("ε_α", "", "5.4", "transverse contact ratio"),
     "usable_contact_ratio": Symbol("", "", "", "contact ratio above the form circles"),
+    "axial_force_ratio": Symbol("F_a/F_t", "", "", "axial force over tangential force"),
     "overlap_ratio": Symbol("ε_β", "", "5.4", "overlap ratio"),
     "total_contact_ratio": Symbol("ε_γ", "", "5.4", "total contact ratio"),
     "tip_clearances": Symbol("c", "mm", "5.2", "tip clearance in the mate's root"),

@@ -30,6 +30,7 @@ _GEAR_BLOCKS = {
     "Teeth": "teeth normal_module helix_angle profile_shift tip_alteration tooth_thinning face_width virtual_teeth lead",
     "Basic rack": _of_part("rack"),
     "Shaper cutter": _of_part("cutter"),
+    "Double helix": _of_part("double_helix"),
     "Transverse section": "transverse_module transverse_pressure_angle base_helix_angle transverse_pitch transverse_base_pitch",
     "Diameters": "tip_diameter tip_form_diameter reference_diameter base_diameter form_diameter root_diameter undercut",
     "Tooth thickness": "normal_tooth_thickness transverse_tooth_thickness tip_thickness",
@@ -43,7 +44,7 @@ _GEAR_BLOCKS["Teeth"] += "".join(f" {key}" for key in _OF_GEAR if key not in _PL
 
 _PAIR_BLOCKS = {
     "Mesh": "gear_ratio centre_distance reference_centre_distance axial_offset working_transverse_pressure_angle"
-    " profile_shift_sum zero_backlash_shift_sum tip_alteration circumferential_backlash normal_backlash",
+    " profile_shift_sum zero_backlash_shift_sum tip_alteration circumferential_backlash normal_backlash axial_force_ratio",
     "Contact": "transverse_contact_ratio usable_contact_ratio overlap_ratio total_contact_ratio common_width.width"
     " common_width.offset contact_line_lengths.minimum contact_line_lengths.mean contact_line_lengths.maximum",
     "Line of action, from T1": "path_of_contact.A path_of_contact.B path_of_contact.C path_of_contact.D path_of_contact.E",
@@ -51,12 +52,13 @@ _PAIR_BLOCKS = {
 
 _BELONGS_TO = {
     "cutter.profile_shift": "cutter.teeth",
+    "double_helix.offset": "double_helix.gap_width",
     "body.keyway_depth": "body.keyway_width",
     "body.hub_length": "body.hub_diameter",
     "body.hub_side": "body.hub_diameter",
     "body.end_chamfer_angle": "body.end_chamfer",
 }
-"""Features of a body, and of a cutter, that mean nothing without another one."""
+"""Features of a body, a cutter and a double helix that mean nothing without another one."""
 
 _ABSENT = "-"
 
@@ -129,9 +131,11 @@ def _warnings(design: Design) -> Iterator[_Line]:
 
 def _title(design: Design) -> str:
     teeth = " / ".join(str(gear.teeth) for gear in design.gears.values())
+    double = any(gear.double_helix.present for gear in design.gears.values())
     helical = any(gear.helix_angle for gear in design.gears.values())
+    teeth_are = "double helical" if double else "helical" if helical else "spur"
     internal = any(gear.internal for gear in design.gears.values())
-    return f"{'internal ' if internal else ''}{'helical' if helical else 'spur'} {design.kind.value}, z = {teeth}"
+    return f"{'internal ' if internal else ''}{teeth_are} {design.kind.value}, z = {teeth}"
 
 
 def _flat(document: Mapping[str, Any]) -> dict[str, Any]:

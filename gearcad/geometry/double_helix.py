@@ -28,7 +28,7 @@ class DoubleHelix:
     """
 
     gap_width: Annotated[float | None, _GAP, Words("gap between the halves", "b_g", "")] = None
-    offset: Annotated[float, _OFFSET, Words("offset of the upper half's teeth, in pitches")] = 0.0
+    offset: Annotated[float, _OFFSET, Words("offset of the upper half, in pitches")] = 0.0
     gap_diameter: Annotated[float | None, Range("mm", 0, 2e6, ends="(]"), Words("diameter between the halves")] = None
 
     __repr__ = concise

@@ -202,7 +202,7 @@ class Gear(GearData):
     @cached_property
     def notices(self) -> tuple[Notice, ...]:
         """What an engineer should know about this gear before making it."""
-        of_inspection = self.inspection.notices(self.form_diameter, self.tip_form_diameter, self.face_width)
+        of_inspection = self.inspection.notices(self.form_diameter, self.tip_form_diameter, self.half_width)
         return (*self._notices_of_teeth(), *of_inspection)
 
     @property

@@ -6,10 +6,11 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
+from gearcad.errors import GeometryError, format_number
 from gearcad.geometry.double_helix import DoubleHelix
 from gearcad.geometry.gear import Gear
 
-__all__ = ["Half", "halves"]
+__all__ = ["Half", "halves", "refuse_halves"]
 
 
 class Half(NamedTuple):
@@ -31,3 +32,11 @@ def halves(gear: Gear) -> tuple[Half, Half]:
     upper = replace(lower, helix_angle=-gear.helix_angle, modification=mirrored)
     turned = math.copysign(gear.twist, gear.helix_angle) + 360 / gear.tooth_count * gear.double_helix.offset
     return Half(lower, 0.0, 0.0), Half(upper, gear.face_width - gear.half_width, turned)
+
+
+def refuse_halves(gear: Gear, what: str) -> None:
+    """Raise GeometryError for a double helical gear where only one hand is treated, with the half that would do."""
+    if gear.double_helix.present:
+        half = format_number(round(gear.half_width, 6))
+        permitted = f"must be left out for {what}: take one half, of face width {half} mm, and half the torque"
+        raise GeometryError("double_helix.gap_width", gear.double_helix.gap_width, permitted, "mm")

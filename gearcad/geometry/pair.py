@@ -32,7 +32,8 @@ ROUNDING = 1e-9
 _DERIVED = (
     "gear_ratio reference_centre_distance profile_shift_sum zero_backlash_shift_sum working_transverse_pressure_angle "
     "working_pitch_diameters tip_alteration transverse_contact_ratio usable_contact_ratio overlap_ratio "
-    "total_contact_ratio tip_clearances circumferential_backlash normal_backlash active_root_diameters"
+    "total_contact_ratio tip_clearances circumferential_backlash normal_backlash active_root_diameters "
+    "axial_force_ratio"
 ).split()
 """What a document has beside what was given."""
 
@@ -106,6 +107,11 @@ class GearPair(PairData):
     def total_contact_ratio(self) -> float:
         """epsilon_gamma = epsilon_alpha + epsilon_beta."""
         return self.transverse_contact_ratio + self.overlap_ratio
+
+    @property
+    def axial_force_ratio(self) -> float:
+        """F_a/F_t of the tangential force on the reference circle: tan |beta|; 0 of two halves, which balance each other."""
+        return 0.0 if self.double_helical else math.tan(math.radians(abs(self.pinion.helix_angle)))
 
     @property
     def active_root_diameters(self) -> PerGear[float]:

@@ -20,6 +20,7 @@ from gearcad.dynamics.train_result import ModalStudy, TrainStudy
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
+from gearcad.geometry.halves import refuse_halves
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
 from gearcad.load import Load
@@ -113,6 +114,7 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
     if design.load is None or not design.load.torque:
         given = None if design.load is None else design.load.torque
         raise ParameterError("load.torque", given, "must be given, in N·m on the pinion: flanks without load rattle")
+    refuse_halves(design.pair.pinion, "dynamics")
     if design.pair.internal:
         permitted = "must be above 0: the dynamics of a pair with a ring are not treated yet; a [train] can have ring gears"
         raise GeometryError("wheel.teeth", design.pair.wheel.teeth, permitted)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.halves import refuse_halves
 from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.sizing import Amount, body_sizes, factor_for
@@ -103,6 +104,7 @@ def plan_mesh(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | 
     """What is meshed of a design's `gears`, which are those of a `pair` or one alone. Raises ParameterError, GeometryError."""
     chosen = _chosen(options, gears, pair)
     for gear in chosen.values():
+        refuse_halves(gear, "a mesh")
         if gear.internal:
             raise GeometryError("teeth", gear.teeth, "must be above 0: rings are not meshed yet")
     element_given = None if options.element == AUTO else Element(options.element)

@@ -9,6 +9,7 @@ from typing import Any
 
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
+from gearcad.geometry.halves import refuse_halves
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.notice import Notice, texts
@@ -130,6 +131,7 @@ def rate(
 
 
 def _check(pair: GearPair, load: Load) -> None:
+    refuse_halves(pair.pinion, "a rating")
     if load.torque == 0:
         raise ParameterError("torque", load.torque, "must not be 0 N·m: a rating needs a load", "N·m")
     ratio = pair.transverse_contact_ratio

@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.errors import GeometryError, ParameterError, require_whole
 from gearcad.geometry import GearPair
+from gearcad.geometry.halves import refuse_halves
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
@@ -54,6 +55,7 @@ class StiffnessMethod(ABC):
     def __post_init__(self) -> None:
         if self.positions != 0:
             require_whole("positions", self.positions, at_least=FEWEST_POSITIONS, at_most=MOST_POSITIONS)
+        refuse_halves(self.pair.pinion, self.name)
         if self.pair.internal:
             permitted = f"must be above 0 for {self.name}: no mesh stiffness of rings is known yet"
             raise GeometryError("wheel.teeth", self.pair.wheel.teeth, permitted)

@@ -15,7 +15,7 @@ from gearcad.designs import read_spec
 from gearcad.designs.starters import starters
 
 VOLVO = "volvo-13-44"
-STARTERS = ["alm-18-161", "fzg-c", "reducer-21-43", "spur", "uhlir-19-23", VOLVO]
+STARTERS = ["alm-18-161", "double-23-81", "fzg-c", "reducer-21-43", "spur", "uhlir-19-23", VOLVO]
 TRAINS = ["train-1-stage", "train-2-stage"]
 TABLES = ["gears", "pairs"]
 
@@ -79,8 +79,8 @@ def test_new_refuses_to_overwrite_unless_forced() -> None:
 def test_new_refuses_what_it_does_not_have() -> None:
     result = run("new", "bevel", status=2)
     assert (
-        result.stderr == "Error: kind = 'bevel': must be one of alm-18-161, fzg-c, gears, pairs, reducer-21-43, spur, "
-        "train-1-stage, train-2-stage, uhlir-19-23, volvo-13-44 (or gear, pair)\n"
+        result.stderr
+        == f"Error: kind = 'bevel': must be one of {', '.join(sorted([*STARTERS, *TRAINS, *TABLES]))} (or gear, pair)\n"
     )
 
 

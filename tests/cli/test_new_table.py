@@ -49,6 +49,7 @@ def test_new_lists_tables_beside_specs() -> None:
     lines = run("new").stdout.splitlines()
     assert [line.split()[0] for line in lines] == [
         "alm-18-161",
+        "double-23-81",
         "fzg-c",
         "gears",
         "pairs",
@@ -59,7 +60,7 @@ def test_new_lists_tables_beside_specs() -> None:
         "uhlir-19-23",
         "volvo-13-44",
     ]
-    assert lines[2:4] == [
+    assert lines[3:5] == [
         "gears         A design table of single gears: each row below the heading is one gear",
         "pairs         A design table of gear pairs: each row below the heading is one pair",
     ]

@@ -21,6 +21,7 @@ from gearcad.contact.shared.holding import Support
 from gearcad.contact.shared.line_of_action import line_of_action, rigid_approach
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.halves import refuse_halves
 from gearcad.material import Material
 from gearcad.meshing.section import MeshSizes, mesh_sector
 from gearcad.per_gear import PerGear
@@ -120,6 +121,7 @@ def plane_pair(
 
     The pair is taken as it is mounted; `pitch_error` (µm) is how far the flanks of its middle pair of teeth stand proud.
     """
+    refuse_halves(pair.pinion, "contact")
     if pair.internal:
         raise GeometryError(
             "wheel.teeth", pair.wheel.teeth, "must be above 0: contact of sections with a ring is not treated yet"

@@ -21,6 +21,7 @@ from gearcad.contact.solid.line_contact import LineSolution, Responses, response
 from gearcad.contact.solid.root import SolidFillets, solid_fillets
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.halves import refuse_halves
 from gearcad.material import Material
 from gearcad.meshing.section import MeshSizes
 from gearcad.meshing.section.quads import mesh_quads
@@ -217,6 +218,7 @@ def teeth_moved(pair: GearPair) -> int:
 
 
 def _meshes(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> list[SweptMesh]:
+    refuse_halves(pair.pinion, "contact")
     if pair.internal:
         raise GeometryError(
             "wheel.teeth", pair.wheel.teeth, "must be above 0: contact of solids with a ring is not treated yet"

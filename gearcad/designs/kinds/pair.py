@@ -5,6 +5,7 @@ What both gears share may stand in `[pair]`; a gear's own value wins, and the wh
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Self
@@ -80,6 +81,10 @@ def _require_pair(tables: Mapping[str, Any], where: Where) -> None:
             raise SpecError(f"{where('')}: [{table}] is missing: a pair needs [pair], [pinion] and [wheel]")
 
 
+_OPPOSED = ("helix_angle", "double_helix.offset")
+"""Fields of a gear that its mate has with the opposite sign, and a ring with the same."""
+
+
 class _PairSpec(Spec):
     """The values of a pair's spec, and how its gears come to theirs."""
 
@@ -115,22 +120,22 @@ class _PairSpec(Spec):
         return given
 
     def _share_values(self) -> None:
-        """Give both gears what stands in [pair], unless they have their own; the helix angle is the pinion's."""
+        """Give both gears what stands in [pair], unless they have their own; what is opposed is the pinion's."""
         for role in Role:
             renamed = f"{role.value}.rack" in self.values
             for field in SHARED:
                 given = self.values.get(f"pair.{field}")
-                if given is None or (field == "helix_angle" and role is Role.WHEEL):
+                if given is None or (field in _OPPOSED and role is Role.WHEEL):
                     continue
                 if not (renamed and field.startswith("rack")):
                     self.values.setdefault(f"{role.value}.{field}", given)
 
     def _match_helix(self) -> None:
-        """The gear without a helix angle takes the mate's: of the opposite hand, or of the same hand in a ring."""
+        """The gear without a helix angle, or offset of its halves, takes the mate's: opposed, or the same in a ring."""
         teeth = self.values.get("wheel.teeth")
         ring = teeth is not None and isinstance(teeth.value, int) and teeth.value < 0
-        for role in (Role.WHEEL, Role.PINION):
-            own, given = f"{role.value}.helix_angle", self.values.get(f"{role.mate.value}.helix_angle")
+        for role, field in itertools.product((Role.WHEEL, Role.PINION), _OPPOSED):
+            own, given = f"{role.value}.{field}", self.values.get(f"{role.mate.value}.{field}")
             if given is None or own in self.values:
                 continue
             opposed = isinstance(given.value, float) and not ring

@@ -10,6 +10,7 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import GeometryError, ParameterError, require_number
 from gearcad.geometry import Body, Gear
+from gearcad.geometry.halves import refuse_halves
 from gearcad.geometry.limits import at_least
 from gearcad.solids.facets.caps import GearEnd, cap_teeth
 from gearcad.solids.facets.sampling import ToothGrid, tooth_grid
@@ -55,6 +56,7 @@ def tessellate(gear: Gear, chord_error: float = 0.005) -> Facets:
     shape. Raises ParameterError for a chord error that is not positive, or below what the float32 of mesh files resolves.
     """
     require_number("chord_error", chord_error, "mm", above=0)
+    refuse_halves(gear, "facets")
     if gear.internal:
         raise GeometryError("teeth", gear.teeth, "must be above 0: facets of internal gears are not made yet")
     least = _LEAST_CHORD_ERROR * gear.tip_diameter
