@@ -99,7 +99,7 @@ def _on_bearings(
     return PairOnBearings(
         masses=masses,
         inertias=PerGear(*(each.inertia for each in train.inertias)),
-        base_radii=mesh.base_radii,
+        base_radii=pair.gears.map(lambda gear: gear.base_diameter / 2),
         working_transverse_pressure_angle=pair.working_transverse_pressure_angle,
         mesh_stiffness=mesh.stiffness,
         bearing_stiffness=PerGear((first, first), (second, second)),

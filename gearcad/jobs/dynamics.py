@@ -115,9 +115,6 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
         given = None if design.load is None else design.load.torque
         raise ParameterError("load.torque", given, "must be given, in N·m on the pinion: flanks without load rattle")
     refuse_halves(design.pair.pinion, "dynamics")
-    if design.pair.internal:
-        permitted = "must be above 0: the dynamics of a pair with a ring are not treated yet; a [train] can have ring gears"
-        raise GeometryError("wheel.teeth", design.pair.wheel.teeth, permitted)
     options, material = design.dynamics or DynamicsOptions(), design.material or Material()
     pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)
     contact = options.pair_model is PairModel.CONTACT

@@ -88,6 +88,7 @@ class PotentialEnergy(BeamMethod):
     title = "Potential energy"
     holds = ("contact, whatever the load", "bending", "shear", "axial", "foundation in an elastic ring")
     load_dependent: ClassVar[bool] = False
+    no_internal_form: ClassVar[str] = "Sainsot's elastic ring lies inside the teeth, held at its bore, not outside them"
 
     @cached_property
     def rims(self) -> PerGear[float]:
@@ -128,6 +129,7 @@ class WeberBanaschek(BeamMethod):
     name = "weber-banaschek"
     title = "Weber-Banaschek"
     holds = ("contact under all of the load", "bending", "shear", "axial", "foundation in a half-plane")
+    no_internal_form: ClassVar[str] = "its beam and half-plane are those of teeth that stand out from their body"
 
     def tooth_parts(self, role: Role, load: BeamLoad) -> dict[str, Floats]:
         e, nu = self.material.youngs_modulus, self.material.poisson_ratio

@@ -52,6 +52,7 @@ class ContactMethod(StiffnessMethod):
     """Flexible gears pressed together at every position; pairs of teeth share the load as their bodies and gaps make them."""
 
     holds = ("contact under each pair's own load", "teeth", "bodies down to where they are held", "neighbouring teeth")
+    no_internal_form: ClassVar[str] = "its elements know no rings yet"
 
     @abstractmethod
     def _position(self, roll_angle: float, torque: float) -> _Position:

@@ -45,6 +45,8 @@ class StiffnessMethod(ABC):
     holds: ClassVar[tuple[str, ...]]
     default_positions: ClassVar[int] = 200
     load_dependent: ClassVar[bool] = True
+    no_internal_form: ClassVar[str] = ""
+    """Why the method has none, so that it refuses rings."""
     mean_only: ClassVar[bool] = False
     """True of a method that knows no course over the mesh."""
     load_positions: ClassVar[int] = 48
@@ -56,8 +58,8 @@ class StiffnessMethod(ABC):
         if self.positions != 0:
             require_whole("positions", self.positions, at_least=FEWEST_POSITIONS, at_most=MOST_POSITIONS)
         refuse_halves(self.pair.pinion, self.name)
-        if self.pair.internal:
-            permitted = f"must be above 0 for {self.name}: no mesh stiffness of rings is known yet"
+        if self.pair.internal and self.no_internal_form:
+            permitted = f"must be above 0 for {self.name}: {self.no_internal_form}"
             raise GeometryError("wheel.teeth", self.pair.wheel.teeth, permitted)
         ratio = self.mounted.usable_contact_ratio
         if ratio < 1:

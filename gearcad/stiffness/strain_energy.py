@@ -47,6 +47,7 @@ class StrainEnergy(SliceMethod):
     name = "strain-energy"
     title = "Strain energy"
     holds = ("contact under all of the load, by energy", "teeth", "bodies down to where they are held")
+    no_internal_form: ClassVar[str] = "its elements know no rings yet"
     plane: ClassVar[Plane] = Plane.STRAIN
 
     @cached_property

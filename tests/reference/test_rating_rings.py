@@ -66,7 +66,7 @@ SECTIONS = [
         (0.39922734552364336, 5.456589620969806, 2.701332851396659, 0.7352617109695181, 1.0936528064924185, 19.274320196200385),
     ),
 ]
-"""A ring, contact ratio; chord and radius on the generated fillet; rho_fPv/m_n, s_Fn, h_Fe, rho_F, Y_F, alpha_Fen by formula."""
+"""Ring, contact ratio; chord, radius on the generated fillet; rho_fPv/m_n, s_Fn, h_Fe, rho_F, Y_F, alpha_Fen by formula."""
 
 
 @pytest.mark.parametrize("ring, contact_ratio, exact, formula", SECTIONS)

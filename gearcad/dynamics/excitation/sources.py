@@ -108,7 +108,10 @@ def _wheel_teeth(mesh: Mesh) -> int:
 def pair_train(
     pair: GearPair, cycle: MeshCycle, inertias: PerGear[float], *, torque: float, speed: float, damping_ratio: float
 ) -> Train:
-    """A pair by itself: its inertias (kg·m²), the mean tangent stiffness of its cycle, its backlash, a torque (N·m) on it."""
+    """A pair by itself: its inertias (kg·m²), the mean tangent stiffness of its cycle, its backlash, a torque (N·m) on it.
+
+    A ring turns with its pinion, so the torque on it is negative.
+    """
     radii = pair.gears.map(lambda gear: gear.base_diameter / 2)
     across = math.cos(math.radians(pair.working_transverse_pressure_angle))
     return Train(
@@ -120,11 +123,12 @@ def pair_train(
                 name="mesh",
                 pinion="pinion",
                 wheel="wheel",
-                base_radii=radii,
+                base_radii=radii.map(abs),
                 stiffness=cycle.tangent_mean,
                 teeth=pair.pinion.teeth,
                 damping_ratio=damping_ratio,
                 backlash=max(1000 * pair.circumferential_backlash * across, 0.0),
+                internal=pair.internal,
             ),
         ),
         torques={"pinion": abs(torque), "wheel": abs(torque) * radii.wheel / radii.pinion},

@@ -45,9 +45,10 @@ def disc_inertia(diameter: float, width: float, density: float) -> float:
 class ContactModel:
     """Two gears under balanced torques, whose engaged pairs of teeth are equal springs, f = N k y, with a damper b beside them.
 
-    `teeth`, `base_radii` (mm) and `inertias` (kg·m²) of pinion and wheel; `normal_module` and `base_pitch` in mm;
-    `first_contact` and `last_contact` in mm from T1, between which pairs carry; `pair_stiffness` k of one pair in N/µm;
-    `damping` b in N·s/m, which acts also where the flanks have parted; `torque` on the pinion in N·m.
+    `teeth`, `base_radii` (mm) and `inertias` (kg·m²) of pinion and wheel, teeth and radius negative of a ring, which turns with
+    the pinion; `normal_module` and `base_pitch` in mm; `first_contact` and `last_contact` in mm from T1, between which pairs
+    carry; `pair_stiffness` k of one pair in N/µm; `damping` b in N·s/m, which acts also where the flanks have parted; `torque`
+    on the pinion in N·m.
     `backlash` (mm along the line of action) lets the back flanks touch as well: `back_place` (mm) is then the sum of the
     places of the two flanks of one tooth of the pinion, each from the base tangent point of its own line of action.
     """
@@ -75,8 +76,9 @@ class ContactModel:
                 raise ParameterError(name, values, "must be two numbers, of pinion and wheel")
             object.__setattr__(self, name, PerGear(*values))
         for gear, (teeth, radius, inertia) in enumerate(zip(self.teeth, self.base_radii, self.inertias, strict=True)):
-            require_whole(f"teeth[{gear}]", teeth, at_least=1, at_most=10000)
-            require_number(f"base_radii[{gear}]", radius, "mm", above=0)
+            side = -1 if gear == 1 and isinstance(teeth, int) and teeth < 0 else 1
+            require_whole(f"teeth[{gear}]", side * teeth, at_least=1, at_most=10000)
+            require_number(f"base_radii[{gear}]", side * radius, "mm", above=0)
             require_number(f"inertias[{gear}]", inertia, "kg·m²", above=0)
         for name, unit in (("normal_module", "mm"), ("base_pitch", "mm"), ("pair_stiffness", "N/µm"), ("torque", "N·m")):
             require_number(name, getattr(self, name), unit, above=0)

@@ -2,7 +2,7 @@
 
 The pinion's axis stands at the origin and the wheel's on +x; both angles count counter-clockwise. The pinion drives with its
 left flanks: the force on the wheel points along n = (sin alpha_wt, cos alpha_wt), and the approach of the flanks is
-y = n (u_1 - u_2) + r_b1 phi_1 + r_b2 phi_2.
+y = n (u_1 - u_2) + r_b1 phi_1 + r_b2 phi_2. A ring stands on -x, and its base radius is negative: it turns with the pinion.
 """
 
 from __future__ import annotations
@@ -22,6 +22,8 @@ __all__ = ["PairOnBearings"]
 @dataclass(frozen=True, kw_only=True)
 class PairOnBearings:
     """Masses (kg), inertias (kg·m²), base radii (mm), bearings (N/µm in x and y; damping N·s/m) of pinion and wheel.
+
+    The base radius of a ring is negative.
 
     `working_transverse_pressure_angle` in degrees, `mesh_stiffness` in N/µm, `mesh_damping` in N·s/m, `torque` on the pinion
     in N·m (the wheel's holds it). Raises ParameterError.
@@ -43,7 +45,7 @@ class PairOnBearings:
         plain_numbers(self)
         for name, unit in (("masses", "kg"), ("inertias", "kg·m²"), ("base_radii", "mm")):
             for value in getattr(self, name):
-                require_number(name, value, unit, above=0)
+                require_number(name, abs(value), unit, above=0)
         for value in (each for bearing in self.bearing_stiffness for each in bearing):
             require_number("bearing_stiffness", value, "N/µm", above=0)
         require_number("mesh_stiffness", self.mesh_stiffness, "N/µm", above=0)
