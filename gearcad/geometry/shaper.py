@@ -57,6 +57,12 @@ class ShaperTip:
         """Points of the corner, radially and across, from the cutter's axis with the corner's middle on the radial line."""
         return self._middle_radius + self.radius * np.cos(theta), self.radius / self._stretch * np.sin(theta)
 
+    def outline(self, theta: ArrayLike) -> tuple[Floats, Floats]:
+        """Points of the corner along and across the middle of the cutter's tooth, from the cutter's axis (mm)."""
+        along, across = self._corner(np.asarray(theta, float))
+        cosine, sine = math.cos(self.middle_angle), math.sin(self.middle_angle)
+        return along * cosine - across * sine, along * sine + across * cosine
+
     def _normal(self, theta: Floats) -> Floats:
         """delta: direction of the normal of the corner, from that radial line."""
         return np.arctan2(self._stretch * np.sin(theta), np.cos(theta))
@@ -120,6 +126,11 @@ class ShaperTip:
         """Whether the cutter rolls with the gear; it does not where it is the gear's own counterpart."""
         return self.centre_distance > 0
 
+    @property
+    def share(self) -> float:
+        """z_0/|z|: how far the gear turns when the cutter does."""
+        return self.cutter_teeth / self.teeth
+
     def turns(self, theta: ArrayLike) -> tuple[Floats, Floats]:
         """Direction gamma of the normal in space, from the line of centres, and turn phi of the cutter where theta cuts (rad).
 
@@ -135,22 +146,26 @@ class ShaperTip:
     def cut(self, theta: ArrayLike) -> tuple[Any, Any]:
         """Points that the corner cuts: radius (mm) and angle from the middle of the tooth space (rad)."""
         theta = np.asarray(theta, float)
-        along, across = self._corner(theta)
-        _, turn = self.turns(theta)
-        angle = self.middle_angle + turn
-        x, y = along * np.cos(angle) - across * np.sin(angle), along * np.sin(angle) + across * np.cos(angle)
-        share = self.cutter_teeth / self.teeth
+        return self.seen(*self.outline(theta), self.turns(theta)[1])
+
+    def seen(self, along: ArrayLike, across: ArrayLike, turn: ArrayLike) -> tuple[Any, Any]:
+        """Points of the cutter (mm) where it has turned by `turn` (rad), seen from the gear that turned with it.
+
+        Radius (mm) and angle from the middle of the tooth space (rad). `along` and `across` are from the cutter's axis, its
+        tooth centred on the first.
+        """
+        along, across, turn = np.asarray(along), np.asarray(across), np.asarray(turn)
+        x, y = along * np.cos(turn) - across * np.sin(turn), along * np.sin(turn) + across * np.cos(turn)
         x = self.centre_distance + x if self.internal else self.centre_distance - x
-        return np.hypot(x, y), np.arctan2(y, x) - turn * share
+        return np.hypot(x, y), np.arctan2(y, x) - turn * self.share
 
     def direction(self, theta: ArrayLike, half_pitch: float) -> Floats:
         """Direction of travel from root to tip (rad), on the flank y > 0 of a tooth on +x."""
         theta = np.asarray(theta, float)
         gamma, turn = self.turns(theta)
-        share = self.cutter_teeth / self.teeth
         if self.internal:
-            return half_pitch - (gamma - turn * share) - math.pi / 2
-        return half_pitch + turn * share - math.pi / 2 + gamma
+            return half_pitch - (gamma - turn * self.share) - math.pi / 2
+        return half_pitch + turn * self.share - math.pi / 2 + gamma
 
     # ------------------------------------------------------------------ where it ends
 

@@ -79,8 +79,8 @@ def distance_to_section(gear: Gear, points: Floats) -> Floats:
     Points are turned back by the twist and folded to tooth 0; the nearest point of the outline is found by Newton steps
     from a dense sample.
     """
-    rate = math.tan(math.radians(gear.helix_angle)) / (gear.reference_diameter / 2)
-    pitch = 2 * math.pi / gear.teeth
+    rate = math.tan(math.radians(gear.helix_angle)) / (abs(gear.reference_diameter) / 2)
+    pitch = 2 * math.pi / gear.tooth_count
     radius = np.hypot(points[:, 0], points[:, 1])
     angle = np.arctan2(points[:, 1], points[:, 0]) - rate * points[:, 2]
     angle = np.abs(np.mod(angle + pitch / 2, pitch) - pitch / 2)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.errors import GeometryError, SolverError, require_number
+from gearcad.errors import SolverError, require_number
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.geometry.turned import middle_section
@@ -34,17 +34,15 @@ def gear_contour(gear: Gear, accuracy: float = 0.0005) -> Floats:
 
     The lands are single arcs, tip chamfers straight, involute and trochoid pairs of arcs that follow the exact tangents
     and stay within `accuracy` (mm) of the exact curve. Every joint is one shared vertex; the last arc ends in the first.
-    Profile modifications are in it as they are at mid face width.
+    Profile modifications are in it as they are at mid face width. On a ring what it encloses is the opening.
     """
     require_number("accuracy", accuracy, "mm", at_least=1e-7)
-    if gear.internal:
-        raise GeometryError("teeth", gear.teeth, "must be above 0: contours of internal gears are not drawn yet")
     curves = middle_section(gear)
     flank = _joined([_arcs_of(curve, accuracy) for curve in curves if curve.kind not in (CurveKind.ROOT, CurveKind.TIP)])
-    half_pitch = math.pi / gear.teeth
+    half_pitch = math.pi / gear.tooth_count
     land = curves[0].kind is CurveKind.ROOT
     if not land:  # the fillet ends in the middle of the space, where that of the next tooth begins
-        flank.vertices[0] = gear.root_diameter / 2 * np.array([math.cos(half_pitch), math.sin(half_pitch)])
+        flank.vertices[0] = gear.profile.root_diameter / 2 * np.array([math.cos(half_pitch), math.sin(half_pitch)])
     right, left = flank.vertices * [1, -1], flank.vertices[::-1]
     root_angle, tip_angle = (math.atan2(flank.vertices[i, 1], flank.vertices[i, 0]) for i in (0, -1))
     lands = math.tan(tip_angle / 2), math.tan((half_pitch - root_angle) / 2)
@@ -52,7 +50,7 @@ def gear_contour(gear: Gear, accuracy: float = 0.0005) -> Floats:
     bulge = np.r_[-flank.bulges, lands[0], -flank.bulges[::-1], lands[1]]
     if not land:
         x, y, bulge = x[:-1], y[:-1], bulge[:-1]
-    turn = 2 * half_pitch * np.arange(gear.teeth)[:, None]
+    turn = 2 * half_pitch * np.arange(gear.tooth_count)[:, None]
     cosine, sine = np.cos(turn), np.sin(turn)
     columns = np.broadcast_arrays(cosine * x - sine * y, sine * x + cosine * y, bulge)
     return np.stack(columns, -1).reshape(-1, 3)

@@ -22,7 +22,9 @@ if TYPE_CHECKING:
 
 __all__ = ["write_dxf"]
 
-_LAYERS = {"PROFILE": (7, "CONTINUOUS"), "BORE": (7, "CONTINUOUS")}
+_CUT = (7, "CONTINUOUS")
+_LAYERS = {"PROFILE": _CUT, "BORE": _CUT}
+_RING_LAYERS = {"PROFILE": _CUT, "RIM": _CUT, "BOLTS": _CUT}
 _CIRCLES = {"CIRCLES": (8, "CENTER")}
 """Colour (AutoCAD index) and line type of layers; circles are grey and dash-dotted, as they are not to be cut."""
 
@@ -38,6 +40,7 @@ def write_dxf(gear: Gear, path: Path | str, *, accuracy: float = 0.0005, circles
     The flanks are as modified at mid face width, where modifications along the face are nothing (see `middle_section`).
     Layer PROFILE holds the contour, one closed polyline of arcs (see `gear_contour`); BORE the bore, a circle, or with a
     keyway a closed polyline; CIRCLES, with `circles`, the tip, reference, base and root circles, which are not to be cut.
+    A ring's contour is that of its opening; it has no BORE but RIM, the circle outside if it has one, and BOLTS, its holes.
     The header states how far the drawing reaches. Equal input gives equal bytes.
     Raises ParameterError for an `accuracy` (mm) below 1e-7.
     """
@@ -49,13 +52,16 @@ def write_dxf(gear: Gear, path: Path | str, *, accuracy: float = 0.0005, circles
         before = ezdxf.options.write_fixed_meta_data_for_testing
         ezdxf.options.write_fixed_meta_data_for_testing = True
         try:
-            document = _document()
+            document = _document(_RING_LAYERS if gear.internal else _LAYERS)
             space = document.modelspace()
             space.add_lwpolyline(contour.tolist(), format="xyb", close=True, dxfattribs={"layer": "PROFILE"})
-            _draw_bore(space, gear.body)
+            (_draw_rim if gear.internal else _draw_bore)(space, gear.body)
             low, high = extent_of(contour)
             if circles:
                 low, high = _draw_circles(document, gear)
+            if gear.body.rim_diameter is not None:
+                high = np.full(2, gear.body.rim_diameter / 2)
+                low = -high
             space.reset_extents((*low, 0.0), (*high, 0.0))
             with Path(path).open("w", encoding=document.output_encoding, errors="dxfreplace", newline="\n") as stream:
                 document.write(stream)
@@ -63,7 +69,7 @@ def write_dxf(gear: Gear, path: Path | str, *, accuracy: float = 0.0005, circles
             ezdxf.options.write_fixed_meta_data_for_testing = before
 
 
-def _document() -> Drawing:
+def _document(layers: Mapping[str, tuple[int, str]]) -> Drawing:
     import ezdxf
 
     document = ezdxf.new("R2010", setup=["linetypes"])
@@ -71,7 +77,7 @@ def _document() -> Drawing:
     document.classes.add_required_classes(document.dxfversion)
     document.classes.classes = OrderedDict(sorted(document.classes.classes.items()))
     document.header["$INSUNITS"], document.header["$MEASUREMENT"] = _MILLIMETRES, _METRIC
-    _add_layers(document, _LAYERS)
+    _add_layers(document, layers)
     return document
 
 
@@ -83,10 +89,20 @@ def _add_layers(document: Drawing, layers: Mapping[str, tuple[int, str]]) -> Non
 def _draw_circles(document: Drawing, gear: Gear) -> tuple[Floats, Floats]:
     """The circles of reference; how far they reach."""
     _add_layers(document, _CIRCLES)
-    for diameter in (gear.tip_diameter, gear.reference_diameter, gear.base_diameter, gear.root_diameter):
+    profile = gear.profile
+    for diameter in (profile.tip_diameter, profile.reference_diameter, profile.base_diameter, profile.root_diameter):
         document.modelspace().add_circle((0, 0), diameter / 2, dxfattribs={"layer": "CIRCLES"})
-    reach = np.full(2, gear.tip_diameter / 2)
+    reach = np.full(2, max(profile.tip_diameter, profile.root_diameter) / 2)
     return -reach, reach
+
+
+def _draw_rim(space: Modelspace, body: Body) -> None:
+    if body.rim_diameter is not None:
+        space.add_circle((0, 0), body.rim_diameter / 2, dxfattribs={"layer": "RIM"})
+    for k in range(body.bolt_holes):
+        angle = 2 * math.pi * k / body.bolt_holes
+        middle = (body.bolt_circle / 2 * math.cos(angle), body.bolt_circle / 2 * math.sin(angle))
+        space.add_circle(middle, body.bolt_diameter / 2, dxfattribs={"layer": "BOLTS"})
 
 
 def _draw_bore(space: Modelspace, body: Body) -> None:
