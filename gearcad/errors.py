@@ -133,7 +133,7 @@ def plain_numbers(instance: Any) -> None:
     """
     for each in fields(instance):
         value = getattr(instance, each.name)
-        if isinstance(value, bool) or not isinstance(value, Real):
+        if isinstance(value, bool) or not isinstance(value, Real) or getattr(value, "derived", False):
             continue
         if isinstance(value, Integral) and (_WHOLE.match(str(each.type)) or abs(int(value)) > _MOST_EXACT):
             object.__setattr__(instance, each.name, int(value))

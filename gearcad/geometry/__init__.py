@@ -11,8 +11,12 @@ from gearcad.geometry.modification import FlankForm, FlankModification, ReliefSh
 from gearcad.geometry.pair import GearPair
 from gearcad.geometry.pair_data import CommonWidth
 from gearcad.geometry.path import BaseTangent, ContactLineLengths, ContactZone, PathOfContact
-from gearcad.geometry.pose import Pose
+from gearcad.geometry.pose import Pose, RackPose
 from gearcad.geometry.profile import ToothProfile
+from gearcad.geometry.rack import Rack
+from gearcad.geometry.rack_inspection import RackInspection
+from gearcad.geometry.rack_pair import RackPair
+from gearcad.geometry.rack_profile import RackProfile
 from gearcad.geometry.shift import (
     ShiftSplit,
     profile_shift_sum,
@@ -42,6 +46,11 @@ __all__ = [
     "InternalProfile",
     "PathOfContact",
     "Pose",
+    "Rack",
+    "RackInspection",
+    "RackPair",
+    "RackPose",
+    "RackProfile",
     "ReliefShape",
     "ShaperCutter",
     "ShiftSplit",

@@ -22,7 +22,7 @@ __all__ = ["check_centre_distance", "check_inputs", "check_mates", "check_shift_
 ROUNDING_OVERLAP = 1e-4
 """Overlap at the working circle, in normal modules, that comes from shifts printed to four digits: reported, not refused."""
 
-_SAME = 1e-9
+SAME = 1e-9
 
 
 def check_inputs(pair: PairData) -> None:
@@ -48,11 +48,11 @@ def check_mates(pair: PairData) -> None:
         ("normal_module", "mm", pinion.normal_module, wheel.normal_module),
         ("rack.pressure_angle", "deg", pinion.rack.pressure_angle, wheel.rack.pressure_angle),
     ):
-        if abs(one - other) > _SAME:
+        if abs(one - other) > SAME:
             raise GeometryError(f"wheel.{name}", other, f"must be {format_number(one)} {unit}, as on the pinion", unit)
     _check_halves(pair)
     hand, words = (1, "as on the pinion of an internal pair") if wheel.internal else (-1, "opposite to the pinion")
-    if abs(wheel.helix_angle - hand * pinion.helix_angle) > _SAME:
+    if abs(wheel.helix_angle - hand * pinion.helix_angle) > SAME:
         permitted = f"must be {format_number(hand * pinion.helix_angle)} deg, {words}"
         raise GeometryError("wheel.helix_angle", wheel.helix_angle, permitted, "deg")
     if pair.common_width.width <= 0:
@@ -70,7 +70,7 @@ def _check_halves(pair: PairData) -> None:
     if not pinion.present:
         return
     wanted = pinion.offset if pair.internal else -pinion.offset
-    if abs((wheel.offset - wanted + 0.5) % 1 - 0.5) > _SAME:
+    if abs((wheel.offset - wanted + 0.5) % 1 - 0.5) > SAME:
         permitted = f"must be {format_number(wanted)}, for both halves to mesh"
         raise GeometryError("wheel.double_helix.offset", wheel.offset, permitted)
     if pair.axial_offset:

@@ -1,4 +1,4 @@
-"""Where the gears of a pair stand when they mesh: a tooth of the pinion in a space of the wheel, backlash split."""
+"""Where the gears of a pair, or a rack, stand in mesh: a tooth of the pinion in a space of the mate, backlash split."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from gearcad.per_gear import PerGear
 
-__all__ = ["Pose", "wheel_pose"]
+__all__ = ["Pose", "RackPose", "wheel_pose"]
 
 
 class Pose(NamedTuple):
@@ -28,3 +28,16 @@ def wheel_pose(*, teeth: PerGear[int], centre_distance: float, z: float, turn: f
     """
     facing = 0.0 if teeth.wheel > 0 and teeth.wheel % 2 else 180 / abs(teeth.wheel)
     return Pose(facing - turn / (teeth.wheel / teeth.pinion), centre_distance, z)
+
+
+class RackPose(NamedTuple):
+    """Place of a rack beside a pinion that stands at the origin, teeth from z = 0 to its face width.
+
+    `rotation` of the rack about z (degrees: its tips then face the pinion), then its shift (mm) along x (the mounting
+    distance), y (its travel, from where its own x = 0 is) and z.
+    """
+
+    rotation: float
+    x: float
+    y: float
+    z: float

@@ -8,12 +8,24 @@ from typing import Any
 import numpy as np
 from hypothesis import strategies as st
 
-from gearcad import BasicRack, Body, FlankModification, Gear, GearPair
+from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Rack, RackPair
 from gearcad.errors import InputError
 from gearcad.geometry import HubSide
 from support.modified import roll_ends
 
-__all__ = ["MODIFICATIONS", "build_gear", "build_pair", "gear_inputs", "modified", "names_a_field", "pair_inputs"]
+__all__ = [
+    "MODIFICATIONS",
+    "build_gear",
+    "build_pair",
+    "build_rack",
+    "build_rack_pair",
+    "gear_inputs",
+    "modified",
+    "names_a_field",
+    "pair_inputs",
+    "rack_inputs",
+    "rack_pair_inputs",
+]
 
 MOST_TEETH = 300
 
@@ -36,7 +48,7 @@ PRESSURE_ANGLE = st.one_of(st.sampled_from([20.0, 14.5, 25.0, 30.0]), _number(12
 
 
 @st.composite
-def _racks(draw: st.DrawFn, pressure_angle: float) -> dict[str, Any]:
+def basic_racks(draw: st.DrawFn, pressure_angle: float) -> dict[str, Any]:
     """A rack: standard, or a drawn addendum with some bottom clearance; the tip radius up to a little beyond the full one."""
     addendum = draw(_often(1.0, _number(0.4, 1.4)))
     dedendum = addendum + draw(_often(0.25, _number(0.02, 0.6)))
@@ -71,7 +83,7 @@ def gear_inputs(draw: st.DrawFn) -> dict[str, Any]:
         "tip_alteration": draw(_often(0.0, _number(-0.4, 0.3))),
         "thinning": draw(THINNING),
         "width": draw(_number(0.5, 15)),
-        "rack": draw(_racks(draw(PRESSURE_ANGLE))),
+        "rack": draw(basic_racks(draw(PRESSURE_ANGLE))),
         "tip_change": draw(_often(None, _number(-0.6, 0.4))),
         "root_change": draw(_often(None, _number(-0.6, 0.8))),
         "body": draw(_bodies()),
@@ -145,8 +157,8 @@ def modified(gear: Gear, drawn: dict[str, float] | None) -> Gear:
 def pair_inputs(draw: st.DrawFn) -> dict[str, Any]:
     """Inputs of a pair: two gears that share what they must, and how they are set up."""
     angle = draw(PRESSURE_ANGLE)
-    first = draw(_racks(angle))
-    second = draw(_often(first, _racks(angle)))
+    first = draw(basic_racks(angle))
+    second = draw(_often(first, basic_racks(angle)))
     gears = [
         {
             "teeth": draw(TEETH),
@@ -208,3 +220,70 @@ def names_a_field(error: InputError) -> bool:
     owner, _, name = error.parameter.rpartition(".")
     known = {prefix for prefix, names in FIELDS.items() if name in names}
     return "\n" not in str(error) and (f"{owner}." if owner else "") in known
+
+
+@st.composite
+def rack_inputs(draw: st.DrawFn) -> dict[str, Any]:
+    """Inputs of a rack by itself; lengths in normal modules, that of the rack in pitches."""
+    return {
+        "normal_module": draw(MODULE),
+        "helix_angle": draw(HELIX),
+        "thinning": draw(THINNING),
+        "tip_alteration": draw(_often(0.0, _number(-0.4, 0.3))),
+        "tip_chamfer": draw(_often(0.0, _number(0.002, 0.5))),
+        "width": draw(_number(0.5, 15)),
+        "below": draw(_number(0.11, 8)),
+        "pitches": draw(st.one_of(st.integers(1, 12), _number(1, 12))),
+        "rack": draw(basic_racks(draw(PRESSURE_ANGLE))),
+    }
+
+
+def build_rack(inputs: dict[str, Any]) -> Rack:
+    """The rack of some drawn inputs; raises GearcadError where there is none."""
+    m, pitches = inputs["normal_module"], inputs["pitches"]
+    pitch = np.pi * m / np.cos(np.radians(inputs["helix_angle"]))
+    return Rack(
+        **{"teeth": pitches} if isinstance(pitches, int) else {"length": pitches * pitch},
+        normal_module=m,
+        face_width=inputs["width"] * m,
+        height=(inputs["rack"]["dedendum"] + inputs["below"]) * m,
+        helix_angle=inputs["helix_angle"],
+        tip_alteration=inputs["tip_alteration"],
+        tooth_thinning=inputs["thinning"] * m,
+        tip_chamfer=inputs["tip_chamfer"] * m,
+        rack=_owned("rack", BasicRack, **inputs["rack"]),
+    )
+
+
+@st.composite
+def rack_pair_inputs(draw: st.DrawFn) -> dict[str, Any]:
+    """Inputs of a pinion and a rack that share what they must; `spread` is how much farther than r + x m_n they stand."""
+    angle = draw(PRESSURE_ANGLE)
+    first = draw(basic_racks(angle))
+    return {
+        "rack": draw(rack_inputs()) | {"rack": draw(_often(first, basic_racks(angle)))},
+        "pinion": first,
+        "teeth": draw(TEETH),
+        "profile_shift": draw(SHIFT),
+        "thinning": draw(THINNING),
+        "width": draw(_number(1, 15)),
+        "tip_chamfer": draw(_often(0.0, _number(0.01, 0.2))),
+        "spread": draw(_often(0.0, _number(-0.1, 0.4))),
+    }
+
+
+def build_rack_pair(inputs: dict[str, Any]) -> RackPair:
+    """The pair of some drawn inputs; raises GearcadError where there is none."""
+    rack, m = build_rack(inputs["rack"]), inputs["rack"]["normal_module"]
+    pinion = Gear(
+        teeth=inputs["teeth"],
+        normal_module=m,
+        face_width=inputs["width"] * m,
+        helix_angle=-rack.helix_angle,
+        profile_shift=inputs["profile_shift"],
+        tooth_thinning=inputs["thinning"] * m,
+        rack=_owned("rack", BasicRack, **inputs["pinion"]),
+        body=Body(tip_chamfer=inputs["tip_chamfer"] * m),
+    )
+    usual = pinion.reference_diameter / 2 + (pinion.profile_shift + inputs["spread"]) * m
+    return RackPair(pinion=pinion, rack=rack, mounting_distance=usual)
