@@ -17,6 +17,7 @@ from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
 from gearcad.contact.plane.ring import assemble
 from gearcad.contact.plane.root import Fillets
 from gearcad.contact.shared.chain import Cuts
+from gearcad.geometry import ShaperCutter
 from gearcad.meshing.section import MeshSizes, mesh_sector
 from gearcad.meshing.section.outline import Side
 
@@ -30,16 +31,19 @@ GEARS = {
     "z8 undercut": Gear(teeth=8, normal_module=3.0, face_width=10),
     "z161": Gear(teeth=161, normal_module=1.5, face_width=10, profile_shift=0.1682),
     "helical": Gear(teeth=13, normal_module=2.5, face_width=18, helix_angle=28, profile_shift=0.107),
+    "ring": Gear(teeth=-70, normal_module=2.0, face_width=14, profile_shift=-0.3, cutter=ShaperCutter(teeth=25)),
+    "great ring": Gear(teeth=-161, normal_module=1.5, face_width=10, cutter=ShaperCutter(teeth=40, tip_radius=0.2)),
 }
 
 
 def body(gear: Gear, *, sizes: MeshSizes | None = None, plane: Plane = Plane.STRAIN, nodal: bool = False) -> PlaneCompliance:
-    """A full ring with four modules of rim."""
+    """All teeth, with four modules of rim."""
     sizes = sizes or MeshSizes()
-    radius = max(gear.root_diameter / 2 - 4 * gear.normal_module, 0.3 * gear.root_diameter / 2)
+    root = abs(gear.root_diameter) / 2
+    radius = root + 4 * gear.normal_module if gear.internal else max(root - 4 * gear.normal_module, 0.3 * root)
     fine, coarse = mesh_sector(gear, radius, sizes), mesh_sector(gear, radius, sizes.coarse())
     elasticity = PlaneElasticity(STEEL, plane)
-    ring = assemble(fine, coarse, gear.teeth, 1, elasticity, None, Cuts.FIXED)
+    ring = assemble(fine, coarse, gear.tooth_count, 1, elasticity, None, Cuts.FIXED)
     return (nodal_compliance if nodal else flank_compliance)(gear, ring, elasticity)
 
 
@@ -185,8 +189,8 @@ def test_tension_below_the_load_and_compression_behind(solved: PlaneCompliance) 
     tension, compression = fillets.greatest(Side.LEFT_FILLET, load), fillets.greatest(Side.RIGHT_FILLET, load)
     assert 1.05 < -compression.stress / tension.stress < 1.5
     assert 12 <= tension.tangent_angle < 60
-    gear = solved.flank.gear
-    assert gear.root_diameter / 2 <= tension.radius < gear.form_diameter / 2
+    root, form = solved.flank.gear.root_diameter / 2, solved.flank.gear.form_diameter / 2
+    assert root <= math.copysign(tension.radius, root) < form
 
 
 def test_loads_on_two_teeth_superpose(solved: PlaneCompliance) -> None:
@@ -202,7 +206,7 @@ def test_loads_on_two_teeth_superpose(solved: PlaneCompliance) -> None:
 def test_fillet_angles_run_from_the_flank_to_the_root(solved: PlaneCompliance) -> None:
     for side in (Side.LEFT_FILLET, Side.RIGHT_FILLET):
         radii, angles = Fillets(solved).places(side)
-        inwards = np.argsort(-radii)
+        inwards = np.argsort(-solved.flank.upward * radii)
         # Where a tooth is undercut the fillet leans the other way at first.
         upright = int(np.argmin(angles[inwards]))
         assert np.all(np.diff(angles[inwards][: upright + 1]) < 0)

@@ -29,6 +29,9 @@ _CORNERS = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
 _INSIDE = (Side.AHEAD, Side.HELD, Side.BEHIND)
 """Sides of a sector that are no profile."""
 
+_MIRRORED = np.array([1.0, -1.0])
+"""Columns of a matrix that is to turn the mirror image of what it is given."""
+
 _COARSE, _FINE = 2, 16
 """Parts of an element's edge between points of the field, away from the contact and near it."""
 
@@ -40,8 +43,8 @@ _NEAR = 5.0
 class ToothField:
     """Von Mises stress (MPa) at `points` (n, 2) in mm of one tooth and its share of the body; `triangles` (m, 3) join them.
 
-    `outline` (k, 2) is the profile from one root to the other. The pinion's axis is the origin, the wheel's lies on +x; the
-    teeth stand as before they bend.
+    `outline` (k, 2) is the profile from one root to the other. The pinion's axis is the origin, the wheel's lies on the x axis
+    at the centre distance; the teeth stand as before they bend.
     """
 
     points: Floats
@@ -91,14 +94,23 @@ def tooth_field(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: i
 
 
 def _pose(cycle: PlaneCycle, position: PlanePosition, role: Role, tooth: int) -> tuple[Floats, Floats]:
-    """Turn (2, 2) and axis (2,) of a tooth: its flank touches on the line of action, where its normal lies along that line."""
+    """Turn (2, 2) and axis (2,) of a tooth: its flank touches on the line of action, where its normal lies along that line.
+
+    A ring's is mirrored back first, as the model sees it mirrored.
+    """
     model = cycle.model
     lengths = model.line.lengths(model.roll_length(position.roll_angle) + tooth * model.line.pitch)
     heading = model.bodies.pick(role).flank.heading(np.asarray(lengths.pick(role)))
     opposite, away = (0.0, 0.0) if role is Role.PINION else (np.pi, model.pair.centre_distance)
-    angle = opposite - np.radians(model.pair.working_transverse_pressure_angle) - heading
-    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    return turn, np.array([away, 0.0])
+    along = np.radians(model.pair.working_transverse_pressure_angle)
+    if role is Role.WHEEL and model.pair.internal:
+        return _turn(heading - along) * _MIRRORED, np.array([away, 0.0])
+    return _turn(opposite - along - heading), np.array([away, 0.0])
+
+
+def _turn(angle: Floats) -> Floats:
+    """Matrix (2, 2) that turns by an angle (rad)."""
+    return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
 
 
 def _smooth_stresses(
@@ -153,7 +165,7 @@ def _strips(body: PlaneCompliance, contact: PlanePairContact, role: Role, points
     cells = contact.pair.cells
     touch = contact.pair.lengths.pick(role)
     inward = body.flank.inward(np.array(touch))
-    up = np.array([-inward[1], inward[0]])  # along the flank, towards the tip
+    up = body.flank.upward * np.array([-inward[1], inward[0]])  # along the flank, towards the tip
     away = points - body.flank.points(touch)
     places = TOOTH_ORDER.pick(role) * cells.place  # the tangent points to the other tip
     across, down, shear = strip_stresses(away @ up, away @ inward, places, cells.width, contact.pressures)

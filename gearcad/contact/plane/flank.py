@@ -6,6 +6,7 @@ exactly, so the elements carry only the smooth rest (singularity subtraction).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cached_property
@@ -17,7 +18,7 @@ from gearcad.arrays import Floats, Wholes
 from gearcad.contact.plane.elasticity import PlaneElasticity, stiffness_matrix
 from gearcad.contact.plane.flamant import edge_displacement, flamant_displacement, flamant_traction
 from gearcad.contact.plane.ring import Ring
-from gearcad.contact.shared.engaged import FlankCompliance, LoadedFlank, roll_lengths
+from gearcad.contact.shared.engaged import FlankCompliance, LoadedFlank
 from gearcad.geometry import Gear
 from gearcad.meshing.section import SectorMesh
 from gearcad.meshing.section.outline import Side
@@ -45,8 +46,13 @@ class PlaneFlank(LoadedFlank):
     lengths: Floats
 
     def arc(self, lengths: Floats) -> Floats:
-        """Arc length along the involute from the base circle (mm): rho^2/(2 r_b)."""
-        return lengths**2 / (2 * self.base_radius)
+        """Arc length along the involute (mm) from the base circle, which rises towards the tip: rho |rho|/(2 r_b)."""
+        result: Floats = np.copysign(lengths**2, lengths) / (2 * self.base_radius)
+        return result
+
+    def length_at(self, arc: float) -> float:
+        """Roll length (mm) at an arc length (mm)."""
+        return math.copysign(math.sqrt(2 * self.base_radius * abs(arc)), arc)
 
     def inward(self, lengths: Floats) -> Floats:
         """Unit normals (..., 2) into the tooth."""
@@ -63,7 +69,8 @@ class PlaneFlank(LoadedFlank):
 def flank_of(gear: Gear, mesh: SectorMesh) -> PlaneFlank:
     """The loaded flank of a sector mesh."""
     nodes = mesh.sides[Side.LEFT_FLANK][::-1]
-    return PlaneFlank(gear, nodes, roll_lengths(np.hypot(*mesh.points[nodes].T), gear.base_diameter / 2))
+    lengths = LoadedFlank(gear).roll_lengths(np.hypot(*mesh.points[nodes].T))
+    return PlaneFlank(gear, nodes, lengths)
 
 
 @dataclass(frozen=True)
@@ -164,7 +171,7 @@ class PlaneCompliance(FlankCompliance):
 
         flank, corner = self.flank, self._corner
         end = float(flank.arc(flank.lengths[-1]))
-        last = np.sqrt(2 * flank.base_radius * (end - corner / 2))
+        last = flank.length_at(end - corner / 2)
 
         def spread(lengths: Floats) -> Floats:
             return -np.log(np.maximum(end - flank.arc(np.minimum(lengths, last)), 0) + corner)
@@ -227,7 +234,10 @@ def _load_places(flank: PlaneFlank) -> Floats:
 def near_elements(gear: Gear, mesh: SectorMesh) -> Wholes:
     """Elements of the tooth and a module of the body below it: where Flamant's field is taken off."""
     centre = mesh.points[mesh.triangles[:, :3]].mean(axis=1)
-    return np.flatnonzero(np.hypot(*centre.T) > gear.root_diameter / 2 - gear.normal_module)
+    radius, root = np.hypot(*centre.T), gear.profile.root_diameter / 2
+    if gear.internal:
+        return np.flatnonzero(radius < root + gear.normal_module)
+    return np.flatnonzero(radius > root - gear.normal_module)
 
 
 def _boundary_edges(triangles: Wholes) -> Wholes:

@@ -122,10 +122,6 @@ def plane_pair(
     The pair is taken as it is mounted; `pitch_error` (µm) is how far the flanks of its middle pair of teeth stand proud.
     """
     refuse_halves(pair.pinion, "contact")
-    if pair.internal:
-        raise GeometryError(
-            "wheel.teeth", pair.wheel.teeth, "must be above 0: contact of sections with a ring is not treated yet"
-        )
     elasticity, body, sizes = PlaneElasticity(material, plane), body or BodyModel(), sizes or MeshSizes()
     # As many neighbours as can touch at once, with one more place for a corner that touches early or late.
     neighbours = max(1, math.floor(pair.transverse_contact_ratio + 0.2))
@@ -151,5 +147,7 @@ def flank_body(
     if (held := body.teeth_held(gear)) is not None:
         held = max(held, 2 * neighbours + 1)
     fine, coarse = mesh_sector(gear, held_radius, sizes), mesh_sector(gear, held_radius, sizes.coarse())
-    ring = assemble(fine, coarse, gear.teeth, min(neighbours, (gear.teeth - 1) // 2), elasticity, held, body.cuts, support)
+    ring = assemble(
+        fine, coarse, gear.tooth_count, min(neighbours, (gear.tooth_count - 1) // 2), elasticity, held, body.cuts, support
+    )
     return solve(gear, ring, elasticity)

@@ -46,7 +46,7 @@ class BodyModel:
 
     def teeth_held(self, gear: Gear) -> int | None:
         """How many teeth of a gear stand between cuts; None for the full ring."""
-        return self.teeth if self.teeth is not None and self.teeth < gear.teeth else None
+        return self.teeth if self.teeth is not None and self.teeth < gear.tooth_count else None
 
     def inner_radii(self, pair: GearPair) -> PerGear[float]:
         """Where the bodies of pinion and wheel are held (mm). Raises ParameterError and GeometryError."""
@@ -91,6 +91,8 @@ class BodyModel:
 def _inner_radius(gear: Gear, inner_diameter: float | None) -> float:
     """Where the body is held (mm)."""
     if inner_diameter is not None:
+        if gear.internal:
+            raise GeometryError("inner_diameter", inner_diameter, "must be left out: a ring is held on body.rim_diameter", "mm")
         require_number("inner_diameter", inner_diameter, "mm", above=0)
         if inner_diameter / 2 > gear.root_diameter / 2 - 0.1 * gear.normal_module:
             most = gear.root_diameter - 0.2 * gear.normal_module

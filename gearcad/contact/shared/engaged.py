@@ -20,7 +20,7 @@ from gearcad.rating.hertz import half_width, reduced_radius
 __all__ = ["TOOTH_ORDER", "EngagedPair", "FlankCompliance", "FlexiblePair", "LoadedFlank", "roll_lengths"]
 
 TOOTH_ORDER = PerGear(1, -1)
-"""Seen from the wheel the teeth follow each other the other way round."""
+"""Seen from the wheel the teeth follow each other the other way round; a ring's too, as rings are seen mirrored."""
 
 
 def roll_lengths(radii: Floats, base_radius: float) -> Floats:
@@ -31,14 +31,26 @@ def roll_lengths(radii: Floats, base_radius: float) -> Floats:
 
 @dataclass(frozen=True)
 class LoadedFlank:
-    """The exact flank of tooth 0 that loads press on, the left one; places on it are roll lengths (mm)."""
+    """The exact flank of tooth 0 that loads press on, that with y > 0; places on it are roll lengths (mm).
+
+    Those of a ring are negative, and rise from root to tip as others do: so the formulas of all flanks are the same.
+    """
 
     gear: Gear
 
     @property
     def base_radius(self) -> float:
-        """r_b (mm)."""
-        return self.gear.base_diameter / 2
+        """r_b (mm), above 0 of a ring too."""
+        return self.gear.profile.base_diameter / 2
+
+    @property
+    def upward(self) -> int:
+        """Whether its tip lies outwards (1) or, of a ring, inwards (-1)."""
+        return -1 if self.gear.internal else 1
+
+    def roll_lengths(self, radii: Floats) -> Floats:
+        """Roll lengths (mm) at radii (n,) in mm."""
+        return self.upward * roll_lengths(radii, self.base_radius)
 
     def polar(self, lengths: Floats) -> tuple[Floats, Floats]:
         """Radii (mm) and angles (rad) of places in the transverse section."""

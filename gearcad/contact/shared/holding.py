@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field
 from enum import Enum
 
-from gearcad.errors import GeometryError, format_number
+from gearcad.errors import GeometryError, ParameterError, format_number
 from gearcad.geometry import Gear
 from gearcad.material import Material
 from gearcad.rating.rim import RIM_LIMIT
@@ -80,14 +80,27 @@ _WORDS = {
 
 def rim_ratio(gear: Gear, held_radius: float) -> float:
     """s_R/h_t: the rim from the root circle down to a radius (mm), or to the keyway if that is the bore, over tooth depth."""
+    if gear.internal:
+        profile = gear.profile
+        return (held_radius - profile.root_diameter / 2) / ((profile.root_diameter - profile.tip_diameter) / 2)
     opening = gear.body.opening_diameter / 2 if abs(held_radius - gear.body.bore / 2) < _SAME else held_radius
     return (gear.root_diameter / 2 - opening) / ((gear.tip_diameter - gear.root_diameter) / 2)
+
+
+def _support_of_ring(gear: Gear, hold: Hold) -> Support:
+    if hold not in (Hold.AUTO, Hold.RIGID):
+        raise ParameterError(
+            "support", hold.value, f'must be "{Hold.RIGID.value}" for a ring: its rim sits in a housing, it has no bore'
+        )
+    return Support(Hold.RIGID, gear.tooth_count)
 
 
 def support_of(
     gear: Gear, held_radius: float, hold: Hold = Hold.AUTO, shaft: Material | None = None, shaft_bore: float = 0.0
 ) -> Support:
     """What holds a gear at `held_radius` (mm). Raises GeometryError if there is no keyway, or no room for the shaft's bore."""
+    if gear.internal:
+        return _support_of_ring(gear, hold)
     if hold is Hold.AUTO:
         thin = Hold.KEY if gear.body.keyway_width else Hold.FREE
         hold = Hold.RIGID if rim_ratio(gear, held_radius) >= RIM_LIMIT else thin

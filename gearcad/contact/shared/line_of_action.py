@@ -1,6 +1,7 @@
 """The line of action and the flanks that meet on it, in the transverse section: where they face each other, and the gap.
 
-A position of the mesh is where the middle pair of teeth touches: its roll length on the pinion, in mm from T1.
+A position of the mesh is where the middle pair of teeth touches: its roll length on the pinion, in mm from T1. T1T2, and
+along a ring's flank roll lengths and the radius of the base circle, are negative, and the same formulas hold.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.contact.shared.loaded_left import gears_loaded_left
 from gearcad.geometry import FlankForm, GearPair
 from gearcad.per_gear import PerGear
 
@@ -45,8 +47,8 @@ class TransverseFlank:
 
     @property
     def base_radius(self) -> float:
-        """Radius of the base circle (mm)."""
-        return self.form.base_radius
+        """Radius of the base circle (mm), of the sign of the roll lengths."""
+        return math.copysign(self.form.base_radius, self.form.first)
 
     @property
     def first(self) -> float:
@@ -85,7 +87,7 @@ class TransverseFlank:
     def facing(self, contact: float | Floats, place: Floats) -> tuple[Floats, Floats]:
         """Roll lengths at places along the tangent (towards the tip), and how far the flank lies behind the tangent (mm)."""
         base = self.base_radius
-        turn = (np.sqrt(np.maximum(contact**2 + 2 * base * place, 1e-12)) - contact) / base
+        turn = (np.copysign(np.sqrt(np.maximum(contact**2 + 2 * base * place, 1e-12)), base) - contact) / base
         for _ in range(6):
             length = contact + base * turn
             turn = turn - (base * np.cos(turn) + length * np.sin(turn) - base - place) / (length * np.cos(turn))
@@ -123,13 +125,15 @@ class LineOfAction:
 
 
 def line_of_action(pair: GearPair, pitch_error: float = 0.0) -> LineOfAction:
-    """The line of action of a pair in the transverse section through the middle of its common face width.
+    """The line of action of a pair in the transverse section through the middle of its common face width; left flanks of the
+    pinion carry.
 
     `pitch_error` (µm) is how far the flanks of the middle pair of teeth stand proud, both together.
     """
     middle = pair.common_width.offset
-    pinion = TransverseFlank(pair.pinion.flank_form, pair.pinion.face_width / 2 + middle)
-    wheel = TransverseFlank(pair.wheel.flank_form, pair.wheel.face_width / 2 + middle - pair.axial_offset)
+    forms = gears_loaded_left(pair).map(lambda gear: gear.flank_form)
+    pinion = TransverseFlank(forms.pinion, pair.pinion.face_width / 2 + middle)
+    wheel = TransverseFlank(forms.wheel, pair.wheel.face_width / 2 + middle - pair.axial_offset)
     pitch, module = pair.pinion.transverse_base_pitch, pair.pinion.normal_module
     return LineOfAction(pair.base_tangent.length, pitch, PerGear(pinion, wheel), module, pitch_error / 1000)
 
@@ -149,16 +153,16 @@ def rigid_approach(line: LineOfAction, pinion_length: float, *, single: bool = F
 
 def facing_teeth(line: LineOfAction) -> range:
     """Every pair of teeth whose flanks can face each other."""
-    reach = math.ceil(sum(flank.last for flank in line.flanks) / line.pitch)
+    reach = math.ceil(sum(max(flank.last, -flank.first) for flank in line.flanks) / line.pitch)
     return range(-reach, reach + 1)
 
 
 def overlap(line: LineOfAction, pinion_length: float) -> tuple[float, float]:
     """Between which places along the tangent (mm) two flanks face each other; nothing is left if the first is not below."""
     _, wheel_length = line.lengths(pinion_length)
-    if min(pinion_length, wheel_length) <= LEAST_LENGTH * line.module:
-        return 0.0, 0.0
     one, other = line.flanks
+    if min(pinion_length, math.copysign(1.0, other.base_radius) * wheel_length) <= LEAST_LENGTH * line.module:
+        return 0.0, 0.0
     return (
         max(one.along_tangent(pinion_length, one.first), -other.along_tangent(wheel_length, other.last)),
         min(one.along_tangent(pinion_length, one.last), -other.along_tangent(wheel_length, other.first)),

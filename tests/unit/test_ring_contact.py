@@ -1,0 +1,208 @@
+"""Contact of a pinion inside a ring, in the plane: gaps, the line of action, poses, and two ways to the same rack."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from support.brute import nodal_compliance
+
+from gearcad import Body, Gear, GearPair, Material
+from gearcad.contact.plane.contact_pairs import contact_pairs
+from gearcad.contact.plane.cycle import PlaneCycle
+from gearcad.contact.plane.field import contact_frame, tooth_field
+from gearcad.contact.plane.pair import PlanePair, plane_pair
+from gearcad.contact.shared.line_of_action import facing_gap, facing_teeth, line_of_action, overlap
+from gearcad.geometry import FlankModification, ShaperCutter
+from gearcad.meshing.section import MeshSizes
+from gearcad.per_gear import Role
+
+STEEL = Material()
+CUTTER = ShaperCutter(teeth=25)
+RING = Gear(
+    teeth=-70,
+    normal_module=2.0,
+    face_width=14,
+    profile_shift=-0.3,
+    tip_alteration=-0.1,
+    cutter=CUTTER,
+    body=Body(rim_diameter=170.0),
+)
+PAIR = GearPair(pinion=Gear(teeth=22, normal_module=2.0, face_width=14, profile_shift=0.3), wheel=RING)
+TORQUE = 100.0
+
+
+@pytest.fixture(scope="module")
+def model() -> PlanePair:
+    return plane_pair(PAIR, STEEL)
+
+
+@pytest.fixture(scope="module")
+def cycle(model: PlanePair) -> PlaneCycle:
+    return PlaneCycle.run(model, TORQUE, 12)
+
+
+def involute(base: float, start: float, lengths: Any) -> Any:
+    """Points of an involute that begins on the base circle at the angle `start`, unrolled counter-clockwise."""
+    angle = start + lengths / base
+    return np.stack([base * np.cos(angle) + lengths * np.sin(angle), base * np.sin(angle) - lengths * np.cos(angle)], -1)
+
+
+# The line of action
+
+
+@pytest.mark.parametrize("part", [0.0, 0.3, 0.8, 1.0])
+def test_gap_is_that_of_two_involutes_unrolled_to_the_same_side(part: float) -> None:
+    """Both base circles lie on one side of the line of action, and places along the tangent are the same for both."""
+    line, path = line_of_action(PAIR), PAIR.path_of_contact
+    length = path.A + 0.02 + part * (path.E - path.A - 0.04)
+    (pair,) = [found for found in contact_pairs(line, length, lambda _tooth, _radius: 0.3, 60, 0.01) if found.tooth == 0]
+    between = np.zeros(len(pair.cells.place))
+    for gear, contact, lengths, sense in (
+        (PAIR.pinion, length, pair.cells.lengths.pinion, 1),
+        (PAIR.wheel, length - line.whole, -pair.cells.lengths.wheel, -1),
+    ):
+        base = abs(gear.base_diameter) / 2
+        points = involute(base, -contact / base, lengths)
+        assert points[:, 0] - base == pytest.approx(pair.cells.place, abs=1e-9)
+        between += sense * (points[:, 1] + contact)
+    assert pair.cells.gap == pytest.approx(between + pair.cells.width**2 / 24 / pair.radius, abs=1e-9)
+    assert (between > 0).all()
+
+
+def test_radius_is_that_of_a_round_flank_in_a_hollow_one() -> None:
+    (pair,) = [
+        found
+        for found in contact_pairs(line_of_action(PAIR), PAIR.path_of_contact.C, lambda _tooth, _radius: 0.1, 66, 0.01)
+        if found.tooth == 0
+    ]
+    sine = math.sin(math.radians(PAIR.working_transverse_pressure_angle))
+    first, second = (abs(diameter) / 2 * sine for diameter in PAIR.working_pitch_diameters)
+    assert pair.radius == pytest.approx(first * second / (second - first), rel=1e-9)
+
+
+def test_pairs_follow_each_other_by_the_base_pitch_and_end_with_the_path() -> None:
+    line, path = line_of_action(PAIR), PAIR.path_of_contact
+    assert line.whole < 0
+    for length in np.linspace(path.A - 2 * line.pitch, path.E + 2.1 * line.pitch, 61) + 0.001:
+        found = contact_pairs(line, float(length), lambda _tooth, _radius: 0.05, 66, 0.0)
+        expected = [tooth for tooth in range(-9, 10) if path.A < length + tooth * line.pitch < path.E]
+        assert [pair.tooth for pair in found] == expected
+    assert len(facing_teeth(line)) > 3
+
+
+def test_flanks_face_each_other_between_their_ends() -> None:
+    """At the ends of what the tangent allows one flank ends: their radii are those of the ends of the involutes."""
+    line = line_of_action(PAIR)
+    for length in np.linspace(*PAIR.path_of_contact[::4], 7)[1:-1]:
+        low, high = overlap(line, float(length))
+        assert low < 0 < high
+        facing, _ = facing_gap(line, 0, float(length), np.array([low, high]))
+        ends = [
+            min(abs(found - end) for end in (flank.first, flank.last))
+            for flank, lengths in zip(line.flanks, facing, strict=True)
+            for found in lengths
+        ]
+        assert sorted(ends)[:2] == pytest.approx([0, 0], abs=1e-9)
+
+
+def test_tip_relief_of_a_ring_opens_the_gap_at_its_tip() -> None:
+    relief = FlankModification(tip_relief=20.0, tip_relief_length=1.5)
+    line = line_of_action(replace(PAIR, wheel=replace(RING, modification=relief)))
+    first = PAIR.path_of_contact.A
+    for beyond, depth in ((0.0, 0.020), (0.75, 0.010), (1.5, 0.0), (4.0, 0.0)):
+        _, gap = facing_gap(line, 0, first + beyond, np.zeros(1))
+        assert gap == pytest.approx(depth, rel=0.02, abs=1e-9)  # what lies behind comes from a little nearer to the root
+
+
+def test_a_steeper_helix_of_a_ring_acts_on_the_flank_that_carries() -> None:
+    """The pinion's left flank meets flanks with y < 0: where sections turn counter-clockwise with z these come nearer."""
+    change = FlankModification(helix_angle_modification=10.0)
+    pair = GearPair(pinion=PAIR.pinion, wheel=replace(RING, modification=change, face_width=20.0), axial_offset=5.0)
+    line = line_of_action(pair)
+    _, gap = facing_gap(line, 0, PAIR.path_of_contact.C, np.zeros(1))
+    along = (pair.wheel.face_width / 2 + pair.common_width.offset - pair.axial_offset) / pair.wheel.face_width - 0.5
+    exact = pair.wheel.flank_form.depth(-20.0, pair.wheel.face_width * (along + 0.5), left=False)
+    assert gap == pytest.approx(float(exact), abs=1e-9)
+    assert abs(gap[0]) > 1e-3
+
+
+# Bodies in mesh
+
+
+def test_the_hubs_balance_the_torque(cycle: PlaneCycle) -> None:
+    for position in cycle.positions:
+        assert position.torques.pinion == pytest.approx(TORQUE, rel=1e-5)
+        assert position.torques.wheel == pytest.approx(TORQUE * 70 / 22, rel=1e-5)
+
+
+def test_pressures_are_those_of_a_round_flank_in_a_hollow_one(cycle: PlaneCycle) -> None:
+    interior = [contact for _, contact in cycle.interior_contacts]
+    assert len(interior) > 8
+    for contact in interior:
+        assert contact.peak_pressure == pytest.approx(contact.hertz_pressure, rel=0.01)
+        assert contact.half_width == pytest.approx(contact.hertz_half_width, rel=0.01)
+
+
+def test_the_field_shows_the_ring_where_it_stands(cycle: PlaneCycle) -> None:
+    """Models see a ring mirrored; what is drawn is the true one. Without backlash its teeth stand as the pair poses them."""
+    position = cycle.positions[5]
+    line, angle = cycle.model.line, math.radians(PAIR.working_transverse_pressure_angle)
+    length = cycle.model.roll_length(position.roll_angle)
+    heading = math.radians(PAIR.pinion.base_half_angle) - length / cycle.model.base_radius
+    pose = PAIR.wheel_pose(math.degrees(-angle - heading))
+    for tooth in (-1, 0, 1):
+        field = tooth_field(cycle, position, Role.WHEEL, tooth)
+        away = field.outline - [pose.x, pose.z]
+        turned = np.degrees(np.arctan2(away[:, 1], away[:, 0])) - pose.rotation - tooth * 360 / 70
+        radius = np.hypot(*away.T)
+        steep = (radius < RING.profile.root_diameter / 2 * (1 - 1e-6)) & (radius > RING.profile.tip_diameter / 2 * (1 + 1e-9))
+        half = RING.profile.half_angle(radius[steep])
+        assert np.abs(turned[steep]) == pytest.approx(half, abs=1e-6)
+        assert line.whole < 0 and np.hypot(*field.points.T).min() > 15
+
+
+def test_the_contact_lies_on_both_flanks_of_the_field(cycle: PlaneCycle) -> None:
+    position = cycle.positions[8]
+    contact = max(position.interior_contacts, key=lambda each: each.force)
+    centre, frame = contact_frame(cycle, contact)
+    for role, sense in ((Role.PINION, -1), (Role.WHEEL, 1)):
+        field = tooth_field(cycle, position, role, contact.tooth)
+        assert np.hypot(*(field.outline - centre).T).min() < 0.15
+        deepest = field.points[np.argmax(field.von_mises)] - centre
+        assert 0.4 < sense * (deepest @ frame)[1] / contact.hertz_half_width < 1.2
+
+
+def test_flanks_meshed_finely_tell_the_same_without_flamant(model: PlanePair) -> None:
+    """Elements that carry the contact themselves, with nothing taken off: stiffness within 0.5 %, root tension within 1 %."""
+    fine = replace(MeshSizes(), flank=0.012, corner=0.01)
+    brute = plane_pair(PAIR, STEEL, sizes=fine, solve=nodal_compliance)
+    for angle in (-6.0, 1.0):
+        own, witness = (PlaneCycle(each, TORQUE).solve(angle) for each in (model, brute))
+        assert own.stiffness == pytest.approx(witness.stiffness, rel=0.005)
+        assert tuple(each.stress for each in own.tension) == pytest.approx(
+            tuple(each.stress for each in witness.tension), rel=0.01
+        )
+
+
+def test_a_great_ring_and_a_great_wheel_meet_in_the_rack() -> None:
+    """Stiffness of the pair as the number of teeth goes to infinity on either side: the difference falls as 1/z."""
+    found = {}
+    for teeth in (-800, -400, 400, 800):
+        wheel = Gear(teeth=teeth, normal_module=2.0, face_width=14, tip_alteration=-0.1)
+        pair = GearPair(pinion=PAIR.pinion, wheel=replace(wheel, profile_shift=math.copysign(0.0, teeth)))
+        held = replace(pair, wheel=replace(pair.wheel, body=body_of(pair.wheel)))
+        found[teeth] = PlaneCycle(plane_pair(held, STEEL), TORQUE).solve(0.0).stiffness
+    near, far = found[400] - found[-400], found[800] - found[-800]
+    assert abs(far) < 0.65 * abs(near)
+    rack_inside, rack_outside = (2 * found[2 * teeth] - found[teeth] for teeth in (-400, 400))
+    assert rack_inside == pytest.approx(rack_outside, rel=0.005)
+
+
+def body_of(gear: Gear) -> Body:
+    """Four modules of rim, inside or outside."""
+    root = abs(gear.root_diameter)
+    return Body(rim_diameter=root + 16.0) if gear.internal else Body(bore=root - 16.0)
