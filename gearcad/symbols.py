@@ -21,6 +21,7 @@ __all__ = [
     "PAIR",
     "PER_GEAR",
     "RATING",
+    "RING_FORMULA",
     "STIFFNESS",
     "Symbol",
 ]
@@ -127,7 +128,7 @@ RATING = {
 }
 
 GEAR_RATING = {
-    "theta": Symbol("θ", "deg", "ISO 6336-3 (14)", "angle of the 30° tangent on the tool's tip"),
+    "theta": Symbol("θ", "deg", "ISO 6336-3 (14)", "angle of the 30° tangent (60° on a ring) on the tool's tip"),
     "s_Fn": Symbol("s_Fn", "mm", "ISO 6336-3 (15)", "chord of the root section"),
     "rho_F": Symbol("ρ_F", "mm", "ISO 6336-3 (17)", "radius of the fillet at the root section"),
     "h_Fe": Symbol("h_Fe", "mm", "ISO 6336-3 (18)", "arm of the load at the root section"),
@@ -144,6 +145,17 @@ GEAR_RATING = {
     "sigma_H": Symbol("σ_H", "MPa", "ISO 6336-2, 5", "contact stress with K_A"),
     "sigma_F": Symbol("σ_F", "MPa", "ISO 6336-3, 5", "root stress with K_A"),
 }
+
+RING_FORMULA = {
+    "rho_fPv": Symbol("ρ_fPv", "mm", "ISO 6336-3", "tip radius of the rack that stands for a ring's cutter, by formula"),
+    "s_Fn": Symbol("s_Fn", "mm", "ISO 6336-3", "chord of the root section of a ring, by formula"),
+    "rho_F": Symbol("ρ_F", "mm", "ISO 6336-3", "radius of the fillet of a ring at the root section, by formula"),
+    "h_Fe": Symbol("h_Fe", "mm", "ISO 6336-3", "arm of the load at the root section of a ring, by formula"),
+    "Y_F": Symbol("Y_F", "", "ISO 6336-3 (9)", "form factor of a ring, by formula"),
+    "Y_S": Symbol("Y_S", "", "ISO 6336-3 (36)", "stress correction factor of a ring, by formula"),
+    "sigma_F0": Symbol("σ_F0", "MPa", "ISO 6336-3, 5", "nominal root stress of a ring, by formula"),
+}
+"""Under "formula" of a ring's values: what the standard's formulas give beside the section of the generated fillet."""
 
 CHECK = {
     "passed": Symbol("", "", "", "whether numerics are passed, and strength where it is judged"),

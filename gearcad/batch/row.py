@@ -189,7 +189,7 @@ def _flat(document: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any
     for key, value in document.items():
         if isinstance(value, dict):
             yield from _flat(value, f"{prefix}{key}.")
-        elif key in ("warnings", "notices") or not prefix:
+        elif key in ("warnings", "notices", "verify") or not prefix:
             continue
         elif prefix == "pair." and key in PER_GEAR:
             yield from ((f"{prefix}{key}.{role.value}", of) for role, of in PerGear(*value).items())

@@ -28,6 +28,7 @@ _COMPUTED = {
     "check.rating": symbols.RATING,
     "check.rating.pinion": symbols.GEAR_RATING,
     "check.rating.wheel": symbols.GEAR_RATING,
+    "check.rating.wheel.formula": symbols.RING_FORMULA,
     "stiffness": symbols.STIFFNESS,
     "dynamics": symbols.DYNAMICS,
     "mesh": symbols.MESH,
@@ -59,7 +60,7 @@ def column_symbol(heading: str) -> tuple[str, Symbol] | None:
         field = heading[len(table) + 1 :] if table else heading
         field = field.partition(".")[2] if table in _NAMED else field
         if field in known:
-            return next((owner for owner in _OWNERS if table.endswith(owner)), ""), known[field]
+            return next((owner for owner in _OWNERS if owner in table.split(".")), ""), known[field]
         for owner in _OWNERS:
             name = field[: -len(owner) - 1]
             if field.endswith((f".{owner}", f"_{owner}")) and name in known:

@@ -21,7 +21,7 @@ from gearcad.per_gear import Role
 from gearcad.rating.editions import Edition
 from gearcad.rating.rim import rim_of
 from gearcad.rating.ring_formula import ring_section, substitute_radius
-from gearcad.rating.root_section import RootSection, lean_of, root_section
+from gearcad.rating.root_section import RootSection, root_section
 from gearcad.rating.virtual import LoadPoint, VirtualGear, load_point
 
 __all__ = [
@@ -221,7 +221,9 @@ def _section_notices(gear: Gear, rating: RootRating, root: str) -> Iterator[Noti
 
 def _generated(gear: Gear, rating: RootRating) -> str:
     """That the section is ours, and what the standard's formulas say."""
-    own = f"Y_F and Y_S are those of the fillet as it is generated, at tangents of {lean_of(gear):g} deg (ours, no clause)"
+    own = (
+        f"Y_F and Y_S are those of the fillet as it is generated, at tangents of {rating.section.lean:g} deg (ours, no clause)"
+    )
     if not gear.internal:
         return f"{own}; the standard's formulas are of hobs"
     if gear.cutter.teeth is None:

@@ -13,7 +13,7 @@ import math
 
 from gearcad.geometry import Gear
 from gearcad.geometry.tooling import corner_radius
-from gearcad.rating.root_section import RootSection, tangent_angle
+from gearcad.rating.root_section import RootSection, lean_of, tangent_angle
 from gearcad.rating.virtual import LoadPoint, VirtualGear
 
 __all__ = ["ring_section", "substitute_radius"]
@@ -48,7 +48,12 @@ def ring_section(gear: Gear, virtual: VirtualGear, load: LoadPoint, radius: floa
     if min(s_fn, rho_f, h_fe) <= 0:
         return None
     return RootSection(
-        tangent_angle=math.degrees(theta), chord=m_n * s_fn, fillet_radius=m_n * rho_f, moment_arm=m_n * h_fe, on_fillet=True
+        tangent_angle=math.degrees(theta),
+        chord=m_n * s_fn,
+        fillet_radius=m_n * rho_f,
+        moment_arm=m_n * h_fe,
+        on_fillet=True,
+        lean=lean_of(gear),
     )
 
 

@@ -40,8 +40,8 @@ _SHARP = 1e-4
 class RootSection:
     """Section at the 30-degree tangents: `tangent_angle` theta (deg), chord s_Fn, fillet radius rho_F, and the arm h_Fe (mm).
 
-    Of a ring at the 60-degree tangents. `on_fillet` is False where the tangent would touch beyond the fillet, on the flank:
-    then the formulas do not hold.
+    `lean` (deg) is the angle of the tangents to the middle of the tooth, 60 on a ring. `on_fillet` is False where the tangent
+    would touch beyond the fillet, on the flank: then the formulas do not hold.
     """
 
     tangent_angle: float
@@ -49,6 +49,7 @@ class RootSection:
     fillet_radius: float
     moment_arm: float
     on_fillet: bool
+    lean: float = _LEAN
 
     @property
     def notch_parameter(self) -> float:
@@ -149,7 +150,12 @@ def generated_section(gear: Gear, virtual: VirtualGear, load: LoadPoint) -> Root
         permitted = "must be others for a rating: the load passes beyond the root section, and does not bend the tooth"
         raise GeometryError("profile_shift", gear.profile_shift, permitted)
     return RootSection(
-        tangent_angle=math.degrees(theta), chord=float(2 * y), fillet_radius=radius, moment_arm=arm, on_fillet=True
+        tangent_angle=math.degrees(theta),
+        chord=float(2 * y),
+        fillet_radius=radius,
+        moment_arm=arm,
+        on_fillet=True,
+        lean=lean_of(gear),
     )
 
 

@@ -25,7 +25,8 @@ class PlaneSections(CheckSections[PlaneCheck]):
     def root_reasons(self) -> list[str]:
         part = self.result.rating.edition.part(3)
         roots = self.result.explanations.root_stress
-        return [sentences("reasons_plane.txt", "root_stress", of, role, part) for role, of in roots.items()]
+        leans = self.result.rating.roots.map(lambda root: root.section.lean)
+        return [sentences("reasons_plane.txt", "root_stress", of, role, part, leans.pick(role)) for role, of in roots.items()]
 
     @cached_property
     def figures(self) -> list[Picture]:

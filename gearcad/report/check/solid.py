@@ -33,7 +33,8 @@ class SolidSections(CheckSections[SolidCheck]):
     def root_reasons(self) -> list[str]:
         part = self.result.rating.edition.part(3)
         roots = self.result.explanations.root_stress
-        return [sentences("reasons_solid.txt", "root_stress", of, role, part) for role, of in roots.items()]
+        leans = self.result.rating.roots.map(lambda root: root.section.lean)
+        return [sentences("reasons_solid.txt", "root_stress", of, role, part, leans.pick(role)) for role, of in roots.items()]
 
     @property
     def line_reasons(self) -> list[str]:

@@ -63,11 +63,14 @@ def load_rows(material: Material, load: Load, mounting: Mounting) -> list[Row]:
 
 
 def rating_rows(result: CheckResult) -> list[Row]:
-    """The rating by symbols: values of the pair, then those of each gear."""
+    """The rating by symbols: values of the pair, then those of each gear, then what the formulas say of a ring."""
     values = result.rating.to_dict()
     rows = [_row(symbol, values[key]) for key, symbol in symbols.RATING.items()]
     gears = (values["pinion"], values["wheel"])
-    return rows + [_row(symbol, *(gear[key] for gear in gears)) for key, symbol in symbols.GEAR_RATING.items()]
+    rows += [_row(symbol, *(gear[key] for gear in gears)) for key, symbol in symbols.GEAR_RATING.items()]
+    if formula := values["wheel"].get("formula"):
+        rows += [_row(symbol, None, formula[key]) for key, symbol in symbols.RING_FORMULA.items()]
+    return rows
 
 
 def _row(symbol: symbols.Symbol, *values: Any) -> Row:
