@@ -10,41 +10,75 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
+from gearcad.geometry.bracketed import where_root_is
 
 __all__ = ["ShaperTip"]
+
+_ROUNDING = 1e-12
+"""Share of the corner above the rounding of a step of Newton's rule; what a step of this size leaves is far below it."""
+
+
+class _Normal(NamedTuple):
+    """The normal of the corner: its direction delta from the middle's radial line (rad), and length |p'|/rho of the tangent.
+
+    `moment` h about the cutter's axis and `short`, how much nearer that axis' foot on it the point is than the tip (mm).
+    """
+
+    delta: Floats
+    stretch: Floats
+    moment: Floats
+    short: Floats
+
+
+class _Contact(NamedTuple):
+    """Where the corner cuts: its normal, of direction gamma in space from the line of centres, at a turn phi of the cutter.
+
+    `reach` l along the normal from the pitch point to the point, and its `rise` since theta = 0 (mm).
+    """
+
+    normal: _Normal
+    gamma: Floats
+    turn: Floats
+    rise: Floats
+    reach: Floats
 
 
 @dataclass(frozen=True, kw_only=True)
 class ShaperTip:
     """The rounded tip corner of a shaper cutter, set to cut one gear.
 
-    `radius` of the corner (mm, normal section), `tip_radius` r_a0, `base_radius` r_b0 and `base_half_angle` psi_b0 (half tooth
-    angle on the base circle) of the cutter, `centre_distance` a_0 (mm) from the gear's axis to the cutter's, `teeth` of gear
-    and `cutter_teeth`. An `internal` gear may be its own counterpart: centre distance 0, nothing rolls, the corner is the
-    fillet.
+    `radius` rho of the corner (mm, normal section), `base_radius` r_b0 and `base_half_angle` psi_b0 (half tooth angle on the
+    base circle) of the cutter, `centre_distance` a_0 (mm) from the gear's axis to the cutter's, `root_radius` r_f (mm) of the
+    gear, `teeth` of gear and `cutter_teeth`. An `internal` gear may be its own counterpart: centre distance 0, nothing rolls,
+    the corner is the fillet.
     The corner runs over theta = 0 (its outermost point) ... `last_angle` (where the cutter's involute begins).
     """
 
     radius: float
-    tip_radius: float
     base_radius: float
     base_half_angle: float
     helix_angle: float
     centre_distance: float
+    root_radius: float
     teeth: float
     cutter_teeth: float
     internal: bool
 
     # ------------------------------------------------------------------ the cutter
 
-    @property
-    def _stretch(self) -> float:
+    @cached_property
+    def tip_radius(self) -> float:
+        """r_a0 (mm) of the cutter, which reaches the root circle."""
+        return abs(self.root_radius - self.centre_distance)
+
+    @cached_property
+    def _c(self) -> float:
         """c = cos(beta): the corner is wider by 1/c."""
         return math.cos(self.helix_angle)
 
@@ -55,7 +89,7 @@ class ShaperTip:
 
     def _corner(self, theta: Floats) -> tuple[Floats, Floats]:
         """Points of the corner, radially and across, from the cutter's axis with the corner's middle on the radial line."""
-        return self._middle_radius + self.radius * np.cos(theta), self.radius / self._stretch * np.sin(theta)
+        return self._middle_radius + self.radius * np.cos(theta), self.radius / self._c * np.sin(theta)
 
     def outline(self, theta: ArrayLike) -> tuple[Floats, Floats]:
         """Points of the corner along and across the middle of the cutter's tooth, from the cutter's axis (mm)."""
@@ -63,27 +97,28 @@ class ShaperTip:
         cosine, sine = math.cos(self.middle_angle), math.sin(self.middle_angle)
         return along * cosine - across * sine, along * sine + across * cosine
 
-    def _normal(self, theta: Floats) -> Floats:
-        """delta: direction of the normal of the corner, from that radial line."""
-        return np.arctan2(self._stretch * np.sin(theta), np.cos(theta))
+    def _normal(self, theta: Floats) -> _Normal:
+        """h = r_M sin delta - rho (1 - c^2)/(c D) sin theta cos theta, D the stretch.
 
-    def _moment(self, theta: Floats) -> Floats:
-        """h: moment of the normal about the cutter's axis (mm)."""
-        along, across = self._corner(theta)
-        delta = self._normal(theta)
-        moment: Floats = along * np.sin(delta) - across * np.cos(delta)
-        return moment
+        The point's place along the normal, from the foot of the cutter's axis, is r_M cos delta + rho/D, and at theta = 0 r_a0.
+        """
+        sine, cosine, excess = np.sin(theta), np.cos(theta), (1 - self._c) * (1 + self._c)
+        stretch = np.sqrt(1 - excess * sine**2)
+        delta = np.arctan2(self._c * sine, cosine)
+        moment = self._middle_radius * np.sin(delta) - self.radius * excess / (self._c * stretch) * sine * cosine
+        wide = self.radius * excess * sine**2 / (stretch * (1 + stretch))
+        return _Normal(delta, stretch, moment, 2 * self._middle_radius * np.sin(delta / 2) ** 2 - wide)
 
     @cached_property
     def last_angle(self) -> float:
         """theta where the corner joins the cutter's involute: its normal touches the base circle, h = r_b0."""
         if self.radius == 0:
             # A sharp edge turns from the tip circle's normal to the involute's: sin delta = r_b0/r_a0.
-            return math.atan2(self.base_radius, self._stretch * self._root_of(self.tip_radius))
+            return math.atan2(self.base_radius, self._c * self._root_of(self.tip_radius))
         from scipy.optimize import brentq
 
         def excess(theta: float) -> float:
-            return float(self._moment(np.array(theta))) - self.base_radius
+            return float(self._normal(np.array(theta)).moment) - self.base_radius
 
         return float(brentq(excess, 0.0, math.pi / 2, xtol=1e-15, rtol=8.9e-16))
 
@@ -94,7 +129,7 @@ class ShaperTip:
     @property
     def feasible(self) -> bool:
         """Whether the corner reaches the cutter's involute: the middle of the corner lies beyond the base circle, nearly."""
-        return float(self._moment(np.array(math.pi / 2))) > self.base_radius
+        return float(self._normal(np.array(math.pi / 2)).moment) > self.base_radius
 
     @cached_property
     def _join(self) -> tuple[float, float]:
@@ -116,37 +151,53 @@ class ShaperTip:
     # ------------------------------------------------------------------ what it cuts
 
     @property
-    def _working_radius(self) -> float:
-        """r_w0 = a_0 z_0/(|z| -+ z_0)."""
-        sign = -1 if self.internal else 1
-        return self.centre_distance * self.cutter_teeth / (self.teeth + sign * self.cutter_teeth)
+    def _side(self) -> int:
+        """Where the gear's axis is: behind the cutter's (+1, a ring) or before its tip (-1)."""
+        return 1 if self.internal else -1
+
+    @cached_property
+    def working_radius(self) -> float:
+        """r_w0 = a_0 z_0/(|z| -+ z_0) of the cutter (mm)."""
+        return self.centre_distance * self.cutter_teeth / (self.teeth - self._side * self.cutter_teeth)
+
+    @cached_property
+    def _pitch_radius(self) -> float:
+        """r_w = a_0 |z|/(|z| -+ z_0) of the gear (mm)."""
+        return self.centre_distance * self.teeth / (self.teeth - self._side * self.cutter_teeth)
 
     @property
     def rolls(self) -> bool:
         """Whether the cutter rolls with the gear; it does not where it is the gear's own counterpart."""
         return self.centre_distance > 0
 
+    def _contact(self, theta: Floats) -> _Contact:
+        """Where theta cuts: the normal passes through the pitch point, sin gamma = h/r_w0."""
+        normal = self._normal(theta)
+        gamma = np.arcsin(normal.moment / self.working_radius)
+        rise = 2 * self.working_radius * np.sin(gamma / 2) ** 2 - normal.short
+        reach = self._side * (self.root_radius - self._pitch_radius) + rise
+        return _Contact(normal, gamma, gamma - normal.delta - self.middle_angle, rise, reach)
+
+    def cut(self, theta: ArrayLike) -> tuple[Any, Any]:
+        """Points that the corner cuts: radius (mm) and angle from the middle of the tooth space (rad)."""
+        theta = np.asarray(theta, float)
+        if not self.rolls:
+            along, across = self._corner(theta)
+            return np.hypot(along, across), self.middle_angle + np.arctan2(across, along)
+        contact = self._contact(theta)
+        x = self._pitch_radius + self._side * contact.reach * np.cos(contact.gamma)
+        y = contact.reach * np.sin(contact.gamma)
+        return np.hypot(x, y), np.arctan2(y, x) - self.share * contact.turn
+
     @property
     def share(self) -> float:
         """z_0/|z|: how far the gear turns when the cutter does."""
         return self.cutter_teeth / self.teeth
 
-    def turns(self, theta: ArrayLike) -> tuple[Floats, Floats]:
-        """Direction gamma of the normal in space, from the line of centres, and turn phi of the cutter where theta cuts (rad).
-
-        The normal passes through the pitch point: sin gamma = h/r_w0.
-        """
+    def turn(self, theta: ArrayLike) -> Floats:
+        """Turn phi of the cutter (rad) where theta cuts."""
         theta = np.asarray(theta, float)
-        delta = self._normal(theta)
-        if not self.rolls:
-            return delta + self.middle_angle, np.zeros_like(theta)
-        gamma = np.arcsin(self._moment(theta) / self._working_radius)
-        return gamma, gamma - delta - self.middle_angle
-
-    def cut(self, theta: ArrayLike) -> tuple[Any, Any]:
-        """Points that the corner cuts: radius (mm) and angle from the middle of the tooth space (rad)."""
-        theta = np.asarray(theta, float)
-        return self.seen(*self.outline(theta), self.turns(theta)[1])
+        return self._contact(theta).turn if self.rolls else np.zeros_like(theta)
 
     def seen(self, along: ArrayLike, across: ArrayLike, turn: ArrayLike) -> tuple[Any, Any]:
         """Points of the cutter (mm) where it has turned by `turn` (rad), seen from the gear that turned with it.
@@ -156,16 +207,16 @@ class ShaperTip:
         """
         along, across, turn = np.asarray(along), np.asarray(across), np.asarray(turn)
         x, y = along * np.cos(turn) - across * np.sin(turn), along * np.sin(turn) + across * np.cos(turn)
-        x = self.centre_distance + x if self.internal else self.centre_distance - x
+        x = self.centre_distance + self._side * x
         return np.hypot(x, y), np.arctan2(y, x) - turn * self.share
 
     def direction(self, theta: ArrayLike, half_pitch: float) -> Floats:
         """Direction of travel from root to tip (rad), on the flank y > 0 of a tooth on +x."""
         theta = np.asarray(theta, float)
-        gamma, turn = self.turns(theta)
-        if self.internal:
-            return half_pitch - (gamma - turn * self.share) - math.pi / 2
-        return half_pitch + turn * self.share - math.pi / 2 + gamma
+        if not self.rolls:
+            return half_pitch - (self._normal(theta).delta + self.middle_angle) - math.pi / 2
+        contact = self._contact(theta)
+        return half_pitch + self.share * contact.turn - self._side * contact.gamma - math.pi / 2
 
     # ------------------------------------------------------------------ where it ends
 
@@ -176,40 +227,45 @@ class ShaperTip:
         """
         return math.hypot(base_radius, self._reach(base_radius))
 
+    def action(self, base_radius: float) -> float:
+        """a_0 sin a_w0 (mm): the line of action between the gear's base circle and the cutter's."""
+        bases = base_radius - self._side * self.base_radius
+        return math.sqrt(max((self.centre_distance - bases) * (self.centre_distance + bases), 0.0))
+
     def _reach(self, base_radius: float) -> float:
         """Roll length (mm) on the gear where the join cuts; negative where it would be beyond the base circle."""
-        if self.internal:
-            whole = math.sqrt(max(self.centre_distance**2 - (base_radius - self.base_radius) ** 2, 0.0))
-            return whole + self.join_length
-        whole = math.sqrt(max(self.centre_distance**2 - (base_radius + self.base_radius) ** 2, 0.0))
-        return whole - self.join_length
+        return self.action(base_radius) + self._side * self.join_length
 
     def undercuts(self, base_radius: float, sine: float) -> bool:
         """Whether the corner cuts away part of an involute with this base radius (mm); that of a ring it never does."""
         return not self.internal and self._reach(base_radius) < 0
 
     def theta_at(self, radius: ArrayLike, last: float) -> Floats:
-        """Inverse of `cut`: theta in [0, last] that cuts at `radius` (mm).
-
-        The radius runs one way along the fillet; from the root circle on it goes with theta squared, so halving and Newton's
-        rule work on the root of the way that is left.
-        """
+        """Inverse of `cut`: theta in [0, last] that cuts at `radius` (mm), to machine precision."""
         radius = np.atleast_1d(np.asarray(radius, float))
-        root = float(self.cut(0.0)[0])
-        goal = np.sqrt(np.maximum(np.abs(radius - root), 0.0))
-        low, high = np.zeros_like(goal), np.full_like(goal, last)
-        theta = np.clip(goal / max(math.sqrt(abs(float(self.cut(last)[0]) - root)), 1e-300), 0, 1) * last
-        for _ in range(80):
-            value = np.sqrt(np.abs(self.cut(theta)[0] - root))
-            ahead = np.sqrt(np.abs(self.cut(theta + 1e-7 * last)[0] - root))
-            slope = (ahead - value) / (1e-7 * last)
-            miss = value - goal
-            low, high = np.where(miss < 0, theta, low), np.where(miss > 0, theta, high)
-            trial = theta - miss / np.where(slope > 0, slope, 1.0)
-            inside = (slope > 0) & (trial >= low) & (trial <= high)
-            new = np.where(miss == 0, theta, np.where(inside, trial, 0.5 * (low + high)))
-            done = bool(np.all(np.abs(new - theta) <= 4e-16 * last))
-            theta = new
-            if done:
-                break
-        return theta
+        way = self._side * (self.root_radius - radius)
+        goal = np.sqrt(np.maximum(way * (radius + self.root_radius), 0.0))
+        root_of = self._rolled_square if self.rolls else self._square
+        return where_root_is(goal, last, root_of, resolution=_ROUNDING)
+
+    def _rolled_square(self, theta: Floats) -> tuple[Floats, Floats]:
+        """Root of F = +-(r_f^2 - R^2), which rises along the fillet, without cancellation, and F'/2.
+
+        With l from the pitch point to the point along the normal, R^2 = r_w^2 + l^2 +- 2 r_w l cos gamma;
+        l' = h (gamma' - delta') and h' = q delta' - rho D/c for the place q along the normal.
+        """
+        c, side, own, pitch = self._c, self._side, self.working_radius, self._pitch_radius
+        normal, gamma, _, rise, reach = self._contact(theta)
+        square = 4 * pitch * reach * np.sin(gamma / 2) ** 2 - rise * (side * (2 * reach - rise) + 2 * pitch)
+        turned = c / normal.stretch**2
+        bent = ((self.tip_radius - normal.short) * turned - self.radius * normal.stretch / c) / (own * np.cos(gamma))
+        across = own * (bent - turned) * (side * reach + pitch * np.cos(gamma))
+        slope = np.sin(gamma) * (pitch * reach * bent - across)
+        return np.sqrt(np.maximum(square, 0.0)), slope
+
+    def _square(self, theta: Floats) -> tuple[Floats, Floats]:
+        """The same of the corner itself: r_f^2 - |p|^2."""
+        wide = self.radius**2 * (1 / self._c**2 - 1)
+        square = 4 * self._middle_radius * self.radius * np.sin(theta / 2) ** 2 - wide * np.sin(theta) ** 2
+        slope = np.sin(theta) * (self._middle_radius * self.radius - wide * np.cos(theta))
+        return np.sqrt(np.maximum(square, 0.0)), slope

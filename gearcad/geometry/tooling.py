@@ -61,11 +61,11 @@ def shaper_tip(gear: GearData, radius: float) -> ShaperTip:
     thickness = m * (math.pi / 2 + 2 * shift * math.tan(math.radians(gear.rack.pressure_angle))) + gear.tooth_thinning
     return ShaperTip(
         radius=radius * m,
-        tip_radius=root - apart if gear.internal else apart - root,
         base_radius=teeth * gear.transverse_module / 2 * math.cos(angle),
         base_half_angle=thickness / (m * teeth) + involute(gear.transverse_pressure_angle),
         helix_angle=math.radians(gear.helix_angle),
         centre_distance=apart,
+        root_radius=root,
         teeth=gear.tooth_count,
         cutter_teeth=teeth,
         internal=gear.internal,

@@ -15,6 +15,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gearcad.geometry.bracketed import where_root_is
+
 __all__ = ["FilletTool", "ToolTip"]
 
 
@@ -149,18 +151,4 @@ class ToolTip:
             slope = eta**2 * tangent / c**2 * cosine**2 + self.radius * s * (r + eta + cosine**2 * eta * tangent**2)
             return np.sqrt(f), slope
 
-        low, high = np.zeros_like(goal), np.full_like(goal, last)
-        theta = np.clip(goal / max(float(root_of_f(np.array([last]))[0][0]), 1e-300), 0, 1) * last
-        for _ in range(80):
-            value, slope = root_of_f(theta)
-            miss = value - goal
-            low, high = np.where(miss < 0, theta, low), np.where(miss > 0, theta, high)
-            step = miss * value / np.where(slope > 0, slope, 1.0)
-            trial = theta - step
-            inside = (slope > 0) & (trial >= low) & (trial <= high)
-            new = np.where(miss == 0, theta, np.where(inside, trial, 0.5 * (low + high)))
-            done = bool(np.all(np.abs(new - theta) <= 4e-16 * last))
-            theta = new
-            if done:
-                break
-        return theta
+        return where_root_is(goal, last, root_of_f)

@@ -40,11 +40,11 @@ def _virtual_shaper(gear: Gear, virtual: VirtualGear, radius: float) -> ShaperTi
     thickness = m * (math.pi / 2 + 2 * shift * math.tan(angle)) + gear.tooth_thinning
     tip = ShaperTip(
         radius=radius,
-        tip_radius=root - apart if gear.internal else apart - root,
         base_radius=z_0 * m / 2 * math.cos(angle),
         base_half_angle=thickness / (m * z_0) + involute(virtual.pressure_angle),
         helix_angle=0.0,
         centre_distance=apart,
+        root_radius=root,
         teeth=abs(z_n),
         cutter_teeth=z_0,
         internal=gear.internal,

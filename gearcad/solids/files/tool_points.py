@@ -145,7 +145,7 @@ class _Shaper:
         return float(across), float(along)
 
     def roll(self, theta: float) -> float:
-        return float(self.tool.turns(theta)[1]) * self.tool.share
+        return float(self.tool.turn(theta)) * self.tool.share
 
     def seen(self, across: ArrayLike, along: ArrayLike, roll: ArrayLike) -> Floats:
         radius, angle = self.tool.seen(along, across, np.asarray(roll, float) / self.tool.share)
