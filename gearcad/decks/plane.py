@@ -107,7 +107,7 @@ class PlaneDecks(PairDecks):
         if teeth is not None:
             teeth = max(teeth, 2 * self.cycle.model.bodies.pick(role).neighbours + 1)
         radius = body.inner_radii(self.pair).pick(role)
-        return mesh_section(gear, teeth=teeth, inner_radius=radius, sizes=self.sizes, element=Element.TRI6, contacts=zones)
+        return mesh_section(gear, teeth=teeth, held_radius=radius, sizes=self.sizes, element=Element.TRI6, contacts=zones)
 
     def root_tension(self, mesh: ElementMesh, moved: Floats, role: Role, tooth: int, turn: float) -> float:
         """Strain along the surface times E', at Gauss points from a tangent angle on, as our check has it."""

@@ -132,7 +132,7 @@ class SolidDecks(PairDecks):
         return mesh_body(
             gear,
             teeth=body.teeth_held(gear),
-            inner_radius=body.inner_radii(self.pair).pick(role),
+            held_radius=body.inner_radii(self.pair).pick(role),
             sizes=self.sizes,
             planes=self.planes(role),
             element=Element.HEX20,

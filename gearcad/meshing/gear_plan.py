@@ -42,8 +42,8 @@ class GearPlan(ABC):
 
     @property
     @abstractmethod
-    def bore_radius(self) -> float:
-        """Radius (mm) of the inner circle, which meshes call bore; 0 if there is none."""
+    def end_radius(self) -> float:
+        """Radius (mm) of the circle where the body ends, which meshes call bore, or rim of a ring; 0 if there is none."""
 
     @property
     def amount(self) -> Amount | None:
@@ -67,21 +67,21 @@ class GearPlan(ABC):
 
 @dataclass(frozen=True, kw_only=True)
 class SectorsPlan(GearPlan):
-    """`teeth` of a gear, None for all, down to `inner_radius` (mm), 0 for a full disc; short edges where they touch others."""
+    """`teeth` of a gear, None for all, up to `held_radius` (mm), 0 for a full disc; short edges where they touch others."""
 
     element: Element
     teeth: int | None
-    inner_radius: float
+    held_radius: float
     sizes: MeshSizes
     contacts: Mapping[int, ContactZone] = field(default_factory=dict)
 
     @property
     def count(self) -> int:
-        return self.teeth or self.gear.teeth
+        return self.teeth or self.gear.tooth_count
 
     @property
-    def bore_radius(self) -> float:
-        return self.inner_radius
+    def end_radius(self) -> float:
+        return self.held_radius
 
     @property
     def _solid(self) -> bool:
@@ -92,7 +92,7 @@ class SectorsPlan(GearPlan):
         return expected_amount(
             self.gear,
             teeth=self.teeth,
-            inner_radius=self.inner_radius,
+            held_radius=self.held_radius,
             sizes=self.sizes,
             element=self.element,
             contacts=self.contacts,
@@ -104,18 +104,22 @@ class SectorsPlan(GearPlan):
 
     @property
     def exact(self) -> float:
-        return self.count * (exact_volume if self._solid else exact_area)(self.gear, self.inner_radius)
+        return self.count * (exact_volume if self._solid else exact_area)(self.gear, self.held_radius)
 
     def mesh(self, _share: Share) -> ElementMesh:
-        teeth, inner, sizes, kind, zones = self.teeth, self.inner_radius, self.sizes, self.element, self.contacts
+        teeth, inner, sizes, kind, zones = self.teeth, self.held_radius, self.sizes, self.element, self.contacts
         if not self._solid:
-            return mesh_section(self.gear, teeth=teeth, inner_radius=inner, sizes=sizes, element=kind, contacts=zones)
-        return mesh_body(self.gear, teeth=teeth, inner_radius=inner, sizes=sizes, planes=None, element=kind, contacts=zones)
+            return mesh_section(self.gear, teeth=teeth, held_radius=inner, sizes=sizes, element=kind, contacts=zones)
+        return mesh_body(self.gear, teeth=teeth, held_radius=inner, sizes=sizes, planes=None, element=kind, contacts=zones)
 
     @property
     def notices(self) -> Iterator[Notice]:
-        if self.inner_radius and not self.gear.body.bore:
-            text = f"has no bore: its teeth are meshed down to a diameter of {2 * self.inner_radius:.4g} mm"
+        if self.gear.internal:
+            if self.gear.body.rim_diameter is None:
+                text = f"has no rim diameter: it is meshed out to a diameter of {2 * self.held_radius:.4g} mm"
+                yield Notice("no-rim", text)
+        elif self.held_radius and not self.gear.body.bore:
+            text = f"has no bore: its teeth are meshed down to a diameter of {2 * self.held_radius:.4g} mm"
             yield Notice("no-bore", text)
         if self._solid:
             yield from swept_notices(self.gear)
@@ -132,10 +136,12 @@ class PartPlan(GearPlan):
 
     @property
     def count(self) -> int:
-        return self.gear.teeth
+        return self.gear.tooth_count
 
     @property
-    def bore_radius(self) -> float:
+    def end_radius(self) -> float:
+        if self.gear.internal:
+            return (self.gear.body.rim_diameter or 0.0) / 2
         return self.gear.body.bore / 2
 
     @property

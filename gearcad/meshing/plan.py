@@ -105,8 +105,6 @@ def plan_mesh(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | 
     chosen = _chosen(options, gears, pair)
     for gear in chosen.values():
         refuse_halves(gear, "a mesh")
-        if gear.internal:
-            raise GeometryError("teeth", gear.teeth, "must be above 0: rings are not meshed yet")
     element_given = None if options.element == AUTO else Element(options.element)
     dimension = _dimension(options, element_given, chosen)
     extent = options.extent or _usual(dimension, element_given, pair if len(chosen) == 2 else None)
@@ -124,12 +122,13 @@ def _planned(gear: Gear, options: MeshOptions, extent: Extent, element: Element)
         size = options.size if options.size or options.elements else _PART_SIZE * gear.normal_module
         refined = options.refined
         return PartPlan(gear=gear, size=size, elements=options.elements, grading=grading, refined_teeth=refined)
-    teeth = None if extent.teeth is None or extent.teeth >= gear.teeth else extent.teeth
-    inner = 0.0 if not gear.body.bore and teeth is None else held_radius(gear)
+    teeth = None if extent.teeth is None or extent.teeth >= gear.tooth_count else extent.teeth
+    full = not (gear.internal or gear.body.bore) and teeth is None
+    radius = 0.0 if full else held_radius(gear)
     sizes = body_sizes(gear, options.size)
     if fillet is not None:
         sizes = replace(sizes, fillet_turn=FILLET_ANGLE / fillet)
-    return SectorsPlan(gear=gear, element=element, teeth=teeth, inner_radius=inner, sizes=sizes)
+    return SectorsPlan(gear=gear, element=element, teeth=teeth, held_radius=radius, sizes=sizes)
 
 
 def _chosen(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | None) -> Mapping[str, Gear]:
@@ -201,6 +200,6 @@ def _require_possible(
         )
     if options.decks and pair is None:
         raise GeometryError("deck", options.deck, "needs a pair: this design is a single gear")
-    fewest = min(gear.teeth for gear in gears.values())
+    fewest = min(gear.tooth_count for gear in gears.values())
     if extent.what is What.TEETH and extent.teeth is not None and extent.teeth >= fewest:
         raise GeometryError("what", options.what, f"must be of fewer than {fewest} teeth, which the gear has; or ring")

@@ -70,7 +70,7 @@ def _judged(mesh: ElementMesh, planned: GearPlan, plan: MeshPlan) -> JudgedMesh:
         matched={cut: len(pairs) for cut, pairs in mesh.matched.items()},
         quality=measured,
         deviations=deviations(mesh, planned.gear),
-        others=side_deviations(mesh, planned.gear, planned.bore_radius),
+        others=side_deviations(mesh, planned.gear, planned.end_radius),
         unmatched=matched_distance(mesh, planned.gear, planned.count),
         exact=planned.exact,
     )

@@ -44,7 +44,7 @@ from gearcad.meshing.bodies.sizing import body_sizes, expected_amount, factor_fo
 from gearcad.meshing.files.formats import write
 
 gear = replace(gear, modification=relief)
-what = dict(teeth=None, inner_radius=gear.body.bore / 2, element=Element.HEX20)
+what = dict(teeth=None, held_radius=gear.body.bore / 2, element=Element.HEX20)
 usual = body_sizes(gear)
 factor = factor_for(elements, lambda factor: expected_amount(gear, **what, sizes=usual.scaled(factor)).elements, 3)
 imports = peak()

@@ -44,7 +44,7 @@ WIDTHS = st.one_of(st.just(None), st.floats(0.1, 1.0), st.floats(10.0, 50.0))
 def check_body(gear: Gear, rim: float, element: Element) -> None:
     root = gear.root_diameter / 2
     inner = max(root - rim * gear.normal_module, 0.3 * root)
-    mesh = mesh_body(gear, teeth=1, inner_radius=inner, sizes=COARSE, planes=None, element=element)
+    mesh = mesh_body(gear, teeth=1, held_radius=inner, sizes=COARSE, planes=None, element=element)
     check_nodes(gear, mesh)
     require_good(quality(mesh))
 

@@ -71,7 +71,7 @@ def check_mesh(
     if rim is None and teeth is None:
         inner = 0.0
     contacts = {0: zone_of(gear, zone)} if zone else {}
-    mesh = mesh_section(gear, teeth=teeth, inner_radius=inner, sizes=SIZES, element=element, contacts=contacts)
+    mesh = mesh_section(gear, teeth=teeth, held_radius=inner, sizes=SIZES, element=element, contacts=contacts)
     require_good(quality(mesh))
     check_sides(gear, mesh, teeth)
     check_nodes(gear, mesh)

@@ -67,8 +67,8 @@ class Solved:
 
 def sector(element: Element, gear: Gear, sizes: MeshSizes) -> ElementMesh:
     if element.shape.dimension == 2:
-        return mesh_section(gear, teeth=1, inner_radius=INNER, sizes=sizes, element=element)
-    return mesh_body(gear, teeth=1, inner_radius=INNER, sizes=sizes, planes=None, element=element)
+        return mesh_section(gear, teeth=1, held_radius=INNER, sizes=sizes, element=element)
+    return mesh_body(gear, teeth=1, held_radius=INNER, sizes=sizes, planes=None, element=element)
 
 
 @pytest.mark.parametrize("element", ELEMENTS)

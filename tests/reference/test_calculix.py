@@ -75,7 +75,7 @@ U
 def test_calculix_solves_the_mesh_as_we_do(plane: Plane, tmp_path: Path) -> None:
     sizes = MeshSizes().coarse()
     gear = Gear(teeth=18, normal_module=1.5, face_width=10)
-    mesh = mesh_section(gear, teeth=1, inner_radius=6.0, sizes=sizes, element=Element.TRI6)
+    mesh = mesh_section(gear, teeth=1, held_radius=6.0, sizes=sizes, element=Element.TRI6)
     write_inp(mesh, tmp_path / "gear.inp", plane_strain=plane is Plane.STRAIN)
     flank = mesh.nodes("left_flank_0")
     force = -100.0 / len(flank)  # N in x and in y on each node of the flank, per mm of width

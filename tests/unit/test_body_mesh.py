@@ -28,7 +28,7 @@ KINDS = (Element.HEX8, Element.HEX20)
 
 def body(gear: Gear, teeth: int | None = 1, element: Element = Element.HEX20, sizes: MeshSizes = COARSE) -> ElementMesh:
     inner = gear.root_diameter / 2 - 1.5 * gear.normal_module
-    return mesh_body(gear, teeth=teeth, inner_radius=inner, sizes=sizes, planes=None, element=element)
+    return mesh_body(gear, teeth=teeth, held_radius=inner, sizes=sizes, planes=None, element=element)
 
 
 def flux(mesh: ElementMesh, faces: np.ndarray) -> float:
@@ -108,7 +108,7 @@ def test_planes_are_where_reliefs_begin() -> None:
 def test_what_cannot_be_swept_is_refused(element: str, planes: list[float] | None) -> None:
     given = None if planes is None else np.array(planes)
     with pytest.raises(ParameterError, match="must"):
-        mesh_body(GEARS["spur"], teeth=1, inner_radius=20.0, sizes=COARSE, planes=given, element=Element(element))
+        mesh_body(GEARS["spur"], teeth=1, held_radius=20.0, sizes=COARSE, planes=given, element=Element(element))
 
 
 def test_what_is_left_out_is_said() -> None:

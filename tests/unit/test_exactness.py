@@ -35,7 +35,7 @@ LARGE = Gear(teeth=23, normal_module=8.0, face_width=60, helix_angle=15)
 
 def body(gear: Gear, sizes: MeshSizes = COARSE, element: Element = Element.HEX20) -> ElementMesh:
     inner = gear.root_diameter / 2 - 1.5 * gear.normal_module
-    return mesh_body(gear, teeth=1, inner_radius=inner, sizes=sizes, planes=None, element=element)
+    return mesh_body(gear, teeth=1, held_radius=inner, sizes=sizes, planes=None, element=element)
 
 
 def only(mesh: ElementMesh, part: str) -> ElementMesh:
@@ -93,5 +93,5 @@ def test_meshes_are_as_exact_as_promised(gear: Gear) -> None:
 def test_sections_are_those_at_mid_face_width(element: Element) -> None:
     gear = modified(GEARS["left hand"])
     inner = gear.root_diameter / 2 - 1.5 * gear.normal_module
-    found = deviations(mesh_section(gear, teeth=3, inner_radius=inner, sizes=body_sizes(gear), element=element), gear)
+    found = deviations(mesh_section(gear, teeth=3, held_radius=inner, sizes=body_sizes(gear), element=element), gear)
     assert found.nodes < PROMISED_NODES and found.between < PROMISED_BETWEEN

@@ -25,7 +25,7 @@ FULL = Gear(teeth=17, normal_module=3.0, face_width=20, helix_angle=-20, rack=Ba
 
 def tooth_section(gear: Gear, teeth: int | None = 1) -> ElementMesh:
     inner = gear.root_diameter / 2 - 1.5 * gear.normal_module
-    return mesh_section(gear, modified=False, teeth=teeth, inner_radius=inner, sizes=COARSE, element=Element.QUAD8)
+    return mesh_section(gear, modified=False, teeth=teeth, held_radius=inner, sizes=COARSE, element=Element.QUAD8)
 
 
 def at_height(gear: Gear, section: ElementMesh, angles: np.ndarray, z: float) -> np.ndarray:

@@ -28,7 +28,7 @@ OWN = ("right_root", "right_fillet", "right_flank", "tip", "left_flank", "left_f
 
 
 def section(teeth: int | None, element: Element, gear: Gear = GEAR) -> ElementMesh:
-    return mesh_section(gear, teeth=teeth, inner_radius=4.0, sizes=SIZES, element=element)
+    return mesh_section(gear, teeth=teeth, held_radius=4.0, sizes=SIZES, element=element)
 
 
 def area(mesh: ElementMesh) -> float:
@@ -111,7 +111,7 @@ ZONE = ContactZone(length=4.5, half_width=0.3, edge=0.04)
 @pytest.mark.parametrize("left", [True, False])
 def test_edges_are_short_where_teeth_touch(left: bool, element: Element) -> None:
     mesh = mesh_section(
-        GEAR, teeth=5, inner_radius=4.0, sizes=SIZES, element=element, contacts={-1: replace(ZONE, left=left), 1: ZONE}
+        GEAR, teeth=5, held_radius=4.0, sizes=SIZES, element=element, contacts={-1: replace(ZONE, left=left), 1: ZONE}
     )
     faces = mesh.face_cells(f"{'left' if left else 'right'}_flank_10")
     start, end, middle = (mesh.points[faces[:, k], :2] for k in range(3))
@@ -131,7 +131,7 @@ def test_edges_are_short_where_teeth_touch(left: bool, element: Element) -> None
 
 def test_other_teeth_are_coarse_if_triangles() -> None:
     sizes = MeshSizes(fillet_turn=7.5)
-    mesh = mesh_section(GEAR, teeth=None, inner_radius=4.0, sizes=sizes, element=Element.TRI6, contacts={0: ZONE, 11: ZONE})
+    mesh = mesh_section(GEAR, teeth=None, held_radius=4.0, sizes=sizes, element=Element.TRI6, contacts={0: ZONE, 11: ZONE})
     counts = [len(mesh.sides[f"left_fillet_{tooth}"]) for tooth in range(11)]
     assert counts[10] == counts[0] == counts[1]
     assert all(counts[tooth] < 0.6 * counts[0] for tooth in range(2, 10))
@@ -140,7 +140,7 @@ def test_other_teeth_are_coarse_if_triangles() -> None:
 @PLANE
 def test_fillets_turn_as_asked(element: Element) -> None:
     sizes = replace(SIZES, fillet_turn=7.5)
-    mesh = mesh_section(GEAR, teeth=1, inner_radius=4.0, sizes=sizes, element=element)
+    mesh = mesh_section(GEAR, teeth=1, held_radius=4.0, sizes=sizes, element=element)
     first, last, middle = (mesh.points[mesh.face_cells("left_fillet_0")[:, k], :2] for k in range(3))
     before, after = middle - first, last - middle
     # From chord to chord an edge turns by half of what it turns from end to end.
@@ -153,7 +153,7 @@ def test_fillets_turn_as_asked(element: Element) -> None:
 @pytest.mark.parametrize("teeth", [7, 24])
 def test_without_a_bore_the_disc_is_full(teeth: int, element: Element) -> None:
     gear = Gear(teeth=teeth, normal_module=1.0, face_width=5, profile_shift=0.3)
-    ring, disc = (mesh_section(gear, teeth=None, inner_radius=radius, sizes=SIZES, element=element) for radius in (0.5, 0.0))
+    ring, disc = (mesh_section(gear, teeth=None, held_radius=radius, sizes=SIZES, element=element) for radius in (0.5, 0.0))
     assert "bore" not in disc.sides
     # Edges are parabolas, few along the inner circle of the ring, and one more across each of seven teeth of the disc.
     assert area(disc) == pytest.approx(area(ring) + math.pi * 0.5**2, rel=5e-5)
@@ -166,9 +166,9 @@ def test_without_a_bore_the_disc_is_full(teeth: int, element: Element) -> None:
 
 def test_some_teeth_need_an_inner_circle() -> None:
     with pytest.raises(ParameterError, match="inner_radius"):
-        mesh_section(GEAR, teeth=3, inner_radius=0.0, sizes=SIZES, element=Element.QUAD8)
+        mesh_section(GEAR, teeth=3, held_radius=0.0, sizes=SIZES, element=Element.QUAD8)
     with pytest.raises(ParameterError, match="inner_radius"):
-        mesh_section(GEAR, teeth=3, inner_radius=GEAR.root_diameter / 2, sizes=SIZES, element=Element.QUAD8)
+        mesh_section(GEAR, teeth=3, held_radius=GEAR.root_diameter / 2, sizes=SIZES, element=Element.QUAD8)
 
 
 def off_envelope(gear: Gear, points: np.ndarray) -> np.ndarray:
@@ -206,7 +206,7 @@ def off_envelope(gear: Gear, points: np.ndarray) -> np.ndarray:
     ],
 )
 def test_fillets_are_what_the_tool_leaves(gear: Gear, element: Element) -> None:
-    mesh = mesh_section(gear, teeth=1, inner_radius=0.6 * gear.root_diameter / 2, sizes=MeshSizes(), element=element)
+    mesh = mesh_section(gear, teeth=1, held_radius=0.6 * gear.root_diameter / 2, sizes=MeshSizes(), element=element)
     points = mesh.points[mesh.nodes("left_fillet_0"), :2]
     assert len(points) > 20
     assert off_envelope(gear, points).max() < 1e-9

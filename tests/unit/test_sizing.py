@@ -34,7 +34,7 @@ def test_sections_have_as_many_elements_as_expected(teeth: int | None, share: fl
     gear = GEARS[name]
     radius = share * gear.root_diameter / 2
     contacts = ZONES if name == "z30" else {}
-    what = dict(teeth=teeth, inner_radius=radius, sizes=body_sizes(gear).scaled(0.4), element=element)
+    what = dict(teeth=teeth, held_radius=radius, sizes=body_sizes(gear).scaled(0.4), element=element)
     found = amount(mesh_section(gear, **what, contacts=contacts))
     expected = expected_amount(gear, **what, contacts=contacts)
     if element is Element.TRI6 and not share:
@@ -47,7 +47,7 @@ def test_sections_have_as_many_elements_as_expected(teeth: int | None, share: fl
 @pytest.mark.parametrize(("teeth", "share"), [(3, 0.7), (None, 0.0)])
 def test_bodies_have_as_many_elements_as_expected(teeth: int | None, share: float, element: Element) -> None:
     gear = GEARS["z7"]
-    what = dict(teeth=teeth, inner_radius=share * gear.root_diameter / 2, sizes=body_sizes(gear, 1.5), element=element)
+    what = dict(teeth=teeth, held_radius=share * gear.root_diameter / 2, sizes=body_sizes(gear, 1.5), element=element)
     assert expected_amount(gear, **what) == amount(mesh_body(gear, **what, planes=None))
 
 
@@ -69,7 +69,7 @@ def test_as_many_elements_as_asked_for(element: Element, teeth: int | None, elem
     def count(factor: float) -> int:
         sizes = usual.scaled(factor)
         radius = 0.7 * gear.root_diameter / 2
-        return expected_amount(gear, teeth=teeth, inner_radius=radius, sizes=sizes, element=element).elements
+        return expected_amount(gear, teeth=teeth, held_radius=radius, sizes=sizes, element=element).elements
 
     factor = factor_for(elements, count, element.shape.dimension)
     assert count(factor) == pytest.approx(elements, rel=0.1)
@@ -81,7 +81,7 @@ def test_what_no_layout_has_is_refused() -> None:
     with pytest.raises(ParameterError, match="elements"):
         factor_for(0, round, 2)
     with pytest.raises(ParameterError, match="tet10"):
-        expected_amount(GEARS["z7"], teeth=None, inner_radius=1.0, sizes=body_sizes(GEARS["z7"]), element=Element.TET10)
+        expected_amount(GEARS["z7"], teeth=None, held_radius=1.0, sizes=body_sizes(GEARS["z7"]), element=Element.TET10)
 
 
 @pytest.mark.parametrize("element", [Element.QUAD8, Element.TRI6])
@@ -89,7 +89,7 @@ def test_what_no_layout_has_is_refused() -> None:
 @pytest.mark.parametrize(("teeth", "shift"), [(6, 0.35), (14, -0.1), (200, 0.3)])
 def test_usual_sizes_are_within_half_a_micrometre(teeth: int, shift: float, module: float, element: Element) -> None:
     gear = Gear(teeth=teeth, normal_module=module, face_width=module, profile_shift=shift)
-    mesh = mesh_section(gear, teeth=1, inner_radius=0.8 * gear.root_diameter / 2, sizes=body_sizes(gear), element=element)
+    mesh = mesh_section(gear, teeth=1, held_radius=0.8 * gear.root_diameter / 2, sizes=body_sizes(gear), element=element)
     found = deviations(mesh, gear)
     assert found.nodes < 1e-9
     assert found.between < 0.5
@@ -97,7 +97,7 @@ def test_usual_sizes_are_within_half_a_micrometre(teeth: int, shift: float, modu
 
 def test_a_size_is_the_edge_on_the_flank() -> None:
     gear = GEARS["z30"]
-    mesh = mesh_section(gear, teeth=1, inner_radius=60.0, sizes=body_sizes(gear, 0.9), element=Element.TRI6)
+    mesh = mesh_section(gear, teeth=1, held_radius=60.0, sizes=body_sizes(gear, 0.9), element=Element.TRI6)
     faces = mesh.points[mesh.face_cells("left_flank_0")[:, :2]]
     lengths = ((faces[:, 1] - faces[:, 0]) ** 2).sum(axis=1) ** 0.5
     assert lengths.max() == pytest.approx(0.9, rel=0.1)

@@ -36,13 +36,15 @@ def mesh_body(
     gear: Gear,
     *,
     teeth: int | None,
-    inner_radius: float,
+    held_radius: float,
     sizes: MeshSizes,
     planes: Floats | None,
     element: Element,
     contacts: Mapping[int, ContactZone] = NO_CONTACTS,
 ) -> ElementMesh:
-    """Mesh a gear down to `inner_radius` (mm) in hexahedra between `planes` (n,), heights in mm; None: those of the sizes.
+    """Mesh a gear down, or a ring out, to `held_radius` (mm) in hexahedra between `planes` (n,), heights in mm.
+
+    Planes None are those of the sizes.
 
     `teeth`, `contacts` and the named sides are those of `mesh_section`; here are also "end_back" at z = 0 and "end_front" at
     the face width. Keyway, hub and end chamfers are left out: `swept_notices` says so. Quality is for the caller to measure.
@@ -53,7 +55,7 @@ def mesh_body(
     planes = body_planes(gear, sizes) if planes is None else np.asarray(planes, float)
     check_planes(gear, planes)
     section = mesh_section(
-        gear, teeth=teeth, inner_radius=inner_radius, sizes=sizes, element=Element.QUAD8, contacts=contacts, modified=False
+        gear, teeth=teeth, held_radius=held_radius, sizes=sizes, element=Element.QUAD8, contacts=contacts, modified=False
     )
     return _Swept(gear, section, planes, element).mesh
 

@@ -23,7 +23,7 @@ _GROWTH = 0.25
 class ContactZone:
     """Edges of `edge` (mm) over `half_width` (mm of arc) on both sides of the flank's point at roll length `length` (mm).
 
-    It is on the left flank, or, if not `left`, on the right one. Raises ParameterError.
+    It is on the left flank, or, if not `left`, on the right one; signs of roll lengths do not matter. Raises ParameterError.
     """
 
     length: float
@@ -32,8 +32,8 @@ class ContactZone:
     left: bool = True
 
     def __post_init__(self) -> None:
-        for name, least in (("length", 0.0), ("half_width", 0.0)):
-            require_number(name, getattr(self, name), at_least=least)
+        require_number("length", self.length)
+        require_number("half_width", self.half_width, at_least=0.0)
         require_number("edge", self.edge, above=0)
 
 
@@ -42,7 +42,7 @@ def lengths_near(gear: Gear, zone: ContactZone) -> HalfLengths:
     curves = gear.profile.curves
     flank = next(curve for curve in curves if isinstance(curve, Involute))
     first, last = (roll * flank.base_radius for roll in (flank.first, flank.last))
-    at, whole = ((length**2 - first**2) / (2 * flank.base_radius) for length in (zone.length, last))
+    at, whole = (abs(length**2 - first**2) / (2 * flank.base_radius) for length in (zone.length, last))
     # Distances on the other curves are counted as if each of them began where the involute ends.
     begins = {CurveKind.INVOLUTE: 0.0, CurveKind.CHAMFER: whole, CurveKind.TIP: whole + _length(curves, CurveKind.CHAMFER)}
 

@@ -10,10 +10,11 @@ import numpy as np
 from gearcad.arrays import Bools, Floats, Wholes
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.mesh import ElementMesh
+from gearcad.meshing.bodies.names import BORE
 from gearcad.meshing.section.sector import fill_polygon
 from gearcad.meshing.section.transfinite import transfinite
 
-__all__ = ["BORE", "Disc", "disc", "filled"]
+__all__ = ["Disc", "disc", "filled"]
 
 
 _COARSER = 2.0
@@ -33,10 +34,6 @@ _CORE = 0.55
 
 _ROUND = 0.5
 """How round the core is: 0 is a square, 1 a circle."""
-
-
-BORE = "bore"
-"""The side of a section, its inner circle, that is none where the disc is full."""
 
 
 def filled(ring: ElementMesh, growth: float) -> ElementMesh:

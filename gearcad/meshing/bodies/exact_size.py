@@ -22,19 +22,25 @@ _DEGREE = 48
 _PLACES, _WEIGHTS = leggauss(16)
 
 
-def exact_area(gear: Gear, inner_radius: float) -> float:
-    """Area (mm²) of one tooth and its share of the body down to `inner_radius` (mm), in the section at mid face width."""
-    return _area(middle_section(gear)) - math.pi / gear.teeth * inner_radius**2
+def exact_area(gear: Gear, held_radius: float) -> float:
+    """Area (mm²) of one tooth and its share of the body up to `held_radius` (mm), in the section at mid face width."""
+    return _body(gear, middle_section(gear), held_radius)
 
 
-def exact_volume(gear: Gear, inner_radius: float) -> float:
+def exact_volume(gear: Gear, held_radius: float) -> float:
     """Volume (mm³) of the same over the face width, flanks modified as they are."""
-    plain = (_area(gear.profile.curves) - math.pi / gear.teeth * inner_radius**2) * gear.face_width
+    plain = _body(gear, gear.profile.curves, held_radius) * gear.face_width
     return plain - sum(_taken(gear, left=left) for left in (True, False)) if gear.modification.present else plain
 
 
+def _body(gear: Gear, curves: Iterable[Curve], held_radius: float) -> float:
+    """Area (mm²) between the curves of half a tooth, twice, and the circle where the body ends."""
+    between = _area(curves) - math.pi / gear.tooth_count * held_radius**2
+    return -between if gear.internal else between
+
+
 def _area(curves: Iterable[Curve]) -> float:
-    """Area (mm²) of a tooth and its body down to the centre, by the curves of half of it."""
+    """Area (mm²) from the curves of half a tooth, twice, down to the centre."""
     area = 0.0
     for curve in curves:
         radius, angle = _polar(curve)
@@ -53,7 +59,7 @@ def _polar(curve: Curve) -> tuple[Chebyshev, Chebyshev]:
 def _taken(gear: Gear, *, left: bool) -> float:
     """Volume (mm³) that modifications take from one side of a tooth: each point goes its turn times its radius."""
     form, taken = gear.flank_form, 0.0
-    sense = -1 if left else 1
+    sense = (-1 if left else 1) * (-1 if gear.internal else 1)  # radii of a ring fall along its curves
     for low, high in pairwise(sorted((0.0, *form.height_breaks, gear.face_width / 2, gear.face_width))):
         z = (low + high) / 2 + (high - low) / 2 * _PLACES
         for piece in flank_curves(gear):

@@ -18,6 +18,7 @@ from gearcad.geometry.helix import twist
 from gearcad.geometry.turned import FlankCurve, flank_curves
 from gearcad.meshing.bodies.interpolation import shape_values
 from gearcad.meshing.bodies.mesh import ElementMesh
+from gearcad.meshing.bodies.names import rises
 
 __all__ = ["Deviations", "chamfer_distances", "deviations", "face_samples"]
 
@@ -78,7 +79,7 @@ def face_samples(mesh: ElementMesh, name: str) -> Iterator[Floats]:
 
 def chamfer_distances(gear: Gear, tooth: int, points: Floats, *, solid: bool) -> list[Floats]:
     """Distances (n,) in mm of points (n, 3) near them from the left and the right tip chamfer of a tooth, if it has them."""
-    place = 2 * math.pi * tooth / gear.teeth
+    place = 2 * math.pi * tooth / gear.tooth_count
     chamfers = [each for each in flank_curves(gear) if each.curve.kind is CurveKind.CHAMFER]
     return [_Surface(gear, each, left, place, solid).distances(points) for each in chamfers for left in (True, False)]
 
@@ -91,7 +92,7 @@ def _surfaces(mesh: ElementMesh, gear: Gear, *, solid: bool) -> Iterator[tuple[s
     for name, faces in mesh.sides.items():
         if (match := _SIDE.fullmatch(name)) and len(faces):
             side, part, tooth = match.groups()
-            yield name, _Surface(gear, parts[part], side == "left", 2 * math.pi * int(tooth) / gear.teeth, solid)
+            yield name, _Surface(gear, parts[part], rises(gear, side), 2 * math.pi * int(tooth) / gear.tooth_count, solid)
 
 
 @dataclass(frozen=True)
@@ -133,7 +134,7 @@ class _Surface:
             found = (roll - curve.first) / (curve.last - curve.first)
         elif isinstance(curve, Chamfer):
             run = (np.sqrt(np.maximum(2 * radius**2 - curve.radius**2, 0.0)) - curve.radius) / 2
-            found = run / curve.run
+            found = np.abs(run) / curve.run
         else:
             assert isinstance(curve, Fillet)
             theta = curve.tool.theta_at(radius, curve.last)

@@ -63,7 +63,7 @@ def _thickness(gear: Gear, sizes: MeshSizes) -> float:
     wanted = _LONGER * sizes.flank * gear.normal_module
     if not gear.helix_angle:
         return wanted
-    turn: float = (72 * math.sqrt(3) * _OFF_HELIX / (gear.tip_diameter / 2)) ** (1 / 3)
+    turn: float = (72 * math.sqrt(3) * _OFF_HELIX / (gear.profile.tip_diameter / 2)) ** (1 / 3)
     return min(wanted, turn / abs(twist(gear)))
 
 

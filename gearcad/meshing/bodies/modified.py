@@ -16,6 +16,7 @@ from gearcad.geometry.curves import CurveKind, Fillet
 from gearcad.geometry.turned import FlankCurve, flank_curves
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.mesh import Cells, ElementMesh
+from gearcad.meshing.bodies.names import body_side, rises
 
 __all__ = ["Turns", "modification_turns"]
 
@@ -42,9 +43,9 @@ class Turns:
 def modification_turns(section: ElementMesh, gear: Gear, heights: Floats) -> Turns:
     """The turns at heights z (n,) in mm of the nodes of a section of the unmodified gear, its teeth where they are at z = 0.
 
-    Flanks, fillets and chamfers turn by their depth, lands in proportion between their ends, the inner circle not at all, both
-    cuts alike. Inside, the turn is harmonic, so that it takes as little as can be from any element; nodes between vertices
-    turn by the mean of both.
+    Flanks, fillets and chamfers turn by their depth, lands in proportion between their ends, the circle where the body ends
+    not at all, both cuts alike. Inside, the turn is harmonic, so that it takes as little as can be from any element; nodes
+    between vertices turn by the mean of both.
     """
     if not gear.modification.present:
         return Turns(np.zeros((len(heights), 0)), np.zeros((0, len(section.points))))
@@ -85,14 +86,15 @@ def _parts(section: ElementMesh) -> Iterator[tuple[_Part, str, Wholes, Wholes]]:
 def _on_outline(section: ElementMesh, gear: Gear, heights: Floats) -> tuple[Wholes, Floats]:
     """Nodes (m,) whose turns are known, and these (heights, m)."""
     outline = _Outline(gear, heights)
-    pitch = 2 * np.pi / gear.teeth
-    bore = section.nodes("bore").astype(np.int64) if "bore" in section.sides else np.zeros(0, int)
-    nodes, turns = [bore], [np.zeros((len(heights), len(bore)))]
+    pitch = 2 * np.pi / gear.tooth_count
+    end = body_side(gear)
+    held = section.nodes(end).astype(np.int64) if end in section.sides else np.zeros(0, int)
+    nodes, turns = [held], [np.zeros((len(heights), len(held)))]
     for part, side, of_part, tooth in _parts(section):
         x, y = section.points[of_part, :2].T
         angle = np.remainder(np.arctan2(y, x) - pitch * tooth + np.pi, 2 * np.pi) - np.pi
         nodes.append(of_part)
-        turns.append(outline.turns(part, np.hypot(x, y), angle, left=side == "left"))
+        turns.append(outline.turns(part, np.hypot(x, y), angle, left=rises(gear, side)))
     every, first = np.unique(np.concatenate(nodes), return_index=True)
     return every, np.concatenate(turns, axis=1)[:, first]
 
@@ -115,9 +117,10 @@ class _Outline:
         return self._of_root_land(np.abs(angle), left=left)
 
     def _rolls(self, radius: Floats) -> Floats:
-        base = self.gear.base_diameter / 2
-        result: Floats = np.sqrt(np.maximum((radius - base) * (radius + base), 0.0))
-        return result
+        """Roll lengths (mm), as the flank's form has them."""
+        base = self.gear.profile.base_diameter / 2
+        lengths = np.sqrt(np.maximum((radius - base) * (radius + base), 0.0))
+        return -lengths if self.gear.internal else lengths
 
     def _of_lengths(self, lengths: Floats, *, left: bool) -> Floats:
         return self.gear.flank_form.turn(lengths, self.heights[:, None], left=left)
@@ -149,7 +152,7 @@ class _Outline:
         """From the end of this fillet to the cut in the middle of the land, which is between both ends."""
         end = np.zeros(1)
         own, other = self._of_fillet(end, left=left), self._of_fillet(end, left=not left)
-        middle = np.pi / self.gear.teeth
+        middle = np.pi / self.gear.tooth_count
         place = (middle - angle) / (middle - float(self._fillet.curve.polar(0.0)[1])) / 2
         return other + (own - other) * (place + 0.5)
 

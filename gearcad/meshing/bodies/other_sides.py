@@ -14,6 +14,7 @@ from gearcad.arrays import Floats
 from gearcad.geometry import Gear
 from gearcad.meshing.bodies.exactness import chamfer_distances, face_samples
 from gearcad.meshing.bodies.mesh import ElementMesh
+from gearcad.meshing.bodies.names import body_side
 
 __all__ = ["SideDeviations", "matched_distance", "side_deviations"]
 
@@ -34,13 +35,13 @@ class SideDeviations:
         return {"nodes": self.nodes, "between_nodes": self.between, "worst": self.worst}
 
 
-def side_deviations(mesh: ElementMesh, gear: Gear, inner_radius: float) -> SideDeviations:
-    """Measure root lands and tips, the bore, which is at `inner_radius` (mm), hub and ends; not keyway and end chamfers.
+def side_deviations(mesh: ElementMesh, gear: Gear, held_radius: float) -> SideDeviations:
+    """Measure root lands and tips, the bore, or a ring's rim, at `held_radius` (mm), hub and ends; not keyway and end chamfers.
 
     Flat ends are as flat between their nodes as at these.
     """
     nodes, between, worst = 0.0, 0.0, ""
-    for name, distances, flat in _sides(mesh, gear, inner_radius):
+    for name, distances, flat in _sides(mesh, gear, held_radius):
         off = float(distances(mesh.points[mesh.nodes(name)]).max())
         if not off <= nodes or not worst:
             nodes, worst = off, name
@@ -51,17 +52,17 @@ def side_deviations(mesh: ElementMesh, gear: Gear, inner_radius: float) -> SideD
 
 def matched_distance(mesh: ElementMesh, gear: Gear, teeth: int) -> float:
     """Greatest distance (mm) of nodes ahead from those behind that are turned by so many teeth; 0 without cuts."""
-    turn = 2 * math.pi * teeth / gear.teeth
+    turn = 2 * math.pi * teeth / gear.tooth_count
     cosine, sine = math.cos(turn), math.sin(turn)
     turned = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
     every = (mesh.points[pairs[:, 0]] @ turned.T - mesh.points[pairs[:, 1]] for pairs in mesh.matched.values())
     return max((float(np.linalg.norm(off, axis=-1).max()) for off in every), default=0.0)
 
 
-def _sides(mesh: ElementMesh, gear: Gear, inner_radius: float) -> Iterator[tuple[str, _Distances, bool]]:
+def _sides(mesh: ElementMesh, gear: Gear, held_radius: float) -> Iterator[tuple[str, _Distances, bool]]:
     """The sides that are measured, how, and whether they are flat."""
     back, front = gear.body.hub_ends
-    radii = {"bore": inner_radius, "hub": gear.body.hub_diameter / 2}
+    radii = {body_side(gear): held_radius, "hub": gear.body.hub_diameter / 2}
     heights = {"end_back": 0.0, "end_front": gear.face_width, "hub_back": -back, "hub_front": gear.face_width + front}
     solid = mesh.element.shape.dimension == 3
     for name, faces in mesh.sides.items():
@@ -73,7 +74,7 @@ def _sides(mesh: ElementMesh, gear: Gear, inner_radius: float) -> Iterator[tuple
         elif name in radii:
             yield name, partial(_from_radius, radii[name]), False
         elif kind in ("left_root", "right_root"):
-            yield name, partial(_from_radius, gear.root_diameter / 2), False
+            yield name, partial(_from_radius, gear.profile.root_diameter / 2), False
         elif kind == "tip":
             yield name, partial(_from_tip, gear, int(tooth), solid), False
 
@@ -90,6 +91,6 @@ def _from_radius(radius: float, points: Floats) -> Floats:
 
 def _from_tip(gear: Gear, tooth: int, solid: bool, points: Floats) -> Floats:
     """From the tip circle or a tip chamfer of the tooth, whichever is nearer."""
-    every = [_from_radius(gear.tip_diameter / 2, points), *chamfer_distances(gear, tooth, points, solid=solid)]
+    every = [_from_radius(gear.profile.tip_diameter / 2, points), *chamfer_distances(gear, tooth, points, solid=solid)]
     nearest: Floats = np.minimum.reduce(every)
     return nearest

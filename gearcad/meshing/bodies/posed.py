@@ -48,29 +48,30 @@ def poses(pair: GearPair, roll_angle: float, approach: float = 0.0, *, solid: bo
         gear = pair.gears.pick(role)
         # The tangent point of the base circle is behind the line of centres by the pressure angle, the tooth that touches half
         # a tooth behind its flank.
-        turn = facing - angle + 2 * rolled.pick(role) / gear.base_diameter - math.radians(gear.profile.base_half_angle)
+        turn = facing - angle + 2 * rolled.pick(role) / gear.base_diameter - math.radians(gear.base_half_angle)
         helix = twist(gear, middle - z.pick(role)) if solid else 0.0
         return Pose(math.degrees((turn if left else -turn) - helix), x, z.pick(role) if solid else 0.0)
 
-    return PerGear(pose(Role.PINION, 0.0, 0.0), pose(Role.WHEEL, math.pi, pair.centre_distance))
+    facing = 0.0 if pair.internal else math.pi
+    return PerGear(pose(Role.PINION, 0.0, 0.0), pose(Role.WHEEL, facing, pair.centre_distance))
 
 
 def contacts(pair: GearPair, roll_angle: float, beyond: float = 0.0, *, left: bool = True) -> PerGear[Mapping[int, float]]:
     """Where the flanks of unmodified teeth touch in the middle of the common face width: teeth of each gear, and roll lengths
     (mm) on their flanks.
 
-    Tooth j of the pinion meets tooth -j of the wheel. Pairs up to `beyond` (mm on the line of action) outside the path of
-    contact count too; their places are the ends of the flanks.
+    Tooth j of the pinion meets tooth -j of the wheel, or tooth j of a ring, whose roll lengths are negative. Pairs up to
+    `beyond` (mm on the line of action) outside the path of contact count too; their places are the ends of the flanks.
     """
     middle, pitch = _lengths(pair, roll_angle).pinion, pair.pinion.transverse_base_pitch
     first, last = pair.usable_path
     teeth = range(math.ceil((first - beyond - middle) / pitch), math.floor((last + beyond - middle) / pitch) + 1)
     places = {tooth: min(max(middle + tooth * pitch, first), last) for tooth in teeth}
-    sense = 1 if left else -1
+    sense, follows = 1 if left else -1, 1 if pair.internal else -1
     whole = pair.base_tangent.length
     return PerGear(
         {sense * tooth: place for tooth, place in places.items()},
-        {-sense * tooth: whole - place for tooth, place in places.items()},
+        {follows * sense * tooth: whole - place for tooth, place in places.items()},
     )
 
 

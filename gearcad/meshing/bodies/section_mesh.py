@@ -13,12 +13,13 @@ from gearcad.arrays import Floats, Wholes
 from gearcad.errors import ParameterError, require_whole
 from gearcad.geometry import Gear
 from gearcad.meshing.bodies.contact_zone import ContactZone
-from gearcad.meshing.bodies.core import BORE, filled
+from gearcad.meshing.bodies.core import filled
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.mesh import Cells, ElementMesh, Faces
 from gearcad.meshing.bodies.modified import modification_turns
+from gearcad.meshing.bodies.names import body_side
 from gearcad.meshing.bodies.sectors import Sectors
-from gearcad.meshing.section.outline import MeshSizes, SectorSides, Side
+from gearcad.meshing.section.outline import OTHER_SIDE, MeshSizes, SectorSides, Side
 
 __all__ = ["NO_CONTACTS", "mesh_section", "teeth_of"]
 
@@ -36,33 +37,37 @@ _OF_TEETH = {
 }
 """Names of what each tooth has of its own; its number follows."""
 
+_ACROSS = OTHER_SIDE | {other: side for side, other in OTHER_SIDE.items()}
+_OF_RINGS = {side: _OF_TEETH[_ACROSS[side]] for side in _OF_TEETH}
+"""Those of a ring, whose teeth point the other way."""
+
 
 def mesh_section(
     gear: Gear,
     *,
     teeth: int | None,
-    inner_radius: float,
+    held_radius: float,
     sizes: MeshSizes,
     element: Element,
     contacts: Mapping[int, ContactZone] = NO_CONTACTS,
     modified: bool = True,
 ) -> ElementMesh:
-    """Mesh the transverse section of a gear down to `inner_radius` (mm), in quadrangles or triangles of second order.
+    """Mesh the transverse section of a gear down, or of a ring out, to `held_radius` (mm), in elements of second order.
 
     `teeth` None is the full ring; an odd number of them stands around tooth 0, between two cuts. Vertices come before the
     nodes between them. Sides are, for each tooth by its number counter-clockwise from 0, "left_flank_3", "right_flank_3",
-    "left_fillet_3", "right_fillet_3", "left_root_3" and "right_root_3" if there is a root land, "tip_3"; "bore"; and, if it is
-    no ring, "cut_behind" and "cut_ahead".
+    "left_fillet_3", "right_fillet_3", "left_root_3" and "right_root_3" if there is a root land, "tip_3"; "bore", or of a ring
+    "rim"; and, of less than all teeth, "cut_behind" and "cut_ahead". Left is as a tooth is seen from +z with its tip up.
 
     Teeth in `contacts`, by number, have a zone of short edges; of triangles, those that are not even next to one of them then
-    have long ones. Of quadrangles whole rows of the tooth are thin there. With an `inner_radius` of 0 the ring is a full disc
+    have long ones. Of quadrangles whole rows of the tooth are thin there. With an `held_radius` of 0 the ring is a full disc
     without a bore. Flanks are modified as they are at mid face width, or, if not `modified`, exact ones; where reliefs begin
     there are vertices on both. Raises ParameterError, GeometryError and SolverError.
     """
     numbers = teeth_of(gear, teeth)
-    every = Sectors.of_gear(gear, inner_radius, sizes, element, contacts)
+    every = Sectors.of_gear(gear, held_radius, sizes, element, contacts)
     if every.disc and teeth is not None:
-        raise ParameterError("inner_radius", 0.0, "must be above 0 mm for less than the full ring", "mm")
+        raise ParameterError("held_radius", 0.0, "must be above 0 mm for less than the full ring", "mm")
     sectors = [every.of(tooth) for tooth in numbers]
     mesh = _merged(gear, element, numbers, sectors, closed=teeth is None)
     whole = filled(mesh, sizes.growth) if every.disc else mesh
@@ -80,8 +85,8 @@ def _turned_flanks(mesh: ElementMesh, gear: Gear) -> ElementMesh:
 def teeth_of(gear: Gear, teeth: int | None) -> range:
     """Teeth that are meshed, in order, counted from tooth 0 both ways. Raises ParameterError."""
     if teeth is None:
-        return range(gear.teeth)
-    require_whole("teeth", teeth, at_least=1, at_most=gear.teeth - 1)
+        return range(gear.tooth_count)
+    require_whole("teeth", teeth, at_least=1, at_most=gear.tooth_count - 1)
     if teeth % 2 == 0:
         raise ParameterError("teeth", teeth, "must be odd: tooth 0 stands in the middle")
     return range(-(teeth // 2), teeth // 2 + 1)
@@ -94,9 +99,12 @@ def _merged(gear: Gear, element: Element, teeth: range, sectors: Sequence[Sector
     cells, sides = list[Cells](), dict[str, list[Faces]]()
     elements = 0
     for tooth, sector, number in zip(teeth, sectors, numbers, strict=True):
-        points[number, :2] = _turned(sector.points, 2 * math.pi * tooth / gear.teeth)
+        points[number, :2] = _turned(sector.points, 2 * math.pi * tooth / gear.tooth_count)
         cells.append(number[sector.cells].astype(np.int32))
-        for name, faces in _named(sector, element, tooth % gear.teeth, tooth - teeth.start, len(teeth), closed).items():
+        named = _named(gear, sector, element, tooth % gear.tooth_count)
+        if not closed:
+            named |= _cuts(sector, element, tooth - teeth.start, len(teeth))
+        for name, faces in named.items():
             sides.setdefault(name, []).append(faces.shifted(elements))
         elements += len(sector.cells)
     every = {name: _together(parts) for name, parts in sides.items()}
@@ -123,13 +131,20 @@ def _numbers(sectors: Sequence[SectorSides], vertices: int, *, closed: bool) -> 
     return found
 
 
-def _named(sector: SectorSides, element: Element, tooth: int, place: int, count: int, closed: bool) -> dict[str, Faces]:
-    """Sides of one of `count` sectors under the names that they have in the whole."""
-    found = {f"{name}_{tooth}": _faces(sector, side, element) for side, name in _OF_TEETH.items() if side in sector.sides}
-    found[BORE] = _faces(sector, Side.HELD, element)
-    if not closed and place == 0:
+def _named(gear: Gear, sector: SectorSides, element: Element, tooth: int) -> dict[str, Faces]:
+    """Sides of a tooth's sector under the names that they have in the whole, but for the cuts."""
+    names = _OF_RINGS if gear.internal else _OF_TEETH
+    found = {f"{name}_{tooth}": _faces(sector, side, element) for side, name in names.items() if side in sector.sides}
+    found[body_side(gear)] = _faces(sector, Side.HELD, element)
+    return found
+
+
+def _cuts(sector: SectorSides, element: Element, place: int, count: int) -> dict[str, Faces]:
+    """The cuts that the sector in one of `count` places has beside no other."""
+    found = {}
+    if place == 0:
         found["cut_behind"] = _faces(sector, Side.BEHIND, element)
-    if not closed and place == count - 1:
+    if place == count - 1:
         found["cut_ahead"] = _faces(sector, Side.AHEAD, element)
     return found
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.errors import GeometryError, ParameterError, require_number
+from gearcad.errors import ParameterError, require_number
 from gearcad.geometry import Gear
 from gearcad.meshing.bodies.contact_zone import ContactZone, lengths_near
 from gearcad.meshing.bodies.elements import Element
@@ -45,13 +45,14 @@ class _Kind(NamedTuple):
 
 @dataclass(frozen=True)
 class Sectors:
-    """Sectors of tooth 0 as each tooth has them; equal ones are meshed once. `inner_radius` (mm) 0 is of a full disc.
+    """Sectors of tooth 0 as each tooth has them; equal ones are meshed once. `held_radius` (mm) 0 is of a full disc, that of
+    a ring is its rim's.
 
     `zones` are those of the teeth by number, from 0. Raises ParameterError and GeometryError.
     """
 
     gear: Gear
-    inner_radius: float
+    held_radius: float
     sizes: MeshSizes
     element: Element
     zones: Mapping[int, ContactZone]
@@ -60,28 +61,30 @@ class Sectors:
 
     @classmethod
     def of_gear(
-        cls, gear: Gear, inner_radius: float, sizes: MeshSizes, element: Element, contacts: Mapping[int, ContactZone]
+        cls, gear: Gear, held_radius: float, sizes: MeshSizes, element: Element, contacts: Mapping[int, ContactZone]
     ) -> Sectors:
         """Those of a gear whose teeth have zones by any number that means them: -1 is the last tooth."""
-        return cls(gear, inner_radius, sizes, element, {tooth % gear.teeth: zone for tooth, zone in contacts.items()})
+        return cls(gear, held_radius, sizes, element, {tooth % gear.tooth_count: zone for tooth, zone in contacts.items()})
 
     def __post_init__(self) -> None:
         if self.element not in (Element.QUAD8, Element.TRI6):
             raise ParameterError("element", self.element.value, 'must be "quad8" or "tri6" for a section')
-        if self.gear.internal:
-            raise GeometryError("teeth", self.gear.teeth, "must be above 0: rings are not meshed yet")
         require_fillet(self.gear)
-        require_number("inner_radius", self.inner_radius, "mm", at_least=0, below=self.gear.root_diameter / 2)
+        root = self.gear.profile.root_diameter / 2
+        if self.gear.internal:
+            require_number("held_radius", self.held_radius, "mm", above=root)
+        else:
+            require_number("held_radius", self.held_radius, "mm", at_least=0, below=root)
 
     @property
     def disc(self) -> bool:
         """True if there is no bore."""
-        return self.inner_radius == 0
+        return self.held_radius == 0
 
     @property
     def inside(self) -> float:
-        """Radius (mm) of the inner circle of the sectors."""
-        return rim_radius(self.gear) if self.disc else self.inner_radius
+        """Radius (mm) where the sectors end."""
+        return rim_radius(self.gear) if self.disc else self.held_radius
 
     def of(self, tooth: int) -> SectorSides:
         """The sector of a tooth. Raises GeometryError and SolverError."""
@@ -102,8 +105,8 @@ class Sectors:
         return SectorCount(round(quadrangles(*counts)), 2 * (across + up + 2 * outer), across + 2 * outer, deep)
 
     def _kind(self, tooth: int) -> _Kind:
-        near = not self.zones or any((tooth + step) % self.gear.teeth in self.zones for step in (-1, 0, 1))
-        return _Kind(self.zones.get(tooth % self.gear.teeth), near or self.element is Element.QUAD8)
+        near = not self.zones or any((tooth + step) % self.gear.tooth_count in self.zones for step in (-1, 0, 1))
+        return _Kind(self.zones.get(tooth % self.gear.tooth_count), near or self.element is Element.QUAD8)
 
     def _meshed(self, kind: _Kind) -> SectorSides:
         zone = kind.zone
@@ -112,7 +115,7 @@ class Sectors:
         gear, sizes = self.gear, replace(self.sizes, cut=self._cut)
         sizes = sizes if kind.fine else _carrying(sizes)
         plain, zoned = self._lengths(sizes, None), self._lengths(sizes, zone)
-        left, right = (zoned, plain) if zone and zone.left else (plain, zoned)
+        left, right = (zoned, plain) if zone and zone.left != gear.internal else (plain, zoned)
         return mesh_sector(gear, self.inside, sizes, left, right)
 
     @cached_property
@@ -126,7 +129,7 @@ class Sectors:
         plain = self._lengths(self.sizes, None)
         rows = self._lengths(self.sizes, zone) if zone else None
         # Quadrangles fill circles of an even number of edges only.
-        return SectorLayout(self.gear, self.inside, self.sizes, plain, rows, self.disc and self.gear.teeth % 2 == 1)
+        return SectorLayout(self.gear, self.inside, self.sizes, plain, rows, self.disc and self.gear.tooth_count % 2 == 1)
 
     def _lengths(self, sizes: MeshSizes, zone: ContactZone | None) -> HalfLengths:
         near = lengths_near(self.gear, zone) if zone else None

@@ -73,7 +73,7 @@ def expected_amount(
     gear: Gear,
     *,
     teeth: int | None,
-    inner_radius: float,
+    held_radius: float,
     sizes: MeshSizes,
     element: Element,
     contacts: Mapping[int, ContactZone] = NO_CONTACTS,
@@ -86,7 +86,7 @@ def expected_amount(
         raise ParameterError("element", element.value, "must not be tet10: how many there will be is not known before")
     solid = element.shape.dimension == 3
     flat = Element.QUAD8 if solid else element
-    section = _Section.of(Sectors.of_gear(gear, inner_radius, sizes, flat, contacts), teeth)
+    section = _Section.of(Sectors.of_gear(gear, held_radius, sizes, flat, contacts), teeth)
     nodes = section.vertices + section.edges
     if not solid:
         return _amount(element, section.elements, nodes)
