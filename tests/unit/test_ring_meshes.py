@@ -1,0 +1,128 @@
+"""Meshes of rings and of internal pairs: sides, sizes and how they stand (identity)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gearcad import BasicRack, Body, FlankModification, Gear, GearPair
+from gearcad.errors import ParameterError
+from gearcad.geometry import ShaperCutter
+from gearcad.meshing.bodies.elements import Element
+from gearcad.meshing.bodies.measure import measure_whole
+from gearcad.meshing.bodies.posed import contacts, posed
+from gearcad.meshing.bodies.section_mesh import mesh_section
+from gearcad.meshing.bodies.sizing import body_sizes, expected_amount
+from gearcad.meshing.options import MeshOptions
+from gearcad.meshing.plan import plan_mesh
+from gearcad.meshing.run import run_mesh
+from gearcad.per_gear import PerGear
+
+_ALM: dict[str, Any] = {
+    "teeth": -70, "normal_module": 2.8, "face_width": 14.0, "profile_shift": -1.2025,
+    "cutter": ShaperCutter(teeth=25, tip_radius=0.15), "body": Body(rim_diameter=240.0),
+}  # fmt: skip
+
+RINGS = {
+    "shaped": {},
+    "form root": {"cutter": ShaperCutter(tip_radius=0.15)},
+    "full radius, no rim": {
+        "teeth": -40, "profile_shift": 0.0, "cutter": ShaperCutter(), "rack": BasicRack(root_radius="full"), "body": Body(),
+    },
+    "helical, modified": {
+        "teeth": -60, "normal_module": 4.0, "profile_shift": 0.3, "helix_angle": -28.0,
+        "cutter": ShaperCutter(teeth=22, tip_radius=0.3), "body": Body(rim_diameter=300.0, tip_chamfer=0.3),
+        "modification": FlankModification(
+            tip_relief=20, tip_relief_length=1.5, root_relief=10, root_relief_length=1, lead_crowning=10, twist=8,
+            end_relief=5, end_relief_length=2,
+        ),
+    },
+}  # fmt: skip
+
+
+def _ring(name: str) -> Gear:
+    return Gear(**_ALM | RINGS[name])
+
+
+@pytest.mark.parametrize(
+    ("element", "what"), [("quad8", "ring"), ("tri6", "teeth:3"), ("hex20", "teeth:3"), ("hex8", "sector")]
+)
+@pytest.mark.parametrize("name", RINGS)
+def test_every_gate_is_passed(name: str, element: str, what: str) -> None:
+    """Nodes on the exact, modified surfaces, closed, as large as the exact ring, and as many as was told before."""
+    gear = _ring(name)
+    plan = plan_mesh(MeshOptions(element=element, what=what), {"gear": gear}, None)
+    judged = run_mesh(plan, "ring").judged["gear"]
+    assert [gate for gate in judged.gates if not gate.passed] == []
+    assert plan.amount is not None
+    if element != "tri6":  # a ring of triangles is exact too, but meshed to be counted
+        assert judged.elements == plan.amount.elements
+    assert judged.deviations.nodes < 1e-12
+
+
+def test_the_area_is_that_between_the_outline_and_the_rim() -> None:
+    gear = _ring("shaped")
+    x, y = gear.profile.contour(2e-7).T
+    opening = float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) / 2
+    mesh = mesh_section(gear, teeth=None, held_radius=120.0, sizes=body_sizes(gear), element=Element.QUAD8)
+    assert measure_whole(mesh) == pytest.approx(math.pi * 120.0**2 - opening, rel=1e-7)
+
+
+def test_left_is_as_a_tooth_is_seen_with_its_tip_up() -> None:
+    """The teeth of a ring point inwards: of the tooth on +x the left flank has y < 0."""
+    gear = _ring("shaped")
+    mesh = mesh_section(gear, teeth=3, held_radius=120.0, sizes=body_sizes(gear), element=Element.QUAD8)
+    for side in ("flank", "fillet", "root"):
+        assert mesh.points[mesh.nodes(f"left_{side}_0"), 1].max() < 0 < mesh.points[mesh.nodes(f"right_{side}_0"), 1].min()
+    assert np.hypot(*mesh.points[mesh.nodes("rim"), :2].T) == pytest.approx(120.0, abs=1e-9)
+    assert {"cut_ahead", "cut_behind", "tip_1", "tip_69"} <= set(mesh.sides)
+    with pytest.raises(ParameterError, match=r"held_radius = 90 mm: must be a number above 104\.867 mm"):
+        mesh_section(gear, teeth=3, held_radius=90.0, sizes=body_sizes(gear), element=Element.QUAD8)
+
+
+def _nearest(points: np.ndarray, chain: np.ndarray) -> tuple[float, float]:
+    """Least signed distance (mm) of points (n, 2) from a polyline, positive on its left, and the place of it along x."""
+    start, step = chain[:-1], np.diff(chain, axis=0)
+    share = np.clip(((points[:, None] - start) * step).sum(-1) / (step**2).sum(-1), 0, 1)
+    off = points[:, None] - start - share[..., None] * step
+    distance = np.hypot(*np.moveaxis(off, -1, 0))
+    at = distance.argmin(axis=1)
+    rows = np.arange(len(points))
+    cross = step[at, 0] * off[rows, at, 1] - step[at, 1] * off[rows, at, 0]
+    return float((np.sign(cross) * distance[rows, at]).min()), float(distance.min())
+
+
+@pytest.mark.parametrize("roll", [-4.0, 0.0, 5.0])
+def test_left_flanks_touch_and_do_not_overlap(roll: float) -> None:
+    """Teeth of the pinion stand at those of the same number in a ring: as near as the elements are to the exact flanks."""
+    pinion = Gear(teeth=22, normal_module=2.8, face_width=16.0, profile_shift=0.5, tooth_thinning=0.04)
+    pair = GearPair(pinion=pinion, wheel=_ring("shaped"))
+    sizes = body_sizes(pinion, 0.05)
+    meshes = PerGear(
+        mesh_section(pinion, teeth=5, held_radius=15.0, sizes=sizes, element=Element.QUAD8),
+        mesh_section(pair.wheel, teeth=5, held_radius=120.0, sizes=sizes, element=Element.QUAD8),
+    )
+    mesh, touching = posed(pair, meshes, roll), contacts(pair, roll)
+    assert list(touching.pinion) == list(touching.wheel)
+    for tooth in touching.pinion:
+        own, mate = (
+            mesh.points[mesh.nodes(f"{role}_left_flank_{tooth % gear.tooth_count}"), :2]
+            for role, gear in (("pinion", pinion), ("wheel", pair.wheel))
+        )
+        own = own[np.argsort(own[:, 0])]
+        signed, nearest = _nearest(mate, own)
+        assert nearest < 2e-4
+        assert signed > -3e-4  # the tooth of the pinion is on the right of its left flank, run from root to tip
+    # the lengths on the ring are those of its signed line of action
+    assert all(length < 0 for length in touching.wheel.values())
+
+
+def test_amounts_of_rings_are_known_before() -> None:
+    gear = _ring("form root")
+    sizes = body_sizes(gear).scaled(0.5)
+    for element in (Element.QUAD8, Element.HEX20):
+        told = expected_amount(gear, teeth=None, held_radius=120.0, sizes=sizes, element=element)
+        assert told.elements % 70 == 0
