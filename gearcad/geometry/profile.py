@@ -132,6 +132,11 @@ class ToothProfile:
         return self.tip_diameter - 2 * self.tip_chamfer
 
     @property
+    def outer_diameter(self) -> float:
+        """Of root and tip circle the outer one (mm)."""
+        return max(self.root_diameter, self.tip_diameter)
+
+    @property
     def tip_thickness(self) -> float:
         """Transverse tooth thickness s_at on the tip circle (mm), before a tip chamfer."""
         return self.tip_diameter * self._tip_half_angle

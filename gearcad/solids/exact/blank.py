@@ -1,29 +1,15 @@
-"""The blank of a gear: end faces, hubs, and the bore with its keyway, on edges shared with the teeth."""
+"""The blank of an external gear: end faces, hubs, and the bore with its keyway, on edges shared with the teeth."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
 
 from gearcad.geometry.gear import Gear
-from gearcad.solids.exact.kernel import Edges, Kernel, backward
+from gearcad.solids.exact.kernel import Edges, Kernel
+from gearcad.solids.exact.tubes import Contour, add_tube, circle, tube
 from gearcad.solids.keyway import keyway_half_angle
 
-__all__ = ["Contour", "add_blank", "add_tube", "circle"]
-
-
-@dataclass(frozen=True)
-class Contour:
-    """Edges of a closed contour at one height, counter-clockwise seen from +z, and the vertex each starts from."""
-
-    edges: list[Any]
-    starts: list[Any]
-
-    def loop(self, *, along: bool) -> Edges:
-        loop = [(edge, True) for edge in self.edges]
-        return loop if along else backward(loop)
+__all__ = ["add_blank"]
 
 
 def add_blank(gear: Gear, kernel: Kernel, lower: Edges, upper: Edges) -> None:
@@ -41,19 +27,13 @@ def add_blank(gear: Gear, kernel: Kernel, lower: Edges, upper: Edges) -> None:
         face_z = gear.face_width * which
         hole = opening[which].loop(along=False) if opening else None
         if hub:
-            rings = [circle(kernel, body.hub_diameter / 2, z) for z in sorted((face_z, heights[which]))]
-            add_tube(kernel, body.hub_diameter / 2, rings[0], rings[1], sorted((face_z, heights[which])), outward=True)
+            low, high = sorted((face_z, heights[which]))
+            rings = tube(kernel, body.hub_diameter / 2, (low, high), outward=True)
             inner, outer = (rings[1], rings[0]) if which == 0 else (rings[0], rings[1])
             kernel.face(kernel.plane(face_z), [loop, inner.loop(along=False)], outward=which == 1)
             loop = outer.loop(along=True)
         loops = [loop, hole] if hole else [loop]
         kernel.face(kernel.plane(heights[which]), loops, outward=which == 1)
-
-
-def circle(kernel: Kernel, radius: float, z: float) -> Contour:
-    """A full circle about the axis (mm)."""
-    start = kernel.vertex((radius, 0.0, z))
-    return Contour([kernel.edge(kernel.circle(radius, z), start, start, 0.0, 2 * math.pi)], [start])
 
 
 def _keyway_corners(gear: Gear) -> list[tuple[float, float]]:
@@ -78,18 +58,6 @@ def _opening(gear: Gear, kernel: Kernel, z: float) -> Contour:
         line, length = kernel.line((*corners[k], z), (*corners[after], z))
         edges.append(kernel.edge(line, starts[k], starts[after], 0.0, length))
     return Contour(edges, starts)
-
-
-def add_tube(kernel: Kernel, radius: float, low: Contour, high: Contour, heights: Sequence[float], *, outward: bool) -> None:
-    """A full cylinder between two circles; its seam lies on +x."""
-    surface = kernel.cylinder(radius)
-    line, length = kernel.line((radius, 0.0, heights[0]), (radius, 0.0, heights[1]))
-    seam = kernel.edge(line, low.starts[0], high.starts[0], 0.0, length)
-    kernel.lay(seam, surface, kernel.line_2d(2 * math.pi, heights[0], 0, 1), kernel.line_2d(0, heights[0], 0, 1))
-    for ring, z in zip((low, high), heights, strict=True):
-        kernel.lay(ring.edges[0], surface, kernel.line_2d(0, z, 1, 0))
-    loop = [(low.edges[0], True), (seam, True), (high.edges[0], False), (seam, False)]
-    kernel.face(surface, [loop], outward=outward)
 
 
 def _add_opening(gear: Gear, kernel: Kernel, low: Contour, high: Contour, heights: tuple[float, float]) -> None:

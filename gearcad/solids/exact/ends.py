@@ -1,4 +1,4 @@
-"""The two ends of a gear: a plane, and the cone of the end chamfer beyond a radius."""
+"""The two ends of a gear: a plane, and the cone of the end chamfer from a radius on towards the tips."""
 
 from __future__ import annotations
 
@@ -26,12 +26,17 @@ class End:
     inward: int
     cone: EndCone
 
+    @property
+    def widens(self) -> int:
+        """+1 where the cone widens upwards, -1 where it does downwards."""
+        return self.inward * self.cone.side
+
     def height(self, radius: ArrayLike) -> Floats:
         """z (mm) of the end's surface at a radius (mm), array."""
         return np.asarray(self.z + self.inward * self.cone.setback(radius))
 
 
 def gear_ends(gear: Gear, junctions: Iterable[float]) -> tuple[End, End]:
-    """Lower and upper end of a gear; a chamfer's small radius snaps to the radii (mm) where pieces of the outline meet."""
+    """Lower and upper end of a gear; a chamfer's face radius snaps to the radii (mm) where pieces of the outline meet."""
     cone = EndCone.of(gear).snapped(junctions, _SNAP)
     return End(0.0, 1, cone), End(gear.face_width, -1, cone)

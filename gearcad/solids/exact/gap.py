@@ -6,9 +6,9 @@ import math
 
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.halves import halves
-from gearcad.solids.exact.blank import add_tube, circle
-from gearcad.solids.exact.kernel import Edges, Kernel
+from gearcad.solids.exact.kernel import Edges, Kernel, backward
 from gearcad.solids.exact.teeth import add_teeth
+from gearcad.solids.exact.tubes import tube
 
 __all__ = ["add_halves"]
 
@@ -22,11 +22,8 @@ def add_halves(gear: Gear, kernel: Kernel) -> tuple[Edges, Edges]:
     first, below = add_teeth(lower.gear, kernel)
     above, last = add_teeth(upper.gear, kernel.moved(upper.z, math.radians(upper.rotation)))
     heights, radius = (gear.half_width, upper.z), gear.gap_diameter / 2
-    rings = [circle(kernel, radius, z) for z in heights]
-    add_tube(kernel, radius, rings[0], rings[1], heights, outward=not gear.internal)
+    rings = tube(kernel, radius, heights, outward=not gear.internal)
     for ring, loop, z, outward in zip(rings, (below, above), heights, (True, False), strict=True):
-        loops = [loop, ring.loop(along=False)]
-        if gear.internal:
-            loops = [ring.loop(along=True), loop]
+        loops = [ring.loop(along=True), backward(loop)] if gear.internal else [loop, ring.loop(along=False)]
         kernel.face(kernel.plane(z), loops, outward=outward)
     return first, last

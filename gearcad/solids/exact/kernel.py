@@ -12,11 +12,15 @@ import numpy as np
 
 from gearcad.arrays import Floats
 
-__all__ = ["Edges", "Kernel", "backward", "bezier_curve", "bezier_curve_2d", "bezier_surface"]
+__all__ = ["ORIGIN", "Edges", "Kernel", "Point", "backward", "bezier_curve", "bezier_curve_2d", "bezier_surface"]
 
 
 Edges = list[tuple[Any, bool]]
 """Edges of a chain in order, each with True if it is run along its own direction."""
+
+Point = tuple[float, float]
+
+ORIGIN: Point = (0.0, 0.0)
 
 PRECISION = 1e-7
 """OpenCASCADE's own smallest distance (mm)."""
@@ -87,7 +91,7 @@ class Kernel:
 
     def __init__(self, tolerance: float) -> None:
         from OCP.BRep import BRep_Builder
-        from OCP.gp import gp_Ax1, gp_Ax3, gp_Dir, gp_Pnt
+        from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt
         from OCP.TopLoc import TopLoc_Location
         from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shell, TopoDS_Vertex, TopoDS_Wire
 
@@ -104,7 +108,6 @@ class Kernel:
         self._shell = TopoDS_Shell()
         self._builder.MakeShell(self._shell)
         self._axis = gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))
-        self._frame = gp_Ax3(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0))
 
     def moved(self, z: float, angle: float) -> Kernel:
         """The same kernel, but what is made by it stands higher by `z` (mm) and turned by `angle` (rad) in the same solid."""
@@ -118,7 +121,7 @@ class Kernel:
         moved.here = TopLoc_Location(place)
         return moved
 
-    # ------------------------------------------------------------------ geometry about the z axis
+    # ------------------------------------------------------------------ geometry about the z axis, or a parallel one
 
     def turned(self, angle: float) -> Any:
         """The place of a thing turned about z (rad)."""
@@ -129,16 +132,16 @@ class Kernel:
         rotation.SetRotation(self._axis, angle)
         return self.here * TopLoc_Location(rotation)
 
-    def frame(self, z: float, *, up: bool = True) -> Any:
-        """Right-handed frame at height z with its X on +x and its Z along +z or -z."""
+    def frame(self, z: float, *, up: bool = True, axis: Point = ORIGIN) -> Any:
+        """Right-handed frame at height z on an axis through the point (x, y), its X along +x and its Z along +z or -z."""
         from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt
 
-        return gp_Ax3(gp_Pnt(0, 0, z), gp_Dir(0, 0, 1 if up else -1), gp_Dir(1, 0, 0))
+        return gp_Ax3(gp_Pnt(*axis, z), gp_Dir(0, 0, 1 if up else -1), gp_Dir(1, 0, 0))
 
-    def circle(self, radius: float, z: float) -> Any:
+    def circle(self, radius: float, z: float, axis: Point = ORIGIN) -> Any:
         from OCP.Geom import Geom_Circle
 
-        return Geom_Circle(self.frame(z).Ax2(), radius)
+        return Geom_Circle(self.frame(z, axis=axis).Ax2(), radius)
 
     def line(self, start: Sequence[float], end: Sequence[float]) -> tuple[Any, float]:
         """Geom_Line through two points, and the parameter (distance) of the second."""
@@ -149,10 +152,10 @@ class Kernel:
         length = float(np.linalg.norm(step))
         return Geom_Line(gp_Pnt(*start), gp_Dir(*(step / length))), length
 
-    def cylinder(self, radius: float) -> Any:
+    def cylinder(self, radius: float, axis: Point = ORIGIN) -> Any:
         from OCP.Geom import Geom_CylindricalSurface
 
-        return Geom_CylindricalSurface(self._frame, radius)
+        return Geom_CylindricalSurface(self.frame(0.0, axis=axis), radius)
 
     def cone(self, radius: float, sine: float, z: float, *, up: bool) -> Any:
         """Cone of `radius` at height z that widens upwards (or downwards); `sine` of its half angle. Slant is its v."""

@@ -126,21 +126,22 @@ class ToothLayout:
         count, found, breaks = len(self.pieces), list[Segment](), list[tuple[float, float]]()
         for k, piece in enumerate(self.pieces):
             if isinstance(piece, LandArc):
-                found.append(Segment(k, k, k + 1, piece.first, piece.last, piece.radius > end.cone.face_radius))
+                found.append(Segment(k, k, k + 1, piece.first, piece.last, bool(end.cone.beyond(piece.radius) > 0)))
                 continue
             first, last = piece.radii
             if end.cone.face_radius >= max(first, last) - _ROUNDING or end.cone.face_radius <= min(first, last) + _ROUNDING:
-                found.append(Segment(k, k, k + 1, 0.0, 1.0, 2 * end.cone.face_radius < first + last))
+                found.append(Segment(k, k, k + 1, 0.0, 1.0, bool(end.cone.beyond((first + last) / 2) > 0)))
             else:
                 u = parameter_at_radius(piece, end.cone.face_radius)
                 angle = float(piece.polar(np.array([u]))[1][0] + self.sweep.turn(piece, np.array(u), np.array(end.z)))
                 station = count + 1 + len(breaks)
                 breaks.append((end.cone.face_radius, angle))
-                found.append(Segment(k, k, station, 0.0, u, first > last))
-                found.append(Segment(k, station, k + 1, u, 1.0, first < last))
+                on_cone = bool(end.cone.beyond(first) > 0)
+                found.append(Segment(k, k, station, 0.0, u, on_cone))
+                found.append(Segment(k, station, k + 1, u, 1.0, not on_cone))
         radius, angle = self.junctions.T
         turned = [at + float(self.turn(k, end.height(r))) for k, (r, at) in enumerate(zip(radius, angle, strict=True))]
-        following = (radius[0], turned[0] + 2 * math.pi / self.gear.teeth)
+        following = (radius[0], turned[0] + 2 * math.pi / self.gear.tooth_count)
         return found, np.array([*zip(radius, turned, strict=True), following, *breaks])
 
     def place(self, end: End, stations: Floats) -> Floats:
@@ -171,7 +172,7 @@ class ToothLayout:
             first, last = (float(self.turn(k, np.array(z))) for k in (segment.start, segment.end))
             circle, on_face = self.kernel.circle(piece.radius, z), line(0, z, 1, 0)
             slant = (piece.radius - end.cone.face_radius) / end.cone.sine if segment.on_cone else 0.0
-            return Drawn(circle, segment.first + first, segment.last + last, on_face, line(0, slant, end.inward, 0))
+            return Drawn(circle, segment.first + first, segment.last + last, on_face, line(0, slant, end.widens, 0))
         if segment.on_cone:
             return self._draw_on_cone(end, segment, piece)
         poles = self.sweep.section(piece, 0 if end.inward > 0 else 1)
@@ -187,9 +188,9 @@ class ToothLayout:
             z = end.height(radius)
             angle = angle + self.sweep.turn(piece, u, z)
             slant = (radius - end.cone.face_radius) / end.cone.sine
-            return np.stack([radius * np.cos(angle), radius * np.sin(angle), z, end.inward * angle, slant], -1)
+            return np.stack([radius * np.cos(angle), radius * np.sin(angle), z, end.widens * angle, slant], -1)
 
-        scale = np.array([1, 1, 1, self.gear.tip_diameter / 2, 1.0])
+        scale = np.array([1, 1, 1, self.gear.profile.outer_diameter / 2, 1.0])
 
         def error(values: Floats, t: Floats) -> Floats:
             return np.asarray(np.abs((values - curve(t)) * scale).max(-1))

@@ -99,27 +99,30 @@ def tooth_outline(gear: Gear, cuts: Sequence[float] = ()) -> tuple[Piece, ...]:
         for piece in fitted(curve, first, last, accuracy_for(gear))
     ]
     _join([piece.poles for piece in flank])
+    half_pitch, root = math.pi / gear.tooth_count, gear.profile.root_diameter / 2
     if curves[0].kind is not CurveKind.ROOT:
-        middle = math.pi / gear.teeth
-        flank[0].poles[0] = gear.root_diameter / 2 * np.array([math.cos(middle), math.sin(middle)])
+        flank[0].poles[0] = root * np.array([math.cos(half_pitch), math.sin(half_pitch)])
     right = [replace(piece, poles=piece.poles * [1, -1], left=False) for piece in flank]
     left = [replace(piece, poles=piece.poles[::-1], first=piece.last, last=piece.first) for piece in reversed(flank)]
     tip = right[-1].poles[-1]
     half = -math.atan2(tip[1], tip[0])
-    pieces: list[Piece] = [*right, LandArc(gear.tip_diameter / 2, -half, half), *left]
+    pieces: list[Piece] = [*right, LandArc(gear.profile.tip_diameter / 2, -half, half), *left]
     if isinstance(curves[0], Land) and curves[0].kind is CurveKind.ROOT:
         start = float(curves[0].last)
-        pieces.append(LandArc(gear.root_diameter / 2, start, 2 * math.pi / gear.teeth - start))
+        pieces.append(LandArc(root, start, 2 * half_pitch - start))
     return tuple(pieces)
 
 
 def _cut(curve: Curve, radii: Sequence[float]) -> list[float]:
     """Parameters from 0 to 1, with those between where a curve crosses one of the radii (mm)."""
-    radius = [float(curve.polar(s)[0]) for s in (0.0, 1.0)]
-    for cut in sorted(radii):
-        if radius[-2] + _SAME < cut < radius[-1] - _SAME:
-            radius.insert(-1, cut)
-    return [0.0, *(_crossing(lambda s: float(curve.polar(s)[0]), cut, 0.0, 1.0) for cut in radius[1:-1]), 1.0]
+    start, end = (float(curve.polar(s)[0]) for s in (0.0, 1.0))
+    side = 1 if start < end else -1  # the radii of a ring's flank fall
+    inside, last = list[float](), side * start
+    for cut in sorted(side * radius for radius in radii):
+        if last + _SAME < cut < side * end - _SAME:
+            inside.append(cut)
+            last = cut
+    return [0.0, *(_crossing(lambda s: side * float(curve.polar(s)[0]), cut, 0.0, 1.0) for cut in inside), 1.0]
 
 
 def _fitted(curve: FlankCurve, first: float, last: float, tolerance: float) -> list[FlankSpan]:

@@ -92,7 +92,7 @@ class Sweep:
         def error(values: Floats, t: Floats) -> Floats:
             return np.asarray(np.abs(values - rotation(t)).max(-1))
 
-        bound = 0.25 * self.tolerance / (self.gear.tip_diameter / 2)
+        bound = 0.25 * self.tolerance / (self.gear.profile.outer_diameter / 2)
         return required(bezier.fit(rotation, error, bound), "the twist of the teeth")
 
     def _screwed(self, poles: Floats) -> Floats:

@@ -19,9 +19,9 @@ __all__ = ["add_teeth"]
 
 
 def add_teeth(gear: Gear, kernel: Kernel) -> tuple[Edges, Edges]:
-    """Add all faces of the toothed side to the kernel's shell; returns the outer loops of the lower and the upper end face.
+    """Add all faces of the toothed side to the kernel's shell; returns its loops on the lower and the upper end face.
 
-    The loops run counter-clockwise seen from +z.
+    The loops run counter-clockwise seen from +z: about the end faces of an external gear, about the opening of a ring.
     """
     layout = ToothLayout(gear, kernel)
     ring = _ToothRing(layout)
@@ -37,7 +37,8 @@ class _ToothRing:
 
     def __init__(self, layout: ToothLayout) -> None:
         self.layout, self.kernel = layout, layout.kernel
-        self.teeth = layout.gear.teeth
+        self.teeth = layout.gear.tooth_count
+        self.outward = not layout.gear.internal  # surfaces have their normals away from the axis
         self.pitch = 2 * math.pi / self.teeth
         self.places = [self.kernel.turned(i * self.pitch) for i in range(self.teeth)]
         self.vertices = [self._vertices(which) for which in (0, 1)]
@@ -126,7 +127,7 @@ class _ToothRing:
                 kernel.lay(edge, surface, curve, place=place)
             lower, upper = (self._lay_end(which, i, k, surface) for which in (0, 1))
             up, down = [(edge, True) for edge in right], [(edge, True) for edge in left]
-            kernel.face(surface, [[*lower, *up, *backward(upper), *backward(down)]], place=place)
+            self._face(surface, [*lower, *up, *backward(upper), *backward(down)], place)
 
     def _add_flank(self, k: int, piece: FlankSpan) -> None:
         """One face per tooth and stretch of the face width."""
@@ -155,8 +156,12 @@ class _ToothRing:
                     ends = self._vertex(i, k, n + 1), self._vertex(follows, after, n + 1)
                     above = [(kernel.edge(crossings[n + 1], *ends, 0.0, 1.0, place), True)]
                     kernel.lay(above[0][0], surface, kernel.line_2d(0, heights[n + 1], 1, 0), place=place)
-                kernel.face(surface, [[*below, *right, *backward(above), *backward(left)]], place=place)
+                self._face(surface, [*below, *right, *backward(above), *backward(left)], place)
                 below = above
+
+    def _face(self, surface: Any, loop: Edges, place: Any) -> None:
+        """A face of the toothed side at the place of a tooth; its loop runs counter-clockwise about the surface's normal."""
+        self.kernel.face(surface, [loop], outward=self.outward, place=place)
 
     def _lay_end(self, which: int, i: int, k: int, surface: Any) -> Edges:
         """The edges of an end on a piece of a tooth, laid on its surface."""
@@ -177,11 +182,11 @@ class _ToothRing:
     # -------------------------------------------------------------- ends
 
     def close_end(self, which: int) -> Edges:
-        """Add the cone faces of an end and return the outer loop of its plane."""
+        """Add the cone faces of an end and return the loop of its plane."""
         end, segments = self.layout.ends[which], self.layout.segments[which][0]
         if not end.cone.present:
             return [(edge, True) for tooth in self.edges[which] for edge in tooth]
-        cone = self.kernel.cone(end.cone.face_radius, end.cone.sine, end.z, up=end.inward > 0)
+        cone = self.kernel.cone(end.cone.face_radius, end.cone.sine, end.z, up=end.widens > 0)
         for place, edges in zip(self.places, self.edges[which], strict=True):
             for edge, drawn, segment in zip(edges, self.drawn[which], segments, strict=True):
                 if segment.on_cone:
@@ -205,7 +210,7 @@ class _ToothRing:
         return loop
 
     def _cone_below_root(self, which: int, end: End, cone: Any) -> Edges:
-        """One piece of cone per pitch, parted by generators from the start of each right flank; the plane is a disc."""
+        """One piece of cone per pitch, parted by generators from the start of each right flank; the plane has a circle."""
         angle = self.layout.segments[which][1][0, 1]
         foot = [end.cone.face_radius * math.cos(angle), end.cone.face_radius * math.sin(angle), end.z]
         feet = [self.kernel.vertex(tooth[0]) for tooth in self._around(np.array([foot])).tolist()]
@@ -214,7 +219,7 @@ class _ToothRing:
             self.kernel.edge(line, feet[i], self.vertices[which][i][0], 0.0, length, place)
             for i, place in enumerate(self.places)
         ]
-        before, after = (self.kernel.line_2d(end.inward * at, 0, 0, 1) for at in (angle, angle + self.pitch))
+        before, after = (self.kernel.line_2d(end.widens * at, 0, 0, end.cone.side) for at in (angle, angle + self.pitch))
         loop: Edges = []
         for i, place in enumerate(self.places):
             follows = (i + 1) % self.teeth
@@ -229,7 +234,7 @@ class _ToothRing:
     def _foot(self, end: End, i: int, cone: Any, start: Any, stop: Any, first: float, last: float) -> Any:
         """The arc on an end's plane where the cone of tooth i begins."""
         arc = self.kernel.edge(self.kernel.circle(end.cone.face_radius, end.z), start, stop, first, last, self.places[i])
-        self.kernel.lay(arc, cone, self.kernel.line_2d(0, 0, end.inward, 0), place=self.places[i])
+        self.kernel.lay(arc, cone, self.kernel.line_2d(0, 0, end.widens, 0), place=self.places[i])
         return arc
 
     def _add_cone_face(self, end: End, i: int, cone: Any, rim: Edges, foot: Any, sides: tuple[Any, ...] = ()) -> None:
@@ -239,4 +244,4 @@ class _ToothRing:
         """
         before, after = ([(edge, True)] for edge in sides) if sides else ([], [])
         around = [*before, *rim, *backward(after), (foot, False)]
-        self.kernel.face(cone, [backward(around) if end.inward > 0 else around], place=self.places[i])
+        self._face(cone, backward(around) if end.inward > 0 else around, self.places[i])
