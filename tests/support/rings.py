@@ -1,0 +1,287 @@
+"""Rings by formulas of the tests' own: the section as the cutter leaves it, in complex numbers, and volumes by quadrature.
+
+Nothing of a ToothProfile is used. The fillet is what an ellipse (the cutter's corner in the transverse section) leaves over that
+rolls with the ring: a point on it is on the rim of that ellipse at the one place of the roll where it comes nearest.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.polynomial import Chebyshev
+from numpy.polynomial.legendre import leggauss
+from numpy.typing import NDArray
+from scipy.optimize import brentq, minimize_scalar
+
+from gearcad import Gear
+
+__all__ = ["RingSection"]
+
+Floats = NDArray[np.float64]
+
+_NODES, _WEIGHTS = leggauss(80)
+
+
+def _inv(angle: float) -> float:
+    return math.tan(angle) - angle
+
+
+@dataclass(frozen=True)
+class RingSection:
+    """The transverse section of a ring from its inputs alone. Lengths in mm, angles in radians."""
+
+    gear: Gear
+
+    @property
+    def _angle(self) -> float:
+        """alpha_t."""
+        return math.atan(math.tan(math.radians(self.gear.rack.pressure_angle)) / self._c)
+
+    @property
+    def _c(self) -> float:
+        return math.cos(math.radians(self.gear.helix_angle))
+
+    @property
+    def teeth(self) -> int:
+        return -self.gear.teeth
+
+    @property
+    def reference(self) -> float:
+        return self.teeth * self.gear.normal_module / self._c / 2
+
+    @property
+    def base(self) -> float:
+        return self.reference * math.cos(self._angle)
+
+    @property
+    def tip(self) -> float:
+        gear = self.gear
+        return self.reference - gear.normal_module * (gear.rack.addendum + gear.profile_shift + gear.tip_alteration)
+
+    @property
+    def root(self) -> float:
+        return self.reference + self.gear.normal_module * (self.gear.rack.dedendum - self.gear.profile_shift)
+
+    @property
+    def tip_form(self) -> float:
+        return self.tip + self.gear.body.tip_chamfer
+
+    @property
+    def pitch(self) -> float:
+        return 2 * math.pi / self.teeth
+
+    def involute_angle(self, radius: Floats) -> Floats:
+        """Half tooth angle on the involute."""
+        gear, pressure = self.gear, np.arccos(self.base / np.asarray(radius))
+        slope = math.tan(math.radians(gear.rack.pressure_angle))
+        thickness = gear.normal_module * (math.pi / 2 + 2 * gear.profile_shift * slope) - gear.tooth_thinning
+        middle = thickness / gear.normal_module / self.teeth - _inv(self._angle)
+        result: Floats = middle + np.tan(pressure) - pressure
+        return result
+
+    # ------------------------------------------------------------------ the cutter
+
+    @cached_property
+    def _cutter(self) -> tuple[int, float]:
+        """Teeth and profile shift; a ring without a cutter is its own counterpart."""
+        own = self.gear.cutter.teeth is None
+        return (self.teeth, -self.gear.profile_shift) if own else (self.gear.cutter.teeth, self.gear.cutter.profile_shift)
+
+    @cached_property
+    def _apart(self) -> float:
+        """a_0 (mm)."""
+        teeth, shift = self._cutter
+        if teeth == self.teeth:
+            return 0.0
+        slope = math.tan(math.radians(self.gear.rack.pressure_angle))
+        goal = _inv(self._angle) + 2 * slope * (self.gear.profile_shift + shift) / (teeth - self.teeth)
+        working = brentq(lambda angle: _inv(angle) - goal, 1e-9, 1.5, xtol=1e-15, rtol=8.9e-16)
+        return (self.teeth - teeth) * self.gear.normal_module / self._c * math.cos(self._angle) / 2 / math.cos(working)
+
+    @cached_property
+    def corner(self) -> float:
+        """Radius of the corner in the normal section (mm): the cutter's, else the rack's."""
+        given = self.gear.cutter.tip_radius
+        return float(self.gear.rack.root_radius if given is None else given) * self.gear.normal_module
+
+    @property
+    def _middle(self) -> float:
+        return self.root - self._apart - self.corner
+
+    def _ellipse(self, theta: Floats) -> NDArray[np.complex128]:
+        return self._middle + self.corner * np.cos(theta) + 1j * self.corner / self._c * np.sin(theta)
+
+    @cached_property
+    def _touch(self) -> tuple[float, float]:
+        """theta where the corner touches the cutter's flank from inside, and the polar angle of its middle then."""
+        teeth, shift = self._cutter
+        base = teeth * self.gear.normal_module / self._c * math.cos(self._angle) / 2
+        slope = math.tan(math.radians(self.gear.rack.pressure_angle))
+        thickness = math.pi / 2 + 2 * shift * slope + self.gear.tooth_thinning / self.gear.normal_module
+        start = thickness / teeth + _inv(self._angle)
+
+        def room(theta: float) -> float:
+            point = complex(self._ellipse(np.array(theta)))
+            pressure = math.acos(min(base / abs(point), 1.0))
+            return start - _inv(pressure) - math.atan2(point.imag, point.real)
+
+        grid = np.linspace(0, math.pi / 2, 400)
+        grid = grid[np.abs(self._ellipse(grid)) > base]
+        least = grid[int(np.argmin([room(each) for each in grid]))]
+        found = minimize_scalar(room, bounds=(max(least - 0.005, 0.0), least + 0.005), method="bounded", options={"xatol": 1e-12})
+        return float(found.x), float(found.fun)
+
+    @cached_property
+    def form(self) -> float:
+        """Radius (mm) of the root form circle, where the corner's last point cuts."""
+        return float(np.abs(self.fillet(np.array([self._touch[0]])))[0])
+
+    def fillet(self, theta: Floats) -> NDArray[np.complex128]:
+        """Points that the corner cuts, seen from the middle of a space: there its outline moves along itself.
+
+        With k = z_0/z and alpha the corner's direction, Re((1 - k) p'* p - k a_0 p'* exp(-i alpha)) = 0.
+        """
+        point, along = self._ellipse(theta), -self.corner * np.sin(theta) + 1j * self.corner / self._c * np.cos(theta)
+        middle = self._touch[1]
+        if not self._apart:
+            return point * np.exp(1j * middle)
+        share = self._cutter[0] / self.teeth
+        cosine = (1 - share) * (along.conj() * point).real / (share * self._apart * np.abs(along))
+        alpha = np.arccos(cosine) - np.angle(along)
+        return (self._apart + point * np.exp(1j * alpha)) * np.exp(-1j * share * (alpha - middle))
+
+    # ------------------------------------------------------------------ how far points are off
+
+    def folded(self, points: Floats) -> tuple[Floats, Floats]:
+        """Radius (mm) and angle (rad) from the middle of the nearest tooth of points (n, 3), the twist taken off."""
+        rate = math.tan(math.radians(self.gear.helix_angle)) / self.reference
+        angle = np.arctan2(points[:, 1], points[:, 0]) - rate * points[:, 2]
+        return np.hypot(points[:, 0], points[:, 1]), np.mod(angle + self.pitch / 2, self.pitch) - self.pitch / 2
+
+    def off(self, points: Floats) -> Floats:
+        """How far (mm) points (n, 3) on flanks, fillets and tip chamfers are off the exact surface, in the section."""
+        radius, angle = self.folded(points)
+        angle = np.abs(angle)
+        result = np.empty(len(radius))
+        deep, high = radius > self.form, radius < self.tip_form
+        flank = ~deep & ~high
+        result[flank] = self.base * (angle[flank] - self.involute_angle(radius[flank]))
+        result[deep] = self._off_fillet(radius[deep] * np.exp(1j * (self.pitch / 2 - angle[deep])))
+        result[high] = self._off_chamfer(radius[high], angle[high])
+        return np.abs(result)
+
+    def _off_chamfer(self, radius: Floats, angle: Floats) -> Floats:
+        """From the line at 45 degrees to the radius through the end of the involute."""
+        turned = angle - float(self.involute_angle(np.array(self.tip_form)))
+        result: Floats = (radius * np.cos(turned) - self.tip_form - radius * np.sin(turned)) / math.sqrt(2)
+        return result
+
+    def _off_fillet(self, points: NDArray[np.complex128]) -> Floats:
+        """From the rim of the corner, where it comes nearest; negative where the corner would cut the point away."""
+        share, middle = self._cutter[0] / self.teeth, self._touch[1]
+
+        def inside(turn: Floats, points: NDArray[np.complex128]) -> NDArray[np.complex128]:
+            corner = (points * np.exp(1j * share * turn) - self._apart) * np.exp(-1j * (middle + turn)) - self._middle
+            return corner.real + 1j * self._c * corner.imag  # a circle
+
+        if not self._apart:
+            nearest = inside(np.zeros(len(points)), points)
+        else:
+            turns = np.linspace(-2.0, 0.5, 500)
+            step = turns[1] - turns[0]
+            best = turns[np.argmin(np.abs(inside(turns[:, None], points)), axis=0)]
+            low, high = best - step, best + step
+            for _ in range(50):
+                one, other = low + (high - low) / 3, high - (high - low) / 3
+                first = np.abs(inside(one, points)) < np.abs(inside(other, points))
+                low, high = np.where(first, low, one), np.where(first, other, high)
+            nearest = inside((low + high) / 2, points)
+        if not self.corner:
+            return np.abs(nearest)
+        stretched = np.abs(nearest.real + 1j * self._c * nearest.imag) / np.abs(nearest)  # of a step across the ellipse
+        result: Floats = (np.abs(nearest) - self.corner) / stretched
+        return result
+
+    # ------------------------------------------------------------------ volumes
+
+    @property
+    def volume(self) -> float:
+        """Volume of the whole ring (mm³): annulus and teeth over the height that the end cones leave, less the bolt holes."""
+        body = self.gear.body
+        around = self._moment(np.array([body.rim_diameter / 2, self.root]))
+        holes = body.bolt_holes * math.pi * body.bolt_diameter**2 / 4 * self.gear.face_width
+        return 2 * math.pi * float(around[0] - around[1]) + self.teeth * self._tooth(self._moment) - holes
+
+    @property
+    def inertia(self) -> float:
+        """Moment of the whole ring about its axis (mm⁵), without end chamfers."""
+        body, width = self.gear.body, self.gear.face_width
+
+        def moment(radius: Floats) -> Floats:
+            return width * radius**4 / 4
+
+        around = moment(np.array([body.rim_diameter / 2, self.root]))
+        hole = math.pi * body.bolt_diameter**2 / 4 * (body.bolt_diameter**2 / 8 + body.bolt_circle**2 / 4) * width
+        return 2 * math.pi * float(around[0] - around[1]) + self.teeth * self._tooth(moment) - body.bolt_holes * hole
+
+    @property
+    def _face(self) -> tuple[float, float]:
+        """Radius (mm) where the end cones begin, and their slope."""
+        slope = math.tan(math.radians(self.gear.body.end_chamfer_angle))
+        return self.tip + self.gear.body.end_chamfer * slope, slope
+
+    def _moment(self, radius: Floats) -> Floats:
+        """Integral from 0 of R dR times the height (mm) that both end cones leave there."""
+        face, slope = self._face
+        whole = self.gear.face_width * radius**2 / 2
+        if not self.gear.body.end_chamfer:
+            return np.asarray(whole)
+        below = np.minimum(radius, face)
+        return np.asarray(whole - 2 * (face * below**2 / 2 - below**3 / 3) / slope)
+
+    def _tooth(self, moment: Callable[[Floats], Floats]) -> float:
+        """Integral over one tooth of what `moment` is the integral of, by parts: 2 [psi G] - 2 int G dpsi."""
+        theta = self._touch[0]
+
+        def fillet(s: Floats) -> tuple[Floats, Floats]:
+            points = self.fillet(theta * np.asarray(s))
+            return np.abs(points), self.pitch / 2 - np.angle(points)
+
+        def involute(s: Floats) -> tuple[Floats, Floats]:
+            first, last = (math.sqrt(radius**2 - self.base**2) for radius in (self.form, self.tip_form))
+            radius = np.hypot(self.base, first + np.asarray(s) * (last - first))
+            return radius, self.involute_angle(radius)
+
+        def chamfer(s: Floats) -> tuple[Floats, Floats]:
+            start = self.tip_form
+            run = (start - math.sqrt(2 * self.tip**2 - start**2)) / 2 * np.asarray(s)
+            angle = float(self.involute_angle(np.array(start)))
+            return np.hypot(start - run, run), angle - np.arctan2(run, start - run)
+
+        curves = [*([fillet] if self.corner else []), involute, *([chamfer] if self.gear.body.tip_chamfer else [])]
+        total = sum(self._along(curve, moment) for curve in curves)
+        (first,), (start,) = curves[0](np.array([0.0]))
+        (last,), (end,) = curves[-1](np.array([1.0]))
+        edges = moment(np.array([first, last]))
+        return float(2 * start * edges[0] - 2 * end * edges[1] + 2 * total)
+
+    def _along(self, curve: _Curve, moment: Callable[[Floats], Floats]) -> float:
+        """Integral of G dpsi along a curve, root to tip, parted where it enters the cone."""
+        slope = Chebyshev.interpolate(lambda s: curve(s)[1], 60, domain=[0, 1]).deriv()
+        breaks = [0.0, 1.0]
+        face = self._face[0]
+        radii = [float(curve(np.array([s]))[0][0]) for s in breaks]
+        if self.gear.body.end_chamfer and radii[1] < face < radii[0]:
+            breaks.insert(1, brentq(lambda s: float(curve(np.array([s]))[0][0]) - face, 0.0, 1.0, xtol=1e-15))
+        total = 0.0
+        for low, high in zip(breaks[:-1], breaks[1:], strict=True):
+            s = (low + high) / 2 + _NODES * (high - low) / 2
+            total += float((_WEIGHTS * moment(curve(s)[0]) * slope(s)).sum()) * (high - low) / 2
+        return total
+
+
+_Curve = Callable[[Floats], tuple[Floats, Floats]]
