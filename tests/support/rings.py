@@ -1,7 +1,7 @@
 """Rings by formulas of the tests' own: the section as the cutter leaves it, in complex numbers, and volumes by quadrature.
 
-Nothing of a ToothProfile is used. The fillet is what an ellipse (the cutter's corner in the transverse section) leaves over that
-rolls with the ring: a point on it is on the rim of that ellipse at the one place of the roll where it comes nearest.
+Nothing of a ToothProfile is used. The fillet is what an ellipse that rolls with the ring (the cutter's corner in the transverse
+section) leaves over: a point on it is on the rim of that ellipse at the one place of the roll where it comes nearest.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import Chebyshev
@@ -104,36 +105,44 @@ class RingSection:
 
     @cached_property
     def corner(self) -> float:
-        """Radius of the corner in the normal section (mm): the cutter's, else the rack's."""
-        given = self.gear.cutter.tip_radius
-        return float(self.gear.rack.root_radius if given is None else given) * self.gear.normal_module
+        """Radius of the corner in the normal section (mm): the cutter's, else the rack's, or the full one if that is smaller."""
+        if self.gear.cutter.tip_radius is not None:
+            return self.gear.cutter.tip_radius * self.gear.normal_module
+        most = 0.6 if self.gear.rack.root_radius == "full" else float(self.gear.rack.root_radius)
+        if self._touching(most * self.gear.normal_module)[1] >= 0:
+            return most * self.gear.normal_module
+        return float(brentq(lambda radius: self._touching(radius)[1], 0.0, most * self.gear.normal_module, xtol=1e-14))
 
-    @property
-    def _middle(self) -> float:
-        return self.root - self._apart - self.corner
+    def _ellipse(self, theta: Floats, radius: float) -> NDArray[np.complex128]:
+        """Points of a corner on the cutter, its middle on the real axis."""
+        return self.root - self._apart - radius + radius * np.cos(theta) + 1j * radius / self._c * np.sin(theta)
 
-    def _ellipse(self, theta: Floats) -> NDArray[np.complex128]:
-        return self._middle + self.corner * np.cos(theta) + 1j * self.corner / self._c * np.sin(theta)
-
-    @cached_property
-    def _touch(self) -> tuple[float, float]:
-        """theta where the corner touches the cutter's flank from inside, and the polar angle of its middle then."""
+    def _touching(self, radius: float) -> tuple[float, float]:
+        """theta where a corner touches the cutter's flank from inside, and the polar angle of its middle then."""
         teeth, shift = self._cutter
         base = teeth * self.gear.normal_module / self._c * math.cos(self._angle) / 2
         slope = math.tan(math.radians(self.gear.rack.pressure_angle))
         thickness = math.pi / 2 + 2 * shift * slope + self.gear.tooth_thinning / self.gear.normal_module
         start = thickness / teeth + _inv(self._angle)
+        if not radius:  # the edge turns from the tip circle's normal to that of the involute
+            pressure = math.acos(base / (self.root - self._apart))
+            return math.atan2(math.cos(pressure), self._c * math.sin(pressure)), start - _inv(pressure)
 
         def room(theta: float) -> float:
-            point = complex(self._ellipse(np.array(theta)))
+            point = complex(self._ellipse(np.array(theta), radius))
             pressure = math.acos(min(base / abs(point), 1.0))
             return start - _inv(pressure) - math.atan2(point.imag, point.real)
 
         grid = np.linspace(0, math.pi / 2, 400)
-        grid = grid[np.abs(self._ellipse(grid)) > base]
+        grid = grid[np.abs(self._ellipse(grid, radius)) > base]
         least = grid[int(np.argmin([room(each) for each in grid]))]
-        found = minimize_scalar(room, bounds=(max(least - 0.005, 0.0), least + 0.005), method="bounded", options={"xatol": 1e-12})
+        near = (max(least - 0.005, 0.0), least + 0.005)
+        found = minimize_scalar(room, bounds=near, method="bounded", options={"xatol": 1e-12})
         return float(found.x), float(found.fun)
+
+    @cached_property
+    def _touch(self) -> tuple[float, float]:
+        return self._touching(self.corner)
 
     @cached_property
     def form(self) -> float:
@@ -145,7 +154,7 @@ class RingSection:
 
         With k = z_0/z and alpha the corner's direction, Re((1 - k) p'* p - k a_0 p'* exp(-i alpha)) = 0.
         """
-        point, along = self._ellipse(theta), -self.corner * np.sin(theta) + 1j * self.corner / self._c * np.cos(theta)
+        point, along = self._ellipse(theta, self.corner), -np.sin(theta) + 1j / self._c * np.cos(theta)
         middle = self._touch[1]
         if not self._apart:
             return point * np.exp(1j * middle)
@@ -185,7 +194,8 @@ class RingSection:
         share, middle = self._cutter[0] / self.teeth, self._touch[1]
 
         def inside(turn: Floats, points: NDArray[np.complex128]) -> NDArray[np.complex128]:
-            corner = (points * np.exp(1j * share * turn) - self._apart) * np.exp(-1j * (middle + turn)) - self._middle
+            corner = (points * np.exp(1j * share * turn) - self._apart) * np.exp(-1j * (middle + turn))
+            corner -= self.root - self._apart - self.corner
             return corner.real + 1j * self._c * corner.imag  # a circle
 
         if not self._apart:
@@ -262,7 +272,11 @@ class RingSection:
             angle = float(self.involute_angle(np.array(start)))
             return np.hypot(start - run, run), angle - np.arctan2(run, start - run)
 
-        curves = [*([fillet] if self.corner else []), involute, *([chamfer] if self.gear.body.tip_chamfer else [])]
+        curves = [
+            *([fillet] if self.corner or self._apart else []),
+            involute,
+            *([chamfer] if self.gear.body.tip_chamfer else []),
+        ]
         total = sum(self._along(curve, moment) for curve in curves)
         (first,), (start,) = curves[0](np.array([0.0]))
         (last,), (end,) = curves[-1](np.array([1.0]))
@@ -278,7 +292,7 @@ class RingSection:
         if self.gear.body.end_chamfer and radii[1] < face < radii[0]:
             breaks.insert(1, brentq(lambda s: float(curve(np.array([s]))[0][0]) - face, 0.0, 1.0, xtol=1e-15))
         total = 0.0
-        for low, high in zip(breaks[:-1], breaks[1:], strict=True):
+        for low, high in pairwise(breaks):
             s = (low + high) / 2 + _NODES * (high - low) / 2
             total += float((_WEIGHTS * moment(curve(s)[0]) * slope(s)).sum()) * (high - low) / 2
         return total
