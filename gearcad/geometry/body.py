@@ -12,7 +12,7 @@ from gearcad.ranges import Range, Whole
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields, schema_of
 
-__all__ = ["Body", "HubSide"]
+__all__ = ["LEAST_FEATURE", "Body", "HubSide"]
 
 FEATURE = Range("mm", 0, None)
 

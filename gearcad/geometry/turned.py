@@ -11,7 +11,7 @@ from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
-from gearcad.geometry.curves import Curve, CurveKind, Involute, Land
+from gearcad.geometry.curves import Curve, CurveKind, Fillet, Involute, Land
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.modification import FlankForm
 from gearcad.geometry.profile import LEAST_LAND
@@ -24,6 +24,10 @@ _HEIGHTS = 65
 
 _STEP = 1e-5
 """Step of a curve's parameter over which its speed is taken."""
+
+
+_NOTHING = 1e-9
+"""Length (mm) of a curve that is but a point."""
 
 
 @dataclass(frozen=True)
@@ -53,12 +57,14 @@ class FlankCurve:
 def flank_curves(gear: Gear) -> list[FlankCurve]:
     """Fillet, involute and tip chamfer; the involute of a modified gear in the pieces on which the depth is smooth.
 
-    Fillet and chamfer turn with the end of the involute that they join. Fillets that meet in the middle of the space, or
-    would after turning, do not turn at the root circle.
+    Fillet and chamfer turn with the end of the involute that they join; sharp corners of a form root have no fillet. Fillets
+    that meet in the middle of the space, or would after turning, do not turn at the root circle.
     """
     form, found = gear.flank_form, list[FlankCurve]()
     for curve in gear.profile.curves:
-        if curve.kind is CurveKind.FILLET:
+        if isinstance(curve, Fillet):
+            if _is_point(curve):
+                continue
             found.append(FlankCurve(curve, form.first, form.first, gear.modification.present and not _root_land_stays(gear)))
         elif curve.kind is CurveKind.CHAMFER:
             found.append(FlankCurve(curve, form.last, form.last))
@@ -69,6 +75,12 @@ def flank_curves(gear: Gear) -> list[FlankCurve]:
             pieces = [replace(curve, first=first, last=last) for first, last in pairwise(rolls)]
             found += [FlankCurve(piece, *ends) for piece, ends in zip(pieces, pairwise(lengths), strict=True)]
     return found
+
+
+def _is_point(curve: Curve) -> bool:
+    """Whether there is nothing of a curve, as of the fillet of a form root with sharp corners."""
+    start, end = curve.points(np.array([0.0, 1.0]))
+    return math.dist(start, end) < _NOTHING
 
 
 def _root_land_stays(gear: Gear) -> bool:

@@ -105,7 +105,7 @@ class RingSection:
 
     @cached_property
     def corner(self) -> float:
-        """Radius of the corner in the normal section (mm): the cutter's, else the rack's, or the full one if that is smaller."""
+        """Radius of the corner in the normal section (mm): the cutter's, else the rack's or the smaller full one."""
         if self.gear.cutter.tip_radius is not None:
             return self.gear.cutter.tip_radius * self.gear.normal_module
         most = 0.6 if self.gear.rack.root_radius == "full" else float(self.gear.rack.root_radius)
@@ -272,11 +272,7 @@ class RingSection:
             angle = float(self.involute_angle(np.array(start)))
             return np.hypot(start - run, run), angle - np.arctan2(run, start - run)
 
-        curves = [
-            *([fillet] if self.corner or self._apart else []),
-            involute,
-            *([chamfer] if self.gear.body.tip_chamfer else []),
-        ]
+        curves = [fillet, involute, *([chamfer] if self.gear.body.tip_chamfer else [])]
         total = sum(self._along(curve, moment) for curve in curves)
         (first,), (start,) = curves[0](np.array([0.0]))
         (last,), (end,) = curves[-1](np.array([1.0]))
