@@ -91,6 +91,11 @@ PAIR = {
     "contact_line_lengths.minimum": Symbol("", "mm", "5.4", "contact lines, least total length"),
     "contact_line_lengths.mean": Symbol("", "mm", "5.4", "contact lines, mean total length"),
     "contact_line_lengths.maximum": Symbol("", "mm", "5.4", "contact lines, greatest total length"),
+    "interference_margins.involute": Symbol("", "mm", "", "ring's tip to the base tangent point"),
+    "interference_margins.pinion_fillet": Symbol("", "mm", "", "ring's tip to the pinion's fillet"),
+    "interference_margins.wheel_fillet": Symbol("", "mm", "", "pinion's tip to the ring's fillet"),
+    "interference_margins.trochoid": Symbol("", "mm", "", "tips beside the mesh (trochoid)"),
+    "interference_margins.radial": Symbol("", "mm", "", "tips when put in radially"),
 }
 
 PER_GEAR = ("working_pitch_diameters", "active_root_diameters", "tip_clearances")

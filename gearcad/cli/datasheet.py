@@ -48,6 +48,8 @@ _PAIR_BLOCKS = {
     "Contact": "transverse_contact_ratio usable_contact_ratio overlap_ratio total_contact_ratio common_width.width"
     " common_width.offset contact_line_lengths.minimum contact_line_lengths.mean contact_line_lengths.maximum",
     "Line of action, from T1": "path_of_contact.A path_of_contact.B path_of_contact.C path_of_contact.D path_of_contact.E",
+    "Free of interference by (negative: it is there)": "interference_margins.involute interference_margins.pinion_fillet"
+    " interference_margins.wheel_fillet interference_margins.trochoid interference_margins.radial",
 }
 
 _BELONGS_TO = {
@@ -96,7 +98,7 @@ def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
             rows += [(_OF_PAIR[key], [_value(value) for value in pair[key]]) for key in symbols.PER_GEAR]
         yield from _block(title, [row for row in rows if set(row[1]) != {_ABSENT}], with_source)
     for title, keys in _PAIR_BLOCKS.items() if pair else ():
-        yield from _block(title, [(_OF_PAIR[key], [_value(pair[key])]) for key in keys.split()], with_source)
+        yield from _block(title, [(_OF_PAIR[key], [_value(pair[key])]) for key in keys.split() if key in pair], with_source)
     for block in ("material", "load", "mounting", "rating"):
         absent = (None, 0) if block == "mounting" else (None,)
         given = {key: value for key, value in document.get(block, {}).items() if value not in absent}

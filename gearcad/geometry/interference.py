@@ -8,14 +8,20 @@ mate rolls in closer than the tool did. So the path of the edge itself is compar
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
+from gearcad.arrays import Floats
 from gearcad.geometry.involute import involute
 from gearcad.geometry.profile import ToothProfile
 
-__all__ = ["FilletCut", "fillet_cut"]
+__all__ = ["EdgePath", "FilletCut", "deepest_cut", "fillet_cut", "tip_edges"]
+
+EdgePath = Callable[[Floats], tuple[Floats, Floats]]
+"""Where an edge of a mate is, by its angle from the line of centres about the mate's axis (rad): the radius (mm) about the
+gear's own axis, and the angle (rad) by which it is beside the middle of the gear's tooth."""
 
 
 class FilletCut(NamedTuple):
@@ -33,10 +39,32 @@ def fillet_cut(
     At a centre distance (mm) and its working transverse pressure angle (degrees). Where contact already ends in the fillet
     (d_Ff above d_Nf) this includes what the involute of the mate overlaps.
     """
-    edges = {(mate.tip_form_diameter / 2, math.radians(mate.half_angle(mate.tip_form_diameter / 2)))}
-    edges.add((mate.tip_diameter / 2, float(mate.curves[-1].polar(0.0)[1])))
-    cuts = (_cut_by_edge(own, mate, radius, angle, centre_distance, pressure_angle) for radius, angle in sorted(edges))
+    cuts = (
+        _cut_by_edge(own, mate, radius, angle, centre_distance, pressure_angle) for radius, angle in sorted(tip_edges(mate))
+    )
     return max((cut for cut in cuts if cut and cut.depth > rounding), default=None)
+
+
+def tip_edges(profile: ToothProfile) -> tuple[tuple[float, float], ...]:
+    """Edges of a tip: radius (mm) and half tooth angle (rad), where the involute ends and, behind a chamfer, the tip land."""
+    flank = (profile.tip_form_diameter / 2, math.radians(profile.half_angle(profile.tip_form_diameter / 2)))
+    land = (profile.tip_diameter / 2, float(profile.curves[-1].polar(0.0)[1]))
+    return (flank, land) if profile.tip_chamfer else (land,)
+
+
+def deepest_cut(own: ToothProfile, path: EdgePath, farthest: float) -> FilletCut:
+    """The deepest cut of an edge into the fillet of a gear, where the edge is within an angle (rad) of the line of centres."""
+    low, high = sorted((own.root_diameter / 2, own.form_diameter / 2))
+    t = np.linspace(-farthest, farthest, 513)
+    for _ in range(2):
+        radius, beside = path(t)
+        # The edge enters at the root circle at the lowest: a pair whose tips reach further is refused.
+        at = np.clip(radius, low, high)
+        clear = beside - np.radians(own.half_angle(at))
+        worst = int(np.argmin(clear * at))
+        depth, diameter = -float(clear[worst] * at[worst]), 2 * float(at[worst])
+        t = np.linspace(t[max(worst - 1, 0)], t[min(worst + 1, t.size - 1)], 65)
+    return FilletCut(depth, diameter)
 
 
 def _cut_by_edge(
@@ -49,19 +77,13 @@ def _cut_by_edge(
     """
     working = involute(pressure_angle)
     psi_own, psi_mate = (math.radians(each.base_half_angle) - working for each in (own, mate))
-    reach = own.form_diameter / 2
-    cosine = (distance**2 + radius**2 - reach**2) / (2 * distance * radius)
+    cosine = (distance**2 + radius**2 - (own.form_diameter / 2) ** 2) / (2 * distance * radius)
     if cosine >= 1:
         return None
-    farthest = math.acos(max(cosine, -1.0))
-    t = np.linspace(-farthest, farthest, 513)
-    for _ in range(2):
+
+    def path(t: Floats) -> tuple[Floats, Floats]:
         across, along = distance - radius * np.cos(t), radius * np.sin(t)
-        # The edge enters at the root circle at the lowest: a pair whose tips reach further is refused.
-        at = np.clip(np.hypot(across, along), own.root_diameter / 2, reach)
         turned = (t - psi_mate + angle) * (mate.teeth / own.teeth) - psi_own
-        clear = np.arctan2(along, across) - turned - np.radians(own.half_angle(at))
-        worst = int(np.argmin(clear * at))
-        depth, diameter = -float(clear[worst] * at[worst]), 2 * float(at[worst])
-        t = np.linspace(t[max(worst - 1, 0)], t[min(worst + 1, t.size - 1)], 65)
-    return FilletCut(depth, diameter)
+        return np.hypot(across, along), np.arctan2(along, across) - turned
+
+    return deepest_cut(own, path, math.acos(max(cosine, -1.0)))

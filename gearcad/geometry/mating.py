@@ -10,6 +10,7 @@ import math
 from gearcad.errors import GeometryError, ParameterError, format_number, require_name
 from gearcad.geometry.derived import is_given
 from gearcad.geometry.gear import Gear
+from gearcad.geometry.internal_mating import check_interference
 from gearcad.geometry.involute import tangent_length
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.pair_data import PairData
@@ -114,7 +115,7 @@ def check_centre_distance(pair: PairData) -> None:
 
 
 def check_teeth(pair: PairData) -> None:
-    """Flanks do not overlap, tips stay off roots, and some path of contact is left between the tip form circles."""
+    """Flanks do not overlap, tips stay off roots and off each other, and some path of contact is left between them."""
     _check_backlash(pair)
     for role, clearance in pair.tip_clearances.items():
         if clearance <= 0:
@@ -123,6 +124,7 @@ def check_teeth(pair: PairData) -> None:
             raise GeometryError(f"{role.value}.tip_diameter", tip, permitted, "mm")
     if pair.internal:
         _check_path(pair)
+        check_interference(pair)
         return
     farthest = farthest_centre_distance(
         pair.gears.map(lambda gear: gear.base_diameter), pair.gears.map(lambda gear: gear.tip_form_diameter)

@@ -14,6 +14,8 @@ from gearcad import symbols
 from gearcad.geometry.derived import derive, is_given
 from gearcad.geometry.helix import twist
 from gearcad.geometry.interference import FilletCut, fillet_cut
+from gearcad.geometry.internal_interference import InterferenceMargins
+from gearcad.geometry.internal_mating import clear_tip_diameter, interference_margins, interference_notices
 from gearcad.geometry.mating import check_centre_distance, check_inputs, check_mates, check_shift_sum, check_teeth
 from gearcad.geometry.pair_data import PairData
 from gearcad.geometry.path import BaseTangent, ContactLineLengths, ContactZone, PathOfContact
@@ -119,6 +121,19 @@ class GearPair(PairData):
         return self.base_tangent.active_root_diameters(self.path_of_contact)
 
     @cached_property
+    def interference_margins(self) -> InterferenceMargins | None:
+        """How far tips are from each interference (mm), of a pair with a ring; None without one."""
+        return interference_margins(self) if self.internal else None
+
+    @cached_property
+    def clear_tip_diameter(self) -> float | None:
+        """The largest tip diameter (mm, negative) with which a ring stays off its pinion's fillet.
+
+        None without a ring, and where no tip does. `replace(pair.wheel, tip_diameter=pair.clear_tip_diameter)` has it.
+        """
+        return clear_tip_diameter(self) if self.internal else None
+
+    @cached_property
     def _zone(self) -> ContactZone:
         pinion, width = self.pinion, self._width_of_one_hand
         pitch, helix = pinion.transverse_base_pitch, pinion.base_helix_angle
@@ -150,7 +165,8 @@ class GearPair(PairData):
     @cached_property
     def notices(self) -> tuple[Notice, ...]:
         """What an engineer should know about this pair before making it."""
-        return (*self._fillet_interference(), *self._notices_of_mesh())
+        interference = interference_notices(self) if self.internal else self._fillet_interference()
+        return (*interference, *self._notices_of_mesh())
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -178,9 +194,9 @@ class GearPair(PairData):
         for role, gear in self.gears.items():
             active, owner, other = self.active_root_diameters.pick(role), role.value, role.mate.value
             form = f"its root form circle {gear.form_diameter:.4f} mm"
-            if abs(gear.form_diameter) > abs(active) and not self.internal:
+            if gear.form_diameter > active:
                 text = f"the {other}'s tip reaches diameter {active:.4f} mm of the {owner}, below {form}"
-            elif not self.internal and (cut := self._fillet_cut(role)):
+            elif cut := self._fillet_cut(role):
                 at = f"diameter {cut.diameter:.4f} mm, below {form}"
                 text = f"the edge of the {other}'s tip cuts {cut.depth:.2g} mm into the {owner}'s fillet at {at}"
             else:
@@ -202,6 +218,7 @@ class GearPair(PairData):
             **{name: list(value) if isinstance(value, PerGear) else value for name, value in derived.items()},
             "path_of_contact": self.path_of_contact._asdict(),
             "contact_line_lengths": self.contact_line_lengths._asdict(),
+            **({"interference_margins": margins._asdict()} if (margins := self.interference_margins) else {}),
             "warnings": list(self.warnings),
             "notices": [notice.to_dict() for notice in self.notices],
         }
