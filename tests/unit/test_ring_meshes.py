@@ -48,7 +48,7 @@ def _ring(name: str) -> Gear:
 
 
 @pytest.mark.parametrize(
-    ("element", "what"), [("quad8", "ring"), ("tri6", "teeth:3"), ("hex20", "teeth:3"), ("hex8", "sector")]
+    ("element", "what"), [("quad8", "teeth:5"), ("tri6", "teeth:3"), ("hex20", "teeth:3"), ("hex8", "sector")]
 )
 @pytest.mark.parametrize("name", RINGS)
 def test_every_gate_is_passed(name: str, element: str, what: str) -> None:

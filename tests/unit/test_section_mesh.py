@@ -165,9 +165,9 @@ def test_without_a_bore_the_disc_is_full(teeth: int, element: Element) -> None:
 
 
 def test_some_teeth_need_an_inner_circle() -> None:
-    with pytest.raises(ParameterError, match="inner_radius"):
+    with pytest.raises(ParameterError, match="held_radius"):
         mesh_section(GEAR, teeth=3, held_radius=0.0, sizes=SIZES, element=Element.QUAD8)
-    with pytest.raises(ParameterError, match="inner_radius"):
+    with pytest.raises(ParameterError, match="held_radius"):
         mesh_section(GEAR, teeth=3, held_radius=GEAR.root_diameter / 2, sizes=SIZES, element=Element.QUAD8)
 
 
