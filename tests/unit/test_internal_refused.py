@@ -23,7 +23,7 @@ RING = GearPair(
             "wheel.teeth = -70: must be above 0: pairs with a ring are not",
         ),
         (lambda: solid_pair(RING, Material()), "wheel.teeth = -70: must be above 0: contact of solids with a ring"),
-        (lambda: dynamics(RING, Load(torque=50, speed=100)), "wheel.teeth = -70: must be above 0"),
+        (lambda: dynamics(RING, Load(torque=50, speed=100)), "wheel.body.rim_diameter = None: must be given, at least"),
     ],
 )
 def test_no_room_gives_wrong_numbers_for_rings(use, said: str) -> None:
