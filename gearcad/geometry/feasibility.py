@@ -16,7 +16,7 @@ from gearcad.geometry.double_helix import DoubleHelix
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.modification import FlankModification
-from gearcad.geometry.shaping import check_shaper
+from gearcad.geometry.shaping import check_shaper, tip_words
 from gearcad.geometry.tooling import shaped
 from gearcad.schema import require_fields
 
@@ -47,10 +47,8 @@ def check_numbers(gear: GearData) -> None:
             raise ParameterError(part, getattr(gear, part), f"must be a {kind.__name__}")
     for name in ("tip_diameter", "root_diameter"):
         if is_given(given := getattr(gear, name)) and given * gear.teeth <= 0:
-            permitted = (
-                "must be a number below 0 mm, as teeth are (ISO 21771)" if gear.internal else "must be a number above 0 mm"
-            )
-            raise ParameterError(name, given, permitted, "mm")
+            below = f"must be a number below 0 mm, as the teeth are (ISO 21771){f': write {-given:.10g}' if given else ''}"
+            raise ParameterError(name, given, below if gear.internal else "must be a number above 0 mm", "mm")
     if gear.double_helix.present:
         _check_double_helix(gear)
     if gear.half_width < 0.01 * gear.normal_module:
@@ -78,7 +76,17 @@ def _check_double_helix(gear: GearData) -> None:
 def check_tool(gear: GearData) -> None:
     """The tool must be able to exist: its tip radius fits between its flanks, and it leaves some tooth."""
     _check_thickness(gear)
+    if gear.internal:
+        _check_base_circle(gear)
     (check_shaper if shaped(gear) else _check_hob)(gear)
+
+
+def _check_base_circle(gear: GearData) -> None:
+    """The involutes of a ring begin on its base circle, which must be inside its tips."""
+    if gear.tip_diameter >= gear.base_diameter:
+        words = tip_words(gear, gear.base_diameter, "below")
+        permitted = f"must be below {at_most(gear.base_diameter)} mm{words}, the base circle, where involutes begin"
+        raise GeometryError("tip_diameter", gear.tip_diameter, permitted, "mm")
 
 
 def _check_thickness(gear: GearData) -> None:

@@ -12,9 +12,18 @@ from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.geometry.shaper import ShaperTip
 from gearcad.geometry.trochoid import FilletTool, ToolTip
 
-__all__ = ["corner_radius", "fillet_tool", "full_corner_radius", "generating_involute", "shaped", "shaper_tip"]
+__all__ = [
+    "corner_radius",
+    "fillet_tool",
+    "full_corner_radius",
+    "generating_involute",
+    "line_of_generation",
+    "shaped",
+    "shaper_tip",
+]
 
-_HALVINGS = 60
+_ROUNDING = 1e-14
+"""Share by which the full radius is taken less, for both corners to fit."""
 
 
 def shaped(gear: GearData) -> bool:
@@ -39,13 +48,16 @@ def fillet_tool(gear: GearData) -> FilletTool:
     )
 
 
-def generating_involute(gear: GearData) -> float:
-    """inv alpha_w0 = inv alpha_t + 2 tan alpha_n (x + x_0)/(z + z_0); not above 0 where the cutter cannot work."""
-    angle, teeth = involute(gear.transverse_pressure_angle), gear.cutter.teeth
-    if teeth is None:
-        return angle
+def generating_involute(gear: GearData, teeth: int) -> float:
+    """inv alpha_w0 = inv alpha_t + 2 tan alpha_n (x + x_0)/(z + z_0); not above 0 where a cutter of z_0 teeth cannot work."""
     shift = 2 * math.tan(math.radians(gear.rack.pressure_angle)) * (gear.profile_shift + gear.cutter.profile_shift)
-    return angle + shift / (gear.teeth + teeth)
+    return involute(gear.transverse_pressure_angle) + shift / (gear.teeth + teeth)
+
+
+def line_of_generation(gear: GearData, teeth: int) -> float:
+    """a_0 sin alpha_w0 (mm): the line of action between the base circles of the gear and a cutter of z_0 teeth."""
+    working = math.radians(inverse_involute(generating_involute(gear, teeth)))
+    return abs(1 + teeth / gear.teeth) * abs(gear.base_diameter) / 2 * math.tan(working)
 
 
 def shaper_tip(gear: GearData, radius: float) -> ShaperTip:
@@ -55,8 +67,7 @@ def shaper_tip(gear: GearData, radius: float) -> ShaperTip:
     """
     m, teeth, own = gear.normal_module, gear.cutter.teeth or gear.tooth_count, gear.cutter.teeth is None
     angle, root = math.radians(gear.transverse_pressure_angle), abs(gear.root_diameter) / 2
-    working = math.radians(inverse_involute(generating_involute(gear)))
-    apart = 0.0 if own else abs(gear.teeth + teeth) * gear.transverse_module / 2 * math.cos(angle) / math.cos(working)
+    apart = 0.0 if own else _centre_distance(gear, teeth)
     shift = -gear.profile_shift if own else gear.cutter.profile_shift
     thickness = m * (math.pi / 2 + 2 * shift * math.tan(math.radians(gear.rack.pressure_angle))) + gear.tooth_thinning
     return ShaperTip(
@@ -72,23 +83,31 @@ def shaper_tip(gear: GearData, radius: float) -> ShaperTip:
     )
 
 
+def _centre_distance(gear: GearData, teeth: int) -> float:
+    """a_0 = |z + z_0| m_t cos alpha_t/(2 cos alpha_w0), a magnitude (mm)."""
+    working = math.radians(inverse_involute(generating_involute(gear, teeth)))
+    angle = math.radians(gear.transverse_pressure_angle)
+    return abs(gear.teeth + teeth) * gear.transverse_module / 2 * math.cos(angle) / math.cos(working)
+
+
 def full_corner_radius(gear: GearData) -> float:
     """Largest radius of the corner (in normal modules), where both corners of the cutter's tip meet: psi_M = 0.
 
     Negative where even a sharp cutter's flanks meet before its tip circle, or that lies inside its base circle.
     """
+    sharp, m = shaper_tip(gear, 0.0), gear.normal_module
+    most = (sharp.tip_radius - sharp.base_radius) / m * (1 - _ROUNDING)
+    if most < 0 or sharp.middle_angle < 0:
+        return -1.0
 
     def room(radius: float) -> float:
-        tip = shaper_tip(gear, radius)
-        return tip.middle_angle if tip.feasible else -1.0
+        return shaper_tip(gear, radius).middle_angle
 
-    if room(0.0) < 0:
-        return -1.0
-    low, high = 0.0, 5.0
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        low, high = (middle, high) if room(middle) >= 0 else (low, middle)
-    return low
+    if room(most) >= 0:  # the corner then reaches down to the cutter's base circle
+        return most
+    from scipy.optimize import brentq
+
+    return float(brentq(room, 0.0, most, xtol=1e-15, rtol=8.9e-16)) * (1 - _ROUNDING)
 
 
 def corner_radius(gear: GearData) -> float:
