@@ -9,20 +9,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import Chebyshev
 
 from gearcad.arrays import Floats
-from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, ToothProfile
 from gearcad.geometry.curves import Curve, Fillet, Involute
 from gearcad.geometry.involute import involute_at_roll
 from gearcad.geometry.profile import base_half_angle
-from gearcad.geometry.trochoid import ToolTip
 from gearcad.rating.virtual import VirtualGear
+from gearcad.rating.virtual_tool import virtual_tool
 
 __all__ = ["BeamLoad", "BeamTooth"]
 
@@ -165,9 +164,7 @@ def _place(curve: Curve, slope: Slope, x: Floats) -> Floats:
 def _virtual_profile(gear: Gear) -> ToothProfile:
     """The tooth that the gear's own tool would cut on the virtual spur gear of z_n teeth (ISO 6336-3:2006, (21) ... (27))."""
     virtual = VirtualGear.of(gear)
-    d_n, tool = virtual.reference_diameter, gear.profile.tool
-    if not isinstance(tool, ToolTip):
-        raise GeometryError("cutter.teeth", gear.cutter.teeth, "must be left out: the tooth as a beam is that of a hobbed gear")
+    d_n = virtual.reference_diameter
     return ToothProfile(
         teeth=virtual.teeth,
         reference_diameter=d_n,
@@ -175,5 +172,5 @@ def _virtual_profile(gear: Gear) -> ToothProfile:
         tip_diameter=virtual.tip_diameter,
         root_diameter=d_n + gear.root_diameter - gear.reference_diameter,
         base_half_angle=base_half_angle(virtual.teeth, gear.normal_tooth_thickness, gear.normal_module, virtual.pressure_angle),
-        tool=replace(tool, helix_angle=0.0, reference_radius=d_n / 2),
+        tool=virtual_tool(gear, virtual),
     )

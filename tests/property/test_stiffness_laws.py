@@ -15,6 +15,7 @@ from gearcad import BasicRack, Gear, GearPair, Load, Material
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.chain import Cuts
 from gearcad.errors import GearcadError
+from gearcad.geometry import ShaperCutter
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.per_gear import PerGear
 from gearcad.stiffness import CLOSED_FORMS, METHODS, PlaneStrainContact, PotentialEnergy, StrainEnergy, WeberBanaschek
@@ -171,6 +172,19 @@ def test_three_pairs_of_teeth() -> None:
     shares = PlaneStrainContact(pair=pair, body=SMALL, positions=12)(Load(torque=100.0)).load_share
     assert ((shares > 0).sum(axis=1) >= 2).all()
     assert ((shares > 0).sum(axis=1) == 3).any()
+
+
+@pytest.mark.parametrize("helix", [0.0, 20.0])
+def test_large_shaper_cutters_leave_the_teeth_of_hobs(helix: float) -> None:
+    """As beams: what is left of the difference goes as 1/z_0."""
+    for name in ("potential-energy", "weber-banaschek"):
+        means = [
+            METHODS[name](pair=_pair(helix=helix, cutter=cutter))(Load(torque=50.0)).mean
+            for cutter in (ShaperCutter(), *(ShaperCutter(teeth=teeth, tip_radius=0.38) for teeth in (1000, 2000)))
+        ]
+        off = np.array(means[1:]) / means[0] - 1
+        assert off[0] / off[1] == pytest.approx(2, rel=0.01)
+        assert abs(off[1]) < 1e-3
 
 
 def test_pairs_that_no_method_can_treat() -> None:
