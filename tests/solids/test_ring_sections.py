@@ -154,7 +154,7 @@ def test_rolling_cutter_touches_the_fillet_and_never_cuts_into_the_tooth(name: s
     rolls, touched = [], []
     for s in np.linspace(0, 1, 21):
         theta = fillet.theta(s)
-        roll = float(tool.turns(theta)[1]) * gear.cutter.teeth / gear.tooth_count
+        roll = float(tool.turn(theta)) * tool.share
         rolls.append(roll)
         touched.append(_gap(fillet.points(s), _rolled(gear, outline, roll)))
     assert max(touched) < 2 * FINE

@@ -28,14 +28,14 @@ SHAPED = ShaperCutter(teeth=25, tip_radius=0.15)
 RINGS = {
     "form root": Gear(teeth=-70, normal_module=2.0, face_width=14),
     "sharp cutter": Gear(teeth=-70, normal_module=2.8, face_width=14, profile_shift=-1.2025, cutter=SHAPED),
-    "few teeth": Gear(teeth=-30, normal_module=2, face_width=14, profile_shift=-0.4, cutter=ShaperCutter(teeth=12)),
+    "few teeth": Gear(teeth=-30, normal_module=2, face_width=14, profile_shift=-0.4, cutter=ShaperCutter(teeth=18)),
     "full radius": Gear(
-        teeth=-60, normal_module=1, face_width=9, cutter=ShaperCutter(teeth=20), rack=BasicRack(root_radius="full")
+        teeth=-60, normal_module=1, face_width=9, cutter=ShaperCutter(teeth=22), rack=BasicRack(root_radius="full")
     ),
-    "tip chamfer": Gear(teeth=-60, normal_module=1, face_width=9, body=Body(tip_chamfer=0.1), cutter=ShaperCutter(teeth=20)),
-    "helical": Gear(teeth=-60, normal_module=2.5, face_width=9, helix_angle=45, cutter=ShaperCutter(teeth=20)),
-    "tiny": Gear(teeth=-60, normal_module=0.01, face_width=0.1, cutter=ShaperCutter(teeth=20)),
-    "huge": Gear(teeth=-60, normal_module=200, face_width=900, cutter=ShaperCutter(teeth=20)),
+    "tip chamfer": Gear(teeth=-60, normal_module=1, face_width=9, body=Body(tip_chamfer=0.1), cutter=ShaperCutter(teeth=22)),
+    "helical": Gear(teeth=-60, normal_module=2.5, face_width=9, helix_angle=45, cutter=ShaperCutter(teeth=22)),
+    "tiny": Gear(teeth=-60, normal_module=0.01, face_width=0.1, cutter=ShaperCutter(teeth=22)),
+    "huge": Gear(teeth=-60, normal_module=200, face_width=900, cutter=ShaperCutter(teeth=22)),
 }
 DEPTHS = (0.1, 0.5, 3.5)
 

@@ -45,7 +45,10 @@ REFUSED: list[tuple[dict[str, Any], str, str, float]] = [
     ({"teeth": -70, "cutter": CUTTER, "rack": BasicRack(dedendum=2.9)}, "rack.dedendum = 2.9: must be at most {}, wh", "", 0),
     ({"teeth": -70, "rack": BasicRack(dedendum=2.9)}, "rack.dedendum = 2.9: must be at most {}, where the flanks of", "", 0),
     ({"teeth": -70, "root_diameter": -160.0}, "root_diameter = -160 mm: must be at least {} mm, where the flanks of", "", 0),
-    ({"teeth": -70, "normal_module": 0.01, "face_width": 1.0, "root_diameter": -0.8}, "root_diameter = -0.8 mm: must be at least {} mm", "", 0),
+    (
+        {"teeth": -70, "normal_module": 0.01, "face_width": 1.0, "root_diameter": -0.8},
+        "root_diameter = -0.8 mm: must be at least {} mm", "", 0,
+    ),
     ({"teeth": -70, "root_diameter": -137.0}, "root_diameter = -137 mm: must be below {} mm", "", -3.0),
     ({"teeth": -60, "body": Body(tip_chamfer=3.0)}, "body.tip_chamfer = 3 mm: must be at most {} mm", "", 0),
     ({"teeth": 30, "cutter": ShaperCutter(teeth=10)}, "tip_diameter = 64 mm: must be at most {} mm", "", 0),
