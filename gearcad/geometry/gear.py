@@ -19,6 +19,7 @@ from gearcad.geometry.modification import FlankForm, check_flanks
 from gearcad.geometry.picture import gear_html
 from gearcad.geometry.profile import ToothProfile, base_half_angle
 from gearcad.geometry.tooling import fillet_tool
+from gearcad.geometry.trimming import trimming_notices
 from gearcad.geometry.walls import check_body
 from gearcad.notice import Notice, texts
 from gearcad.reprs import concise
@@ -216,6 +217,7 @@ class Gear(GearData):
         if self.tip_thickness < THIN_TIP * self.normal_module:
             thickness = f"normal thickness {self.tip_thickness:.4f} mm is below {THIN_TIP} m_n"
             yield Notice("thin-tip", f"thin tip: {thickness} (0.4 m_n if case-hardened)")
+        yield from trimming_notices(self, self.profile)
         if self.body.web_thickness:
             text = "web: it counts in the rating alone (C_R, Y_B); the solid and its elements are a full disc"
             yield Notice("web-not-modelled", text)

@@ -15,7 +15,7 @@ from gearcad.geometry.involute import inverse_involute, involute, tangent_length
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.tooling import corner_radius, full_corner_radius, generating_involute, line_of_generation, shaper_tip
 
-__all__ = ["check_shaper", "tip_words"]
+__all__ = ["check_shaper", "cutter_fits", "tip_words"]
 
 _MOST_CUTTER_TEETH = 2000
 """Of those that are tried, to say which would do."""
@@ -40,6 +40,15 @@ def check_shaper(gear: GearData) -> None:
         raise GeometryError("cutter.tip_radius", radius, permitted)
     if teeth is not None:
         _check_generated(gear, teeth)
+
+
+def cutter_fits(gear: GearData) -> bool:
+    """Whether its cutter, or none, can make these teeth."""
+    try:
+        check_shaper(gear)
+    except GeometryError:
+        return False
+    return True
 
 
 def _least_radius(gear: GearData) -> float:

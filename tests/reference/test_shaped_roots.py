@@ -13,6 +13,7 @@ from support.envelope import Cutter, half_space_angle
 from gearcad import BasicRack, Gear
 from gearcad.geometry import ShaperCutter
 from gearcad.geometry.curves import CurveKind
+from gearcad.geometry.internal_interference import InternalTips, ToothTips
 from gearcad.geometry.shaper import ShaperTip
 from gearcad.geometry.tooling import full_corner_radius
 
@@ -195,3 +196,71 @@ def test_direction_is_that_of_the_points(gear: Gear) -> None:
     along = ahead[:, 0] * np.cos(found) + ahead[:, 1] * np.sin(found)
     assert np.all(along > 0)
     assert off / along == pytest.approx(np.zeros(25), abs=1e-6)
+
+
+# ---------------------------------------------------------------------- a cutter that trims tips
+
+INFEED = {
+    15: 34, 16: 34, 17: 35, 18: 36, 19: 37, 20: 38, 21: 39, 22: 40, 24: 42, 25: 43, 28: 46, 30: 48, 31: 49, 32: 50, 33: 51,
+    34: 52, 35: 53, 38: 56, 40: 58, 42: 60, 44: 62, 48: 66, 50: 68, 56: 74, 60: 78, 64: 82, 66: 84, 80: 98, 96: 114, 100: 118,
+}  # fmt: skip
+"""SDP/SI D785, table 5-3a: the least ring that a cutter of so many teeth does not trim as it is fed in; 20 deg, no shifts."""
+
+
+def _infeed(cutter: int, ring: int) -> InternalTips | None:
+    """A sharp cutter of addendum 1.25 in a ring of addendum 1; None where its tip circle is inside its base circle."""
+    angle = math.radians(20)
+    involute = math.tan(angle) - angle
+    bases = [teeth / 2 * math.cos(angle) for teeth in (cutter, ring)]
+    tips = (cutter / 2 + 1.25, ring / 2 - 1)
+    if tips[1] <= bases[1]:
+        return None
+    at_tip = math.acos(bases[0] / tips[0])
+    half = math.pi / (2 * cutter) + involute
+    corner = (tips[0], half - math.tan(at_tip) + at_tip)
+    return InternalTips(
+        ToothTips(cutter, bases[0], half, (corner,)),
+        ToothTips.sharp(ring, bases[1], math.pi / (2 * ring) - involute, tips[1]),
+        (ring - cutter) / 2,
+    )
+
+
+def test_infeed_as_tabulated() -> None:
+    """All thirty rows; for 15 teeth it is the base circle that rules out the ring of 33."""
+    found = {}
+    for cutter in INFEED:
+        rings = range(cutter + 3, cutter + 40)
+        found[cutter] = next(ring for ring in rings if (tips := _infeed(cutter, ring)) and tips.radial_margin >= 0)
+    assert found == INFEED
+
+
+@pytest.mark.parametrize("cutter", [teeth for teeth in INFEED if teeth >= 24][::4])
+def test_infeed_of_gears_as_tabulated(cutter: int) -> None:
+    def codes(teeth: int) -> set[str]:
+        return {notice.code for notice in _gear(-teeth, cutter, 0.0).notices}
+
+    assert "cutter-trims-on-infeed" not in codes(INFEED[cutter])
+    assert "cutter-trims-on-infeed" in codes(INFEED[cutter] - 1)
+
+
+@pytest.mark.parametrize("tip_radius", [0.0, 0.2])
+@pytest.mark.parametrize("helix", [0.0, 20.0])
+def test_tips_are_trimmed_where_the_envelope_says_so(tip_radius: float, helix: float) -> None:
+    """The envelope reaches beyond the flank at the tip by what the notice says, and a cutter that would do leaves it alone."""
+
+    def excess(ring: Gear) -> float:
+        radius = -ring.tip_diameter / 2
+        space = math.pi / ring.tooth_count - math.radians(ring.profile.half_angle(radius))
+        return radius * (half_space_angle(ring, Cutter.of(ring, tip_radius), radius) - space)
+
+    verdicts = set()
+    for teeth in (50, 58, 60, 61, 62, 63, 66):
+        ring = _gear(-70, teeth, tip_radius, helix_angle=helix)
+        notices = [notice for notice in ring.notices if notice.code == "cutter-trims-tips"]
+        verdicts.add(bool(notices))
+        assert (excess(ring) > 1e-6) is bool(notices)
+        if notices:
+            words = notices[0].text.replace(";", "").split()
+            assert float(words[words.index("mm") - 1]) == pytest.approx(excess(ring), rel=0.02)
+            assert excess(_gear(-70, int(words[-4]), tip_radius, helix_angle=helix)) < 1e-9
+    assert verdicts == {True, False}
