@@ -180,7 +180,9 @@ def _fillet_text(pair: PairData, role: Role, cut: FilletCut) -> str:
     if margin < 0:
         roll = abs(tangent_length(gear.form_diameter, gear.base_diameter)) + (-margin if gear.internal else margin)
         reached = math.copysign(math.hypot(gear.base_diameter, 2 * max(roll, 0.0)), gear.teeth)
-        text = f"the {other}'s tip reaches diameter {reached:.4f} mm of the {owner}, {form}"
+        text = (
+            f"the {other}'s tip reaches diameter {reached:.4f} mm of the {owner}, {form}, and cuts {cut.depth:.2g} mm into it"
+        )
     else:
         at = f"diameter {math.copysign(cut.diameter, gear.teeth):.4f} mm, {form}"
         text = f"the edge of the {other}'s tip cuts {cut.depth:.2g} mm into the {owner}'s fillet at {at}"
@@ -243,7 +245,7 @@ def tip_on_form_circle(gear: GearData, mate: Gear, centre_distance: float) -> fl
     |d_Fa2| = 2 sqrt(r_b2^2 + (|T1T2| + t_Ff1)^2) of a ring, d_Fa1 = 2 sqrt(r_b1^2 + (t_Ff2 - |T1T2|)^2) of a pinion.
     """
     bases = (gear.base_diameter + mate.base_diameter) / 2
-    tangent = math.copysign(math.sqrt((centre_distance - bases) * (centre_distance + bases)), centre_distance)
+    tangent = -math.sqrt(max((centre_distance - bases) * (centre_distance + bases), 0.0))
     reach = tangent - tangent_length(mate.form_diameter, mate.base_diameter)
     if reach * gear.teeth <= 0:
         return None

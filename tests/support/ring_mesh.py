@@ -21,7 +21,7 @@ __all__ = ["RingMesh"]
 
 Floats = NDArray[np.float64]
 
-CHORD_ERROR = 2e-5
+CHORD_ERROR = 5e-5
 """Of the polygons, in transverse modules."""
 
 TOUCH = 1e-3

@@ -1,0 +1,122 @@
+"""Pinions in rings: what is admitted never overlaps, and what is refused or told of does, judged on polygons.
+
+`support.ring_mesh` knows nothing of backlash, path of contact or any interference.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import event, given, settings
+from support.ring_mesh import CHORD_ERROR, RingMesh
+from support.ring_pairs import build_ring_pair, ring_pair_inputs
+
+from gearcad import GearPair
+from gearcad.arrays import Floats
+from gearcad.errors import InputError
+from gearcad.geometry.pair_data import PairData
+
+STEP = 2e-3
+"""How far (mm, on the working circle) before and behind the used-up backlash the pair is looked at."""
+
+VISIBLE = 5e-3
+"""Depth (mm) of an interference that shows at STEP before the flanks touch."""
+
+POSITIONS = np.linspace(0, 1, 9)
+
+
+def deepest(
+    clearance: Callable[[Floats], Floats], low: float = 0.0, high: float = 1.0, points: int = 25, levels: int = 4
+) -> float:
+    """Least clearance over the positions between two ends, refined around the least."""
+    for _ in range(levels):
+        places = np.linspace(low, high, points)
+        found = clearance(places)
+        least = int(np.argmin(found))
+        low, high = places[max(least - 1, 0)], places[min(least + 1, points - 1)]
+    return float(found[least])
+
+
+def mesh_of(pair: PairData) -> RingMesh:
+    return RingMesh(pair.pinion, pair.wheel, -pair.centre_distance)
+
+
+def overlaps_before_flanks_touch(pair: PairData) -> bool:
+    """Whether anything overlaps, in any position, STEP before the backlash of either side is used up."""
+    mesh, turn = mesh_of(pair), (pair.circumferential_backlash / 2 - STEP) / (pair.working_pitch_diameters.pinion / 2)
+    return any(deepest(partial(mesh.clearance, turned=side * turn)) < 0 for side in (1, -1))
+
+
+def confirm_refusal(pair: PairData, error: InputError) -> None:
+    """That what is refused for an interference interferes."""
+    assert "\n" not in str(error)
+    text = str(error)
+    if "interference" in text:
+        kind = "involute" if "involute interference" in text else "trochoid"
+        depth = float(re.search(r"(?:cuts|foul each other by) ([\d.e-]+) mm", text)[1])  # type: ignore[index]
+        event(f"refused: {kind}" + ("" if depth > VISIBLE else ", too shallow to see"))
+        assert depth <= VISIBLE or overlaps_before_flanks_touch(pair)
+    elif "root circle" in text or "backlash would be" in text:
+        event(f"refused: {'tip in root' if 'root circle' in text else 'backlash'}")
+        shallow = "backlash would be" in text and pair.circumferential_backlash > -VISIBLE
+        assert shallow or deepest(mesh_of(pair).clearance) < 0
+    else:
+        event(f"refused: {error.parameter}")
+
+
+def confirm_notices(pair: GearPair) -> bool:
+    """That a pair which is told to interfere does; whether it is."""
+    cuts = [notice.text for notice in pair.notices if notice.code == "fillet-interference"]
+    depths = [float(re.search(r"cuts ([\d.e-]+) mm", text)[1]) for text in cuts]  # type: ignore[index]
+    if cuts:
+        visible = max(depths) > VISIBLE
+        event("told: fillet" + ("" if visible else ", too shallow to see"))
+        assert not visible or overlaps_before_flanks_touch(pair)
+    return bool(cuts)
+
+
+def confirm_mesh(pair: GearPair) -> None:
+    """No overlap with the backlash split or STEP before it is used up; overlap STEP behind."""
+    mesh, half, radius = mesh_of(pair), pair.circumferential_backlash / 2, pair.working_pitch_diameters.pinion / 2
+    polygons = 4 * CHORD_ERROR * pair.pinion.transverse_module
+    assert mesh.clearance(POSITIONS).min() >= (0 if half > polygons else -polygons)
+    always = pair.usable_contact_ratio >= 1 + 1e-6
+    event(f"admitted, {'backlash' if half > STEP else 'no backlash'}" + ("" if always else ", contact ratio below 1"))
+    for side in (1, -1):
+        if half > STEP:
+            assert mesh.clearance(POSITIONS, side * (half - STEP) / radius).min() >= 0
+        if always:
+            assert mesh.clearance(POSITIONS, side * (half + STEP) / radius).max() < 0
+
+
+def check(inputs: dict[str, Any]) -> None:
+    try:
+        data = build_ring_pair(inputs)
+    except InputError as error:
+        event(f"no gear: {error.parameter}")
+        return
+    try:
+        pair = GearPair(pinion=data.pinion, wheel=data.wheel, centre_distance=data.centre_distance)
+    except InputError as error:
+        confirm_refusal(data, error)
+        return
+    if not confirm_notices(pair):
+        confirm_mesh(pair)
+
+
+@settings(max_examples=450)
+@given(ring_pair_inputs())
+def test_rings_and_pinions_touch_nowhere_but_at_their_flanks(inputs: dict[str, Any]) -> None:
+    check(inputs)
+
+
+@pytest.mark.long
+@settings(max_examples=5000)
+@given(ring_pair_inputs())
+def test_rings_and_pinions_touch_nowhere_but_at_their_flanks_long(inputs: dict[str, Any]) -> None:
+    check(inputs)
