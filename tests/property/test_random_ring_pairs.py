@@ -120,3 +120,54 @@ def test_rings_and_pinions_touch_nowhere_but_at_their_flanks(inputs: dict[str, A
 @given(ring_pair_inputs())
 def test_rings_and_pinions_touch_nowhere_but_at_their_flanks_long(inputs: dict[str, Any]) -> None:
     check(inputs)
+
+
+# ---------------------------------------------------------------------- put in along the line of centres
+
+COARSE = 1e-3
+"""Chord error of the polygons of a pinion that is pushed in (transverse modules): its corners are exact."""
+
+SEATED = 0.03
+"""Way from its place (transverse modules) over which flanks that are nearly in mesh are not looked at."""
+
+
+def deepest_on_the_way_in(pair: GearPair) -> float:
+    """Least clearance (mm) of a pinion in any position, anywhere on its way to its place, refined around the least."""
+    m = pair.pinion.transverse_module
+    mesh = RingMesh(pair.pinion, pair.wheel, -pair.centre_distance, COARSE)
+    way_out = -pair.centre_distance + pair.pinion.tip_diameter / 2 + pair.wheel.tip_diameter / 2
+    places, backs = np.linspace(0, 1, 17)[:, None], np.linspace(SEATED * m, way_out, 17)
+    for _ in range(4):
+        found = mesh.clearance(places, back=backs)
+        row, column = np.unravel_index(np.argmin(found), found.shape)
+        places = np.linspace(places[max(row - 1, 0), 0], places[min(row + 1, 16), 0], 17)[:, None]
+        backs = np.linspace(backs[max(column - 1, 0)], backs[min(column + 1, 16)], 17)
+    return float(found.min())
+
+
+def check_way_in(inputs: dict[str, Any]) -> None:
+    try:
+        data = build_ring_pair(inputs)
+        pair = GearPair(pinion=data.pinion, wheel=data.wheel, centre_distance=data.centre_distance)
+    except InputError as error:
+        event(f"no pair: {error.parameter}")
+        return
+    codes = {notice.code for notice in pair.notices}
+    if "fillet-interference" in codes:
+        event("told: fillet")
+        return
+    event(f"goes in {'along the axis' if 'radial-assembly' in codes else 'either way'}")
+    assert (deepest_on_the_way_in(pair) < 0) is ("radial-assembly" in codes)
+
+
+@settings(max_examples=100)
+@given(ring_pair_inputs(most_more=20))
+def test_what_goes_in_along_the_line_of_centres(inputs: dict[str, Any]) -> None:
+    check_way_in(inputs)
+
+
+@pytest.mark.long
+@settings(max_examples=2000)
+@given(ring_pair_inputs(most_more=40))
+def test_what_goes_in_along_the_line_of_centres_long(inputs: dict[str, Any]) -> None:
+    check_way_in(inputs)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gearcad import Gear
 from gearcad.geometry import ToothProfile
@@ -64,67 +64,69 @@ class RingMesh:
     pinion: Gear
     ring: Gear
     distance: float
+    chord_error: float = CHORD_ERROR
 
     @cached_property
     def _halves(self) -> tuple[HalfTooth, HalfTooth]:
-        chord = CHORD_ERROR * self.pinion.transverse_module
+        chord = self.chord_error * self.pinion.transverse_module
         return HalfTooth.of(self.pinion.profile, chord), HalfTooth.of(self.ring.profile, chord)
 
     @cached_property
     def _pitches(self) -> tuple[float, float]:
         return 2 * math.pi / self.pinion.tooth_count, 2 * math.pi / self.ring.tooth_count
 
-    def standing(self, positions: Floats, turned: float) -> tuple[Floats, Floats]:
-        """Turns (rad) of pinion and ring at `positions` (pitches): a tooth of the pinion midway in a space of the ring, and
-        then the pinion `turned` (rad) by itself."""
-        own, mate = self._pitches
-        return positions * own + turned, positions * mate + mate / 2
+    def clearance(self, positions: ArrayLike, turned: float = 0.0, back: ArrayLike = 0.0) -> Floats:
+        """Least distance (mm, along circles) of the outlines in each pose; negative where they overlap.
 
-    def clearance(self, positions: Floats, turned: float = 0.0, back: float = 0.0) -> Floats:
-        """Least distance (mm, along circles) of the outlines at each position; negative where they overlap.
-
-        `back` (mm) is how far the pinion is moved towards the ring's axis.
+        At a position of 0 or 1 (pitches) a tooth of the pinion stands on the line of centres, midway in a space of the ring.
+        The pinion is then `turned` (rad) by itself, and moved `back` (mm) towards the ring's axis. One value for each position.
         """
-        pinion, ring = self.standing(np.asarray(positions, float), turned)
-        distance = self.distance - back
+        positions, back = np.broadcast_arrays(np.asarray(positions, float), np.asarray(back, float))
+        pinion, ring = (positions.ravel() * pitch for pitch in self._pitches)
+        return self.standing(pinion + turned, ring + self._pitches[1] / 2, back.ravel()).reshape(positions.shape)
+
+    def standing(self, pinion: Floats, ring: Floats, back: Floats) -> Floats:
+        """The same for gears turned by angles (rad) from where tooth 0 stands on +x."""
+        distance = (self.distance - back)[:, None, None]
+        pinion, ring = pinion[:, None, None], ring[:, None, None]
         return np.minimum(self._pinion_in_ring(pinion, ring, distance), self._ring_in_pinion(pinion, ring, distance))
 
-    def _pinion_in_ring(self, pinion: Floats, ring: Floats, distance: float) -> Floats:
+    def _pinion_in_ring(self, pinion: Floats, ring: Floats, distance: Floats) -> Floats:
         own, mate = self._halves
-        tip, root = mate.radius[0], mate.radius[-1]
-        cosine = (tip**2 - distance**2 - own.radius[-1] ** 2) / (2 * distance * own.radius[-1])
-        reach = math.acos(min(max(cosine, -1.0), 1.0)) + own.angle[0] + TOUCH
-        angle = pinion[:, None, None] + self._turns(pinion, reach, self._pitches[0], own.angle)
-        radius = np.broadcast_to(np.r_[own.radius, own.radius], angle.shape)
+        tip, root, reach = mate.radius[0], mate.radius[-1], own.radius[-1]
+        cosine = (tip**2 - distance**2 - reach**2) / (2 * distance * reach)
+        angle = pinion + self._turns(pinion, cosine, self._pitches[0], own.angle)
+        radius = np.r_[own.radius, own.radius]
         across, along = distance + radius * np.cos(angle), radius * np.sin(angle)
         at = np.hypot(across, along)
-        ahead = _from_tooth(np.arctan2(along, across) - ring[:, None, None], self._pitches[1])
+        ahead = _from_tooth(np.arctan2(along, across) - ring, self._pitches[1])
         clear = np.where(at < tip, math.inf, (ahead - mate.at(at)) * at)
         return np.where(at > root, root - at, clear).min(axis=(1, 2))
 
-    def _ring_in_pinion(self, pinion: Floats, ring: Floats, distance: float) -> Floats:
+    def _ring_in_pinion(self, pinion: Floats, ring: Floats, distance: Floats) -> Floats:
         mate, own = self._halves
-        root, tip = mate.radius[0], mate.radius[-1]
-        cosine = (own.radius[0] ** 2 + distance**2 - tip**2) / (2 * distance * own.radius[0])
-        reach = math.acos(min(max(cosine, -1.0), 1.0)) + own.angle[-1] + TOUCH
-        angle = ring[:, None, None] + self._turns(ring, reach, self._pitches[1], own.angle)
-        radius = np.broadcast_to(np.r_[own.radius, own.radius], angle.shape)
+        root, tip, reach = mate.radius[0], mate.radius[-1], own.radius[0]
+        cosine = (reach**2 + distance**2 - tip**2) / (2 * distance * reach)
+        angle = ring + self._turns(ring, cosine, self._pitches[1], own.angle)
+        radius = np.r_[own.radius, own.radius]
         across, along = radius * np.cos(angle) - distance, radius * np.sin(angle)
         at = np.hypot(across, along)
-        ahead = _from_tooth(np.arctan2(along, across) - pinion[:, None, None], self._pitches[0])
+        ahead = _from_tooth(np.arctan2(along, across) - pinion, self._pitches[0])
         clear = np.where(at > tip, math.inf, (ahead - mate.at(at)) * at)
         return np.where(at < root, at - root, clear).min(axis=(1, 2))
 
     @staticmethod
-    def _turns(turned: Floats, reach: float, pitch: float, half: Floats) -> Floats:
-        """Angles (positions, teeth, points) of both flanks of the teeth within `reach` of the line of centres at no turn."""
+    def _turns(turned: Floats, cosine: Floats, pitch: float, half: Floats) -> Floats:
+        """Angles (teeth, points) of both flanks of the teeth at no turn, which turned come to where the tip circles overlap.
+
+        These cross at an angle with a `cosine`, from the line of centres about the gear's axis.
+        """
+        reach = math.acos(min(max(float(cosine.min()), -1.0), 1.0)) + half.max() + TOUCH
         first = np.floor((-turned.max() - reach) / pitch)
         last = np.ceil((-turned.min() + reach) / pitch)
         if last - first > 2 * math.pi / pitch:
             first, last = 0, round(2 * math.pi / pitch) - 1
-        teeth = np.arange(first, last + 1) * pitch
-        angle = teeth[:, None] + np.r_[half, -half]
-        return np.broadcast_to(angle, (turned.size, *angle.shape))
+        return (np.arange(first, last + 1) * pitch)[:, None] + np.r_[half, -half]
 
 
 def _from_tooth(angle: Floats, pitch: float) -> Floats:

@@ -23,10 +23,11 @@ def _often(value: Any, rest: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
 
 
 @st.composite
-def ring_pair_inputs(draw: st.DrawFn) -> dict[str, Any]:
-    """Inputs of a pair with a ring; lengths in normal modules."""
+def ring_pair_inputs(draw: st.DrawFn, most_more: int = 240) -> dict[str, Any]:
+    """Inputs of a pair with a ring that has at most `most_more` teeth more; lengths in normal modules."""
     pinion = draw(st.integers(9, 60))
-    ring = max(pinion + draw(st.one_of(st.integers(2, 14), st.integers(6, 60), st.integers(6, 240))), 24)
+    more = st.one_of(st.integers(2, 14), st.integers(6, min(60, most_more)), st.integers(6, most_more))
+    ring = max(pinion + draw(more), 24)
     helix, angle = draw(_often(0.0, st.floats(0.01, 35))), draw(_often(20.0, st.sampled_from([14.5, 17.5, 25.0, 30.0])))
     most = shift_sum_limit(teeth=PerGear(pinion, -ring), helix_angle=helix, pressure_angle=angle)
     first, total = draw(st.floats(-0.3, 0.8)), min(draw(st.floats(-1.2, 0.4)), 0.9 * most)
