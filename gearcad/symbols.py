@@ -37,6 +37,7 @@ class Symbol(NamedTuple):
 
 
 GEAR = {
+    "profile_shift_khk": Symbol("x", "", "KHK", "profile shift in KHK's sign (rings)"),
     "transverse_module": Symbol("m_t", "mm", "4.2", "transverse module"),
     "transverse_pressure_angle": Symbol("α_t", "deg", "4.3", "transverse pressure angle"),
     "base_helix_angle": Symbol("β_b", "deg", "4.3", "base helix angle"),

@@ -27,7 +27,8 @@ def _of_part(part: str) -> str:
 
 
 _GEAR_BLOCKS = {
-    "Teeth": "teeth normal_module helix_angle profile_shift tip_alteration tooth_thinning face_width virtual_teeth lead",
+    "Teeth": "teeth normal_module helix_angle profile_shift profile_shift_khk tip_alteration tooth_thinning face_width"
+    " virtual_teeth lead",
     "Basic rack": _of_part("rack"),
     "Shaper cutter": _of_part("cutter"),
     "Double helix": _of_part("double_helix"),

@@ -94,9 +94,9 @@ def _check_thickness(gear: GearData) -> None:
     m, angle = gear.normal_module, gear.rack.pressure_angle
     least_shift = -math.pi / 4 / math.tan(math.radians(angle))
     if gear.profile_shift <= least_shift:
-        raise GeometryError(
-            "profile_shift", gear.profile_shift, f"must be above {at_least(least_shift)}: no tooth on the reference circle"
-        )
+        khk = f" (KHK's sign: below {at_most(-least_shift)})" if gear.internal else ""
+        permitted = f"must be above {at_least(least_shift)}{khk}: no tooth on the reference circle"
+        raise GeometryError("profile_shift", gear.profile_shift, permitted)
     if gear.normal_tooth_thickness <= 0:
         raise GeometryError(
             "tooth_thinning",

@@ -18,7 +18,7 @@ from gearcad.geometry.internal_profile import InternalProfile
 from gearcad.geometry.modification import FlankForm, check_flanks
 from gearcad.geometry.picture import gear_html
 from gearcad.geometry.profile import ToothProfile, base_half_angle
-from gearcad.geometry.tooling import fillet_tool
+from gearcad.geometry.tooling import corner_notices, fillet_tool
 from gearcad.geometry.trimming import trimming_notices
 from gearcad.geometry.walls import check_body
 from gearcad.notice import Notice, texts
@@ -34,9 +34,11 @@ _DERIVED = (
     "form_diameter undercut normal_tooth_thickness transverse_tooth_thickness tip_thickness transverse_pitch "
     "transverse_base_pitch lead virtual_teeth"
 ).split()
-_MEASURED = "span_teeth span_measurement span_contact_diameter ball_diameter over_balls over_pins pin_axial_shift".split()
-_MEASURED_INSIDE = "span_spaces span_measurement span_contact_diameter ball_diameter between_balls between_pins".split()
-"""What a document has beside the inputs; the measurements are those of external gears, or of rings."""
+_OF_EXTERNAL = "span_teeth span_measurement span_contact_diameter ball_diameter over_balls over_pins pin_axial_shift".split()
+_OF_RINGS = (
+    "profile_shift_khk span_spaces span_measurement span_contact_diameter ball_diameter between_balls between_pins".split()
+)
+"""What a document has beside the inputs: of all gears, of external ones and of rings."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -217,6 +219,7 @@ class Gear(GearData):
         if self.tip_thickness < THIN_TIP * self.normal_module:
             thickness = f"normal thickness {self.tip_thickness:.4f} mm is below {THIN_TIP} m_n"
             yield Notice("thin-tip", f"thin tip: {thickness} (0.4 m_n if case-hardened)")
+        yield from corner_notices(self)
         yield from trimming_notices(self, self.profile)
         if self.body.web_thickness:
             text = "web: it counts in the rating alone (C_R, Y_B); the solid and its elements are a full disc"
@@ -231,8 +234,8 @@ class Gear(GearData):
         parts["body"]["hub_side"] = self.body.hub_side.value
         parts["modification"] = self.modification.to_dict()
         inputs = {each.name: getattr(self, each.name) for each in fields(self) if each.name not in parts}
-        measured = _MEASURED_INSIDE if self.internal else _MEASURED
-        derived = {name: getattr(self, name) for name in (*_DERIVED, *measured)}
+        names = (*_DERIVED, *(_OF_RINGS if self.internal else _OF_EXTERNAL))
+        derived = {name: getattr(self, name) for name in names}
         if math.isinf(self.lead):
             derived["lead"] = None
         warnings = {"warnings": list(self.warnings), "notices": [notice.to_dict() for notice in self.notices]}

@@ -65,6 +65,11 @@ class GearData:
         return abs(self.teeth)
 
     @property
+    def profile_shift_khk(self) -> float | None:
+        """The profile shift of a ring as KHK and many programs read it, with the opposite sign; None for an external gear."""
+        return 0.0 - self.profile_shift if self.internal else None
+
+    @property
     def standard_tip_diameter(self) -> float:
         """d_a = d + 2 m_n (h_aP + x + k)."""
         rise = self.rack.addendum + self.profile_shift + self.tip_alteration

@@ -29,13 +29,18 @@ _CHORD_ERROR = 0.2
 
 _OF_GEAR = "teeth normal_module helix_angle profile_shift face_width reference_diameter tip_diameter root_diameter".split()
 
+_RIM = 3.5
+"""Thickness (normal modules) with which a rim is drawn that was not given: from there on Y_B of ISO 6336-3 is 1."""
+
+_NO_RIM = f"no body.rim_diameter is given: drawn with {_RIM:g} m_n outside the root circle"
+
 _FLAT = 'style="width:auto;border-collapse:collapse"'
 
 
 def gear_html(gear: GearData, profile: ToothProfile) -> str:
     """A picture of the gear from +z, and a table."""
     written = symbols_of(GearData) | symbols.GEAR
-    rows = ((written[name], [getattr(gear, name)]) for name in _OF_GEAR)
+    rows = ((written[name], [getattr(gear, name)]) for name in _looked_up(gear))
     return _html(gear.name, _svg([_Placed(gear, profile, Pose(0.0, 0.0, 0.0))]), [], rows)
 
 
@@ -48,11 +53,17 @@ def pair_html(
 ) -> str:
     """A picture of the pair in mesh from +z, the wheel at its pose, and a table with figures of the pair."""
     written = symbols_of(GearData) | symbols.GEAR
-    rows = [(written[key], [getattr(gear, key) for gear in gears]) for key in _OF_GEAR]
+    rows = [(written[key], [getattr(gear, key) for gear in gears]) for key in _looked_up(*gears)]
     rows += [(symbol, [value]) for symbol, value in figures]
     poses = PerGear(Pose(0.0, 0.0, 0.0), wheel)
     picture = _svg([_Placed(*each) for each in zip(gears, profiles, poses, strict=True)])
     return _html(name, picture, [role.value for role in Role], rows)
+
+
+def _looked_up(*gears: GearData) -> list[str]:
+    """The figures of gears; of a ring the profile shift in the other sign too, as many know it."""
+    ring = any(gear.internal for gear in gears)
+    return [key for name in _OF_GEAR for key in ((name, "profile_shift_khk") if ring and name == "profile_shift" else (name,))]
 
 
 class _Placed(NamedTuple):
@@ -63,7 +74,7 @@ class _Placed(NamedTuple):
     pose: Pose
 
 
-def _html(name: str, picture: str, headings: list[str], rows: Iterable[tuple[symbols.Symbol, list[float]]]) -> str:
+def _html(name: str, picture: str, headings: list[str], rows: Iterable[tuple[symbols.Symbol, list[float | None]]]) -> str:
     columns = len(headings) or 1
     head = "".join(f"<th>{escape(heading)}</th>" for heading in headings)
     lines = [f"<tr><th>{escape(name)}</th><th></th>{head}</tr>"]
@@ -75,16 +86,18 @@ def _html(name: str, picture: str, headings: list[str], rows: Iterable[tuple[sym
     return f'<div style="display:flex;flex-wrap:wrap;gap:1em;align-items:center">{picture}{table}</div>'
 
 
-def _shown(value: float, unit: str) -> str:
+def _shown(value: float | None, unit: str) -> str:
+    if value is None:
+        return "-"
     # What is left of a difference is no figure; adding zero makes -0.0 a plain zero.
     return f"{round(value, 9) + 0.0:.6g}{' ' if unit else ''}{escape(unit)}"
 
 
 def _svg(placed: list[_Placed]) -> str:
     """Sections of gears where they stand, the section of the first one at its z = 0, as seen from +z; in mm."""
-    left = min(pose.x - gear.tip_diameter / 2 for gear, _, pose in placed)
-    right = max(pose.x + gear.tip_diameter / 2 for gear, _, pose in placed)
-    height = max(gear.tip_diameter for gear, _, _ in placed)
+    left = min(pose.x - _outside(gear) / 2 for gear, _, pose in placed)
+    right = max(pose.x + _outside(gear) / 2 for gear, _, pose in placed)
+    height = max(_outside(gear) for gear, _, _ in placed)
     scale = _PIXELS / max(right - left, height)
     shapes = "".join(shape for each in placed for shape in _shapes(each, 1 / scale))
     view = f"{left:.6g} {-height / 2:.6g} {right - left:.6g} {height:.6g}"
@@ -93,19 +106,42 @@ def _svg(placed: list[_Placed]) -> str:
     return f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{view}" overflow="visible"><g {style}>{shapes}</g></svg>'
 
 
+def _outside(gear: GearData) -> float:
+    """Diameter (mm) of what surrounds a gear: its tip circle, or the rim of a ring, which is drawn somewhere if not given."""
+    if not gear.internal:
+        return gear.tip_diameter
+    return gear.body.rim_diameter or 2 * _RIM * gear.normal_module - gear.root_diameter
+
+
 def _shapes(placed: _Placed, pixel: float) -> Iterator[str]:
-    """The outline with its bore, and the reference circle; `pixel` is its size (mm)."""
+    """The outline with its bore or rim, and the reference circle; `pixel` is its size (mm)."""
     gear, profile, pose = placed
     # Seen at the pinion's z = 0, a helical wheel that begins at another height is turned by then.
     turn = math.radians(pose.rotation) - twist(gear, pose.z)
     cosine, sine = math.cos(turn), math.sin(turn)
     turned = profile.contour(_CHORD_ERROR * pixel) @ np.array([[cosine, sine], [-sine, cosine]])
     outline = _polygon(turned + np.array([pose.x, 0.0]), pixel)
-    yield f'<path fill-rule="evenodd" d="{outline}{_circle(gear.body.bore / 2, pose.x)}"/>'
+    rim = _circle(_outside(gear) / 2, pose.x)
+    if not gear.internal:
+        yield f'<path fill-rule="evenodd" d="{outline}{_circle(gear.body.bore / 2, pose.x)}"/>'
+    elif gear.body.rim_diameter is not None:
+        yield f'<path fill-rule="evenodd" d="{outline}{rim}{_bolt_holes(gear, pose.x, turn)}"/>'
+    else:
+        yield f'<path fill-rule="evenodd" stroke="none" d="{outline}{rim}"/><path fill="none" d="{outline}"/>'
+        yield f'<path fill="none" stroke-dasharray="{2 * pixel:.3g}" d="{rim}"><title>{_NO_RIM}</title></path>'
     yield (
-        f'<circle cx="{pose.x:.6g}" cy="0" r="{gear.reference_diameter / 2:.6g}" fill="none" stroke-opacity=".5"'
+        f'<circle cx="{pose.x:.6g}" cy="0" r="{abs(gear.reference_diameter) / 2:.6g}" fill="none" stroke-opacity=".5"'
         f' stroke-dasharray="{8 * pixel:.3g} {2 * pixel:.3g} {pixel:.3g} {2 * pixel:.3g}"/>'
     )
+
+
+def _bolt_holes(gear: GearData, x: float, turn: float) -> str:
+    """The bolt holes of a ring, the first in the middle of tooth 0, as paths; y is down."""
+    body = gear.body
+    angles = turn + 2 * math.pi / max(body.bolt_holes, 1) * np.arange(body.bolt_holes)
+    centres = zip(np.cos(angles).tolist(), np.sin(angles).tolist(), strict=True)
+    half = body.bolt_circle / 2
+    return "".join(_circle(body.bolt_diameter / 2, x + half * cosine, -half * sine) for cosine, sine in centres)
 
 
 def _polygon(points: Floats, pixel: float) -> str:
@@ -114,7 +150,7 @@ def _polygon(points: Floats, pixel: float) -> str:
     return "M" + " ".join(f"{x:.{digits}f},{-y:.{digits}f}" for x, y in points.tolist()) + "Z"
 
 
-def _circle(radius: float, x: float) -> str:
-    """A path, empty for no radius."""
+def _circle(radius: float, x: float, y: float = 0.0) -> str:
+    """A path, empty for no radius; y is down."""
     arc = f"a{radius:.6g},{radius:.6g} 0 1 0"
-    return f"M{x - radius:.6g},0{arc} {2 * radius:.6g},0{arc} {-2 * radius:.6g},0Z" if radius else ""
+    return f"M{x - radius:.6g},{y:.6g}{arc} {2 * radius:.6g},0{arc} {-2 * radius:.6g},0Z" if radius else ""

@@ -6,13 +6,16 @@ A tooth that is thinned comes from a thicker tooth of the tool. Angles are radia
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.geometry.shaper import ShaperTip
 from gearcad.geometry.trochoid import FilletTool, ToolTip
+from gearcad.notice import Notice
 
 __all__ = [
+    "corner_notices",
     "corner_radius",
     "fillet_tool",
     "full_corner_radius",
@@ -116,3 +119,17 @@ def corner_radius(gear: GearData) -> float:
         return gear.cutter.tip_radius
     full = full_corner_radius(gear)
     return full if gear.rack.root_radius == "full" else min(float(gear.rack.root_radius), full)
+
+
+def corner_notices(gear: GearData) -> Iterator[Notice]:
+    """What was taken for a corner that was not given: no cutter at all, and the full radius instead of the rack's."""
+    if not shaped(gear):
+        return
+    radius, rack = corner_radius(gear), gear.rack.root_radius
+    full = gear.cutter.tip_radius is None and rack != "full" and radius < float(rack)
+    instead = f", the full radius: the rack's {rack:g} does not fit" if full else ""
+    size = f"{radius:.4g} m_n ({radius * gear.normal_module:.4g} mm){instead}"
+    if gear.cutter.teeth is None:
+        yield Notice("form-root", f"form root: no cutter given; the radius of the fillet is {size}")
+    elif full:
+        yield Notice("full-radius", f"cutter: the radius of its tip corner is {size}")

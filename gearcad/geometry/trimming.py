@@ -1,4 +1,4 @@
-"""Does a shaper cutter trim the tips of its ring, as it rolls or on its way in? It is a pinion too, so it can foul them as one."""
+"""Does a shaper cutter trim the tips of its ring, as it rolls or on its way in? It can foul them as any pinion."""
 
 from __future__ import annotations
 

@@ -110,6 +110,24 @@ def test_a_notebook_shows_the_gears_in_mesh() -> None:
     assert nearest < PIXEL * pixel
 
 
+@pytest.mark.parametrize("rim", [130.0, None])
+def test_a_notebook_shows_a_ring_as_a_ring(rim: float | None) -> None:
+    """Its opening inside its rim, which is dotted where it was not given; the shift of the profile in both signs."""
+    bolts = {"bolt_circle": 120.0, "bolt_holes": 5, "bolt_diameter": 4.0} if rim else {}
+    ring = Gear(teeth=-48, normal_module=2, face_width=10, profile_shift=-0.3, body=Body(rim_diameter=rim, **bolts))
+    html = ring._repr_html_()
+    radii = np.hypot(*polygons(html)[0].T)
+    assert radii.min() == pytest.approx(-ring.tip_diameter / 2, abs=0.1)
+    assert radii.max() == pytest.approx(-ring.root_diameter / 2, abs=0.1)
+    outside = 130.0 if rim else -ring.root_diameter + 2 * 3.5 * 2.0
+    (width,) = (float(box.split()[2]) for box in re.findall(r'viewBox="([^"]*)"', html))
+    assert width == pytest.approx(outside, rel=1e-5)
+    assert ("no body.rim_diameter is given" in html) is (rim is None)
+    assert html.count("a2,2 0 1 0 4,0") == len(bolts) // 3 * 5
+    assert "<td>-0.3</td>" in html and "<td>0.3</td>" in html
+    ElementTree.fromstring(html.replace("cellpadding=3", ""))
+
+
 def test_what_a_notebook_shows_is_small_and_sound() -> None:
     gear = Gear(teeth=31, normal_module=0.02, face_width=0.2, name="<b>&", body=Body(bore=0.3))
     for shown in (gear, VOLVO.pair):

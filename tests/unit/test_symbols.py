@@ -31,7 +31,7 @@ def test_every_field_of_a_gear_has_a_symbol_and_every_symbol_a_field() -> None:
     """Those of measurements are of external gears, or of rings."""
     gear, ring = (Gear(teeth=teeth, normal_module=2.0, face_width=10.0) for teeth in (20, -60))
     assert _keys(gear.to_dict()) | _keys(ring.to_dict()) == {*symbols_of(Gear), *symbols.GEAR}
-    of_rings = {"span_spaces", "between_balls", "between_pins"}
+    of_rings = {"profile_shift_khk", "span_spaces", "between_balls", "between_pins"}
     assert _keys(ring.to_dict()) - _keys(gear.to_dict()) == of_rings
 
 
