@@ -7,17 +7,21 @@ from dataclasses import dataclass
 from typing import Any, Unpack
 
 from gearcad.designs import Design, Inputs, PairDesign
-from gearcad.geometry import GearPair
+from gearcad.errors import ParameterError
+from gearcad.geometry import GearPair, RackPair
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.notice import Notice
 from gearcad.progress import Progress
+from gearcad.rating.rack_rating import RackRating, rate_rack
 from gearcad.rating.rate import Rating
 from gearcad.rating.rate import rate as rate_pair
 
 __all__ = ["Rate", "rate"]
+
+_NO_LOAD = "without it there is no stress"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +35,7 @@ class Rate(Job[PairDesign, Rating]):
 
     def _run(self, design: PairDesign, _progress: Progress | None) -> Rating:
         pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)
-        return rate_pair(pair, design.material or Material(), design.loaded("without it there is no stress"), design.rating)
+        return rate_pair(pair, design.material or Material(), design.loaded(_NO_LOAD), design.rating)
 
     def document(self, result: Rating) -> dict[str, Any]:
         """Values under their symbols, those of one gear under "pinion" and "wheel"; `gearcad.symbols.RATING` has the words."""
@@ -50,11 +54,11 @@ class Rate(Job[PairDesign, Rating]):
         return {}
 
 
-def rate(subject: Design | GearPair, load: Load | None = None, **inputs: Unpack[Inputs]) -> Rating:
+def rate(subject: Design | GearPair | RackPair, load: Load | None = None, **inputs: Unpack[Inputs]) -> Rating:
     """Rate a pair as mounted, under a load, by ISO 6336:2006 or DIN 3990:1987, Method B, and Hertz at the pitch point.
 
     `material`, `mounting` and `rating` (RatingOptions), as the load, stand in place of those of a design; a pair has the
-    defaults.
+    defaults. A pinion and a rack are rated as a wheel of infinitely many teeth, without mounting.
 
     >>> from gearcad import Gear, GearPair, Load
     >>> gears = [Gear(teeth=z, normal_module=2, face_width=20) for z in (20, 30)]
@@ -64,4 +68,16 @@ def rate(subject: Design | GearPair, load: Load | None = None, **inputs: Unpack[
 
     Raises ParameterError without a pair or a torque, GeometryError for a pair whose contact the standard does not describe.
     """
+    if isinstance(subject, RackPair):
+        return _rate_rack(subject, load, inputs)
     return Rate().run(as_design(subject, load, **inputs))
+
+
+def _rate_rack(pair: RackPair, load: Load | None, inputs: Inputs) -> RackRating:
+    """The rating of a pinion and a rack. Raises ParameterError for inputs that have no use there."""
+    for name, value in inputs.items():
+        if name not in ("material", "rating"):
+            raise ParameterError(name, value, "is nothing that a pinion and a rack have; they have load, material, rating")
+    if load is None:
+        raise ParameterError("load.torque", None, f"must be given, in N·m on the pinion: {_NO_LOAD}")
+    return rate_rack(pair, inputs.get("material") or Material(), load, inputs.get("rating"))

@@ -10,6 +10,7 @@ from gearcad.rating.iso6336_2 import FlankRating
 from gearcad.rating.iso6336_3 import RootRating
 from gearcad.rating.mesh_contact import base_normal_force, contact_at, pitch_point_contact
 from gearcad.rating.options import RatingOptions
+from gearcad.rating.rack_rating import RackRating, rack_contact_at, rate_rack
 from gearcad.rating.rate import Rating, rate
 from gearcad.rating.root_section import RootSection
 from gearcad.rating.running_in import RunningIn, running_in_alpha, running_in_beta
@@ -24,6 +25,7 @@ __all__ = [
     "LoadPoint",
     "MeshStiffness",
     "Peak",
+    "RackRating",
     "Rating",
     "RatingOptions",
     "RootRating",
@@ -36,7 +38,9 @@ __all__ = [
     "face_load_factor",
     "gear_blank_factor",
     "pitch_point_contact",
+    "rack_contact_at",
     "rate",
+    "rate_rack",
     "reduced_modulus",
     "reduced_radius",
     "root_face_load_factor",

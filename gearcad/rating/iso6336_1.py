@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.material import Material
 from gearcad.notice import Notice
 from gearcad.rating.rim import RIM_LIMIT, rim_thickness_ratio, ring_rim_ratio
@@ -19,7 +19,10 @@ from gearcad.rating.rim import RIM_LIMIT, rim_thickness_ratio, ring_rim_ratio
 __all__ = [
     "MeshStiffness",
     "basic_rack_factor",
+    "blank_factor",
+    "blank_notices",
     "gear_blank_factor",
+    "load_notices",
     "low_load_factor",
     "material_factor",
     "mesh_stiffness",
@@ -27,6 +30,7 @@ __all__ = [
     "mesh_stiffness_beta",
     "single_stiffness",
     "stiffness_notices",
+    "stiffness_of",
     "theoretical_stiffness",
     "tooth_flexibility",
 ]
@@ -171,18 +175,34 @@ def mesh_stiffness_beta(mesh_alpha: float) -> float:
 def mesh_stiffness(pair: GearPair, material: Material, specific_load: float) -> MeshStiffness:
     """Stiffness of a pair at a specific load F_t K_A/b (N/mm); C_R, as C_B, is the mean of both gears."""
     first, second = _by_teeth(pair)
-    blank = sum(gear_blank_factor(*_blank(gear)) for gear in (first, second)) / 2
-    q = tooth_flexibility((_virtual_teeth(first), _virtual_teeth(second)), (first.profile_shift, second.profile_shift))
-    rack = sum(basic_rack_factor(gear.dedendum, gear.rack.pressure_angle) for gear in (first, second)) / 2  # (87)
-    xi = material_factor(material.youngs_modulus)
+    return stiffness_of(
+        tooth_flexibility((_virtual_teeth(first), _virtual_teeth(second)), (first.profile_shift, second.profile_shift)),
+        sum(blank_factor(gear) for gear in (first, second)) / 2,
+        sum(basic_rack_factor(gear.dedendum, gear.rack.pressure_angle) for gear in (first, second)) / 2,  # (87)
+        pair,
+        material,
+        specific_load,
+    )
+
+
+def stiffness_of(
+    flexibility: float,
+    blank: float,
+    rack: float,
+    pair: GearPair | RackPair,
+    material: Material,
+    specific_load: float,
+) -> MeshStiffness:
+    """By q', C_R and C_B of a pair."""
+    xi, theoretical = material_factor(material.youngs_modulus), theoretical_stiffness(flexibility)
     return MeshStiffness(
-        flexibility=q,
-        theoretical=theoretical_stiffness(q),
+        flexibility=flexibility,
+        theoretical=theoretical,
         blank_factor=blank,
         rack_factor=rack,
         material_factor=xi,
         low_load_factor=low_load_factor(specific_load),
-        high_load_single=xi * single_stiffness(theoretical_stiffness(q), blank, rack, pair.pinion.helix_angle),
+        high_load_single=xi * single_stiffness(theoretical, blank, rack, pair.pinion.helix_angle),
         transverse_contact_ratio=pair.transverse_contact_ratio,
     )
 
@@ -190,22 +210,27 @@ def mesh_stiffness(pair: GearPair, material: Material, specific_load: float) -> 
 def stiffness_notices(pair: GearPair, specific_load: float) -> Iterator[Notice]:
     """Where the pair or its load leaves the range that clause 9 states for its formulas."""
     for role, gear in pair.gears.items():
-        yield from _blank_notices(gear, role.value)
+        yield from blank_notices(gear, role.value)
     first, second = _by_teeth(pair)
     if first.profile_shift < second.profile_shift:
         here = f"{first.profile_shift:g} and {second.profile_shift:g}"
         yield Notice("stiffness-shift-order", f"c': q' is stated for x_1 >= x_2, here {here}")
     if not -0.5 <= (total := pair.profile_shift_sum) <= 2.0:
         yield Notice("stiffness-shift-sum", f"c': q' is stated for x_1 + x_2 from -0.5 to 2, here {total:.6g}")
+    yield from load_notices(specific_load, pair.transverse_contact_ratio)
+
+
+def load_notices(specific_load: float, transverse_contact_ratio: float) -> Iterator[Notice]:
+    """Where load (N/mm) or contact ratio leave the range that clause 9 states."""
     if specific_load > HIGH_LOAD:
         text = f"c': confirmed up to a specific load of {HIGH_LOAD:g} N/mm, here {specific_load:.0f} N/mm"
         yield Notice("stiffness-high-load", text)
-    if (ratio := pair.transverse_contact_ratio) < 1.2:
+    if (ratio := transverse_contact_ratio) < 1.2:
         text = f"c_gamma: stated from a contact ratio of 1.2, here {ratio:.4f}: up to 10 % too high"
         yield Notice("stiffness-contact-ratio", text)
 
 
-def _blank_notices(gear: Gear, owner: str) -> Iterator[Notice]:
+def blank_notices(gear: Gear, owner: str) -> Iterator[Notice]:
     """Where the body of a gear ("pinion" or "wheel") is not one that C_R knows."""
     web, rim = _blank(gear)
     if gear.internal:
@@ -234,6 +259,11 @@ def _ring_notices(gear: Gear) -> Iterator[Notice]:
 def _virtual_teeth(gear: Gear) -> float:
     """z_n as q' has it."""
     return math.inf if gear.internal else gear.virtual_teeth
+
+
+def blank_factor(gear: Gear) -> float:
+    """C_R of one gear."""
+    return gear_blank_factor(*_blank(gear))
 
 
 def _blank(gear: Gear) -> tuple[float, float]:

@@ -10,11 +10,11 @@ Lengths in mm, stresses in MPa, angles in degrees; equations and clauses are tho
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import Any
 
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.tooling import shaped
 from gearcad.notice import Notice
 from gearcad.per_gear import Role
@@ -26,12 +26,15 @@ from gearcad.rating.virtual import LoadPoint, VirtualGear, load_point
 
 __all__ = [
     "FormulaRoot",
+    "RootMesh",
     "RootRating",
+    "deep_notices",
     "deep_tooth_factor",
     "form_factor",
     "helix_angle_factor",
     "loaded_width",
     "nominal_root_stress",
+    "notch_notices",
     "root_notices",
     "root_rating",
     "stress_correction_factor",
@@ -50,6 +53,17 @@ class FormulaRoot:
     form_factor: float
     stress_correction_factor: float
     nominal_stress: float
+
+    @classmethod
+    def of(cls, rating: RootRating, tool_radius: float) -> FormulaRoot:
+        """What is of interest of a rating by formula."""
+        return cls(
+            tool_radius=tool_radius,
+            section=rating.section,
+            form_factor=rating.form_factor,
+            stress_correction_factor=rating.stress_correction_factor,
+            nominal_stress=rating.nominal_stress,
+        )
 
     def to_dict(self) -> dict[str, float]:
         """Values under their symbols."""
@@ -91,8 +105,7 @@ class RootRating:
             "rho_F": self.section.fillet_radius,
             "h_Fe": self.section.moment_arm,
             "q_s": self.section.notch_parameter,
-            "d_en": self.load_point.diameter,
-            "alpha_Fen": self.load_point.load_angle,
+            **self.load_point.to_dict(),
             "Y_F": self.form_factor,
             "Y_S": self.stress_correction_factor,
             "Y_beta": self.helix_angle_factor,
@@ -146,63 +159,89 @@ def nominal_root_stress(tangential_force: float, width: float, normal_module: fl
     return tangential_force / (width * normal_module) * factors
 
 
-def root_rating(pair: GearPair, role: Role, tangential_force: float, edition: Edition, accuracy_grade: int) -> RootRating:
-    """Root stress of one gear of a pair under the tangential force F_t at the reference circle (N)."""
-    gear = pair.gears.pick(role)
-    virtual, ratio = VirtualGear.of(gear), _virtual_contact_ratio(pair)
-    load = load_point(virtual, ratio)
-    section = root_section(gear, virtual, load)
-    y_f, y_s = form_factor(section, load, virtual), stress_correction_factor(section)
-    y_beta = helix_angle_factor(gear.helix_angle, pair.overlap_ratio)
-    y_b = rim_of(gear).factor(edition)
-    y_dt = deep_tooth_factor(ratio, accuracy_grade, edition)
-    width = loaded_width(pair, role)
+@dataclass(frozen=True, kw_only=True)
+class RootMesh:
+    """What loads the roots of a mesh: F_t at the reference circle (N), eps_alphan, eps_beta, helix angle (deg); and the rules.
 
-    def stress(form: float, correction: float) -> float:
-        factors = form * correction * y_beta * y_b * y_dt
-        return nominal_root_stress(tangential_force, width, gear.normal_module, factors)
+    eps_alphan = eps_alpha/cos^2 beta_b (23).
+    """
 
-    return RootRating(
-        section=section,
-        load_point=load,
-        form_factor=y_f,
-        stress_correction_factor=y_s,
-        helix_angle_factor=y_beta,
-        rim_thickness_factor=y_b,
-        deep_tooth_factor=y_dt,
-        width=width,
-        nominal_stress=stress(y_f, y_s),
-        formula=_formula(gear, virtual, load, stress),
-    )
+    tangential_force: float
+    virtual_contact_ratio: float
+    overlap_ratio: float
+    helix_angle: float
+    edition: Edition
+    accuracy_grade: int
+
+    @classmethod
+    def of(cls, pair: GearPair | RackPair, tangential_force: float, edition: Edition, accuracy_grade: int) -> RootMesh:
+        """That of a pair."""
+        pinion = pair.pinion
+        return cls(
+            tangential_force=tangential_force,
+            virtual_contact_ratio=pair.transverse_contact_ratio / math.cos(math.radians(pinion.base_helix_angle)) ** 2,
+            overlap_ratio=pair.overlap_ratio,
+            helix_angle=pinion.helix_angle,
+            edition=edition,
+            accuracy_grade=accuracy_grade,
+        )
+
+    def rating(
+        self, section: RootSection, load: LoadPoint, virtual: VirtualGear, *, width: float, rim_thickness_factor: float
+    ) -> RootRating:
+        """Of a tooth that carries over a width (mm)."""
+        y_f, y_s = form_factor(section, load, virtual), stress_correction_factor(section)
+        y_beta = helix_angle_factor(self.helix_angle, self.overlap_ratio)
+        y_dt = deep_tooth_factor(self.virtual_contact_ratio, self.accuracy_grade, self.edition)
+        factors = y_f * y_s * y_beta * rim_thickness_factor * y_dt
+        return RootRating(
+            section=section,
+            load_point=load,
+            form_factor=y_f,
+            stress_correction_factor=y_s,
+            helix_angle_factor=y_beta,
+            rim_thickness_factor=rim_thickness_factor,
+            deep_tooth_factor=y_dt,
+            width=width,
+            nominal_stress=nominal_root_stress(self.tangential_force, width, virtual.normal_module, factors),
+        )
 
 
-def _formula(gear: Gear, virtual: VirtualGear, load: LoadPoint, stress: Callable[[float, float], float]) -> FormulaRoot | None:
-    """Of a ring with a shaper cutter, for which the substitute rack is made; None also where that has no section."""
+def root_rating(gear: Gear, mesh: RootMesh, width: float) -> RootRating:
+    """Root stress of a gear that carries over a width (mm)."""
+    virtual = VirtualGear.of(gear)
+    load, y_b = load_point(virtual, mesh.virtual_contact_ratio), rim_of(gear).factor(mesh.edition)
+
+    def rated(section: RootSection) -> RootRating:
+        return mesh.rating(section, load, virtual, width=width, rim_thickness_factor=y_b)
+
+    found = rated(root_section(gear, virtual, load))
     if not gear.internal or gear.cutter.teeth is None:
-        return None
+        return found
+    # The substitute rack is made for rings of a shaper cutter.
     radius = substitute_radius(gear, gear.cutter.teeth)
     section = ring_section(gear, virtual, load, radius)
-    if section is None:
-        return None
-    y_f, y_s = form_factor(section, load, virtual), stress_correction_factor(section)
-    return FormulaRoot(
-        tool_radius=radius, section=section, form_factor=y_f, stress_correction_factor=y_s, nominal_stress=stress(y_f, y_s)
-    )
+    return found if section is None else replace(found, formula=FormulaRoot.of(rated(section), radius))
 
 
-def _virtual_contact_ratio(pair: GearPair) -> float:
-    """eps_alphan = eps_alpha/cos^2 beta_b (23)."""
-    return pair.transverse_contact_ratio / math.cos(math.radians(pair.pinion.base_helix_angle)) ** 2
-
-
-def root_notices(pair: GearPair, role: Role, rating: RootRating, edition: Edition) -> Iterator[Notice]:
+def root_notices(gear: Gear, role: Role, rating: RootRating, mesh: RootMesh) -> Iterator[Notice]:
     """Where one gear leaves the range that part 3 states for its formulas."""
-    gear, root = pair.gears.pick(role), f"{role.value} root"
+    root = f"{role.value} root"
     yield from _section_notices(gear, rating, root)
+    yield from notch_notices(rating, root)
+    yield from rim_of(gear).notices(mesh.edition, f"{role.value} rim")
+    yield from deep_notices(mesh, root)
+
+
+def notch_notices(rating: RootRating, root: str) -> Iterator[Notice]:
+    """Where a notch is not one that Y_S knows."""
     if not 1 <= (notch := rating.section.notch_parameter) < 8:
         yield Notice("notch-parameter", f"Y_S is stated for q_s from 1 to 8, here {notch:.3g}", root)
-    yield from rim_of(gear).notices(edition, f"{role.value} rim")
-    if (ratio := _virtual_contact_ratio(pair)) >= 2:
+
+
+def deep_notices(mesh: RootMesh, root: str) -> Iterator[Notice]:
+    """Where more than one pair of teeth carries at any time."""
+    if (ratio := mesh.virtual_contact_ratio) >= 2:
         text = f"Y_F assumes that one pair of teeth carries alone, but eps_alphan is {ratio:.4f}"
         yield Notice("deep-teeth", text, root)
 

@@ -5,24 +5,24 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from gearcad.errors import GeometryError, ParameterError
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.geometry.halves import refuse_halves
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.notice import Notice, texts
-from gearcad.per_gear import PerGear, Role
+from gearcad.per_gear import PerGear
 from gearcad.rating.editions import Edition
 from gearcad.rating.hertz import LineContact
 from gearcad.rating.iso6336_1 import MeshStiffness, mesh_stiffness, stiffness_notices
 from gearcad.rating.iso6336_2 import FlankRating, flank_notices, flank_rating
-from gearcad.rating.iso6336_3 import RootRating, root_notices, root_rating
+from gearcad.rating.iso6336_3 import RootMesh, RootRating, loaded_width, root_notices, root_rating
 from gearcad.rating.mesh_contact import base_normal_force, pitch_point_contact
 from gearcad.rating.options import RatingOptions
 
-__all__ = ["Rating", "rate"]
+__all__ = ["Rating", "fillet_notices", "rate", "require_ratable", "scope_notices"]
 
 _RECALLED = ("q_prime", "Z_D", "wheel.Y_B", "wheel.formula")
 """Of rings."""
@@ -48,6 +48,8 @@ class Rating:
     notices: tuple[Notice, ...]
     verify: tuple[str, ...] = ()
     """Symbols of what rests on a text of the standard that was not at hand."""
+    names: ClassVar[PerGear[str]] = PerGear("pinion", "wheel")
+    """What both are called in documents."""
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -69,7 +71,7 @@ class Rating:
         """Values under their symbols, those of one gear under "pinion" and "wheel"; `gearcad.symbols.RATING` has the words."""
         contact, flanks, bending = self.pitch_point, self.contact_stresses, self.root_stresses
         gears = {
-            role.value: {**root.to_dict(), "sigma_H": flanks.pick(role), "sigma_F": bending.pick(role)}
+            self.names.pick(role): {**root.to_dict(), "sigma_H": flanks.pick(role), "sigma_F": bending.pick(role)}
             for role, root in self.roots.items()
         }
         return {
@@ -104,10 +106,11 @@ def rate(
     """
     options = options or RatingOptions()
     edition = options.standard
-    _check(pair, load)
+    require_ratable(pair, load)
     force = 2000 * abs(load.torque) / pair.pinion.reference_diameter
     specific = force * load.application_factor / pair.common_width.width
-    roots = PerGear.each(lambda role: root_rating(pair, role, force, edition, options.accuracy_grade))
+    mesh = RootMesh.of(pair, force, edition, options.accuracy_grade)
+    roots = PerGear.each(lambda role: root_rating(pair.gears.pick(role), mesh, loaded_width(pair, role)))
     return Rating(
         edition=edition,
         tangential_force=force,
@@ -120,17 +123,18 @@ def rate(
         pitch_point=pitch_point_contact(pair, material, load.torque),
         verify=_RECALLED if pair.internal else (),
         notices=(
-            *_scope_notices(pair),
+            *scope_notices(pair),
             *_ring_notices(pair),
-            *_fillet_notices(pair),
+            *fillet_notices(pair),
             *stiffness_notices(pair, specific),
             *flank_notices(pair),
-            *(notice for role in Role for notice in root_notices(pair, role, roots.pick(role), edition)),
+            *(notice for role, gear in pair.gears.items() for notice in root_notices(gear, role, roots.pick(role), mesh)),
         ),
     )
 
 
-def _check(pair: GearPair, load: Load) -> None:
+def require_ratable(pair: GearPair | RackPair, load: Load) -> None:
+    """Raise ParameterError without a torque, GeometryError for a pair whose contact the standard does not describe."""
     refuse_halves(pair.pinion, "a rating")
     if load.torque == 0:
         raise ParameterError("torque", load.torque, "must not be 0 N·m: a rating needs a load", "N·m")
@@ -140,7 +144,7 @@ def _check(pair: GearPair, load: Load) -> None:
         raise GeometryError("transverse_contact_ratio", ratio, f"must be at least 1 and below 3 for a rating: {meaning}")
 
 
-def _scope_notices(pair: GearPair) -> Iterator[Notice]:
+def scope_notices(pair: GearPair | RackPair) -> Iterator[Notice]:
     """Where the pair leaves the scope of the whole standard (ISO 6336-1, clause 1)."""
     if not 15 <= (angle := pair.pinion.rack.pressure_angle) <= 25:
         text = f"ISO 6336 is confirmed for pressure angles from 15 to 25 deg, here {angle:g} deg"
@@ -159,9 +163,9 @@ def _ring_notices(pair: GearPair) -> Iterator[Notice]:
         yield Notice("ring-to-verify", text)
 
 
-def _fillet_notices(pair: GearPair) -> Iterator[Notice]:
-    """Whether the fillets do not let the pair have its contact ratio."""
+def fillet_notices(pair: GearPair | RackPair, felt: float = 1e-9) -> Iterator[Notice]:
+    """Whether the fillets do not let the pair have its contact ratio, by more than is `felt`."""
     usable, whole = pair.usable_contact_ratio, pair.transverse_contact_ratio
-    if usable < whole - 1e-9:
+    if usable < whole - felt:
         text = f"the tips reach {whole:.4f}, which the rating uses, but the fillets leave {usable:.4f} of involute"
         yield Notice("fillets-limit-contact", f"contact ratio: {text}")

@@ -68,6 +68,10 @@ class LoadPoint:
     half_angle: float
     load_angle: float
 
+    def to_dict(self) -> dict[str, float]:
+        """Values under their symbols."""
+        return {"d_en": self.diameter, "alpha_Fen": self.load_angle}
+
 
 def load_point(virtual: VirtualGear, virtual_contact_ratio: float) -> LoadPoint:
     """Where a single pair carries at the greatest lever, for the virtual contact ratio eps_alphan = eps_alpha/cos^2 beta_b.
