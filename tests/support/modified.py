@@ -17,9 +17,9 @@ Floats = NDArray[np.float64]
 
 
 def _roll(gear: Gear, radius: Floats) -> Floats:
-    """Length of roll (mm): the tangent from a circle to the base circle."""
+    """Length of roll (mm): the tangent from a circle to the base circle; negative on a ring, where it grows to the tip too."""
     result: Floats = np.sqrt(np.maximum(radius**2 - gear.base_diameter**2 / 4, 0.0))
-    return result
+    return -result if gear.internal else result
 
 
 def roll_ends(gear: Gear) -> tuple[float, float]:
@@ -35,7 +35,8 @@ def specified(gear: Gear, radius: Floats, z: Floats, left: NDArray[np.bool_] | b
     """
     m = gear.modification
     first, last = roll_ends(gear)
-    roll = np.clip(np.where(radius < gear.form_diameter / 2, first, _roll(gear, radius)), first, last)
+    beyond = radius > -gear.form_diameter / 2 if gear.internal else radius < gear.form_diameter / 2
+    roll = np.clip(np.where(beyond, first, _roll(gear, radius)), first, last)
     length, width = last - first, gear.face_width
     middle = roll - (first + last) / 2
     off = z - width / 2
@@ -62,8 +63,8 @@ def specified(gear: Gear, radius: Floats, z: Floats, left: NDArray[np.bool_] | b
 def folded(gear: Gear, points: Floats) -> tuple[Floats, Floats, Floats]:
     """Radius (mm), angle from the middle of the tooth (rad) and height (mm) of points (n, 3), the twist taken off."""
     x, y, z = points.T
-    rate = math.tan(math.radians(gear.helix_angle)) / (gear.reference_diameter / 2)
-    pitch = 2 * math.pi / gear.teeth
+    rate = math.tan(math.radians(gear.helix_angle)) / (abs(gear.reference_diameter) / 2)
+    pitch = 2 * math.pi / gear.tooth_count
     angle = np.mod(np.arctan2(y, x) - rate * z + pitch / 2, pitch) - pitch / 2
     return np.hypot(x, y), angle, z
 
@@ -72,11 +73,12 @@ def depth_off(gear: Gear, points: Floats) -> Floats:
     """How far (mm, along the base tangent) points (n, 3) on the involute flanks are off the depth that is specified."""
     radius, angle, z = folded(gear, points)
     left = angle > 0
-    pressure = np.arccos(np.clip(gear.base_diameter / 2 / radius, -1, 1))
+    base, grows = abs(gear.base_diameter) / 2, -1 if gear.internal else 1  # of a ring the half angle grows outwards
+    pressure = np.arccos(np.clip(base / radius, -1, 1))
     at_reference = math.radians(gear.transverse_pressure_angle)
-    half = gear.transverse_tooth_thickness / gear.reference_diameter + math.tan(at_reference) - at_reference
-    half = half - (np.tan(pressure) - pressure)
-    measured = (half - np.abs(angle)) * gear.base_diameter / 2
+    half = gear.transverse_tooth_thickness / abs(gear.reference_diameter) + grows * (math.tan(at_reference) - at_reference)
+    half = half - grows * (np.tan(pressure) - pressure)
+    measured = (half - np.abs(angle)) * base
     result: Floats = measured - specified(gear, radius, z, left)
     return result
 
@@ -84,7 +86,7 @@ def depth_off(gear: Gear, points: Floats) -> Floats:
 def unturned(gear: Gear, points: Floats) -> Floats:
     """Points (n, 3) of the side turned back by what the modifications have turned them: onto the unmodified side."""
     radius, angle, z = folded(gear, points)
-    back = specified(gear, radius, z, angle > 0) / (gear.base_diameter / 2) * np.where(angle > 0, 1, -1)
+    back = specified(gear, radius, z, angle > 0) / (abs(gear.base_diameter) / 2) * np.where(angle > 0, 1, -1)
     x, y, _ = points.T
     cosine, sine = np.cos(back), np.sin(back)
     return np.stack([cosine * x - sine * y, sine * x + cosine * y, z], -1)

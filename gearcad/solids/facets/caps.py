@@ -1,48 +1,27 @@
-"""The ends of the teeth as triangles: plane face, cone of the end chamfer, down to the ring that the body joins.
+"""The ends of external teeth as triangles: plane face, cone of the end chamfer, down to the ring that the body joins.
 
 A tooth is covered by strips between levels: pairs of profile points of equal radius. A level that lies on the cone, or
 that must stand clear of something below, is an arc with points on a fixed set of angles, so that the strips run along
 the generators of the cone and never fold; any other level is the straight line between its two profile points.
-Within one tooth, profile points are numbered 0 ... period, and points added on its levels -1, -2, ...
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.solids.facets.sampling import ToothGrid
+from gearcad.solids.facets.tooth_end import Cap, GearEnd, ToothEnd, points_at
 from gearcad.solids.facets.zipper import Chain, zip_levels
 
-__all__ = ["Cap", "GearEnd", "cap_teeth"]
+__all__ = ["cap_teeth"]
 
 
 _CLEAR = 0.01
 """A level has no point of its own nearer to its ends than this share of the step."""
-
-
-@dataclass(frozen=True)
-class GearEnd:
-    """One end of a gear: its side's `first_vertex` there, what lies inside the teeth (mm), and the `step` of arcs (rad)."""
-
-    first_vertex: int
-    top: bool
-    inner_radius: float
-    step: float
-
-
-@dataclass(frozen=True)
-class Cap:
-    """Vertices (n, 3) added, faces (m, 3) as seen from outside at the top, and the ring on the end plane with its angles."""
-
-    vertices: Floats
-    faces: Wholes
-    ring: Wholes
-    ring_angle: Floats
 
 
 def cap_teeth(grid: ToothGrid, end: GearEnd, next_vertex: int) -> Cap:
@@ -50,14 +29,9 @@ def cap_teeth(grid: ToothGrid, end: GearEnd, next_vertex: int) -> Cap:
     return _Capper(grid, end, next_vertex).cap()
 
 
-class _Capper:
+class _Capper(ToothEnd):
     def __init__(self, grid: ToothGrid, end: GearEnd, next_vertex: int) -> None:
-        self.grid, self.end, self.next_vertex = grid, end, next_vertex
-        self.z = grid.layers.width - grid.setback if end.top else grid.setback
-        self.turn = grid.layers.kappa * self.z
-        right, left = (turns[-1 if end.top else 0] for turns in grid.turns)
-        self.right, self.left = right - grid.half_angle, left + grid.half_angle
-        self.own: list[tuple[int, float]] = []
+        super().__init__(grid, end, next_vertex)
         self.arcs = self._arc_angles()
 
     def cap(self) -> Cap:
@@ -71,12 +45,10 @@ class _Capper:
         start = None if grid.root_steps else -1  # no root land: the next tooth begins where this one ends
         ring = np.concatenate([np.array(foot[:start]), land]).astype(np.int64)
         angle = (np.concatenate([np.array(foot_angle[:start]), space]) + pitch * np.arange(grid.teeth)[:, None]).ravel()
-        vertices, faces, around = self._own_vertices(), self._numbers(tooth), self._numbers(ring).ravel()
+        vertices, faces, around = self.own_vertices(), self.numbers(tooth), self.numbers(ring).ravel()
         if grid.cone.face_radius < grid.radius[0]:
             return self._down_the_cone(vertices, faces.reshape(-1, 3), around, angle)
         return Cap(vertices, faces.reshape(-1, 3), around, angle)
-
-    # ------------------------------------------------------------------ levels
 
     def _arc_angles(self) -> list[Floats]:
         """For every level below the tip the angles at which it has points, if its ends leave room; none: a straight line."""
@@ -101,43 +73,17 @@ class _Capper:
         return arcs
 
     def _level(self, i: int) -> Chain:
-        """Angles and numbers along level i from the right flank to the left one; adds the level's own points."""
-        grid = self.grid
-        right, left = self.turn[i] + self.right[i], self.turn[i] + self.left[i]
-        opposite = 2 * grid.flank_steps + grid.tip_steps - i
-        if i == grid.flank_steps:
-            return np.linspace(right, left, grid.tip_steps + 1).tolist(), list(range(i, opposite + 1))
+        if i == self.grid.flank_steps:
+            return self.tip()
+        right, left = self.span(i)
         clear = _CLEAR * self.end.step
         fixed = self.arcs[i]
-        between = fixed[(fixed > right + clear) & (fixed < left - clear)].tolist()
-        first = len(self.own)
-        self.own += [(i, angle) for angle in between]
-        return [right, *between, left], [i, *(-1 - first - j for j in range(len(between))), opposite]
-
-    # ------------------------------------------------------------------ all teeth
-
-    def _numbers(self, tooth: Wholes) -> Wholes:
-        """Vertex numbers for all teeth (teeth, ...) of the numbers used within one."""
-        grid = self.grid
-        which = np.arange(grid.teeth).reshape(-1, *(1 for _ in tooth.shape))
-        on_side = self.end.first_vertex + (which * grid.period + tooth) % (grid.teeth * grid.period)
-        result: Wholes = np.where(tooth >= 0, on_side, self.next_vertex + which * len(self.own) - 1 - tooth)
-        return result
-
-    def _own_vertices(self) -> Floats:
-        level = np.array([i for i, _ in self.own], int)
-        angle = np.array([a for _, a in self.own]) + 2 * math.pi / self.grid.teeth * np.arange(self.grid.teeth)[:, None]
-        return _points(self.grid.radius[level], angle, self.z[level])
+        return self.chain(i, fixed[(fixed > right + clear) & (fixed < left - clear)].tolist())
 
     def _down_the_cone(self, vertices: Floats, faces: Wholes, ring: Wholes, angle: Floats) -> Cap:
         """The cone reaches below the teeth: go on along its generators to the circle where it meets the end plane."""
-        z = self.grid.layers.width if self.end.top else 0.0
-        circle = _points(np.array(self.grid.cone.face_radius), angle, np.array(z))
+        circle = points_at(np.array(self.grid.cone.face_radius), angle, np.array(self.end_plane))
         inner = self.next_vertex + len(vertices) + np.arange(len(ring))
         outer_next, inner_next = np.roll(ring, -1), np.roll(inner, -1)
         strip = np.concatenate([np.stack([inner, ring, outer_next], -1), np.stack([inner, outer_next, inner_next], -1)])
         return Cap(np.concatenate([vertices, circle]), np.concatenate([faces, strip]), inner, angle)
-
-
-def _points(radius: Floats, angle: Floats, z: Floats) -> Floats:
-    return np.stack(np.broadcast_arrays(radius * np.cos(angle), radius * np.sin(angle), z), -1).reshape(-1, 3)

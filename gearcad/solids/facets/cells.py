@@ -5,10 +5,17 @@ profile points and layers. The deviation of an edge that spans ds and dz is, to 
 
     |A + B D + C D^2| / |n|     with D = kappa dz (rad)
 
-A: sagitta of the profile, C: sagitta of the helix, B: their mixed (twist) term. Every part of that side has a Gaussian
-curvature of at most zero (involute helicoid and cylinders: zero), so a triangle deviates nowhere more than on its edges,
-and with the better of its two diagonals a cell is hardly worse than its sides. On modified flanks the deviation is that of
-the middle of the edge from the surface. Angles are radians in here.
+A: sagitta of the profile, C: sagitta of the helix, B: their mixed (twist) term.
+
+With the unit tangent t of the section, its curvature k and n = i t, the Gaussian curvature of S has the sign of -(1 + k n.C),
+and 1 + k n.C is what the moment t.C of the section's normal about the axis gains along its length. On lands that stays 0, on
+involutes r_b or -r_b; straight chamfers gain 1. On a fillet the normal passes through the pitch point (on a form root through
+the middle of the corner) and turns away from the line to the axis, so its moment grows from 0 at the root circle. External
+teeth, hobbed or shaped, go outwards there: t.C gains, no part of their side has a curvature above zero, a triangle deviates
+nowhere more than on its edges, and with the better of its two diagonals a cell is hardly worse than its sides. On a ring they
+go inwards: t.C falls from 0 to -r_b, fillets of helical rings bulge, and a triangle deviates most inside: see `_inside`.
+
+On modified flanks the deviation is that of the middle of the edge from the surface. Angles are radians in here.
 """
 
 from __future__ import annotations
@@ -20,12 +27,12 @@ import numpy as np
 
 from gearcad.arrays import Bools, Floats
 from gearcad.geometry import Gear
-from gearcad.geometry.curves import Curve
+from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.geometry.turned import FlankCurve
 from gearcad.solids.cone import EndCone
 from gearcad.solids.facets.layers import Layers
 
-__all__ = ["falling_cells", "split"]
+__all__ = ["bulges", "falling_cells", "split"]
 
 
 _PASSES = 20
@@ -33,6 +40,12 @@ _PASSES = 20
 
 _STEP = 1e-4
 """Steps over which a normal is taken, as a share of a curve and of the face width."""
+
+
+def bulges(gear: Gear, piece: FlankCurve) -> bool:
+    """Whether the Gaussian curvature of what a piece sweeps is above zero, so that triangles deviate most inside."""
+    swept = gear.internal and gear.helix_angle != 0 and not gear.modification.present
+    return swept and piece.curve.kind is CurveKind.FILLET
 
 
 class _Deviations(NamedTuple):
@@ -49,8 +62,7 @@ class _Deviations(NamedTuple):
 def split(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone, aim: float) -> Floats:
     """The parameters with the cells split that are off by more than `aim` (mm): long in z, on the cone, or bent unevenly."""
     for _ in range(_PASSES):
-        flanks = [[np.abs(d) for d in deviations] for deviations in _deviations(gear, piece, s, layers, cone)]
-        worst = np.max([np.maximum(a.max(axis=0), np.minimum(b, c).max(axis=0)) for a, b, c in flanks], axis=0)
+        worst = (_inside_cells if bulges(gear, piece) else _on_edges)(gear, piece, s, layers, cone)
         if cone.present:
             worst = np.maximum(worst, _off_cone(gear, piece, s, layers, cone))
         parts = np.ceil(np.sqrt(worst / aim) * (1 - 1e-6)).astype(int).clip(1, 16)
@@ -75,6 +87,36 @@ def falling_cells(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone
     return ~rising[1], rising[0]
 
 
+def _on_edges(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone) -> Floats:
+    """Largest deviation (mm) in each column of cells (len(s) - 1,): on its sides, or on the better diagonals."""
+    flanks = [[np.abs(d) for d in deviations] for deviations in _deviations(gear, piece, s, layers, cone)]
+    worst: Floats = np.max([np.maximum(a.max(axis=0), np.minimum(b, c).max(axis=0)) for a, b, c in flanks], axis=0)
+    return worst
+
+
+def _inside_cells(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone) -> Floats:
+    """The same where the surface bulges: in each column the largest deviation (mm) inside triangles."""
+    sides, rising, falling = (np.abs(d) for d in _of_screw(piece.curve, s, layers, cone))
+    rise = layers.kappa * np.diff(layers.heights(cone.setback(piece.curve.polar(s)[0])), axis=0)
+    upright = _Bend.of(piece.curve, s, layers).uprights(np.maximum(np.abs(rise[:, 1:]), np.abs(rise[:, :-1])))
+    found = _inside(sides.max(axis=0), np.abs(upright).max(axis=0), np.minimum(rising, falling).max(axis=0))
+    return found
+
+
+def _inside(one: Floats, two: Floats, three: Floats) -> Floats:
+    """Largest deviation of triangles whose edges deviate by these amounts, all to one side.
+
+    By the lengths that an edge's deviation is an eighth of the square of, half the square of the radius of the circle through
+    the corners: 4 abc/(2 (ab + bc + ca) - a^2 - b^2 - c^2); of an obtuse triangle that of its longest edge.
+    """
+    edges = np.stack([one, two, three])
+    total, longest = edges.sum(axis=0), edges.max(axis=0)
+    share = total**2 - 2 * (edges**2).sum(axis=0)  # 2 (ab + bc + ca) - a^2 - b^2 - c^2
+    acute = 2 * longest < total
+    result: Floats = np.where(acute, 4 * edges.prod(axis=0) / np.where(acute, share, 1.0), longest)
+    return result
+
+
 def _deviations(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone) -> list[_Deviations]:
     """Those of the left and, where it is another one, the right flank."""
     if not gear.modification.present:
@@ -91,31 +133,50 @@ def _off_cone(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: En
         ends = np.stack([setback, layers.width - setback])
         turns = [piece.turn(gear.flank_form, s, ends, left=left) for left in (True, False)]
         span += np.abs(np.diff(turns)).max(axis=(0, 1))
-    return np.where(radius[1:] > cone.face_radius, radius[1:] * span**2 / 8, 0.0)
+    return np.where(setback[1:] > 0, radius[1:] * span**2 / 8, 0.0)
+
+
+class _Bend(NamedTuple):
+    """How the side bends over cells of a screw surface: A, B, C and |n| of the head of this module, each (len(s) - 1,)."""
+
+    profile: Floats
+    mixed: Floats
+    helix: Floats
+    tilt: Floats
+
+    @classmethod
+    def of(cls, curve: Curve, s: Floats, layers: Layers) -> _Bend:
+        points, middle = curve.points(s), curve.points(0.5 * (s[1:] + s[:-1]))
+        heading = curve.direction(0.5 * (s[1:] + s[:-1]))
+        normal = np.stack([-np.sin(heading), np.cos(heading)], -1)
+        chord = points[1:] - points[:-1]
+        profile = np.sum(normal * (0.5 * (points[1:] + points[:-1]) - middle), -1)
+        mixed = (normal[:, 1] * chord[:, 0] - normal[:, 0] * chord[:, 1]) / 4
+        helix = -np.sum(normal * middle, -1) / 8
+        tilt = np.hypot(1.0, layers.kappa * (normal[:, 1] * middle[:, 0] - normal[:, 0] * middle[:, 1]))
+        return cls(profile, mixed, helix, tilt)
+
+    def deviation(self, angle: Floats) -> Floats:
+        """Of edges that go along the profile and turn by an angle."""
+        result: Floats = (self.profile + angle * (self.mixed + angle * self.helix)) / self.tilt
+        return result
+
+    def uprights(self, angle: Floats) -> Floats:
+        """Of edges that turn by an angle only."""
+        result: Floats = angle**2 * self.helix / self.tilt
+        return result
 
 
 def _of_screw(curve: Curve, s: Floats, layers: Layers, cone: EndCone) -> _Deviations:
     """To second order; one row stands for all where every layer is the same."""
-    points, middle = curve.points(s), curve.points(0.5 * (s[1:] + s[:-1]))
-    heading = curve.direction(0.5 * (s[1:] + s[:-1]))
-    normal = np.stack([-np.sin(heading), np.cos(heading)], -1)
-    chord = points[1:] - points[:-1]
-    profile = np.sum(normal * (0.5 * (points[1:] + points[:-1]) - middle), -1)
-    mixed = (normal[:, 1] * chord[:, 0] - normal[:, 0] * chord[:, 1]) / 4
-    helix = -np.sum(normal * middle, -1) / 8
-    tilt = np.hypot(1.0, layers.kappa * (normal[:, 1] * middle[:, 0] - normal[:, 0] * middle[:, 1]))
+    bend = _Bend.of(curve, s, layers)
     turn = layers.kappa * layers.heights(cone.setback(curve.polar(s)[0]))
     if not cone.present:  # every layer is the same
         turn = turn[:2]
-
-    def deviation(angle: Floats) -> Floats:
-        result: Floats = (profile + angle * (mixed + angle * helix)) / tilt
-        return result
-
     return _Deviations(
-        deviation(turn[:, 1:] - turn[:, :-1]),
-        deviation(turn[1:, 1:] - turn[:-1, :-1]),
-        deviation(turn[:-1, 1:] - turn[1:, :-1]),
+        bend.deviation(turn[:, 1:] - turn[:, :-1]),
+        bend.deviation(turn[1:, 1:] - turn[:-1, :-1]),
+        bend.deviation(turn[:-1, 1:] - turn[1:, :-1]),
     )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.geometry import Gear
 from gearcad.geometry.helix import twist
-from gearcad.solids.facets.tolerance import aim_for, arc_step
+from gearcad.solids.facets.tolerance import HELIX_SHARE, aim_for, arc_step, outermost_radius
 
 __all__ = ["Layers"]
 
@@ -39,7 +39,7 @@ class Layers:
         kappa = twist(gear)
         width = gear.face_width
         if not gear.modification.present:
-            step = arc_step(gear.tip_diameter / 2, chord_error)
+            step = arc_step(outermost_radius(gear), HELIX_SHARE * chord_error if gear.internal else chord_error)
             count = max(1, math.ceil(abs(kappa) * width / step - 1e-9))
             return cls(kappa, width, (0.0, width), (count,))
         knots = (0.0, *gear.flank_form.height_breaks, width)
@@ -74,7 +74,7 @@ def _count(gear: Gear, kappa: float, low: float, high: float, aim: float) -> int
 
     The other half is left to the bend of the profile, as both add up in a diagonal.
     """
-    form, radius = gear.flank_form, gear.tip_diameter / 2
+    form, radius = gear.flank_form, outermost_radius(gear)
     ends, z = np.array([[form.first], [form.last]]), np.array([low, (low + high) / 2, high])
     depth = np.concatenate([form.depth(ends, z, left=left) for left in (True, False)])
     rise = np.abs(depth[:, 0] - 2 * depth[:, 1] + depth[:, 2]).max() / 2 * radius / form.base_radius

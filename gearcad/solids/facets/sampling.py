@@ -16,9 +16,9 @@ from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, parameters_within
 from gearcad.geometry.turned import FlankCurve, flank_curves
 from gearcad.solids.cone import EndCone
-from gearcad.solids.facets.cells import falling_cells, split
+from gearcad.solids.facets.cells import bulges, falling_cells, split
 from gearcad.solids.facets.layers import Layers
-from gearcad.solids.facets.tolerance import aim_for, arc_step, least_distance
+from gearcad.solids.facets.tolerance import HELIX_SHARE, aim_for, arc_step, least_distance
 
 __all__ = ["ToothGrid", "tooth_grid"]
 
@@ -29,9 +29,9 @@ class ToothGrid:
 
     `turns` (rad) by which the modifications turn the points of the right and left flank: each (layers + 1, k + 1). The tip
     land has `tip_steps` chords (0: pointed), the root land between two teeth `root_steps` (0: none). `falling`, each
-    (layers, k), is true where a cell of the right and left flank is cut from lower right to upper left, seen from outside.
-    `cone` has its face radius on a profile point of index `face_level` if it lies on the flank at all; 0 if at or below
-    the root circle.
+    (layers, k), is true where a cell of the right and left flank is cut from lower right to upper left, seen towards the axis.
+    `cone` has its face radius on a profile point of index `face_level` if it lies on the flank at all; 0 if at the root
+    circle or on the body.
     """
 
     radius: Floats
@@ -79,7 +79,7 @@ class ToothGrid:
 
     @cached_property
     def falling_cells(self) -> Bools:
-        """(layers, period): true where a cell is cut from its lower right to its upper left, seen from outside.
+        """(layers, period): true where a cell is cut from its lower right to its upper left, seen towards the axis.
 
         On a land the diagonal is the one that spans less about the axis: against the helix.
         """
@@ -95,7 +95,7 @@ class ToothGrid:
 def tooth_grid(gear: Gear, chord_error: float) -> ToothGrid:
     """Grid of one tooth within `chord_error` (mm) of the surface everywhere."""
     layers, pieces = Layers.of(gear, chord_error), flank_curves(gear)
-    ends = [gear.root_diameter / 2, *(float(piece.curve.polar(1.0)[0]) for piece in pieces)]
+    ends = [gear.profile.root_diameter / 2, *(float(piece.curve.polar(1.0)[0]) for piece in pieces)]
     cone = EndCone.of(gear).snapped(ends, least_distance(gear, chord_error))
     samples = [_samples(gear, piece, layers, cone, chord_error) for piece in pieces]
     radius, angle, face_level = _profile(gear, pieces, samples, cone)
@@ -103,7 +103,7 @@ def tooth_grid(gear: Gear, chord_error: float) -> ToothGrid:
     turns = _turns(gear, pieces, samples, layers.heights(setback))
     root_steps, tip_steps = _lands(gear, radius, angle, turns, chord_error)
     if not root_steps:
-        angle[0] = math.pi / gear.teeth
+        angle[0] = math.pi / gear.tooth_count
     if not tip_steps:
         angle[-1] = 0.0
     cells = zip(*(falling_cells(gear, piece, s, layers, cone) for piece, s in zip(pieces, samples, strict=True)), strict=True)
@@ -119,7 +119,7 @@ def tooth_grid(gear: Gear, chord_error: float) -> ToothGrid:
         cone=cone,
         face_level=face_level,
         layers=layers,
-        teeth=gear.teeth,
+        teeth=gear.tooth_count,
     )
 
 
@@ -128,11 +128,11 @@ def _profile(gear: Gear, pieces: list[FlankCurve], samples: list[Floats], cone: 
     polar = [piece.curve.polar(s) for piece, s in zip(pieces, samples, strict=True)]
     radius = np.concatenate([polar[0][0][:1], *(r[1:] for r, _ in polar)])
     angle = np.concatenate([polar[0][1][:1], *(a[1:] for _, a in polar)])
-    radius[0], radius[-1] = gear.root_diameter / 2, gear.tip_diameter / 2
+    radius[0], radius[-1] = gear.profile.root_diameter / 2, gear.profile.tip_diameter / 2
     if not cone.present:
         return radius, angle, len(radius) - 1
     face_level = int(np.argmin(np.abs(radius - cone.face_radius)))
-    if cone.face_radius >= radius[0]:
+    if cone.beyond(radius[0]) <= 0:
         radius[face_level] = cone.face_radius
     return radius, angle, face_level
 
@@ -140,7 +140,7 @@ def _profile(gear: Gear, pieces: list[FlankCurve], samples: list[Floats], cone: 
 def _lands(gear: Gear, radius: Floats, angle: Floats, turns: tuple[Floats, Floats], chord_error: float) -> tuple[int, int]:
     """Chords of a whole root land and tip land, where they are widest."""
     right, left = turns
-    root_half = math.pi / gear.teeth - angle[0] + (right[:, 0] - left[:, 0]).max() / 2
+    root_half = math.pi / gear.tooth_count - angle[0] + (right[:, 0] - left[:, 0]).max() / 2
     tip_half = angle[-1] + (left[:, -1] - right[:, -1]).max() / 2
     # Ends that turn stay apart, however near they are.
     least = least_distance(gear, chord_error)
@@ -152,7 +152,7 @@ def _lands(gear: Gear, radius: Floats, angle: Floats, turns: tuple[Floats, Float
 def _samples(gear: Gear, piece: FlankCurve, layers: Layers, cone: EndCone, chord_error: float) -> Floats:
     """Parameters of a curve, among them those where the cone begins and where it crosses a knot of the layers."""
     near, aim = least_distance(gear, chord_error), aim_for(gear, chord_error)
-    s = parameters_within(piece.curve, aim)
+    s = parameters_within(piece.curve, (1 - HELIX_SHARE) * aim if bulges(gear, piece) else aim)
     if cone.present:
         depths = {0.0, *(min(z, layers.width - z) for z in layers.knots)}
         for depth in sorted(depths):
@@ -188,13 +188,14 @@ def _land_steps(half_angle: float, radius: float, chord_error: float, near: floa
 def _with_radius(curve: Curve, s: Floats, at: float, near: float) -> Floats:
     """The parameters with the one at a radius (mm) among them, in place of any other closer than `near` (mm)."""
     radius = curve.polar(s)[0]
-    if not radius[0] + near < at < radius[-1] - near:
+    rising = math.copysign(1.0, radius[-1] - radius[0])
+    if not rising * radius[0] + near < rising * at < rising * radius[-1] - near:
         return s
     keep = np.abs(radius - at) > near
     keep[[0, -1]] = True
     low, high = 0.0, 1.0
     for _ in range(8):
         trial = np.linspace(low, high, 65)
-        above = int(np.clip(np.searchsorted(curve.polar(trial)[0], at), 1, 64))
+        above = int(np.clip(np.searchsorted(rising * curve.polar(trial)[0], rising * at), 1, 64))
         low, high = trial[above - 1], trial[above]
     return np.sort(np.append(s[keep], 0.5 * (low + high)))

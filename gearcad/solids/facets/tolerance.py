@@ -6,10 +6,19 @@ import math
 
 from gearcad.geometry import Gear
 
-__all__ = ["aim_for", "arc_step", "least_distance"]
+__all__ = ["HELIX_SHARE", "aim_for", "arc_step", "least_distance", "outermost_radius"]
 
 _CONVEX = 0.75
 """Share of the chord error for the edges on modified flanks: a triangle on a convex place deviates up to 4/3 as much inside."""
+
+
+HELIX_SHARE = 0.6
+"""Share of the chord error that layers use up on helical rings: on their fillets the bend of the profile adds to it."""
+
+
+def outermost_radius(gear: Gear) -> float:
+    """Radius (mm) of the circle that the toothed side reaches out to: the tips, on a ring the roots."""
+    return max(gear.profile.tip_diameter, gear.profile.root_diameter) / 2
 
 
 def arc_step(radius: float, chord_error: float) -> float:
@@ -19,7 +28,7 @@ def arc_step(radius: float, chord_error: float) -> float:
 
 def least_distance(gear: Gear, chord_error: float) -> float:
     """Distance (mm) below which two points are made one: nothing against the chord error, or two steps of a float32."""
-    return max(1e-3 * chord_error, 3e-7 * gear.tip_diameter / 2)
+    return max(1e-3 * chord_error, 3e-7 * outermost_radius(gear))
 
 
 def aim_for(gear: Gear, chord_error: float) -> float:

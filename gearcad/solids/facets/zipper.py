@@ -12,7 +12,7 @@ import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 
-__all__ = ["Chain", "keyway_order", "middles", "zip_levels", "zip_rings"]
+__all__ = ["Chain", "keyway_order", "middles", "upright", "zip_levels", "zip_rings"]
 
 Chain = tuple[Sequence[float], Sequence[int]]
 
@@ -33,6 +33,14 @@ def zip_levels(lower: Chain, upper: Chain) -> list[tuple[int, int, int]]:
             faces.append((outer[j], outer[j + 1], inner[i]))
             j += 1
     return faces
+
+
+def upright(corners: Floats, least: float) -> bool:
+    """Whether all triangles with corners (n, 3, 2) in mm run counter-clockwise and are nowhere lower than `least` (mm)."""
+    one, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    area = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
+    longest = np.hypot(*np.moveaxis(corners - np.roll(corners, 1, axis=1), -1, 0)).max(axis=1)
+    return bool(np.all(area > least * longest))
 
 
 def middles(angle: Floats) -> Floats:
