@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gearcad.check.task import CheckTask
+from gearcad.contact.shared.loaded_left import gears_loaded_left
 from gearcad.geometry import Gear
 from gearcad.per_gear import PerGear
 from gearcad.rating.face_load import face_load_factor, root_face_load_factor, width_to_height
@@ -40,4 +41,4 @@ def _mismatch(task: CheckTask) -> PerGear[float]:
         depth = gear.modification.helix_angle_modification * hand * (-1 if carries_left else 1)
         return depth * width / gear.face_width
 
-    return task.pair.gears.map(grows)
+    return gears_loaded_left(task.pair).map(grows)

@@ -16,18 +16,20 @@ TEMPLATES = Path(__file__).parents[2] / "templates"
 
 PAIRS = ("FZG C", "helical")
 
-TORQUES = {"FZG C": 302.0, "helical": 60.0, "Alm": 12.7}
+TORQUES = {"FZG C": 302.0, "helical": 60.0, "Alm": 12.7, "ring": 60.0}
 """N·m on the pinion."""
 
 
 def coarse_pair(name: str) -> GearPair:
-    """FZG C, Alm 18/161, or one of module 2 with 20 and 30 teeth at 20 degrees."""
+    """FZG C, Alm 18/161, or one of module 2 with 20 and 30 teeth at 20 degrees, or inside a ring of 54."""
     specs = {"FZG C": "fzg-c.toml", "Alm": "alm-18-161.toml"}
     if name in specs:
         pair = read_spec(TEMPLATES / specs[name]).pair
         assert pair is not None
         return pair
     pinion = Gear(teeth=20, normal_module=2, face_width=10, helix_angle=20, tooth_thinning=0.05, body=Body(bore=28))
+    if name == "ring":
+        return GearPair(pinion=pinion, wheel=Gear(teeth=-54, normal_module=2, face_width=10, helix_angle=20))
     wheel = Gear(teeth=30, normal_module=2, face_width=10, helix_angle=-20, tooth_thinning=0.05, body=Body(bore=48))
     return GearPair(pinion=pinion, wheel=wheel)
 

@@ -1,7 +1,8 @@
 """The gap between two modified, misaligned flanks, from points of both surfaces in space: a witness without the product's own.
 
 Space has its origin on the pinion's axis at z = 0 of the pinion; x points from there to the base point T1, y along the line
-of action from T1 to T2, z along the axes. The left flank of the pinion drives, and pushes the wheel towards +y.
+of action, from T1 to T2 of external gears, z along the axes. The left flank of the pinion drives, and pushes the wheel towards
++y. A ring has its axis on the pinion's side, and T2 at negative y; the pinion touches flanks with y < 0 of its teeth on +x.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ def middle_height(pair: GearPair) -> float:
 
 
 def _rolls(gear: Gear) -> tuple[float, float]:
-    """Roll lengths of the ends of the flank (mm): r_b tan of the pressure angle there."""
+    """Roll lengths of the ends of the flank, root and tip (mm): r_b tan of the pressure angle there, negative on a ring."""
     ends = (gear.form_diameter, gear.tip_form_diameter)
     return tuple(gear.base_diameter / 2 * math.tan(math.acos(min(gear.base_diameter / end, 1.0))) for end in ends)  # type: ignore[return-value]
 
@@ -42,7 +43,7 @@ def _relief(amount: float, length: float, shape: ReliefShape, from_end: Floats) 
 
 
 def taken_back(gear: Gear, lengths: Floats, heights: Floats) -> Floats:
-    """How far (mm) the left flank is taken back at roll lengths and heights over the gear's own z = 0."""
+    """How far (mm) the flank that meets its mate is taken back at roll lengths and heights over the gear's own z = 0."""
     of: FlankModification = gear.modification
     first, last = _rolls(gear)
     lengths, heights = np.broadcast_arrays(np.clip(lengths, first, last), np.clip(heights, 0, gear.face_width))
@@ -56,7 +57,8 @@ def taken_back(gear: Gear, lengths: Floats, heights: Floats) -> Floats:
     amount = amount + of.lead_crowning * ((heights - centre) / side) ** 2
     amount = amount + np.interp(lengths, [first, last], [0.0, of.pressure_angle_modification])
     # A right-hand screw turns counter-clockwise with z, the left flank away from its tooth: more of it adds material above.
-    hand = -1.0 if gear.helix_angle < 0 else 1.0
+    # Of a ring it is the other flank that meets the pinion.
+    hand = (-1.0 if gear.helix_angle < 0 else 1.0) * math.copysign(1.0, gear.teeth)
     amount = amount - hand * np.interp(heights, [0.0, gear.face_width], [-0.5, 0.5]) * of.helix_angle_modification
     # Opposite corners alike: the diagonals rise and fall by a quarter.
     amount = amount + of.twist / 4 * ((lengths - middle) / half) * ((heights - centre) / side)
@@ -76,8 +78,9 @@ def _contact(pair: GearPair, roll_length: float, tooth: int, heights: Floats) ->
 
 
 def _whole(pair: GearPair) -> float:
-    """T1T2 (mm)."""
-    return math.sqrt(pair.centre_distance**2 - ((pair.pinion.base_diameter + pair.wheel.base_diameter) / 2) ** 2)
+    """T1T2 (mm), negative where the wheel is a ring."""
+    square = pair.centre_distance**2 - ((pair.pinion.base_diameter + pair.wheel.base_diameter) / 2) ** 2
+    return math.copysign(math.sqrt(square), pair.wheel.teeth)
 
 
 def pinion_points(
@@ -98,15 +101,22 @@ def wheel_points(
     pair: GearPair, mounting: Mounting, roll_length: float, tooth: int, lengths: Floats, heights: Floats
 ) -> Floats:
     """The same of the wheel's flank that faces it; heights are z of the pinion, lengths the wheel's own from T2."""
-    base, whole = pair.wheel.base_diameter / 2, _whole(pair)
+    base, whole = abs(pair.wheel.base_diameter) / 2, _whole(pair)
     own = heights - (pair.pinion.face_width - pair.wheel.face_width) / 2 - pair.axial_offset
     proud = mounting.wheel_pitch_error / 1000 if tooth == 0 else 0.0
     turned = (taken_back(pair.wheel, lengths, own) - proud) / base
-    # Half a turn about the middle of T1T2 lays the wheel's flank where a pinion's would be.
-    x, y = _section(base, whole - _contact(pair, roll_length, tooth, heights), lengths, turned)
+    touching, first = _contact(pair, roll_length, tooth, heights), pair.pinion.base_diameter / 2
+    if pair.wheel.teeth > 0:
+        # Half a turn about the middle of T1T2 lays the wheel's flank where a pinion's would be.
+        x, y = _section(base, whole - touching, lengths, turned)
+        x, y = first + base - x, whole - y
+    else:
+        # The base circles touch the line of action from the same side; what comes off the ring's flank moves it towards +y.
+        x, y = _section(base, touching - whole, -lengths, -turned)
+        x, y = first - base + x, whole + y
     along = (heights - middle_height(pair)) / pair.common_width.width / 1000
-    x = pair.pinion.base_diameter / 2 + base - x + mounting.misalignment_across * along
-    return np.stack(np.broadcast_arrays(x, whole - y + mounting.misalignment * along, heights), -1)
+    x, y = x + mounting.misalignment_across * along, y + mounting.misalignment * along
+    return np.stack(np.broadcast_arrays(x, y, heights), -1)
 
 
 def gap_along_action(

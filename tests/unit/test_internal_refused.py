@@ -6,7 +6,6 @@ import pytest
 
 from gearcad import Gear, GearPair, Load, Material, dynamics, stiffness
 from gearcad.check import check_pair
-from gearcad.contact.solid.pair import solid_pair
 from gearcad.errors import GeometryError
 
 RING = GearPair(
@@ -22,7 +21,6 @@ RING = GearPair(
             lambda: check_pair(RING, Material(), Load(torque=50)),
             "wheel.teeth = -70: must be above 0: pairs with a ring are not",
         ),
-        (lambda: solid_pair(RING, Material()), "wheel.teeth = -70: must be above 0: contact of solids with a ring"),
         (lambda: dynamics(RING, Load(torque=50, speed=100)), "wheel.body.rim_diameter = None: must be given, at least"),
     ],
 )

@@ -84,6 +84,7 @@ def test_plane_below_carries_the_load() -> None:
 
 PINION = Gear(teeth=17, normal_module=3.0, face_width=22, helix_angle=18.0, profile_shift=0.2)
 WHEEL = Gear(teeth=31, normal_module=3.0, face_width=18, helix_angle=-18.0, profile_shift=0.1)
+RING = Gear(teeth=-53, normal_module=3.0, face_width=18, helix_angle=18.0, profile_shift=-0.3)
 MODIFIED = (
     FlankModification(
         tip_relief=18,
@@ -95,6 +96,23 @@ MODIFIED = (
     ),
     FlankModification(root_relief=11, root_relief_length=1.8, end_relief=12, end_relief_length=5, twist=8, lead_crowning=3),
 )
+MODIFIED_WITH_RING = (
+    FlankModification(
+        tip_relief=10, tip_relief_length=4, tip_relief_shape=ReliefShape.PARABOLIC, lead_crowning=9, helix_angle_modification=14
+    ),
+    FlankModification(
+        tip_relief=10,
+        tip_relief_length=6,
+        tip_relief_shape=ReliefShape.PARABOLIC,
+        end_relief=12,
+        end_relief_length=5,
+        twist=8,
+        helix_angle_modification=-9,
+        pressure_angle_modification=4,
+    ),
+)
+"""Gaps with a ring bend less, so that flanks are nearest further aside: reliefs are longer."""
+
 MOUNTINGS = (
     Mounting(),
     Mounting(misalignment=25),
@@ -119,16 +137,16 @@ def lines_of(pair: GearPair, roll_length: float, cells: int = 24) -> tuple[Conta
 
 @pytest.mark.parametrize("mounting", MOUNTINGS, ids=["drawing", "in plane", "across", "pitch and centre"])
 @pytest.mark.parametrize("modified", [False, True])
-def test_gaps_are_those_of_the_flanks_in_space(mounting: Mounting, modified: bool) -> None:
+@pytest.mark.parametrize("mate", [WHEEL, RING], ids=["wheel", "ring"])
+def test_gaps_are_those_of_the_flanks_in_space(mounting: Mounting, modified: bool, mate: Gear) -> None:
     """Against the nearest of many points of both surfaces in each transverse section.
 
     A rigid displacement of the wheel along the axis is not in that picture: it is taken off (see `gaps`).
     """
-    pinion, wheel = (
-        (replace(gear, modification=of) for gear, of in zip((PINION, WHEEL), MODIFIED, strict=True))
-        if modified
-        else (PINION, WHEEL)
-    )
+    pinion, wheel = PINION, mate
+    if modified:
+        first, second = MODIFIED_WITH_RING if mate.internal else MODIFIED
+        pinion, wheel = replace(PINION, modification=first), replace(mate, modification=second)
     pair = mounting.mounted(GearPair(pinion=pinion, wheel=wheel, axial_offset=1.5))
     helix = math.radians(pair.pinion.base_helix_angle)
     for roll_length in (pair.path_of_contact.C, pair.path_of_contact.C + 2.0):

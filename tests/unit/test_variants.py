@@ -28,7 +28,7 @@ PRESSURE = 0.01
 
 def variants(name: str, shape: ReliefShape, mounting: Mounting, count: int = 5) -> Variants:
     model = coarse_model(name)
-    given = FlankModification(root_relief=6, root_relief_length=1.0, profile_crowning=3, twist=4)
+    given = FlankModification(root_relief=6, root_relief_length=1.0, profile_crowning=3, twist=4, helix_angle_modification=5)
     pair = replace(model.pair, wheel=replace(model.pair.wheel, modification=given))
     roomy = replace(model.remade(with_amounts(pair, HIGH, shape), mounting), cells=18, known=KnownResponses())
     return Variants(roomy, shape, count, TORQUES[name])
@@ -44,7 +44,7 @@ MOUNTINGS = (Mounting(), Mounting(misalignment=9.0, misalignment_across=60.0, wh
 
 
 @pytest.mark.parametrize("shape", ReliefShape)
-@pytest.mark.parametrize("name", PAIRS)
+@pytest.mark.parametrize("name", (*PAIRS, "ring"))
 @pytest.mark.parametrize("mounting", MOUNTINGS, ids=["as drawn", "deviations"])
 def test_gaps_of_variants_are_those_of_the_pairs(name: str, shape: ReliefShape, mounting: Mounting) -> None:
     of = variants(name, shape, mounting)
@@ -59,7 +59,7 @@ def test_gaps_of_variants_are_those_of_the_pairs(name: str, shape: ReliefShape, 
             np.testing.assert_allclose(radii[number], expected.radii, rtol=1e-9)
 
 
-@pytest.mark.parametrize("name", PAIRS)
+@pytest.mark.parametrize("name", (*PAIRS, "ring"))
 def test_outcomes_are_those_of_the_contact_solved_in_full(name: str) -> None:
     of = variants(name, ReliefShape.PARABOLIC, MOUNTINGS[1])
     amounts, condition = drawn(5), Condition(0.8 * of.torque, misalignment=5.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
@@ -117,11 +118,12 @@ def _tooth_stress(cycle: SolidCycle, role: Role) -> ToothStress:
 
 
 def tooth_surface(stress: ToothStress, gear: Gear) -> ToothSurface:
-    """A tooth with the body just below it."""
-    field = stress.field
-    faces = field.above(gear.root_diameter / 2 - _BELOW * gear.normal_module).surface
+    """A tooth with the body just below it; a ring's is turned about its axis, so that its tip is where others' are."""
+    field, root, below = stress.field, gear.profile.root_diameter / 2, _BELOW * gear.normal_module
+    faces = (field.between(0.0, root + below) if gear.internal else field.between(root - below, math.inf)).surface
     used, index = np.unique(faces, return_inverse=True)
     triangles = index.reshape(faces.shape)[:, _PARTS].reshape(-1, 3)
     points = field.points[used]
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    return ToothSurface(points - middle, triangles, field.von_mises[used], stress.end)
+    upright = np.array([-1.0, -1.0, 1.0]) if gear.internal else 1.0
+    return ToothSurface((points - middle) * upright, triangles, field.von_mises[used], stress.end)

@@ -15,6 +15,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.contact.optimum.side_by_side import press
 from gearcad.contact.shared.loaded import INTERIOR
+from gearcad.contact.shared.loaded_left import gears_loaded_left
 from gearcad.contact.solid.contact_lines import BEND, line_gap, places_beside
 from gearcad.contact.solid.line_contact import Responses, half_widths
 from gearcad.contact.solid.pair import SolidPair
@@ -218,8 +219,9 @@ class Variants:
         columns = amounts.T[..., None]
         length = np.maximum(columns[[1, 3]], _SHORT)
         nothing = np.zeros_like(columns[0])
-        pinion = _Flanks(self.plain.pinion.flank_form, self.shape, columns[0], length[0], columns[4], columns[5])
-        wheel = _Flanks(self.plain.wheel.flank_form, self.shape, columns[2], length[1], nothing, nothing)
+        forms = gears_loaded_left(self.plain).map(lambda gear: gear.flank_form)
+        pinion = _Flanks(forms.pinion, self.shape, columns[0], length[0], columns[4], columns[5])
+        wheel = _Flanks(forms.wheel, self.shape, columns[2], length[1], nothing, nothing)
         mounting = condition.mounted(self.roomy.mounting)
         # All lines, and all places beside them, at once: what costs is how often numpy is called.
         places = np.concatenate([np.array(places_beside(line, self.plain, mounting)) for line in given.lines], axis=-1)
@@ -244,7 +246,7 @@ class Variants:
             lengths = np.concatenate([each.places.pick(role)[0] for each in given.lines])
             length = np.maximum(length, _SHORT)
             inside = np.abs(form.last - length - lengths) < near
-            bend = np.maximum(bend, np.where(inside, relief / 1000 / length * form.base_radius / lengths, 0.0))
+            bend = np.maximum(bend, np.where(inside, relief / 1000 / length * form.base_radius / np.abs(lengths), 0.0))
         exact = np.concatenate([each.curvature for each in given.lines])
         sharp = exact + bend / (BEND * self.plain.pinion.normal_module)
         return np.minimum(radii, 1 / (sharp * math.cos(self.roomy.helix)))

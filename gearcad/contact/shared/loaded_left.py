@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 
 from gearcad.geometry import Gear, GearPair
 from gearcad.per_gear import PerGear
@@ -15,10 +16,12 @@ def loaded_left(pair: GearPair, torque: float) -> GearPair:
     return pair if torque > 0 else replace(pair, pinion=mirrored(pair.pinion), wheel=mirrored(pair.wheel))
 
 
+@lru_cache(16)
 def gears_loaded_left(pair: GearPair) -> PerGear[Gear]:
-    """Both gears of a pair whose pinion's left flanks carry: those of a ring touch flanks with y < 0, so it is mirrored.
+    """Both gears of a pair whose pinion's left flanks carry: they press on a ring's with y < 0, so it is seen mirrored.
 
-    Then the teeth of a ring, too, follow each other the other way round than the pinion's, and its hand is the opposite one.
+    Then its teeth, too, follow each other the other way round than the pinion's, and its hand is the opposite one. Known for
+    the last pairs: every position asks for it again.
     """
     return PerGear(pair.pinion, mirrored(pair.wheel) if pair.internal else pair.wheel)
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from gearcad.arrays import Bools, Floats
 from gearcad.contact.shared.line_of_action import LEAST_LENGTH, LineOfAction
+from gearcad.contact.shared.loaded_left import gears_loaded_left
 from gearcad.contact.solid.places import Places, SolidFlank
 from gearcad.geometry import Gear, GearPair
 from gearcad.mounting import Mounting
@@ -79,7 +80,7 @@ def contact_lines(
     common, width = pair.common_width, pair.common_width.width
     edges = np.linspace(-width / 2, width / 2, cells + 1)
     slope = math.tan(flank.helix)
-    reach = math.ceil((sum(each.last for each in line.flanks) + width * abs(slope)) / line.pitch)
+    reach = math.ceil((sum(abs(each.last) for each in line.flanks) + width * abs(slope)) / line.pitch)
     pinion_start = pair.pinion.face_width / 2 + common.offset
     wheel_start = pair.wheel.face_width / 2 + common.offset - pair.axial_offset
     found = []
@@ -118,15 +119,26 @@ def _facing(line: LineOfAction, nominal: Floats) -> tuple[Bools, tuple[Floats, F
     Last, how far inside the ends of both flanks that is.
     """
     one, other = line.flanks
-    least = LEAST_LENGTH * line.module
-    usable = (nominal > least) & (line.whole - nominal > least)
-    first, second = np.clip(nominal, least, line.whole - least), np.clip(line.whole - nominal, least, line.whole - least)
+    bent, touching = _bent(line), PerGear(nominal, line.whole - nominal)
+    usable = (nominal > bent.pinion[0]) & (touching.wheel > bent.wheel[0])
+    first, second = (np.clip(lengths, *within) for lengths, within in zip(touching, bent, strict=True))
     high = np.minimum(one.along_tangent(first, one.last), -other.along_tangent(second, other.first))
     low = np.maximum(one.along_tangent(first, one.first), -other.along_tangent(second, other.last))
     aside = np.clip(0.0, low, high)
     lengths, behind = one.facing(first, aside)
     wheel_lengths, wheel_behind = other.facing(second, -aside)
     return usable & (low < high), (lengths, wheel_lengths, aside, behind + wheel_behind, np.minimum(high, -low))
+
+
+def _bent(line: LineOfAction) -> PerGear[tuple[float, float]]:
+    """Between which roll lengths (mm) flanks that touch have curvatures to speak of.
+
+    Between T1 and T2 where these lie apart; beyond T1 where that of a ring lies behind it.
+    """
+    least = LEAST_LENGTH * line.module
+    if line.whole > 0:
+        return PerGear((least, line.whole - least), (least, line.whole - least))
+    return PerGear((least, math.inf), (-math.inf, line.whole - least))
 
 
 class Gaps(NamedTuple):
@@ -181,11 +193,17 @@ def places_beside(line: ContactLine, pair: GearPair, mounting: Mounting) -> list
     found = []
     for place in (np.zeros_like(aside), aside - step, aside, aside + step):
         pinion, wheel = (
-            (np.sqrt(np.maximum(lengths**2 + gear.base_diameter * (sense * place + moved), 0.0)), heights)
+            (_along_tangent(gear, lengths, sense * place + moved), heights)
             for gear, (lengths, heights), sense, moved in _sides(line, pair, mounting)
         )
         found.append(PerGear(pinion, wheel))
     return found
+
+
+def _along_tangent(gear: Gear, lengths: Floats, towards_tip: Floats) -> Floats:
+    """Roll lengths (n,) at distances (n,) along the tangent from others (mm)."""
+    square = np.maximum(lengths**2 + gear.base_diameter * towards_tip, 0.0)
+    return np.copysign(np.sqrt(square), gear.base_diameter)
 
 
 def _sides(line: ContactLine, pair: GearPair, mounting: Mounting) -> PerGear[tuple[Gear, Places, int, Floats]]:
@@ -222,7 +240,7 @@ def _aside(line: ContactLine, pair: GearPair, mounting: Mounting) -> Floats:
 def _taken_back(pair: GearPair, places: PerGear[Places]) -> Floats:
     """How far (n,) both flanks are taken back (mm) at places on them."""
     depths = []
-    for gear, (lengths, heights) in zip(pair.gears, places, strict=True):
+    for gear, (lengths, heights) in zip(gears_loaded_left(pair), places, strict=True):
         form = gear.flank_form
         # The point that stands there now comes from further down the flank, by what it was taken back.
         depths.append(form.depth(lengths - form.depth(lengths, heights), heights))

@@ -14,8 +14,8 @@ from gearcad.meshing.section.swept import SweptMesh
 __all__ = ["Faces", "boundary_faces"]
 
 
-_FAR, _NEAR = 3, 12
-"""Gauss points each way on a face, far from a singular point and near it."""
+_FAR = 3
+"""Gauss points each way on a face, far from a singular point."""
 
 _CLOSE = 1.5
 """A face is near if it is within so many of its own sizes."""
@@ -62,12 +62,12 @@ class Faces:
         first, second = (slope @ self.points[faces] for slope in slopes)
         return points, np.cross(first, second) * weights[:, None]
 
-    def forces(self, mesh: SweptMesh, traction: Callable[[Floats, Floats], Floats], singular_at: Floats) -> Floats:
-        """Nodal forces (n, 3) of a traction field that is singular at one point."""
+    def forces(self, mesh: SweptMesh, traction: Callable[[Floats, Floats], Floats], singular_at: Floats, near: int) -> Floats:
+        """Nodal forces (n, 3) of a traction field that is singular at one point; `near` Gauss points each way around it."""
         distance = np.linalg.norm(self._centres - singular_at, axis=-1)
         close = np.flatnonzero(distance < (1 + _CLOSE) * self._sizes)
         nodal = np.einsum("qa,mqc->mac", _rule(_FAR)[0], traction(*self._far))
-        nodal[close] = np.einsum("qa,mqc->mac", _rule(_NEAR)[0], traction(*self._gauss(close, _NEAR)))
+        nodal[close] = np.einsum("qa,mqc->mac", _rule(near)[0], traction(*self._gauss(close, near)))
         result = np.zeros((mesh.nodes, 3))
         np.add.at(result, self.nodes, nodal)
         return result

@@ -36,6 +36,9 @@ _DEFORMED, _ROOT = "displacement_mm", "von_mises_root_MPa"
 _COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
 """Axes of the components of stress, in our order and VTK's."""
 
+_FLIPPED = [0, 3, 2, 1, 7, 6, 5, 4, 8, 11, 10, 9, 15, 14, 13, 12, 16, 19, 18, 17]
+"""Our nodes of a hexahedron's mirror image, in our order."""
+
 _FACES = np.array(
     [
         [0, 3, 2, 1, 7, 6, 5, 4],
@@ -61,10 +64,18 @@ class SolidField:
     displacement: Floats
     stress: Floats
 
-    def above(self, radius: float) -> SolidField:
-        """Only the hexahedra whose middles are farther from the axis than `radius` (mm)."""
+    def between(self, inner: float, outer: float) -> SolidField:
+        """Only the hexahedra whose middles are between two radii (mm)."""
         middles = self.points[self.hexahedra].mean(axis=1)
-        return replace(self, hexahedra=self.hexahedra[np.hypot(middles[:, 0], middles[:, 1]) > radius])
+        radius = np.hypot(middles[:, 0], middles[:, 1])
+        return replace(self, hexahedra=self.hexahedra[(radius > inner) & (radius < outer)])
+
+    @property
+    def mirrored(self) -> SolidField:
+        """The mirror image in the plane x-z."""
+        flip = np.array([1.0, -1.0, 1.0])
+        turned = np.array([1.0, 1.0, 1.0, -1.0, -1.0, 1.0])
+        return SolidField(self.points * flip, self.hexahedra[:, _FLIPPED], self.displacement * flip, self.stress * turned)
 
     @property
     def surface(self) -> Wholes:
@@ -96,9 +107,10 @@ def worst_field(cycle: SolidCycle, role: Role) -> SolidField:
 
 
 def solid_field(cycle: SolidCycle, position: SolidPosition, role: Role, tooth: int = 0) -> SolidField:
-    """The field of a tooth of a gear, counted as its own gear's teeth follow each other.
+    """The field of a tooth of a gear, counted as its teeth follow each other where flanks with y > 0 carry.
 
-    Loads on teeth further away than the model's neighbours are left out.
+    A ring's is that of the ring as it stands, flanks with y < 0 loaded. Loads on teeth further away than the model's neighbours
+    are left out.
     """
     body = cycle.model.bodies.pick(role)
     mesh = body.body.sector.mesh
@@ -111,7 +123,9 @@ def solid_field(cycle: SolidCycle, position: SolidPosition, role: Role, tooth: i
             moved += body.taken_off @ force
     displacement = mesh.to_space(moved.reshape(-1, 3))
     hexahedra = np.concatenate([mesh.elements(mesh.section.quads, layer) for layer in range(mesh.layers)])
-    return SolidField(mesh.points, hexahedra, displacement, nodal_stress(mesh.points, hexahedra, displacement, body.material))
+    stress = nodal_stress(mesh.points, hexahedra, displacement, body.material)
+    found = SolidField(mesh.points, hexahedra, displacement, stress)
+    return found.mirrored if body.flank.gear.internal else found
 
 
 def shown_stress(cycle: SolidCycle, role: Role, field: SolidField) -> float:
@@ -124,8 +138,9 @@ def shown_stress(cycle: SolidCycle, role: Role, field: SolidField) -> float:
     found = []
     fillets = cycle.model.fillets.pick(role)
     for fillet in (fillets.loaded, fillets.behind):
-        nodes = mesh.over(mesh.side(fillet.side))
-        found.append(stress[nodes[radius[nodes] <= fillet.radii[fillet.is_root].max()]].max())
+        nodes, roots = mesh.over(mesh.side(fillet.side)), fillet.radii[fillet.is_root]
+        below = radius[nodes] >= roots.min() if fillet.internal else radius[nodes] <= roots.max()
+        found.append(stress[nodes[below]].max())
     return _OVER * float(max(found))
 
 

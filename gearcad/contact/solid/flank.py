@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.contact.shared.engaged import FlankCompliance, roll_lengths
+from gearcad.contact.shared.engaged import FlankCompliance
 from gearcad.contact.solid.body import SolidBody
 from gearcad.contact.solid.boussinesq import surface_displacement
 from gearcad.contact.solid.faces import boundary_faces
@@ -30,6 +30,9 @@ __all__ = ["SolidCompliance", "solid_compliance"]
 
 _ROWS, _FEWEST_ROWS = 8, 2
 """Unit loads up the flank, and the least between which a spline can run."""
+
+_NEAR, _NEAR_OF_RINGS = 12, 32
+"""Gauss points each way on faces near a load: a ring's tip is nearer to its last row, where fewer miss 7 % of the load."""
 
 
 @dataclass(frozen=True)
@@ -132,9 +135,10 @@ def solid_compliance(gear: Gear, body: SolidBody, material: Material, start: flo
     singular = np.zeros((mesh.nodes, 3, len(at)))
     forces = np.zeros_like(singular)
     faces, field = boundary_faces(mesh, near), TakenOff(flank, material)
+    points = _NEAR_OF_RINGS if gear.internal else _NEAR
     for column, (where, direction) in enumerate(zip(at, inward, strict=True)):
         singular[touched, :, column] = field.displacement(mesh.points[touched], where, direction)
-        forces[:, :, column] = -faces.forces(mesh, partial(field.traction, at=where, inward=direction), where)
+        forces[:, :, column] = -faces.forces(mesh, partial(field.traction, at=where, inward=direction), where, points)
         tell((column + 1) / len(at))
     taken_off = mesh.to_turning(singular).reshape(sector.dofs, -1)
     right = sector.stiffness(near) @ taken_off + mesh.to_turning(forces).reshape(sector.dofs, -1)
@@ -162,7 +166,7 @@ def _normal(mesh: SweptMesh, displacements: Floats, nodes: Wholes, inward: Float
 def _flank_grid(flank: SolidFlank, mesh: SweptMesh) -> tuple[Wholes, Grid]:
     """Nodes of the flank, plane by plane from root to tip, and their places."""
     chain = mesh.side(Side.LEFT_FLANK)[::-1]
-    lengths = roll_lengths(np.hypot(*mesh.section.points[chain].T), flank.base_radius)
+    lengths = flank.roll_lengths(np.hypot(*mesh.section.points[chain].T))
     nodes = np.concatenate([chain + mesh.plane(k) for k in range(len(mesh.planes))])
     return nodes, Grid(lengths, mesh.planes)
 
@@ -189,4 +193,7 @@ def _spread(count: int, wanted: int) -> Wholes:
 def _near_quads(gear: Gear, mesh: SweptMesh) -> Wholes:
     """Quadrangles of the tooth and a module of the body below it: where the half-space's field is taken off."""
     centre = mesh.section.points[mesh.section.quads[:, :4]].mean(axis=1)
-    return np.flatnonzero(np.hypot(*centre.T) > gear.root_diameter / 2 - gear.normal_module)
+    radius, root = np.hypot(*centre.T), gear.profile.root_diameter / 2
+    if gear.internal:
+        return np.flatnonzero(radius < root + gear.normal_module)
+    return np.flatnonzero(radius > root - gear.normal_module)

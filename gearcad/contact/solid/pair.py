@@ -13,6 +13,7 @@ import numpy as np
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.engaged import FlexiblePair
 from gearcad.contact.shared.line_of_action import line_of_action
+from gearcad.contact.shared.loaded_left import gears_loaded_left
 from gearcad.contact.solid.body import assemble_body
 from gearcad.contact.solid.contact_lines import contact_lines, gaps
 from gearcad.contact.solid.cost import BodyCost, body_cost
@@ -193,11 +194,12 @@ def solid_pair(
     neighbours = teeth_moved(pair)
     starts = PerGear(pair.path_of_contact.A, line_of_action(pair).whole - pair.path_of_contact.E)
     jobs = []
-    for gear, mesh, support, start in zip(pair.gears, _meshes(pair, body, sizes), body.supports(pair), starts, strict=True):
+    gears, meshes, supports = gears_loaded_left(pair), _meshes(pair, body, sizes), body.supports(pair)
+    for gear, mesh, support, start in zip(gears, meshes, supports, starts, strict=True):
         held = body.teeth_held(gear)
-        heard = _Heard(body_cost(mesh, held or gear.teeth, neighbours))
+        heard = _Heard(body_cost(mesh, held or gear.tooth_count, neighbours))
         solid = assemble_body(
-            mesh, gear.teeth, neighbours, material, held, body.cuts, free=support.bends, tell=heard.condensation
+            mesh, gear.tooth_count, neighbours, material, held, body.cuts, free=support.bends, tell=heard.condensation
         )
         jobs.append((heard, partial(solid_compliance, gear, solid, material, start, heard.fields)))
     bodies, mounted = PerGear(*_side_by_side(jobs, tell)), mounting.mounted(pair)
@@ -208,7 +210,7 @@ def expected_bodies(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> Expec
     """What `solid_pair` is expected to take. Raises what it does for bodies that cannot be meshed."""
     body = body.for_solids()
     meshes = zip(pair.gears, _meshes(pair, body, sizes), strict=True)
-    costs = [body_cost(mesh, body.teeth_held(gear) or gear.teeth, teeth_moved(pair)) for gear, mesh in meshes]
+    costs = [body_cost(mesh, body.teeth_held(gear) or gear.tooth_count, teeth_moved(pair)) for gear, mesh in meshes]
     return Expected(SIDE_BY_SIDE * sum(cost.seconds for cost in costs), sum(cost.memory for cost in costs))
 
 
@@ -219,11 +221,7 @@ def teeth_moved(pair: GearPair) -> int:
 
 def _meshes(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> list[SweptMesh]:
     refuse_halves(pair.pinion, "contact")
-    if pair.internal:
-        raise GeometryError(
-            "wheel.teeth", pair.wheel.teeth, "must be above 0: contact of solids with a ring is not treated yet"
-        )
-    gears = zip(pair.gears, body.inner_radii(pair), strict=True)
+    gears = zip(gears_loaded_left(pair), body.inner_radii(pair), strict=True)
     return [sweep(gear, mesh_quads(gear, radius, sizes.section), sizes.layers(gear)) for gear, radius in gears]
 
 

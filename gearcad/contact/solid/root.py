@@ -62,6 +62,11 @@ class SolidFillet:
         return self._geometry[2]
 
     @property
+    def internal(self) -> bool:
+        """Whether it is a ring's, and so lies outside the flank."""
+        return self.body.flank.gear.internal
+
+    @property
     def is_root(self) -> NDArray[np.bool_]:
         """Which points (m,) along the profile are the root."""
         return self.tangent_angles >= LEAST_TANGENT_ANGLE
