@@ -19,7 +19,7 @@ from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
 from gearcad.contact.plane.flank import PlaneCompliance
 from gearcad.contact.plane.limits import thin_faces
 from gearcad.contact.plane.pair import flank_body
-from gearcad.geometry import Gear
+from gearcad.geometry import Body, Gear
 from gearcad.load import Load
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear
@@ -47,7 +47,6 @@ class StrainEnergy(SliceMethod):
     name = "strain-energy"
     title = "Strain energy"
     holds = ("contact under all of the load, by energy", "teeth", "bodies down to where they are held")
-    no_internal_form: ClassVar[str] = "its elements know no rings yet"
     plane: ClassVar[Plane] = Plane.STRAIN
 
     @cached_property
@@ -58,7 +57,10 @@ class StrainEnergy(SliceMethod):
         elasticity = PlaneElasticity(self.material, self.plane)
         pinion, wheel = (
             [
-                (weight, flank_body(section, radius, elasticity, self.body, 1, support=replace(support, teeth=section.teeth)))
+                (
+                    weight,
+                    flank_body(section, radius, elasticity, self.body, 1, support=replace(support, teeth=section.tooth_count)),
+                )
                 for weight, section, radius in _sections(gear, inner)
             ]
             for gear, inner, support in zip(pair.gears, held, self.body.supports(pair), strict=True)
@@ -91,7 +93,7 @@ def weighted_displacement(body: PlaneCompliance, length: float, half_width: floa
     flank = body.flank
     # A distance along the tangent is that much of arc: d(arc) = (length/r_b) d(length).
     arc = flank.arc(np.array([length])) + half_width * np.cos(place)
-    lengths = np.sqrt(2 * flank.base_radius * np.maximum(arc, 0.0))
+    lengths = flank.upward * np.sqrt(2 * flank.base_radius * np.maximum(flank.upward * arc, 0.0))
     regular = weight @ body.response(0)(lengths, lengths) @ weight
     elasticity = body.elasticity
     # The mean of ln|x - y| over two ellipses of half width a is ln(a/2) - 1/4.
@@ -101,7 +103,7 @@ def weighted_displacement(body: PlaneCompliance, length: float, half_width: floa
 
 def _displacements(gear: Gear, bodies: list[WeightedBody], curvatures: Floats, half_widths: Floats) -> Floats:
     """2 U/F² (n,) in mm²/N where the flank's radius of curvature in the section is `curvatures` (n,) in mm."""
-    total = np.zeros(len(curvatures))
+    total, side = np.zeros(len(curvatures)), -1 if gear.internal else 1
     for weight, body in bodies:
         section = body.flank.gear
         lengths = curvatures
@@ -109,8 +111,8 @@ def _displacements(gear: Gear, bodies: list[WeightedBody], curvatures: Floats, h
             # As high over the reference circle as on the virtual gear, whose number of teeth is between these.
             virtual = gear.normal_module * gear.virtual_teeth / 2
             base = virtual * math.cos(math.radians(gear.rack.pressure_angle))
-            radius = np.hypot(base, curvatures) - virtual + section.reference_diameter / 2
-            lengths = np.sqrt(np.maximum(radius**2 - (section.base_diameter / 2) ** 2, 0.0))
+            radius = side * np.hypot(base, curvatures) - virtual + section.reference_diameter / 2
+            lengths = side * np.sqrt(np.maximum(radius**2 - (section.base_diameter / 2) ** 2, 0.0))
         ends = body.flank.lengths
         within = np.clip(lengths, ends.min(), ends.max())
         total += weight * np.array(
@@ -126,12 +128,17 @@ def _sections(gear: Gear, inner_radius: float) -> list[tuple[float, Gear, float]
     """Weights, spur gears and inner radii (mm) for the gear's section: itself, or the neighbours of its virtual gear."""
     if not gear.helix_angle:
         return [(1.0, gear, inner_radius)]
-    low = math.floor(gear.virtual_teeth)
+    side, virtual = -1 if gear.internal else 1, abs(gear.virtual_teeth)
+    low = math.floor(virtual)
     # Compliance goes with 1/z.
-    share = (1 / low - 1 / gear.virtual_teeth) / (1 / low - 1 / (low + 1))
-    depth = gear.root_diameter / 2 - inner_radius
+    share = (1 / low - 1 / virtual) / (1 / low - 1 / (low + 1))
+    depth = gear.profile.root_diameter / 2 - inner_radius
+    cutter = gear.cutter
+    if cutter.teeth is not None:
+        cutter = replace(cutter, teeth=round(cutter.teeth * virtual / gear.tooth_count))
     found = []
-    for weight, teeth in ((1 - share, low), (share, low + 1)):
+    for weight, count in ((1 - share, low), (share, low + 1)):
+        teeth = side * count
         size = gear.normal_module * teeth - gear.reference_diameter
         section = replace(
             gear,
@@ -139,7 +146,14 @@ def _sections(gear: Gear, inner_radius: float) -> list[tuple[float, Gear, float]
             helix_angle=0.0,
             tip_diameter=gear.tip_diameter + size,
             root_diameter=gear.root_diameter + size,
-            body=replace(gear.body, bore=0.0, keyway_width=0.0, keyway_depth=0.0),
+            cutter=cutter,
+            body=_bare(gear.body),
         )
-        found.append((weight, section, section.root_diameter / 2 - depth))
+        found.append((weight, section, section.profile.root_diameter / 2 - depth))
     return found
+
+
+def _bare(body: Body) -> Body:
+    """Without what is as large as the gear itself, and not as its virtual one."""
+    bored = replace(body, bore=0.0, keyway_width=0.0, keyway_depth=0.0)
+    return replace(bored, rim_diameter=None, bolt_circle=0.0, bolt_holes=0, bolt_diameter=0.0)
