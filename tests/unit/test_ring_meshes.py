@@ -12,14 +12,20 @@ from gearcad import BasicRack, Body, FlankModification, Gear, GearPair
 from gearcad.errors import ParameterError
 from gearcad.geometry import ShaperCutter
 from gearcad.meshing.bodies.elements import Element
+from gearcad.meshing.bodies.exactness import deviations
 from gearcad.meshing.bodies.measure import measure_whole
+from gearcad.meshing.bodies.other_sides import side_deviations
 from gearcad.meshing.bodies.posed import contacts, posed
+from gearcad.meshing.bodies.quality import quality
 from gearcad.meshing.bodies.section_mesh import mesh_section
 from gearcad.meshing.bodies.sizing import body_sizes, expected_amount
+from gearcad.meshing.bodies.tetrahedra import mesh_tetrahedra
+from gearcad.meshing.bodies.tetrahedron_sizes import TetrahedronGrading
 from gearcad.meshing.options import MeshOptions
 from gearcad.meshing.plan import plan_mesh
 from gearcad.meshing.run import run_mesh
 from gearcad.per_gear import PerGear
+from gearcad.solids.exact.inertia import mass_properties
 
 _ALM: dict[str, Any] = {
     "teeth": -70, "normal_module": 2.8, "face_width": 14.0, "profile_shift": -1.2025,
@@ -126,3 +132,36 @@ def test_amounts_of_rings_are_known_before() -> None:
     for element in (Element.QUAD8, Element.HEX20):
         told = expected_amount(gear, teeth=None, held_radius=120.0, sizes=sizes, element=element)
         assert told.elements % 70 == 0
+
+
+_SMALL: dict[str, Any] = {
+    "teeth": -14, "normal_module": 2.0, "face_width": 6.0, "helix_angle": 12.0,
+    "rack": BasicRack(addendum=0.4, dedendum=0.8, root_radius=0.5),
+}  # fmt: skip
+
+_TETRAHEDRA = {
+    "plain": {"body": Body(rim_diameter=44.0)},
+    "bolts, chamfers, modified": {
+        "body": Body(rim_diameter=44.0, bolt_circle=38.0, bolt_holes=5, bolt_diameter=2.0, end_chamfer=0.3),
+        "modification": FlankModification(tip_relief=20, tip_relief_length=0.5),
+    },
+}
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=[] if n == "plain" else pytest.mark.long) for n in _TETRAHEDRA])
+def test_tetrahedra_fill_a_ring(name: str) -> None:
+    """Nodes on the exact faces, volume that of the solid by its own boundary, sides named as those of sections."""
+    gear = Gear(**_SMALL | _TETRAHEDRA[name])
+    mesh = mesh_tetrahedra(gear, size=3.0, grading=TetrahedronGrading(fillet_elements=0.3, deviation=None))
+    assert deviations(mesh, gear).nodes < 1e-12
+    assert side_deviations(mesh, gear, 22.0).nodes < 1e-9
+    assert quality(mesh).least_jacobian > 0
+    assert measure_whole(mesh) == pytest.approx(mass_properties(gear, 1e9).mass, rel=3e-6)
+    assert mesh.points[mesh.nodes("left_flank_0"), 1].mean() < 0 < mesh.points[mesh.nodes("right_flank_0"), 1].mean()
+    assert {"rim", "end_back", "end_front", "tip_13", "left_fillet_7"} <= set(mesh.sides)
+    if gear.body.bolt_holes:
+        holes = mesh.points[mesh.nodes("bolt_holes"), :2]
+        turns = 2 * np.pi / 5 * np.arange(5)
+        centres = 19.0 * np.stack([np.cos(turns), np.sin(turns)], -1)
+        off = np.linalg.norm(holes[:, None] - centres, axis=-1).min(axis=1)
+        assert off == pytest.approx(1.0, abs=1e-6)

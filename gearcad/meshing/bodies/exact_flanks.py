@@ -64,7 +64,7 @@ class ExactFlank:
     def _turn(self, s: Floats, z: Floats, teeth: Wholes) -> Floats:
         """Angles (rad) by which points of tooth 0 at z = 0 are turned into place."""
         own = self.curve.turn(self.gear.flank_form, s, z, left=self.left)
-        found: Floats = own + twist(self.gear) * z + 2 * math.pi / self.gear.teeth * teeth
+        found: Floats = own + twist(self.gear) * z + 2 * math.pi / self.gear.tooth_count * teeth
         return found
 
     def _unturned(self, points: Floats, s: Floats, teeth: Wholes) -> Floats:

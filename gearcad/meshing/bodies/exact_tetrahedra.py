@@ -198,7 +198,7 @@ class _Surface:
         conical = self._on_cones[1]
         points[conical] = self._round_cone(points[conical])
         for face, _, edges in self._on(Surface.CYLINDER):
-            points[edges] = _at_radius(points[edges], np.array(face.radius))
+            points[edges] = _at_radius(points[edges], np.array(face.radius), face.axis)
         for swept, s in zip(self._swept, along, strict=True):
             ends, at = s[self.edges[swept.edges]], points[swept.edges]
             middle = swept.flank.nearest(at, swept.edge_teeth)
@@ -213,14 +213,16 @@ class _Surface:
         return flank.points(s, np.where(conical, self._end_heights(radius, z), z), teeth)
 
     def _round_cone(self, points: Floats) -> Floats:
-        """Points (n, 3) moved outwards onto the cones of the end chamfers."""
+        """Points (n, 3) moved onto the cones of the end chamfers."""
         lower, upper = self._ends
         setback = np.minimum(points[:, 2] - lower.z, upper.z - points[:, 2])
-        return _at_radius(points, lower.cone.face_radius + setback * lower.cone.slope)
+        return _at_radius(points, lower.cone.face_radius + lower.cone.side * setback * lower.cone.slope)
 
 
-def _at_radius(points: Floats, radius: Floats) -> Floats:
-    """Points (n, 3) moved outwards to a radius (mm)."""
-    moved = points.copy()
-    moved[:, :2] *= (radius / np.hypot(points[:, 0], points[:, 1]))[:, None]
+def _at_radius(points: Floats, radius: Floats, axis: tuple[float, float] = (0.0, 0.0)) -> Floats:
+    """Points (n, 3) moved to a radius (mm) about an axis (mm)."""
+    middle = np.array([*axis, 0.0])
+    moved: Floats = points - middle
+    moved[:, :2] *= (radius / np.hypot(moved[:, 0], moved[:, 1]))[:, None]
+    moved += middle
     return moved

@@ -15,6 +15,7 @@ from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.helix import twist
 from gearcad.geometry.turned import FlankCurve, flank_curves
 from gearcad.meshing.bodies.brep import BrepFace, Surface
+from gearcad.meshing.bodies.names import RIM, named_left
 
 __all__ = ["ROOT", "GearFace", "GearFaces"]
 
@@ -32,8 +33,8 @@ _NAMES = {CurveKind.FILLET: "fillet", CurveKind.INVOLUTE: "flank"}
 class GearFace:
     """A face of a gear. `name` is that of its side, where it has one only: a root land is of `tooth` and the next.
 
-    `curve` is the number of the flank curve that it is swept from (None: no flank) on the `left` or right of its tooth;
-    `radius` (mm) is that of a cylinder.
+    `curve` is the number of the flank curve that it is swept from (None: no flank), on the side of its tooth that is `left` of
+    the middle counter-clockwise, as y > 0 is of a tooth on +x; `radius` (mm) is that of a cylinder about `axis` (mm).
     """
 
     surface: Surface
@@ -42,6 +43,7 @@ class GearFace:
     curve: int | None = None
     left: bool = True
     radius: float = 0.0
+    axis: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -62,33 +64,50 @@ class GearFaces:
     def _tooth(self, face: BrepFace) -> tuple[int, float]:
         """The tooth whose middle is nearest, and the angle (rad) from there."""
         x, y, z = face.middle
-        pitch = 2 * math.pi / self.gear.teeth
+        pitch = 2 * math.pi / self.gear.tooth_count
         angle = math.atan2(y, x) - twist(self.gear, float(z))
         tooth = round(angle / pitch)
-        return tooth % self.gear.teeth, angle - tooth * pitch
+        return tooth % self.gear.tooth_count, angle - tooth * pitch
 
     def _swept(self, face: BrepFace) -> GearFace:
         tooth, angle = self._tooth(face)
-        ends = [float(curve.curve.polar(1.0)[0]) for curve in self.curves]
-        number = min(int(np.searchsorted(ends, math.hypot(*face.middle[:2]))), len(ends) - 1)
-        name, side = _NAMES.get(self.curves[number].curve.kind), "left" if angle > 0 else "right"
+        inwards = -1 if self.gear.internal else 1
+        ends = [inwards * float(curve.curve.polar(1.0)[0]) for curve in self.curves]
+        number = min(int(np.searchsorted(ends, inwards * math.hypot(*face.middle[:2]))), len(ends) - 1)
+        name = _NAMES.get(self.curves[number].curve.kind)
+        side = "left" if named_left(self.gear, positive=angle > 0) else "right"
         return GearFace(face.surface, f"{side}_{name}_{tooth}" if name else f"tip_{tooth}", tooth, number, angle > 0)
 
     def _round(self, face: BrepFace) -> GearFace:
-        gear, radius = self.gear, math.hypot(*face.middle[:2])
+        gear, profile, radius = self.gear, self.gear.profile, math.hypot(*face.middle[:2])
         tooth, angle = self._tooth(face)
+        middle = (profile.root_diameter + profile.tip_diameter) / 4
+        if gear.internal and radius > profile.root_diameter / 2 + _NEAR:
+            return self._outside(face, radius)
         if radius < gear.body.bore / 2 + _NEAR:
             name, known = "bore", gear.body.bore / 2
         elif not -_NEAR < face.middle[2] < gear.face_width + _NEAR:
             name, known = "hub", gear.body.hub_diameter / 2
-        elif radius < (gear.root_diameter + gear.tip_diameter) / 4:
-            name, known = ROOT, gear.root_diameter / 2
+        elif (radius < middle) != gear.internal:
+            name, known = ROOT, profile.root_diameter / 2
             tooth -= angle < 0
         else:
-            name, known = f"tip_{tooth}", gear.tip_diameter / 2
+            name, known = f"tip_{tooth}", profile.tip_diameter / 2
         if abs(radius - known) > _NEAR:
             raise SolverError(f"the solid has a cylinder of radius {radius:.6g} mm that the gear has not")
-        return GearFace(face.surface, name, tooth % gear.teeth, radius=known)
+        return GearFace(face.surface, name, tooth % gear.tooth_count, radius=known)
+
+    def _outside(self, face: BrepFace, radius: float) -> GearFace:
+        """The rim of a ring, or one of its bolt holes."""
+        body = self.gear.body
+        if body.rim_diameter is not None and abs(radius - body.rim_diameter / 2) < _NEAR:
+            return GearFace(face.surface, RIM, radius=body.rim_diameter / 2)
+        pitch = 2 * math.pi / max(body.bolt_holes, 1)
+        place = pitch * round(math.atan2(face.middle[1], face.middle[0]) / pitch)
+        axis = (body.bolt_circle / 2 * math.cos(place), body.bolt_circle / 2 * math.sin(place))
+        if abs(math.dist(axis, face.middle[:2]) - body.bolt_diameter / 2) > _NEAR:
+            raise SolverError(f"the solid has a cylinder at {radius:.6g} mm from the axis that the ring has not")
+        return GearFace(face.surface, "bolt_holes", radius=body.bolt_diameter / 2, axis=axis)
 
     def _conical(self, face: BrepFace) -> GearFace:
         return GearFace(face.surface, "end_chamfers")

@@ -50,12 +50,12 @@ def mesh_tetrahedra(
     are "left_flank_3", "right_flank_3", "left_fillet_3", "right_fillet_3" and "tip_3", which has its chamfers, of each tooth;
     "left_root_3" and "right_root_3" if there is a root land, which a jagged line parts in the middle of the space; "end_back"
     at z = 0, "end_front", and what there is of "end_chamfers", "bore", "keyway", "hub", which is round, and its ends "hub_back"
-    and "hub_front". `stage` is told what begins. Quality is for the caller to measure. Raises ParameterError for sizes that
-    take too many elements, and SolverError.
+    and "hub_front", of rings "rim" and "bolt_holes". `stage` is told what begins. Quality is for the caller to measure.
+    Raises ParameterError for sizes that take too many elements, and SolverError.
     """
     for tooth in refined_teeth:
-        require_whole("refined_teeth", tooth, at_least=1 - gear.teeth, at_most=gear.teeth - 1)
-    refined = {tooth % gear.teeth for tooth in refined_teeth}
+        require_whole("refined_teeth", tooth, at_least=1 - gear.tooth_count, at_most=gear.tooth_count - 1)
+    refined = {tooth % gear.tooth_count for tooth in refined_teeth}
     part = _Part(gear, gear_solid(gear).wrapped, refined, grading, stage)
     if size is not None and elements is None:
         require_number("size", size, above=0)
@@ -84,10 +84,10 @@ class _Part:
         """Mesh it with a number of elements, which are expected, made, counted, and made again if they are too many or few."""
 
         def size(expected: _Expected) -> float:
-            least = expected(self.gear.tip_diameter)
+            least = expected(self.gear.profile.tip_diameter)
             if least > aim:
                 raise ParameterError("elements", elements, f"must be at least about {least * elements / aim:.0f} for this gear")
-            return _solved(expected, aim, self.gear.tip_diameter)
+            return _solved(expected, aim, self.gear.profile.tip_diameter)
 
         aim = float(elements)
         for _ in range(_TRIES):
@@ -164,9 +164,13 @@ def _in_order(name: str) -> tuple[float, str]:
 def _halved(gear: Gear, tooth: int, triangles: Cells, points: Floats) -> dict[str, Cells]:
     """A root land parted at the middle of the space: what is of this tooth, and of the next. No edges run along there."""
     x, y, z = points[triangles].mean(1).T
-    middle = (tooth + 0.5) * 2 * math.pi / gear.teeth
+    middle = (tooth + 0.5) * 2 * math.pi / gear.tooth_count
     ahead = np.mod(np.arctan2(y, x) - twist(gear) * z - middle, 2 * math.pi) < math.pi
-    return {f"left_root_{tooth}": triangles[~ahead], f"right_root_{(tooth + 1) % gear.teeth}": triangles[ahead]}
+    before, after = ("right", "left") if gear.internal else ("left", "right")
+    return {
+        f"{before}_root_{tooth}": triangles[~ahead],
+        f"{after}_root_{(tooth + 1) % gear.tooth_count}": triangles[ahead],
+    }
 
 
 def _found(cells: Cells, triangles: Cells) -> Wholes:

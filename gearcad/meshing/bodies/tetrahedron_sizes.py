@@ -13,7 +13,7 @@ from gearcad.geometry import Gear
 from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.geometry.turned import flank_curves
 from gearcad.meshing.bodies.brep import BrepFace, EdgeLengths, RadialLengths, Surface
-from gearcad.meshing.bodies.gear_faces import GearFace
+from gearcad.meshing.bodies.gear_faces import ROOT, GearFace
 from gearcad.meshing.section.edge_lengths import bent_lengths
 from gearcad.meshing.section.outline import EdgeLength, MeshSizes
 
@@ -80,7 +80,7 @@ def edge_lengths(
     kinds = [curve.curve.kind for curve in flank_curves(gear)]
 
     def wanted(face: GearFace) -> float:
-        if face.surface is Surface.CYLINDER and face.radius < gear.root_diameter / 2:
+        if face.surface is Surface.CYLINDER and not (face.name == ROOT or face.name.startswith("tip")):
             return min(inside, 2 * math.pi * face.radius / _ROUND)
         if face.surface not in (Surface.SPLINE, Surface.CYLINDER):
             return inside
@@ -99,7 +99,7 @@ def _along_flanks(gear: Gear, size: float, grading: TetrahedronGrading) -> dict[
     off = None if grading.deviation is None else grading.deviation / 1000 / module
     sizes = MeshSizes(**plain, growth=grading.growth, fillet_turn=turn, deviation=off)
     lengths = bent_lengths(gear, sizes).curves
-    base = gear.base_diameter / 2
+    base = gear.profile.base_diameter / 2
     least = 0.0 if off is None else min(size, base * (_SLACK * off * module / _CUSP / base) ** (2 / 3))
     return {
         curve.kind: _by_radius(curve, lengths[curve.kind], least)
@@ -113,8 +113,10 @@ def _by_radius(curve: Curve, length: EdgeLength, least: float) -> RadialLengths:
     s = np.linspace(0.0, 1.0, _PLACES)
     run = np.r_[0.0, np.cumsum(np.hypot(*np.diff(curve.points(s), axis=0).T))]
     lengths, radius = np.maximum(length(run, float(run[-1])), least), curve.polar(s)[0]
-    even = np.linspace(radius[0], radius[-1], _PLACES)
     mean = float(np.trapezoid(lengths**-2, run) / run[-1]) ** -0.5
+    if radius[-1] < radius[0]:
+        lengths, radius = lengths[::-1], radius[::-1]
+    even = np.linspace(radius[0], radius[-1], _PLACES)
     return RadialLengths(float(even[0]), float(even[1] - even[0]), np.interp(even, radius, lengths).tolist(), mean)
 
 
@@ -130,7 +132,8 @@ def expected_tetrahedra(lengths: EdgeLengths, faces: Sequence[BrepFace]) -> floa
 
 def _thickness(gear: Gear) -> float:
     """The least of rim, hub and face width (mm), whatever there is of them."""
-    body = gear.body
-    rim = (gear.root_diameter - body.opening_diameter) / 2
+    body, root = gear.body, gear.profile.root_diameter
+    outside = body.rim_diameter or root
+    rim = (outside - root if gear.internal else root - body.opening_diameter) / 2
     hub = (body.hub_diameter - body.opening_diameter) / 2 if body.hub_diameter else math.inf
     return min(gear.face_width, rim, hub)
