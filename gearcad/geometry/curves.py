@@ -19,7 +19,7 @@ from gearcad.arrays import Floats
 from gearcad.geometry.involute import involute_at_roll
 from gearcad.geometry.trochoid import FilletTool
 
-__all__ = ["Chamfer", "Curve", "CurveKind", "Fillet", "Involute", "Land", "parameters_within"]
+__all__ = ["Chamfer", "Curve", "CurveKind", "Fillet", "Involute", "Land", "PlaneCurve", "parameters_within"]
 
 
 AIM = 0.98
@@ -36,20 +36,27 @@ class CurveKind(Enum):
     TIP = "tip"
 
 
-class Curve(Protocol):
-    """A piece of the outline of half a tooth."""
+class PlaneCurve(Protocol):
+    """A piece of any outline, evaluated at s in [0, 1] (array of any shape)."""
+
+    @property
+    def kind(self) -> Enum: ...
+
+    def direction(self, s: ArrayLike) -> Floats:
+        """Direction of travel as an angle from +x (rad)."""
+
+    def points(self, s: ArrayLike) -> Floats:
+        """Cartesian points (..., 2) in mm."""
+
+
+class Curve(PlaneCurve, Protocol):
+    """A piece of the outline of half a tooth, from root to tip on the left flank of tooth 0."""
 
     @property
     def kind(self) -> CurveKind: ...
 
     def polar(self, s: ArrayLike) -> tuple[Floats, Floats]:
         """Radius (mm) and half tooth angle (rad) at s."""
-
-    def direction(self, s: ArrayLike) -> Floats:
-        """Direction of travel from root to tip, as an angle from +x (rad)."""
-
-    def points(self, s: ArrayLike) -> Floats:
-        """Cartesian points (..., 2) in mm on the left flank of tooth 0."""
 
 
 class _Cartesian:
@@ -149,7 +156,7 @@ class Chamfer(_Cartesian):
         return np.full(np.shape(s), self.angle - (3 if self.internal else 1) * np.pi / 4)
 
 
-def parameters_within(curve: Curve, chord_error: float) -> Floats:
+def parameters_within(curve: PlaneCurve, chord_error: float) -> Floats:
     """Parameters s (n,), 0 ... 1, at which a polyline stays within `chord_error` (mm) of the curve.
 
     Points lie densest where the curve bends most: the local chord is sqrt(8 e / curvature).

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
 from gearcad.errors import ParameterError
+from gearcad.geometry.curves import PlaneCurve
 from gearcad.geometry.profile import LEAST_LAND, RADIUS_SLACK
 
 __all__ = ["FilletArc", "RackCurve", "RackCurveKind", "RackProfile", "Straight"]
@@ -32,17 +33,11 @@ class RackCurveKind(Enum):
     TIP = "tip land"
 
 
-class RackCurve(Protocol):
-    """A piece of the outline of the left half of a tooth, evaluated at s in [0, 1], root side first."""
+class RackCurve(PlaneCurve, Protocol):
+    """A piece of the outline of the left half of a tooth, root side first."""
 
     @property
     def kind(self) -> RackCurveKind: ...
-
-    def points(self, s: ArrayLike) -> Floats:
-        """Points (..., 2) in mm."""
-
-    def direction(self, s: ArrayLike) -> Floats:
-        """Direction of travel from root to tip, as an angle from +x (rad)."""
 
 
 @dataclass(frozen=True)

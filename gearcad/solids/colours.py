@@ -7,5 +7,10 @@ Colour = tuple[float, float, float]
 STEEL: Colour = (0.62, 0.66, 0.72)
 """Of a part by itself."""
 
-PART_COLOURS: dict[str, Colour] = {"pinion": (0.80, 0.55, 0.20), "wheel": (0.45, 0.58, 0.72), "bracket": (0.55, 0.55, 0.55)}
+PART_COLOURS: dict[str, Colour] = {
+    "pinion": (0.80, 0.55, 0.20),
+    "wheel": (0.45, 0.58, 0.72),
+    "rack": (0.45, 0.58, 0.72),
+    "bracket": (0.55, 0.55, 0.55),
+}
 """Of the parts of an assembly."""

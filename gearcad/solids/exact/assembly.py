@@ -14,12 +14,12 @@ from gearcad.solids.exact.solid import gear_solid
 if TYPE_CHECKING:
     import cadquery
 
-__all__ = ["PartNames", "pair_assembly", "part_names"]
+__all__ = ["UNNAMED", "PartNames", "pair_assembly", "part_names"]
 
 _ARM = 0.6
 """Width of the bracket's arm as a share of the thicker shaft's diameter."""
 
-_UNNAMED = ("gear", "pinion", "wheel")
+UNNAMED = ("gear", "pinion", "wheel", "rack")
 """Names that a gear has where nobody named it."""
 
 
@@ -40,7 +40,7 @@ def part_names(pair: GearPair) -> PartNames:
 
     def own_name(role: Role) -> str:
         name = pair.gears.pick(role).name
-        return ours.pick(role) if name in _UNNAMED else name
+        return ours.pick(role) if name in UNNAMED else name
 
     own = PerGear.each(own_name)
     return PartNames(own if len({pair.name, bracket, *own}) == 4 else ours, bracket)

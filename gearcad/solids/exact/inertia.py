@@ -1,13 +1,14 @@
-"""Mass and inertia of a gear, from its exact solid: bore, keyway, hubs and chamfers included."""
+"""Mass and inertia of a gear, and the mass of a rack, from their exact solids: bore, keyway, hubs and chamfers included."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from gearcad.geometry import Gear
+from gearcad.geometry import Gear, Rack
+from gearcad.solids.exact.rack_solid import rack_solid
 from gearcad.solids.exact.solid import gear_solid
 
-__all__ = ["MassProperties", "mass_properties"]
+__all__ = ["MassProperties", "mass_properties", "rack_mass"]
 
 
 class MassProperties(NamedTuple):
@@ -27,3 +28,9 @@ def mass_properties(gear: Gear, density: float) -> MassProperties:
     BRepGProp.VolumeProperties_s(gear_solid(gear).wrapped, properties)
     volume, moment = properties.Mass(), properties.MomentOfInertia(gp.OZ_s())  # mm³, mm⁵
     return MassProperties(volume * density * 1e-9, moment * density * 1e-15)
+
+
+def rack_mass(rack: Rack, density: float) -> float:
+    """Mass (kg) of a rack made of a material of `density` (kg/m³)."""
+    volume: float = rack_solid(rack).Volume()  # mm³
+    return volume * density * 1e-9

@@ -16,13 +16,13 @@ from gearcad.solids.facets.ring import RingBuilder
 from gearcad.solids.facets.sampling import tooth_grid
 from gearcad.solids.rim import require_rim
 
-__all__ = ["Facets", "tessellate"]
+__all__ = ["LEAST_CHORD_ERROR", "MOST_CHORD_ERROR", "Facets", "tessellate"]
 
 
-_LEAST_CHORD_ERROR = 2e-7
+LEAST_CHORD_ERROR = 2e-7
 """Least chord error as a share of the tip diameter: mesh files hold float32, which steps by up to 6e-8 of it."""
 
-_MOST_CHORD_ERROR = 0.01
+MOST_CHORD_ERROR = 0.01
 """Coarsest chord error in normal modules, so that small teeth keep their shape; a tenth of the thinnest wall."""
 
 
@@ -54,11 +54,11 @@ def tessellate(gear: Gear, chord_error: float = 0.005) -> Facets:
     require_number("chord_error", chord_error, "mm", above=0)
     refuse_halves(gear, "facets")
     outside, words = (require_rim(gear), "rim") if gear.internal else (gear.tip_diameter, "tip")
-    least = _LEAST_CHORD_ERROR * outside
+    least = LEAST_CHORD_ERROR * outside
     if chord_error < least:
         permitted = f"must be at least {at_least(least)} mm for a {words} diameter of {outside:.6g} mm (single precision)"
         raise ParameterError("chord_error", chord_error, permitted, "mm")
-    error = min(chord_error, _MOST_CHORD_ERROR * gear.normal_module)
+    error = min(chord_error, MOST_CHORD_ERROR * gear.normal_module)
     grid = tooth_grid(gear, error)
     builder = (RingBuilder if gear.internal else DiscBuilder)(gear, grid, error)
     return Facets(np.concatenate(builder.vertices), np.concatenate(builder.faces))

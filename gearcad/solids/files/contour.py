@@ -3,30 +3,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.errors import SolverError, require_number
+from gearcad.errors import require_number
 from gearcad.geometry import Gear
-from gearcad.geometry.curves import Curve, CurveKind
+from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.turned import middle_section
+from gearcad.solids.files.arcs import arcs_of, joined
 
 __all__ = ["extent_of", "gear_contour"]
-
-_CHECKED = np.linspace(0.0, 1.0, 17)[1:-1]
-"""Where between its ends a pair of arcs is compared with the curve."""
-
-_MOST_PAIRS = 1000
-
-
-@dataclass(frozen=True)
-class _Arcs:
-    """A chain of arcs: `vertices` (n + 1, 2) in mm, `bulges` (n,), tan of a quarter of the arc's angle (0: straight)."""
-
-    vertices: Floats
-    bulges: Floats
 
 
 def gear_contour(gear: Gear, accuracy: float = 0.0005) -> Floats:
@@ -38,7 +25,7 @@ def gear_contour(gear: Gear, accuracy: float = 0.0005) -> Floats:
     """
     require_number("accuracy", accuracy, "mm", at_least=1e-7)
     curves = middle_section(gear)
-    flank = _joined([_arcs_of(curve, accuracy) for curve in curves if curve.kind not in (CurveKind.ROOT, CurveKind.TIP)])
+    flank = joined([arcs_of(curve, accuracy) for curve in curves if curve.kind not in (CurveKind.ROOT, CurveKind.TIP)])
     half_pitch = math.pi / gear.tooth_count
     land = curves[0].kind is CurveKind.ROOT
     if not land:  # the fillet ends in the middle of the space, where that of the next tooth begins
@@ -69,74 +56,3 @@ def extent_of(contour: Floats) -> tuple[Floats, Floats]:
         inside = (chord[:, None, 0] * away[..., 1] - chord[:, None, 1] * away[..., 0]) * bulge[:, None] < 0
     points = np.concatenate([start, ends[inside]])
     return points.min(axis=0), points.max(axis=0)
-
-
-# ---------------------------------------------------------------------- curves as arcs
-
-
-def _arcs_of(curve: Curve, accuracy: float) -> _Arcs:
-    """A curve as pairs of arcs, as few as stay within `accuracy`; the pairs are shorter where its curvature changes fast."""
-    if curve.kind is CurveKind.CHAMFER:
-        return _Arcs(curve.points(np.array([0.0, 1.0])), np.zeros(1))
-    fine = np.linspace(0.0, 1.0, 257)
-    length = np.hypot(*np.diff(curve.points(fine), axis=0).T)
-    curvature = np.diff(curve.direction(fine)) / length
-    # A pair of arcs over the length h is off by some |curvature'| h^3, so each takes an equal share of this effort.
-    effort = np.cbrt(np.abs(np.gradient(curvature)) * length**2)
-    effort = np.r_[0.0, np.cumsum(effort + 1e-3 * effort.max() + 1e-12)]
-    pairs = 1
-    while pairs <= _MOST_PAIRS:
-        s = np.interp(np.linspace(0.0, effort[-1], pairs + 1), effort, fine)
-        arcs = _pairs_of_arcs(curve, s)
-        error = _deviation(curve, s, arcs)
-        if error <= accuracy:
-            return arcs
-        pairs = max(pairs + 1, math.floor(pairs * (error / accuracy) ** (1 / 3)))
-    raise SolverError(f"the {curve.kind.value} cannot be drawn within {accuracy:g} mm by {_MOST_PAIRS} pairs of arcs")
-
-
-def _pairs_of_arcs(curve: Curve, s: Floats) -> _Arcs:
-    """Biarcs through the points at s (n + 1,) with the exact tangents there: 2 n arcs.
-
-    The tangents at both ends of a pair have equal lengths d up to where they meet the common tangent of its two arcs.
-    """
-    points, heading = curve.points(s), curve.direction(s)
-    tangent = np.stack([np.cos(heading), np.sin(heading)], -1)
-    start, end, first, last = points[:-1], points[1:], tangent[:-1], tangent[1:]
-    chord = end - start
-    along = np.sum(chord * (first + last), -1)
-    square = np.sum(chord * chord, -1)
-    opening = 4 * np.sin(np.diff(heading) / 2) ** 2
-    d = square / (along + np.sqrt(along**2 + opening * square))
-    joint = 0.5 * (start + end + d[:, None] * (first - last))
-    bulges = np.stack([_half_tangent(first, joint - start), _half_tangent(end - joint, last)], -1).ravel()
-    vertices = np.concatenate([np.stack([start, joint], 1).reshape(-1, 2), end[-1:]])
-    return _Arcs(vertices, bulges)
-
-
-def _half_tangent(one: Floats, other: Floats) -> Floats:
-    """Tangent of half the angle from one vector to another, (n, 2) each."""
-    cross = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
-    result: Floats = np.tan(0.5 * np.arctan2(cross, np.sum(one * other, -1)))
-    return result
-
-
-def _deviation(curve: Curve, s: Floats, arcs: _Arcs) -> float:
-    """Largest distance (mm) of points of the curve from the pair of arcs between s[i] and s[i + 1]."""
-    points = curve.points(s[:-1, None] + np.diff(s)[:, None] * _CHECKED)
-    starts, ends = arcs.vertices[:-1].reshape(-1, 2, 1, 2), arcs.vertices[1:].reshape(-1, 2, 1, 2)
-    bulge = arcs.bulges.reshape(-1, 2, 1)
-    half = 0.5 * (ends - starts)
-    size = np.hypot(half[..., 0], half[..., 1])
-    offset = points[:, None] - 0.5 * (starts + ends)
-    across = (half[..., 0] * offset[..., 1] - half[..., 1] * offset[..., 0]) / size
-    # The circle in the frame of its chord: b (x^2 + y^2 - c^2) = y c (1 - b^2), gradient c (1 + b^2) on the circle.
-    square = np.sum(offset**2, -1) - size**2
-    distance = np.abs(bulge * square - across * size * (1 - bulge**2)) / (size * (1 + bulge**2))
-    forward = np.sum((points[:, None] - ends[:, :1]) * half[:, :1], -1)[:, 0] > 0  # beyond the joint of the pair
-    return float(np.where(forward, distance[:, 1], distance[:, 0]).max())
-
-
-def _joined(chains: list[_Arcs]) -> _Arcs:
-    vertices = [chains[0].vertices[:1], *(chain.vertices[1:] for chain in chains)]
-    return _Arcs(np.concatenate(vertices), np.concatenate([chain.bulges for chain in chains]))

@@ -11,6 +11,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from gearcad.solids.files.options import FileOptions
     from gearcad.solids.files.products import GearProduct, PairProduct
+    from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
+
+    PartProduct = GearProduct | RackProduct
+    AssemblyProduct = PairProduct | RackPairProduct
 
 __all__ = ["Format", "formats_minding"]
 
@@ -37,13 +41,13 @@ class Format(Enum):
 
 @dataclass(frozen=True)
 class Entry:
-    """One format: what it holds, in words; what writes a gear, and a pair in mesh (None: it has no assemblies); which fields
-    of FileOptions matter to it.
+    """One format: what it holds, in words; what writes a gear or a rack, and a pair in mesh (None: it has no assemblies); which
+    fields of FileOptions matter to it.
     """
 
     words: str
-    write: Callable[[GearProduct, Path], None]
-    write_pair: Callable[[PairProduct, Path], None] | None = None
+    write: Callable[[PartProduct, Path], None]
+    write_pair: Callable[[AssemblyProduct, Path], None] | None = None
     options: tuple[str, ...] = ()
 
 
@@ -52,40 +56,36 @@ def formats_minding(option: str) -> list[Format]:
     return [kind for kind in Format if option in kind.entry.options]
 
 
-def _step(product: GearProduct | PairProduct, path: Path) -> None:
+def _step(product: PartProduct | AssemblyProduct, path: Path) -> None:
     from gearcad.solids.files.step import write_step
 
     write_step(product.solid(), path, name=product.name)
 
 
-def _stl(product: GearProduct, path: Path) -> None:
+def _stl(product: PartProduct, path: Path) -> None:
     from gearcad.solids.files.stl import write_stl
 
     write_stl(product.facets, path)
 
 
-def _3mf(product: GearProduct | PairProduct, path: Path) -> None:
+def _3mf(product: PartProduct | AssemblyProduct, path: Path) -> None:
     from gearcad.solids.files.three_mf import write_3mf
 
     write_3mf(product.scene(), path)
 
 
-def _glb(product: GearProduct | PairProduct, path: Path) -> None:
+def _glb(product: PartProduct | AssemblyProduct, path: Path) -> None:
     from gearcad.solids.files.glb import write_glb
 
     write_glb(product.scene(), path)
 
 
-def _dxf(product: GearProduct, path: Path) -> None:
-    from gearcad.solids.files.dxf import write_dxf
-
-    write_dxf(product.gear, path, circles=product.options.circles)
+def _dxf(product: PartProduct, path: Path) -> None:
+    product.write_dxf(path)
 
 
-def _csv(product: GearProduct, path: Path) -> None:
-    from gearcad.solids.files.points import write_points
-
-    write_points(product.gear, path)
+def _csv(product: PartProduct, path: Path) -> None:
+    product.write_points(path)
 
 
 _FACETED = ("chord_error",)

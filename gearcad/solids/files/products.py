@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gearcad.geometry import Gear, GearPair
@@ -12,8 +13,10 @@ from gearcad.solids.colours import PART_COLOURS, STEEL, Colour
 from gearcad.solids.exact.assembly import pair_assembly, part_names
 from gearcad.solids.exact.solid import gear_solid
 from gearcad.solids.facets.tessellation import Facets, tessellate
+from gearcad.solids.files.dxf import write_dxf
 from gearcad.solids.files.options import FileOptions
 from gearcad.solids.files.part import Part
+from gearcad.solids.files.points import write_points
 
 if TYPE_CHECKING:
     import cadquery
@@ -42,6 +45,14 @@ class GearProduct:
         """The gear alone, unturned at the origin."""
         return [Part(name=self.name, facets=self.facets, colour=self.colour)]
 
+    def write_dxf(self, path: Path) -> None:
+        """Its section: see `write_dxf`."""
+        write_dxf(self.gear, path, circles=self.options.circles)
+
+    def write_points(self, path: Path) -> None:
+        """The outline of a tooth and the tool: see `write_points`."""
+        write_points(self.gear, path)
+
 
 @dataclass(frozen=True)
 class PairProduct:
@@ -64,6 +75,11 @@ class PairProduct:
             return GearProduct(gear=gear, name=name, options=self.options, colour=colour)
 
         return PerGear.each(product)
+
+    @property
+    def parts(self) -> dict[str, GearProduct]:
+        """The gears by the names of their files."""
+        return {role.value: product for role, product in self.gears.items()}
 
     def solid(self) -> cadquery.Assembly:
         """Both exact solids posed in mesh: see `pair_assembly`."""
