@@ -10,6 +10,7 @@ from typing import Any
 from gearcad.errors import GeometryError
 from gearcad.geometry.derived import derive, derive_count
 from gearcad.geometry.gear import THIN_TIP
+from gearcad.geometry.profile import LEAST_LAND
 from gearcad.geometry.rack_data import RackData
 from gearcad.geometry.rack_feasibility import check_rack_length, check_rack_numbers, check_rack_teeth
 from gearcad.geometry.rack_inspection import RackInspection
@@ -54,6 +55,7 @@ class Rack(RackData):
     @cached_property
     def profile(self) -> RackProfile:
         """The exact outline of one tooth."""
+        radius = self.root_radius * self.normal_module
         return RackProfile(
             normal_pitch=self.normal_pitch,
             normal_thickness=self.normal_tooth_thickness,
@@ -61,7 +63,7 @@ class Rack(RackData):
             helix_angle=self.helix_angle,
             tip_height=self.tip_height,
             root_depth=self.root_depth,
-            root_radius=self.root_radius * self.normal_module,
+            root_radius=radius if radius >= LEAST_LAND else 0.0,
             tip_chamfer=self.tip_chamfer,
         )
 

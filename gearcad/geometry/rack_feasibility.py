@@ -9,6 +9,7 @@ import math
 
 from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.geometry.basic_rack import BasicRack
+from gearcad.geometry.body import LEAST_FEATURE
 from gearcad.geometry.derived import is_given
 from gearcad.geometry.feasibility import LEAST_HELIX
 from gearcad.geometry.limits import at_least, at_most
@@ -31,6 +32,8 @@ def check_rack_numbers(rack: RackData) -> None:
         raise ParameterError("helix_angle", rack.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
     if not isinstance(rack.rack, BasicRack):
         raise ParameterError("rack", rack.rack, "must be a BasicRack")
+    if 0 < rack.tip_chamfer < LEAST_FEATURE:
+        raise ParameterError("tip_chamfer", rack.tip_chamfer, f"must be 0 or at least {LEAST_FEATURE} mm", "mm")
     if not is_given(rack.teeth) and not is_given(rack.length):
         raise ParameterError("teeth", None, "must be a whole number from 1 to 2000, or give the length in mm")
     if is_given(rack.teeth) and is_given(rack.length):

@@ -138,10 +138,11 @@ class RackProfile:
         The root land is absent where the fillets meet, the fillet where there is no radius, the chamfer where there is none.
         """
         fillet, tip = self._fillet, self.tip_height
-        # Where fillets meet they end on the middle of the space, rounding or not.
         middle = (-self.pitch / 2, -self.root_depth)
-        foot = (fillet.x * self.stretch, -self.root_depth) if self.root_land else middle
+        foot = (fillet.x * self.stretch, -self.root_depth)
         form = (-self.half_thickness_on_flank(-self.form_depth), -self.form_depth)
+        if not (self.root_land or self.root_radius):  # flanks meet, rounding or not
+            form = middle
         end = (-self.half_thickness_on_flank(tip - self.tip_chamfer), tip - self.tip_chamfer)
         top = (end[0] + self.tip_chamfer, tip)
         curves: list[RackCurve] = [Straight(RackCurveKind.FLANK, form, end)]
