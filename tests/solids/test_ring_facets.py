@@ -15,12 +15,13 @@ from support.ring_samples import RINGS, SHAPED, random_ring
 from support.rings import RingSection
 from support.samples import SAMPLES
 
-from gearcad import Body, Gear, GearPair, GeometryError, ParameterError
+from gearcad import Body, FlankModification, Gear, GearPair, GeometryError, ParameterError
 from gearcad.geometry import ShaperCutter
 from gearcad.geometry.curves import Curve, CurveKind
 from gearcad.geometry.helix import twist
 from gearcad.geometry.shaper import ShaperTip
 from gearcad.solids import FileOptions, write_3mf, write_glb, write_stl
+from gearcad.solids.exact.inertia import mass_properties
 from gearcad.solids.facets.tessellation import Facets, tessellate
 from gearcad.solids.files.products import PairProduct
 
@@ -102,6 +103,26 @@ def test_volume_converges_linearly_with_the_chord_error() -> None:
     errors = np.array([0.016, 0.004, 0.001, 0.00025])
     misses = np.abs([tessellate(gear, error).volume - RingSection(gear).volume for error in errors])
     assert np.polyfit(np.log(errors), np.log(misses), 1)[0] == pytest.approx(1.0, abs=0.15)
+
+
+@pytest.mark.parametrize("name", ["modified", "form root"])
+def test_mass_properties_are_those_of_the_exact_solid(name: str) -> None:
+    """Of a modified ring, and of one with bolt holes: volume and moment about the axis, as far as triangles can have them."""
+    gear, error = RINGS[name], 0.0005
+    mesh, exact = _mesh(tessellate(gear, error)), mass_properties(gear, 1e9)
+    most = error * mesh.area / mesh.volume
+    assert mesh.volume == pytest.approx(exact.mass, rel=most / 2)
+    turned = mesh.moment_inertia[2, 2] + mesh.volume * float(np.hypot(*mesh.center_mass[:2])) ** 2
+    assert turned == pytest.approx(exact.inertia * 1e6, rel=most)
+
+
+def test_modifications_take_off_what_they_do_from_the_exact_solid() -> None:
+    gear, error = RINGS["modified"], 0.0002
+    plain = replace(gear, modification=FlankModification())
+    removed = tessellate(plain, error).volume - tessellate(gear, error).volume
+    exact = mass_properties(plain, 1e9).mass - mass_properties(gear, 1e9).mass
+    assert removed == pytest.approx(exact, abs=error * _mesh(tessellate(gear, error)).area / 10)
+    assert exact > error * _mesh(tessellate(gear, error)).area  # far more than that
 
 
 # ---------------------------------------------------------------------- how far triangles are off
