@@ -13,14 +13,14 @@ from functools import cache, cached_property
 from types import MappingProxyType, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
 
-from gearcad.errors import as_choice, plain_numbers
+from gearcad.errors import ParameterError, as_choice, plain_numbers
 from gearcad.ranges import Choice, Member, Range, Whole
 from gearcad.symbols import Symbol
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
-__all__ = ["FieldSchema", "Words", "require_fields", "schema_of", "symbols_of"]
+__all__ = ["FieldSchema", "InPlaceOf", "Words", "require_fields", "schema_of", "symbols_of"]
 
 Permitted = Range | Whole | Choice | Member
 
@@ -31,6 +31,12 @@ class Words(NamedTuple):
     words: str
     symbol: str = ""
     source: str = ""
+
+
+class InPlaceOf(NamedTuple):
+    """The mark of a field that must be given, unless another field is, from which it then follows."""
+
+    other: str
 
 
 @dataclass(frozen=True)
@@ -82,6 +88,7 @@ class FieldSchema:
     def require(self, instance: DataclassInstance, owner: str) -> None:
         """Check the value that a frozen instance has, and turn the name of an enum's member into it. Raises ParameterError."""
         value, parameter = getattr(instance, self.name), f"{owner}.{self.name}" if owner else self.name
+        self._require_either(instance, parameter)
         if (value is None and self.optional) or getattr(value, "derived", False) or _stands_in(value, self.words):
             return
         if self.choices is not None:
@@ -95,6 +102,20 @@ class FieldSchema:
                 self.permitted.require(parameter, each)
         elif float in self.members:  # what else is no list, its type explains
             self.permitted.require(parameter, value)
+
+    def _require_either(self, instance: DataclassInstance, parameter: str) -> None:
+        """Raise ParameterError if neither this field nor the one in its place is given."""
+        for mark in self.marks:
+            if isinstance(mark, InPlaceOf) and not any(_given(getattr(instance, each)) for each in (self.name, mark.other)):
+                try:
+                    if self.permitted is not None:
+                        self.permitted.require(parameter, None)
+                except ParameterError as error:
+                    raise ParameterError(parameter, None, f"{error.permitted}, or give {mark.other} instead") from None
+
+
+def _given(value: Any) -> bool:
+    return value is not None and not getattr(value, "derived", False)
 
 
 def _stands_in(value: Any, words: tuple[str, ...]) -> bool:

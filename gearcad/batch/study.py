@@ -21,6 +21,7 @@ from gearcad.designs.keys import Cell
 from gearcad.designs.reader import spec_values
 from gearcad.designs.table import open_table
 from gearcad.errors import ParameterError, require_whole
+from gearcad.geometry.diametral import MODULE_OR_PITCH
 from gearcad.output import staged_files
 
 if TYPE_CHECKING:
@@ -142,10 +143,17 @@ def plan_study(spec: Path | str, variations: Sequence[str], sample: Sample | Non
     for text, key in zip(variations, keys, strict=True):
         if keys.count(key) > 1:
             raise ParameterError("vary", text, f"{key} is varied more than once; put all its values in one --vary")
+    base = {key: value for key, value in base.items() if not _replaced(key, keys)}
     study = Study(source=Path(spec).name, name=name, base=base, variations=read, sample=sample)
     if study.rows > MOST_ROWS:
         raise ParameterError("rows", study.rows, f"must be at most {MOST_ROWS}; take fewer values, or a sample")
     return study
+
+
+def _replaced(key: str, varied: Sequence[str]) -> bool:
+    """Whether a module gives way to a diametral pitch of its table that varies, or that to the module."""
+    table, _, field = key.partition(".")
+    return field in MODULE_OR_PITCH and any(f"{table}.{other}" in varied for other in MODULE_OR_PITCH)
 
 
 def write_study(study: Study, path: Path) -> None:

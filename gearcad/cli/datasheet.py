@@ -10,6 +10,7 @@ from gearcad.designs.design import Design
 from gearcad.designs.keys import FIELDS
 from gearcad.errors import format_number
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.derived import is_given
 from gearcad.schema import symbols_of
 
 if TYPE_CHECKING:
@@ -27,8 +28,8 @@ def _of_part(part: str) -> str:
 
 
 _GEAR_BLOCKS = {
-    "Teeth": "teeth normal_module helix_angle profile_shift profile_shift_khk tip_alteration tooth_thinning face_width"
-    " virtual_teeth lead",
+    "Teeth": "teeth normal_module normal_diametral_pitch helix_angle profile_shift profile_shift_khk"
+    " tip_alteration tooth_thinning face_width virtual_teeth lead",
     "Basic rack": _of_part("rack"),
     "Shaper cutter": _of_part("cutter"),
     "Double helix": _of_part("double_helix"),
@@ -87,7 +88,7 @@ def print_datasheet(design: Design, console: Console) -> None:
 
 def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
     document = design.to_dict()
-    gears = {name: _flat(document[name] | {"modification": gear.modification.in_use}) for name, gear in design.gears.items()}
+    gears = {name: _flat(document[name] | _in_use(gear)) for name, gear in design.gears.items()}
     pair = _flat(document.get("pair", {}))
     yield _Line(f"{design.name}: {_title(design)}", "bold")
     yield _Line("lengths in mm, angles in degrees" + (", clauses of ISO 21771:2007" if with_source else ""), "dim")
@@ -106,6 +107,12 @@ def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
         rows = [(FIELDS[block][key].symbol, [_given(value)]) for key, value in given.items()]
         yield from _block(block.capitalize(), rows, with_source)
     yield from _warnings(design)
+
+
+def _in_use(gear: Gear) -> dict[str, Any]:
+    """What the sheet shows of a gear otherwise than its document: modifications that do something, a pitch that was given."""
+    pitch = gear.normal_diametral_pitch
+    return {"modification": gear.modification.in_use, "normal_diametral_pitch": pitch if is_given(pitch) else None}
 
 
 def _block(title: str, rows: list[tuple[symbols.Symbol, list[str]]], with_source: bool) -> Iterator[_Line]:

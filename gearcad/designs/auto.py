@@ -8,6 +8,7 @@ from typing import Any
 
 from gearcad.errors import GeometryError, InputError, ParameterError, format_number
 from gearcad.geometry import Gear, GearPair, ShiftSplit, profile_shift_sum, split_profile_shift, zero_backlash_centre_distance
+from gearcad.geometry.diametral import module_of_pitch
 from gearcad.per_gear import PerGear, Role
 
 __all__ = ["AUTO", "make_gears", "resolve_profile_shifts", "resolve_tip_alterations"]
@@ -114,16 +115,22 @@ def _led_back(
 def _sizes(gears: PerGear[GearInputs]) -> dict[str, Any]:
     """What the formulas of profile shift and centre distance want to know of both gears, as GearPair has it."""
     return {
-        "normal_module": gears.pinion["normal_module"],
+        "normal_module": _module(gears.pinion),
         "teeth": gears.map(lambda gear: gear["teeth"]),
         "helix_angle": gears.pinion.get("helix_angle", 0.0),
         "pressure_angle": gears.pinion["rack"].pressure_angle,
     }
 
 
+def _module(gear: GearInputs) -> float:
+    """The normal module, given itself or as a diametral pitch."""
+    module: float | None = gear.get("normal_module")
+    return module_of_pitch(gear["normal_diametral_pitch"]) if module is None else module
+
+
 def _mate(gears: PerGear[GearInputs]) -> bool:
     """Whether both have one module and one pressure angle."""
-    pinion, wheel = gears.map(lambda gear: (gear["normal_module"], gear["rack"].pressure_angle))
+    pinion, wheel = gears.map(lambda gear: (_module(gear), gear["rack"].pressure_angle))
     return all(abs(one - other) <= _SAME for one, other in zip(pinion, wheel, strict=True))
 
 
@@ -153,7 +160,7 @@ def _shared(total: float, gears: PerGear[GearInputs], centre_distance: float, sp
 
     def addendum(role: Role) -> float:
         gear = gears.pick(role)
-        return float(gear["rack"].addendum + altered.pick(role) - gear["body"].tip_chamfer / gear["normal_module"])
+        return float(gear["rack"].addendum + altered.pick(role) - gear["body"].tip_chamfer / _module(gear))
 
     addenda = PerGear.each(addendum)
     return split_profile_shift(total, split, **_sizes(gears), centre_distance=centre_distance, addenda=addenda)

@@ -11,6 +11,7 @@ from gearcad.check.options import CheckOptions
 from gearcad.designs.design import DesignKind
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.geometry import Gear, GearPair, ShiftSplit
+from gearcad.geometry.diametral import MODULE_OR_PITCH
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.meshing.options import MeshOptions
@@ -89,7 +90,7 @@ _OF_SPECS = schema_of(_OfSpecs)
 _GEAR = dict(_flat(Gear))
 _PAIR = schema_of(GearPair)
 
-_PLAIN_SHARED = ("normal_module", "helix_angle", "face_width", "tip_alteration", "tooth_thinning")
+_PLAIN_SHARED = (*MODULE_OR_PITCH, "helix_angle", "face_width", "tip_alteration", "tooth_thinning")
 _OF_ONE = ("cutter",)
 SHARED = (*_PLAIN_SHARED, *(key for key in _GEAR if (part := key.partition(".")[0]) in PARTS and part not in _OF_ONE))
 """Keys of a gear that may stand in [pair] for both; the helix angle there is the pinion's, and no cutter makes both."""

@@ -20,7 +20,7 @@ from gearcad.per_gear import Role
 
 __all__ = ["Given", "Spec"]
 
-_DERIVED = ("tip_diameter", "root_diameter", "centre_distance")
+_DERIVED = ("normal_module", "tip_diameter", "root_diameter", "centre_distance")
 _ROLES = tuple(role.value for role in Role)
 
 Simple = TypeVar("Simple")

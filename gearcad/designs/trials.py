@@ -9,6 +9,7 @@ from gearcad.designs.design import DesignKind
 from gearcad.designs.keys import MAIN_TABLES, SHARED, Cell
 from gearcad.designs.reader import design_from_tables
 from gearcad.errors import GeometryError, SpecError
+from gearcad.geometry.diametral import MODULE_OR_PITCH
 
 __all__ = ["fault_alone", "missing_faults", "nested", "permitted_alone"]
 
@@ -41,6 +42,8 @@ def fault_alone(key: str, value: Cell, where: Where) -> SpecError | None:
     if owner == "pair":
         # What the gears have of their own would win.
         others = {other: given for other, given in others.items() if not other.endswith(f".{field}")}
+    if field in MODULE_OR_PITCH:
+        others = {other: given for other, given in others.items() if other.partition(".")[2] not in MODULE_OR_PITCH}
     error = _fault(others | {key: value}, kind, where)
     return error if error and error.key == key and not isinstance(error.__cause__, GeometryError) else None
 
@@ -54,8 +57,9 @@ def permitted_alone(key: str, value: Cell) -> bool:
 def missing_faults(given: Collection[str], kind: DesignKind, where: Where) -> Iterator[SpecError]:
     """The faults of values that are not among the keys `given`; what both gears may share is missed once."""
     for field in _REQUIRED:
+        fields = MODULE_OR_PITCH if field in MODULE_OR_PITCH else (field,)
         for owner in _GEARS[kind]:
-            if f"{owner}.{field}" not in given and f"pair.{field}" not in given:
+            if not any(f"{table}.{each}" in given for each in fields for table in (owner, "pair")):
                 yield from _fault_without(f"{owner}.{field}", _SOUND[kind], kind, where)
                 if field in SHARED:
                     break

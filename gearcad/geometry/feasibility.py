@@ -20,7 +20,7 @@ from gearcad.geometry.shaping import check_shaper, tip_words
 from gearcad.geometry.tooling import shaped
 from gearcad.schema import require_fields
 
-__all__ = ["check_numbers", "check_tool"]
+__all__ = ["check_fields", "check_numbers", "check_tool"]
 
 LEAST_HELIX = 1e-6
 """Smallest helix angle (degrees) of a helical gear; less moves a tooth by less than 2e-8 of the face width."""
@@ -29,8 +29,8 @@ MOST_TWIST = 720.0
 """Largest twist of a tooth over the face width (degrees) that one screw surface spans to the accuracy promised."""
 
 
-def check_numbers(gear: GearData) -> None:
-    """Each number by itself, and the width against module and lead."""
+def check_fields(gear: GearData) -> None:
+    """Each field by itself."""
     require_name("name", gear.name)
     require_fields(gear)
     if 0 < abs(gear.helix_angle) < LEAST_HELIX:
@@ -45,6 +45,10 @@ def check_numbers(gear: GearData) -> None:
     for part, kind in parts:
         if not isinstance(getattr(gear, part), kind):
             raise ParameterError(part, getattr(gear, part), f"must be a {kind.__name__}")
+
+
+def check_numbers(gear: GearData) -> None:
+    """Circles that are given have the sign of the teeth; the width against module and lead."""
     for name in ("tip_diameter", "root_diameter"):
         if is_given(given := getattr(gear, name)) and given * gear.teeth <= 0:
             below = f"must be a number below 0 mm, as the teeth are (ISO 21771){f': write {-given:.10g}' if given else ''}"

@@ -10,7 +10,8 @@ from typing import Any
 
 from gearcad.errors import InputError
 from gearcad.geometry.derived import derive
-from gearcad.geometry.feasibility import check_numbers, check_tool
+from gearcad.geometry.diametral import derive_module
+from gearcad.geometry.feasibility import check_fields, check_numbers, check_tool
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.inspection import Inspection
 from gearcad.geometry.internal_inspection import InternalInspection
@@ -59,6 +60,8 @@ class Gear(GearData):
     __repr__ = concise
 
     def __post_init__(self) -> None:
+        check_fields(self)
+        derive_module(self)
         check_numbers(self)
         derive(self, "tip_diameter", self.standard_tip_diameter)
         derive(self, "root_diameter", self.standard_root_diameter)

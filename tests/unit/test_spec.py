@@ -272,7 +272,8 @@ def test_a_gear_that_is_wrong_at_any_centre_distance_is_named_itself() -> None:
         ({"pinion": {"teeth": None}}, "<pinion.teeth>: pinion.teeth is missing: must be a whole number from 3 to 2000"),
         (
             {"pair": {"normal_module": None}},
-            "<pinion.normal_module>: pinion.normal_module is missing: must be a number at least 0.01 mm and at most 200 mm"
+            "<pinion.normal_module>: pinion.normal_module is missing: must be a number at least 0.01 mm and at most 200 mm,"
+            " or give normal_diametral_pitch instead"
             " (here or in [pair])",
         ),
         (

@@ -48,7 +48,8 @@ FAULTS = [
     "row 5 column H (negative width): pair.face_width = -3 mm: must be a number above 0 mm and at most 10000 mm",
     "row 6 column C (steep): pair.helix_angle = 95 deg: must be a number at least -75 deg and at most 75 deg",
     "row 7 column F (toothless): wheel.teeth is missing: must be a whole number from 3 to 2000",
-    "row 8 column B (without module): pinion.normal_module is missing: must be a number at least 0.01 mm and at most 200 mm"
+    "row 8 column B (without module): pinion.normal_module is missing: must be a number at least 0.01 mm and at most 200 mm,"
+    " or give normal_diametral_pitch instead"
     " (here or in [pair])",
     "row 9 column G (words): pinion.profile_shift = 'some': must be a number at least -5 and at most 5, or \"auto\"",
     "row 10 column I (rack): pinion.rack = 'ISO53_E': must be one of 'ISO53_A', 'ISO53_B', 'ISO53_C', 'ISO53_D',"
@@ -91,7 +92,8 @@ def test_all_single_faults_of_a_row_are_told_from_left_to_right() -> None:
     content = heading + "\na/b,,99,10,2,,9,0,ISO,#N/A,-1,full\n"
     assert [fault.partition(": ")[2] for fault in faults_of(content)] == [
         f"name = 'a/b': {PLAIN}, without / \\ < > : \" | ? * and control characters",
-        "pinion.normal_module is missing: must be a number at least 0.01 mm and at most 200 mm (here or in [pair])",
+        "pinion.normal_module is missing: must be a number at least 0.01 mm and at most 200 mm,"
+        " or give normal_diametral_pitch instead (here or in [pair])",
         "pair.helix_angle = 99 deg: must be a number at least -75 deg and at most 75 deg",
         "pinion.teeth = 2: must be a whole number from 3 to 2000",
         "wheel.teeth is missing: must be a whole number from 3 to 2000",

@@ -18,6 +18,7 @@ from gearcad.designs.kinds.geared import GearedDesign, beside_teeth, require_tab
 from gearcad.designs.spec import Given, Spec
 from gearcad.errors import ParameterError, SpecError, as_choice, require_number
 from gearcad.geometry import Gear, GearPair, ShiftSplit
+from gearcad.geometry.diametral import MODULE_OR_PITCH
 from gearcad.load import Load
 from gearcad.per_gear import PerGear, Role
 
@@ -123,9 +124,10 @@ class _PairSpec(Spec):
         """Give both gears what stands in [pair], unless they have their own; what is opposed is the pinion's."""
         for role in Role:
             renamed = f"{role.value}.rack" in self.values
+            sized = any(f"{role.value}.{field}" in self.values for field in MODULE_OR_PITCH)
             for field in SHARED:
                 given = self.values.get(f"pair.{field}")
-                if given is None or (field in _OPPOSED and role is Role.WHEEL):
+                if given is None or (field in _OPPOSED and role is Role.WHEEL) or (field in MODULE_OR_PITCH and sized):
                     continue
                 if not (renamed and field.startswith("rack")):
                     self.values.setdefault(f"{role.value}.{field}", given)
