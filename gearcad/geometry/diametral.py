@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Annotated, Protocol
 
 from gearcad.errors import GeometryError
 from gearcad.geometry.derived import derive, is_given
 from gearcad.ranges import Range
+from gearcad.schema import InPlaceOf, Words
 
-__all__ = ["DIAMETRAL_PITCH", "MODULE", "MODULE_OR_PITCH", "derive_module", "module_of_pitch"]
+__all__ = ["MODULE_OR_PITCH", "NormalDiametralPitch", "NormalModule", "derive_module", "module_of_pitch"]
 
-MODULE = Range("mm", 0.01, 200)
-DIAMETRAL_PITCH = Range("1/inch", 0.127, 2540)
+_PITCH = Range("1/inch", 0.127, 2540)
 """That of the modules which are permitted."""
+
+NormalModule = Annotated[
+    float, Range("mm", 0.01, 200), Words("normal module", "m_n", "4.2"), InPlaceOf("normal_diametral_pitch")
+]
+NormalDiametralPitch = Annotated[float, _PITCH, Words("normal diametral pitch", "P_nd")]
 
 MODULE_OR_PITCH = ("normal_module", "normal_diametral_pitch")
 """Fields one of which is to be given."""

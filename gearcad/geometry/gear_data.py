@@ -11,11 +11,11 @@ from gearcad.geometry.basic_rack import ISO53_A, BasicRack
 from gearcad.geometry.body import Body
 from gearcad.geometry.cutter import ShaperCutter
 from gearcad.geometry.derived import NOT_GIVEN, is_given
-from gearcad.geometry.diametral import DIAMETRAL_PITCH, MODULE
+from gearcad.geometry.diametral import NormalDiametralPitch, NormalModule
 from gearcad.geometry.double_helix import DoubleHelix
 from gearcad.geometry.modification import FlankModification
 from gearcad.ranges import Range, Whole
-from gearcad.schema import InPlaceOf, Words
+from gearcad.schema import Words
 
 __all__ = ["GearData"]
 
@@ -41,10 +41,8 @@ class GearData:
 
     name: Annotated[str, Words("name")] = "gear"
     teeth: Annotated[int, _TEETH, Words("number of teeth", "z", "4.1")]
-    normal_module: Annotated[float, MODULE, Words("normal module", "m_n", "4.2"), InPlaceOf("normal_diametral_pitch")] = (
-        NOT_GIVEN
-    )
-    normal_diametral_pitch: Annotated[float, DIAMETRAL_PITCH, Words("normal diametral pitch", "P_nd")] = NOT_GIVEN
+    normal_module: NormalModule = NOT_GIVEN
+    normal_diametral_pitch: NormalDiametralPitch = NOT_GIVEN
     face_width: Annotated[float, Range("mm", 0, 10000, ends="(]"), Words("face width", "b", "4.1")]
     helix_angle: Annotated[float, Range("deg", -75, 75), Words("helix angle (right hand +)", "β", "4.2")] = 0.0
     profile_shift: Annotated[float, _COEFFICIENT, Words("profile shift coefficient", "x", "4.2")] = 0.0

@@ -51,7 +51,7 @@ def test_both_neither_and_wrong_ones_are_one_line() -> None:
     for changes, message in (
         (
             {},
-            "normal_module = None: must be a number at least 0.01 mm and at most 200 mm, or give normal_diametral_pitch instead",
+            "normal_module = None: must be a number at least 0.01 mm and at most 200 mm, or give normal_diametral_pitch",
         ),
         (
             {"normal_module": 2, "normal_diametral_pitch": 8},
