@@ -54,9 +54,10 @@ class Compared(Explanation):
 class StiffnessExplanation(Explanation):
     """Stiffness in N/(mm·µm) of common face width: the `mean` of the mesh and the greatest of a `single` pair of teeth.
 
-    `rim_depths`: how far below the root circle each body is flexible (normal modules), `approach_shares` its part of the
-    approach. `specific_load` (N/mm) is F_t K_A/b, `low_load_factor` what it leaves of the standard's stiffness, `sweep_least`
-    and `sweep_greatest` what the torques of the sweep make of the mean. `mean_to_single` is the mean over the single stiffness.
+    `rim_depths`: how far below the root circle each body is flexible - outside that of a ring - (normal modules),
+    `approach_shares` its part of the approach. `specific_load` (N/mm) is F_t K_A/b, `low_load_factor` what it leaves of the
+    standard's stiffness, `sweep_least` and `sweep_greatest` what the torques of the sweep make of the mean. `mean_to_single`
+    is the mean over the single stiffness.
     """
 
     mean: Compared
@@ -128,7 +129,7 @@ def explain_stiffness(task: CheckTask, cycle: Cycle, summary: Summary, sweep: Se
     standard, model = task.rating.stiffness, cycle.model
     parts = cycle.values("approach_parts").mean(axis=0)
     rims = [
-        (gear.root_diameter / 2 - body.hub_radius) / gear.normal_module
+        body.flank.upward * (gear.profile.root_diameter / 2 - body.hub_radius) / gear.normal_module
         for gear, body in zip(task.pair.gears, model.bodies, strict=True)
     ]
     swept = [point.mesh_stiffness for point in sweep]

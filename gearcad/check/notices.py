@@ -8,7 +8,9 @@ from gearcad.check.rim import rim_notices
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
 from gearcad.contact.shared.loaded import Cycle
+from gearcad.geometry import Gear
 from gearcad.notice import Notice
+from gearcad.rating.rim import RING_RIM_LIMIT
 
 __all__ = ["common_notices"]
 
@@ -42,9 +44,18 @@ def _bodies(task: CheckTask, cycle: Cycle) -> Iterator[Notice]:
         if gear.body.web_thickness:
             text = f"the {role.value}'s web is in the standard's stiffness alone (C_R): the finite elements are a full disc"
             yield Notice("full-disc", text)
-        if not gear.body.bore and task.body.inner_diameters.pick(role) is None:
+        if gear.internal:
+            yield from _rim_of(gear, cycle.model.bodies.pick(role).hub_radius)
+        elif not gear.body.bore and task.body.inner_diameters.pick(role) is None:
             diameter = 2 * cycle.model.bodies.pick(role).hub_radius
             yield Notice("no-bore", f"the {role.value} has no bore: its body is taken as held on diameter {diameter:.6g} mm")
+
+
+def _rim_of(ring: Gear, radius: float) -> Iterator[Notice]:
+    if ring.body.rim_diameter is None:
+        held = f"its body is taken as held on diameter {2 * radius:.6g} mm, {RING_RIM_LIMIT:g} m_n outside its roots"
+        text = f"the ring has no body.rim_diameter: {held}"
+        yield Notice("no-rim", text)
 
 
 def _corners(cycle: Cycle, summary: Summary) -> Iterator[Notice]:

@@ -51,7 +51,8 @@ class CheckOptions:
     body, 0 for the full ring, and what holds its `cuts`: "fixed", "sliding" or "free". `pinion_inner_diameter`,
     `wheel_inner_diameter` (mm): where the bodies are held, instead of the bore or 4 m_n below the root circle.
     `pinion_support`, `wheel_support`: how they are held there, "rigid" all round, on an elastic "shaft", by the "key", "free",
-    or "auto": rigid if the rim is 1.2 tooth depths thick or the diameter is given, else free, or by the key if there is one.
+    or "auto": rigid if the rim is 1.2 tooth depths thick or the diameter is given, else free, or by the key if there is one. A
+    ring is held on its rim, "rigid" all round ("auto" too) or by its "bolts".
     `shaft_modulus` (MPa) and `pinion_shaft_bore`, `wheel_shaft_bore` (mm, 0 for a solid one) are those of the shaft, or of a
     ring that is the hub; solid bodies know neither shaft nor key. `torques` (N·m
     on the pinion) of the sweep, () for five up to the load's. `root_band`, `stiffness_band` and `contact_band` (%): how far

@@ -13,7 +13,7 @@ from gearcad.errors import format_number
 from gearcad.geometry import Gear
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
-from gearcad.rating.rim import RIM_LIMIT
+from gearcad.rating.rim import RIM_LIMIT, RING_RIM_LIMIT
 
 __all__ = ["bending_limits", "bending_notes", "rim_gates", "rim_notices"]
 
@@ -100,7 +100,9 @@ def rim_notices(task: CheckTask, summary: Summary) -> Iterator[Notice]:
     """How a thin rim is taken, and what is evaluated of it."""
     for rim in _rims(task):
         owner, hold = rim.role.value, rim.support.hold
-        if rim.support.bends:
+        if rim.gear.internal:
+            yield from _of_ring(rim)
+        elif rim.support.bends:
             yield Notice("thin-rim", _bending(rim, task, summary))
         elif rim.ratio < RIM_LIMIT and hold is Hold.RIGID:
             text = f'{rim.words} is held rigidly, which keeps it from bending; {owner}_support = "free" lets it'
@@ -113,6 +115,22 @@ def rim_notices(task: CheckTask, summary: Summary) -> Iterator[Notice]:
                 f"the {owner}'s stresses are those with the key under the worst of all teeth; its stiffness is that of a "
                 "bore without key, and the notch of the keyway is not in the section",
             )
+
+
+def _of_ring(rim: _Rim) -> Iterator[Notice]:
+    thickness = rim.ratio * (rim.gear.tip_diameter - rim.gear.root_diameter) / 2 / rim.gear.normal_module
+    if rim.support.hold is Hold.BOLTS:
+        text = (
+            f"the ring is {rim.support.words(rim.radius)}: at each the sector of a tooth is rigid from there outwards, and "
+            "nothing holds the rim between them; root stresses are those of the loaded teeth"
+        )
+        yield Notice("bolted-ring", text)
+    elif thickness < RING_RIM_LIMIT:
+        text = (
+            f"the ring's rim ({thickness:.3g} m_n, below {RING_RIM_LIMIT:g}) is held all round, as by a stiff housing, which "
+            f'keeps it from bending; {rim.role.value}_support = "bolts" lets it bend between them'
+        )
+        yield Notice("rigid-rim", text)
 
 
 def _bending(rim: _Rim, task: CheckTask, summary: Summary) -> str:

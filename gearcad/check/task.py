@@ -79,8 +79,6 @@ def check_task(
 
 def _require_meshing(task: CheckTask) -> None:
     """Raise for what no contact analysis can make sense of."""
-    if task.pair.internal:
-        raise GeometryError("wheel.teeth", task.pair.wheel.teeth, "must be above 0: pairs with a ring are not checked yet")
     if not task.torque:
         raise ParameterError("load.torque", task.torque, "must not be 0: without torque there is nothing to check", "N·m")
     if task.pair.transverse_contact_ratio < 1:

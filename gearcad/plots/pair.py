@@ -11,6 +11,7 @@ from gearcad.arrays import Floats
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.helix import twist
 from gearcad.plots.paper import DARK, GEARS, MARKED, new_figure
+from gearcad.rating.rim import outer_diameter
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,6 +31,8 @@ _MARGIN = 0.4
 
 def pair_inches(pair: GearPair) -> tuple[float, float]:
     """Size of a picture of the pair, as high as its larger gear asks for."""
+    if pair.internal:
+        return _WIDTH, _MOST
     tips = [gear.tip_diameter for gear in (pair.pinion, pair.wheel)]
     height = _WIDTH * max(tips) / (sum(tips) / 2 + pair.centre_distance)
     return _WIDTH, min(max(height, _LEAST), _MOST)
@@ -47,7 +50,7 @@ def plot_pair(pair: GearPair, ax: Axes | None = None) -> Axes:
     gears = ((pair.pinion, 0.0, 0.0), (pair.wheel, pair.centre_distance, pair.wheel_pose(-turn).rotation))
     for (gear, x, rotation), (_, colour, _), pitch in zip(gears, GEARS, pair.working_pitch_diameters, strict=True):
         _fill(axes, gear, x, math.radians(rotation), colour)
-        axes.add_patch(Circle((x, 0), pitch / 2, fill=False, edgecolor=DARK, linestyle="-.", linewidth=0.7))
+        axes.add_patch(Circle((x, 0), abs(pitch) / 2, fill=False, edgecolor=DARK, linestyle="-.", linewidth=0.7))
         axes.plot(x, 0, "+", color=DARK, markersize=9, markeredgewidth=0.8)
     line = _line_of_action(pair)
     axes.plot(*line.T, color=MARKED, linewidth=0.8)
@@ -55,8 +58,13 @@ def plot_pair(pair: GearPair, ax: Axes | None = None) -> Axes:
     axes.set_aspect("equal")
     axes.margins(0)
     margin = _MARGIN * pair.pinion.normal_module
-    axes.set_xlim(-pair.pinion.tip_diameter / 2 - margin, pair.centre_distance + pair.wheel.tip_diameter / 2 + margin)
-    axes.set_ylim(*(side * (max(pair.pinion.tip_diameter, pair.wheel.tip_diameter) / 2 + margin) for side in (-1, 1)))
+    if pair.internal:
+        reach = outer_diameter(pair.wheel) / 2 + margin
+        axes.set_xlim(pair.centre_distance - reach, pair.centre_distance + reach)
+        axes.set_ylim(-reach, reach)
+    else:
+        axes.set_xlim(-pair.pinion.tip_diameter / 2 - margin, pair.centre_distance + pair.wheel.tip_diameter / 2 + margin)
+        axes.set_ylim(*(side * (max(pair.pinion.tip_diameter, pair.wheel.tip_diameter) / 2 + margin) for side in (-1, 1)))
     axes.set_axis_off()
     return axes
 
@@ -67,11 +75,19 @@ def _helix_turn(pair: GearPair) -> float:
 
 
 def _fill(axes: Axes, gear: Gear, x: float, rotation: float, colour: str) -> None:
-    """A section about (x, 0), its bore left out."""
-    from matplotlib.patches import Circle
+    """A section about (x, 0), its bore left out; that of a ring out to its rim."""
+    from matplotlib.patches import Circle, PathPatch
+    from matplotlib.path import Path
 
     cosine, sine = math.cos(rotation), math.sin(rotation)
     outline = gear.profile.contour(_CHORD * gear.normal_module) @ np.array([[cosine, sine], [-sine, cosine]]) + [x, 0.0]
+    if gear.internal:
+        rim = Path.circle((x, 0), outer_diameter(gear) / 2)
+        opening = Path(np.r_[outline[::-1], outline[-1:]], closed=True)
+        axes.add_patch(
+            PathPatch(Path.make_compound_path(rim, opening), facecolor=f"{colour}40", edgecolor=colour, linewidth=0.9)
+        )
+        return
     axes.fill(*outline.T, facecolor=f"{colour}40", edgecolor=colour, linewidth=0.9)
     if gear.body.bore:
         axes.add_patch(Circle((x, 0), gear.body.bore / 2, facecolor="white", edgecolor=colour, linewidth=0.9))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gearcad.check.plane.pictures import StressField
 from gearcad.check.plane.result import PlaneCheck
 from gearcad.per_gear import PerGear
 from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, new_figure, prepared
@@ -24,8 +23,8 @@ _ON_WHITE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 2.0
 _OVER = 1.1
 """The end of the colours of the teeth, in greatest stresses of the fillets."""
 
-_LEAST_ANGLE, _ISO_ANGLE = 20.0, 30.0
-"""Tangent angles (deg) from which on a fillet is the root, and where ISO 6336-3 looks."""
+_LEAST_ANGLE = 20.0
+"""Tangent angle (deg) from which on a fillet is the root."""
 
 
 def plot_stress_field(result: PlaneCheck, ax: Axes | None = None) -> Axes:
@@ -33,18 +32,18 @@ def plot_stress_field(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     position = result.shown.position
     most = max(abs(stress.stress) for stress in (*position.tension, *position.compression))
     module = result.pair.pinion.normal_module
-    return _plot_field(result.stress_field, ax, _TEETH_SHOWN * module, _OVER * most, PerGear((0.12, 0.5), (0.88, 0.5)))
+    return _plot_field(result, ax, _TEETH_SHOWN * module, _OVER * most, PerGear((0.12, 0.5), (0.88, 0.5)))
 
 
 def plot_contact_zone(result: PlaneCheck, ax: Axes | None = None) -> Axes:
     """Von Mises stress around the contact of `plot_stress_field`, some half widths wide."""
-    stress, reach = result.stress_field, _ZONE * result.shown.contact.hertz_half_width
-    return _plot_field(stress, ax, reach, stress.greatest, PerGear((0.5, 0.06), (0.5, 0.94)))
+    reach, most = _ZONE * result.shown.contact.hertz_half_width, result.stress_field.greatest
+    return _plot_field(result, ax, reach, most, PerGear((0.5, 0.06), (0.5, 0.94)))
 
 
-def _plot_field(stress: StressField, ax: Axes | None, reach: float, most: float, names: PerGear[tuple[float, float]]) -> Axes:
+def _plot_field(result: PlaneCheck, ax: Axes | None, reach: float, most: float, names: PerGear[tuple[float, float]]) -> Axes:
     """Fields within `reach` (mm) of the contact, colours up to `most` (MPa), the gears' names at parts of the axes."""
-    axes = new_figure().subplots() if ax is None else ax
+    axes, stress = new_figure().subplots() if ax is None else ax, result.stress_field
     for field in stress.fields:
         drawn = axes.tripcolor(
             *field.points.T, field.triangles, field.von_mises, shading="gouraud", vmin=0, vmax=most, cmap=_COLOUR_MAP
@@ -56,7 +55,8 @@ def _plot_field(stress: StressField, ax: Axes | None, reach: float, most: float,
     axes.set_aspect("equal")
     axes.set_xlim(stress.x - 1.45 * reach, stress.x + 1.45 * reach)
     axes.set_ylim(stress.y - reach, stress.y + reach)
-    axes.set_xlabel("from the pinion's axis towards the wheel's in mm")
+    sense = "away from the ring's" if result.pair.internal else "towards the wheel's"
+    axes.set_xlabel(f"from the pinion's axis {sense} in mm")
     axes.set_ylabel("across in mm")
     for role, place in names.items():
         axes.text(*place, role.value, transform=axes.transAxes, ha="center", va="center", fontsize=9, bbox=_ON_WHITE)
@@ -74,7 +74,8 @@ def plot_fillets(result: PlaneCheck, ax: Axes | None = None) -> Axes:
         all_round = " of all teeth" if result.bending.pick(role) else ""
         label = f"{words}, greatest{all_round}: {found.tangent_angle:.0f}°"
         axes.plot([found.tangent_angle], [found.stress], marker, color=colour, label=label)
-    axes.axvline(_ISO_ANGLE, color=MARKED, linestyle=":", label="30°, ISO 6336-3")
+    for angle in sorted({root.section.lean for root in result.rating.roots}):
+        axes.axvline(angle, color=MARKED, linestyle=":", label=f"{angle:g}°, ISO 6336-3")
     axes.axhline(0, color=MARKED, linewidth=0.8)
     legend_above(axes, 3)
     return axes

@@ -18,6 +18,7 @@ __all__ = [
     "RIM_LIMIT",
     "RING_RIM_LIMIT",
     "Rim",
+    "outer_diameter",
     "rim_of",
     "rim_thickness_factor",
     "rim_thickness_ratio",
@@ -52,6 +53,12 @@ def ring_rim_ratio(gear: Gear) -> float | None:
     if body.rim_thickness:
         return body.rim_thickness / gear.normal_module
     return None if body.rim_diameter is None else (body.rim_diameter + gear.root_diameter) / 2 / gear.normal_module
+
+
+def outer_diameter(ring: Gear) -> float:
+    """Diameter (mm) of a ring's rim or, where none is given, of one as good as a solid body."""
+    rim = ring.body.rim_diameter
+    return ring.profile.root_diameter + 2 * RING_RIM_LIMIT * ring.normal_module if rim is None else rim
 
 
 def ring_rim_factor(ratio: float, edition: Edition) -> float:

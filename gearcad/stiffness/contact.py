@@ -52,7 +52,6 @@ class ContactMethod(StiffnessMethod):
     """Flexible gears pressed together at every position; pairs of teeth share the load as their bodies and gaps make them."""
 
     holds = ("contact under each pair's own load", "teeth", "bodies down to where they are held", "neighbouring teeth")
-    no_internal_form: ClassVar[str] = "its elements know no rings yet"
 
     @abstractmethod
     def _position(self, roll_angle: float, torque: float) -> _Position:
@@ -169,6 +168,7 @@ class SolidContact(ContactMethod):
     title = "FE contact, solid bodies"
     default_positions: ClassVar[int] = 60
     load_positions: ClassVar[int] = 0  # the bodies' responses are known there
+    no_internal_form: ClassVar[str] = "its elements know no rings yet"
 
     bodies: SolidPair | None = field(default=None, repr=False)
     """Those of a check, if there was one, for the sign of torque that it had; else they are made."""

@@ -6,12 +6,13 @@ import math
 from collections.abc import Iterator
 from operator import attrgetter, itemgetter
 
-from gearcad.check.comparison import Comparison, agrees
+from gearcad.check.comparison import Comparison, agrees, beside
 from gearcad.check.convergence import Convergence
 from gearcad.check.judge import compare_common, farness
 from gearcad.check.plane.summary import PlaneSummary
 from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle
+from gearcad.contact.plane.limits import conformal
 
 __all__ = ["compare_plane"]
 
@@ -29,18 +30,23 @@ def compare_plane(
 
 
 def _hertz(cycle: PlaneCycle, summary: PlaneSummary) -> Iterator[Comparison]:
-    """Peak pressure and half width against two cylinders under the load carried, where they are furthest apart."""
-    contacts = list(cycle.interior_contacts)
+    """Peak pressure and half width against two cylinders under the load carried, where they are furthest apart.
+
+    Contacts too wide for two cylinders are left out; where there are no others the comparison is for information.
+    """
+    every = list(cycle.interior_contacts)
+    narrow = [found for found in every if not conformal(found[1])]
+    contacts, compared = (every, beside) if every and not narrow else (narrow, agrees)
     source = "Hertz: two cylinders of the flanks' curvature under the load that this pair of teeth carries"
     for words, computed, reference, unit in (
         ("peak contact pressure", attrgetter("peak_pressure"), attrgetter("hertz_pressure"), "MPa"),
         ("half width of contact", attrgetter("half_width"), attrgetter("hertz_half_width"), "mm"),
     ):
         if not contacts:
-            yield agrees(words, None, None, _HERTZ, unit, source, reason=summary.missing["contact_pressure"])
+            yield compared(words, None, None, _HERTZ, unit, source, reason=summary.missing["contact_pressure"])
             continue
         found = [(farness(computed(contact), reference(contact)), position, contact) for position, contact in contacts]
         _, position, contact = max(found, key=itemgetter(0))
         note = f"the worst of {len(contacts)} interior contacts, at roll angle {position.roll_angle:.2f} deg"
         reason = "its pressures have no width to tell" if math.isnan(computed(contact)) else ""
-        yield agrees(words, computed(contact), reference(contact), _HERTZ, unit, source, note, reason)
+        yield compared(words, computed(contact), reference(contact), _HERTZ, unit, source, note, reason)

@@ -15,7 +15,7 @@ from gearcad.check.sweep import sweep_points
 from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.elasticity import PlaneElasticity
-from gearcad.contact.plane.limits import plane_pressure, thin_faces
+from gearcad.contact.plane.limits import plane_pressure, thin_faces, wide_contacts
 from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.meshing.section import MeshSizes
 from gearcad.notice import Notice
@@ -45,7 +45,11 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     sweep = sweep_points(cycle, task.torques)
     tell("rating")
     comparisons = compare_plane(task, cycle, summary, convergence)
-    notices = (*common_notices(task, cycle, summary), *plane_notices(task, model.pinion.elasticity))
+    notices = (
+        *common_notices(task, cycle, summary),
+        *plane_notices(task, model.pinion.elasticity),
+        *wide_contacts(cycle),
+    )
     return PlaneCheck(
         task=task,
         cycle=cycle,

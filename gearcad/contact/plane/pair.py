@@ -18,7 +18,7 @@ from gearcad.contact.plane.root import Fillets
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.shared.engaged import FlexiblePair
 from gearcad.contact.shared.holding import Support
-from gearcad.contact.shared.line_of_action import line_of_action, rigid_approach
+from gearcad.contact.shared.line_of_action import line_of_action, pairs_within, rigid_approach
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.halves import refuse_halves
@@ -40,6 +40,9 @@ _LEAST_SHARE = 0.03
 
 _SOFT = 4000.0
 """A stiffness (N/mm per mm of width) that no pair of teeth falls below: bounds how far a tip corner can get."""
+
+_BENT = 0.02
+"""How far (normal modules) teeth under great loads give way, so that pairs touch whose flanks are no further apart."""
 
 _SINGLE = 25
 """Positions of one pair of teeth along its path of contact, among which it is stiffest."""
@@ -125,11 +128,15 @@ def plane_pair(
     elasticity, body, sizes = PlaneElasticity(material, plane), body or BodyModel(), sizes or MeshSizes()
     # As many neighbours as can touch at once, with one more place for a corner that touches early or late.
     neighbours = max(1, math.floor(pair.transverse_contact_ratio + 0.2))
+    line = line_of_action(pair, pitch_error)
+    if pair.internal:  # flanks stay close to each other beyond the path of contact: more pairs touch as teeth bend
+        near = pairs_within(line, pair.path_of_contact.C, _BENT * pair.pinion.normal_module)
+        neighbours = max(neighbours, near - 1)
     pinion, wheel = (
         flank_body(gear, radius, elasticity, body, neighbours, sizes, solve, support)
         for gear, radius, support in zip(pair.gears, body.inner_radii(pair), body.supports(pair), strict=True)
     )
-    return PlanePair(pair, line_of_action(pair, pitch_error), PerGear(pinion, wheel))
+    return PlanePair(pair, line, PerGear(pinion, wheel))
 
 
 def flank_body(

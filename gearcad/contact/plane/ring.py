@@ -2,13 +2,14 @@
 
 The dofs of a cut are radial and tangential, so the matrices of all sectors are the same and need no turning. A bore that is
 held, and a cut that is, belong to a rigid hub with one dof, its turn: the row of that dof is the torque on the hub. A bore
-that is not held has a hub that follows it (see `support`): its dofs are the forces that it gives back.
+that is not held has a hub that follows it (see `support`): its dofs are the forces that it gives back. Of a ring on bolts only
+the sectors that have one are held.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cached_property, reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -59,6 +60,13 @@ class Sector:
     def _free(self, nodes: Wholes) -> Wholes:
         dofs = _dofs(nodes)
         return dofs[~np.isin(dofs, self.held)]
+
+    def let_go(self) -> Sector:
+        """The same sector with nothing that holds it."""
+        nothing = np.zeros_like
+        return replace(
+            self, held=np.empty(0, int), turn=nothing(self.turn), hub=nothing(self.hub), hub_matrix=nothing(self.hub_matrix)
+        )
 
     @cached_property
     def cut_turn(self) -> Any:
@@ -204,7 +212,7 @@ def assemble(
     full, offsets = 2 * neighbours + 1, range(-neighbours, neighbours + 1)
     rest = (teeth if held is None else held) - full
     sector = make_sector(fine, elasticity, support)
-    motions = _hub_motions(sector, full, cuts if held is not None and not rest else Cuts.FREE)
+    motions = _hub_motions(sector, offsets, support, cuts if held is not None and not rest else Cuts.FREE)
     numbers = _number(sector, motions.held, closed=held is None and not rest)
     count = int(numbers.max()) + 1
     entries = sector.matrix.tocoo()
@@ -213,8 +221,10 @@ def assemble(
     for row, turn, tooth in zip(numbers, motions.turn, offsets, strict=True):
         forces = sector.hub @ hub_seen_by(tooth, support) if support.floats else (sector.matrix @ turn)[:, None]
         np.add.at(hub, row, forces)  # the last row collects what acts on the hub itself
-    chain = chain_of(make_sector(coarse, elasticity, support), hub_seen_by(1, support)) if rest else None
-    for dofs, matrix in _joints(sector, chain, support, numbers, rest, held is None, cuts):
+    other = make_sector(coarse, elasticity, support) if rest else None
+    chain = chain_of(other, hub_seen_by(1, support)) if other else None
+    between = chain_of(other.let_go(), hub_seen_by(1, support)) if other and support.bolts else None
+    for dofs, matrix in _joints(sector, chain, between, support, numbers, rest, held is None, cuts):
         n = len(dofs)
         blocks.append((np.repeat(dofs, n), np.tile(dofs, n), matrix[:n, :n].ravel()))
         np.add.at(hub, dofs, matrix[:n, n:])
@@ -227,12 +237,26 @@ def assemble(
 
 
 def _joints(
-    sector: Sector, chain: Chain | None, support: Support, numbers: Wholes, rest: int, closed: bool, cuts: Cuts
+    sector: Sector,
+    chain: Chain | None,
+    between: Chain | None,
+    support: Support,
+    numbers: Wholes,
+    rest: int,
+    closed: bool,
+    cuts: Cuts,
 ) -> list[tuple[Wholes, Floats]]:
-    """What stands beyond the sectors in full: matrices on [dofs, hub as tooth 0 sees it]."""
+    """What stands beyond the sectors in full: matrices on [dofs, hub as tooth 0 sees it].
+
+    `chain` is a sector that is held, `between` one that stands between bolts, None where there are none.
+    """
     if chain is None:
         return []
     behind, ahead = numbers[0][sector.behind], numbers[-1][sector.ahead]
+    if between is not None:
+        first = len(numbers) // 2 + 1
+        row = (chain if support.holds(tooth) else between for tooth in range(first, first + rest))
+        return [(np.r_[ahead, behind], reduce(Chain.followed_by, row).matrix)]
     if closed:
         return [(np.r_[ahead, behind], chain.repeated(rest).seen(hub_seen_by(len(numbers) // 2 + 1, support)))]
     side, radii = chain.repeated(rest // 2), np.hypot(*sector.whole.points[sector.ahead[::2] // 2].T)
@@ -255,10 +279,11 @@ class _HubMotions(NamedTuple):
     turn: Floats
 
 
-def _hub_motions(sector: Sector, full: int, cuts: Cuts) -> _HubMotions:
-    held = np.zeros((full, sector.dofs), bool)
-    held[:, sector.held] = True
-    turn = np.tile(sector.turn, (full, 1))
+def _hub_motions(sector: Sector, teeth: range, support: Support, cuts: Cuts) -> _HubMotions:
+    on_hub = np.array([support.holds(tooth) for tooth in teeth])
+    held = np.zeros((len(teeth), sector.dofs), bool)
+    held[np.ix_(on_hub, sector.held)] = True
+    turn = np.where(on_hub[:, None], sector.turn, 0.0)
     for place, dofs in ((0, sector.behind), (-1, sector.ahead)) if cuts is not Cuts.FREE else ():
         held[place, dofs[1::2]] = True
         held[place, dofs[::2]] |= cuts is Cuts.FIXED

@@ -35,8 +35,15 @@ def with_support(mesh: SectorMesh, support: Support) -> SectorMesh:
 
 
 def held_nodes(mesh: SectorMesh, support: Support) -> Wholes:
-    """Nodes that belong to the hub."""
-    return np.empty(0, int) if support.floats else mesh.sides[Side.HELD]
+    """Nodes that belong to the hub; of a ring on bolts those of a sector that has one, but for its cuts, which all share."""
+    if support.floats:
+        return np.empty(0, int)
+    if support.hold is not Hold.BOLTS:
+        return mesh.sides[Side.HELD]
+    outside = np.hypot(*mesh.points.T) > support.bolt_circle / 2
+    outside[mesh.sides[Side.HELD]] = True
+    outside[mesh.ahead] = outside[mesh.behind] = False
+    return np.flatnonzero(outside)
 
 
 def hub_seen_by(tooth: int, support: Support) -> Floats:

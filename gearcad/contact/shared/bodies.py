@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from gearcad.contact.shared.chain import Cuts
 from gearcad.contact.shared.holding import Hold, Support, support_of
-from gearcad.errors import GeometryError, ParameterError, format_number, require_number, require_whole
+from gearcad.errors import GeometryError, ParameterError, require_number, require_whole
 from gearcad.geometry import Gear, GearPair
 from gearcad.material import STEEL_MODULUS, Material
 from gearcad.meshing.section.held import held_radius
@@ -63,13 +63,23 @@ class BodyModel:
         key = f"check.{role.value}_support"
         if not ring and hold not in (Hold.AUTO, Hold.RIGID):
             raise ParameterError(key, hold.value, 'must be "rigid" where body_teeth is less than the full ring')
-        if self.solid and hold in (Hold.SHAFT, Hold.KEY):
+        if gear.internal:
+            self._check_ring(hold, key)
+        elif hold is Hold.BOLTS:
+            raise ParameterError(key, hold.value, "must be another: bolts hold rings")
+        elif self.solid and hold in (Hold.SHAFT, Hold.KEY):
             raise ParameterError(key, hold.value, 'must be "rigid" or "free" for solid bodies')
         if hold is Hold.AUTO and (not ring or self.inner_diameters.pick(role) is not None):
             hold = Hold.RIGID  # a circle that is given is where the body is held
         with naming(role):
             found = support_of(gear, radius, hold, Material(youngs_modulus=self.shaft_modulus), self.shaft_bores.pick(role))
         return replace(found, hold=Hold.FREE) if self.solid and found.hold is Hold.KEY else found
+
+    def _check_ring(self, hold: Hold, key: str) -> None:
+        if hold not in (Hold.AUTO, Hold.RIGID, Hold.BOLTS):
+            raise ParameterError(key, hold.value, 'must be "rigid" or "bolts": a ring is held on its rim, it has no bore')
+        if self.solid and hold is Hold.BOLTS:
+            raise ParameterError(key, hold.value, 'must be "rigid" for the solid body of a ring')
 
     def for_solids(self) -> BodyModel:
         """The same bodies as solids: of what can hold them, only "rigid" and "free"."""
@@ -82,7 +92,7 @@ class BodyModel:
         return each._asdict()
 
     def _words(self, gear: Gear, radius: float, support: Support) -> str:
-        inner = f"{support.words} diameter {format_number(round(radius * 2, 4))} mm"
+        inner = support.words(radius)
         if (held := self.teeth_held(gear)) is None:
             return f"full ring, {inner}"
         return f"{held} teeth with {self.cuts.value} cuts, {inner}"

@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.contact.shared.line_of_action import LineOfAction, line_of_action
+from gearcad.contact.shared.line_of_action import LineOfAction
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.involute import involute_at_roll
@@ -126,8 +126,9 @@ class EngagedPair:
 
         `modulus` is E* (MPa); half width by Hertz.
         """
-        at_pitch_point = line_of_action(self.pair).lengths(self.pair.path_of_contact.C)
-        half = float(half_width(self.force(torque), reduced_radius(at_pitch_point), modulus))
+        at_pitch_point = self.pair.path_of_contact.C
+        radii = (at_pitch_point, self.pair.base_tangent.length - at_pitch_point)
+        half = float(half_width(self.force(torque), reduced_radius(radii), modulus))
         depth = min((gear.tip_diameter - gear.root_diameter) / 2 for gear in self.pair.gears)
         if half > depth:
             most = abs(torque) * (depth / half) ** 2  # the half width goes with the root of the load

@@ -27,12 +27,16 @@ __all__ = [
     "line_of_action",
     "nearest",
     "overlap",
+    "pairs_within",
     "rigid_approach",
 ]
 
 
 LEAST_LENGTH = 0.01
 """Least roll length (mm per mm of normal module) at which a flank still has a curvature to speak of."""
+
+_POSITIONS = 13
+"""Of one base pitch, at which pairs that come near are counted."""
 
 _SAMPLES = 1201
 """Places on a pair of flanks among which the nearest is sought: 5 µm apart on teeth of module 2, 0.001 µm of the gap."""
@@ -155,6 +159,18 @@ def facing_teeth(line: LineOfAction) -> range:
     """Every pair of teeth whose flanks can face each other."""
     reach = math.ceil(sum(max(flank.last, -flank.first) for flank in line.flanks) / line.pitch)
     return range(-reach, reach + 1)
+
+
+def pairs_within(line: LineOfAction, pinion_length: float, gap: float) -> int:
+    """The most pairs of teeth whose flanks come as near as a gap (mm) at once, over one base pitch.
+
+    The middle pair touches about `pinion_length` (mm from T1).
+    """
+    found = 0
+    for length in (pinion_length + line.pitch * np.linspace(-0.5, 0.5, _POSITIONS)).tolist():
+        each = (nearest(line, tooth, length + tooth * line.pitch) for tooth in facing_teeth(line))
+        found = max(found, sum(near[0] <= gap for near in each if near is not None))
+    return found
 
 
 def overlap(line: LineOfAction, pinion_length: float) -> tuple[float, float]:

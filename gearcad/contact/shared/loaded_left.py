@@ -30,6 +30,8 @@ def mirrored(gear: Gear) -> Gear:
     """The mirror image in the plane x-z."""
     if gear.helix_angle:
         return replace(gear, helix_angle=-gear.helix_angle)
+    if not gear.modification.helix_angle_modification:
+        return gear
     # A spur gear has no hand of its own, so that of its modification turns over.
     change = replace(gear.modification, helix_angle_modification=-gear.modification.helix_angle_modification)
     return replace(gear, modification=change)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gearcad.geometry import Gear
+from gearcad.rating.rim import outer_diameter
 
 __all__ = ["held_radius", "rim_radius"]
 
@@ -12,23 +13,15 @@ _RIM = 4.0
 _LEAST = 0.3
 """Its least radius over that of the root circle."""
 
-_RING = 3.5
-"""Depth of a ring outside its root circle, in normal modules, where no rim is given: Y_B of ISO 6336-3 is 1 from there on."""
-
 
 def held_radius(gear: Gear) -> float:
     """Radius (mm) of the bore or, without one, 4 m_n below the root circle: what lies deeper hardly bends.
 
-    Of a ring that of the rim or, without one, 3.5 m_n outside the root circle.
+    Of a ring that of the rim or, without one, 3.5 m_n outside the root circle, where it is as good as a solid body.
     """
     if gear.internal:
-        return _rim_of_ring(gear)
+        return outer_diameter(gear) / 2
     return gear.body.bore / 2 if gear.body.bore else rim_radius(gear)
-
-
-def _rim_of_ring(gear: Gear) -> float:
-    rim = gear.body.rim_diameter
-    return rim / 2 if rim is not None else gear.profile.root_diameter / 2 + _RING * gear.normal_module
 
 
 def rim_radius(gear: Gear) -> float:

@@ -90,8 +90,8 @@ class CheckSections(ABC, Generic[Checked]):
     @property
     def stiffness_reasons(self) -> list[str]:
         """Why the stiffness differs from the standard's."""
-        of, part = self.result.explanations.stiffness, self.result.rating.edition.part(1)
-        return [sentences("reasons_check.txt", macro, of, part) for macro in ("compared", "bodies", "load", "sharing")]
+        of, part, ring = self.result.explanations.stiffness, self.result.rating.edition.part(1), self.result.pair.internal
+        return [sentences("reasons_check.txt", macro, of, part, ring) for macro in ("compared", "bodies", "load", "sharing")]
 
     # ------------------------------------------------------------------ figures
 
