@@ -168,7 +168,6 @@ class SolidContact(ContactMethod):
     title = "FE contact, solid bodies"
     default_positions: ClassVar[int] = 60
     load_positions: ClassVar[int] = 0  # the bodies' responses are known there
-    no_internal_form: ClassVar[str] = "its elements know no rings yet"
 
     bodies: SolidPair | None = field(default=None, repr=False)
     """Those of a check, if there was one, for the sign of torque that it had; else they are made."""
