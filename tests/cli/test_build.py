@@ -224,3 +224,36 @@ def test_bracket_without_bores_is_refused_and_leaves_nothing(pair: Design, tmp_p
     with pytest.raises(GeometryError, match=r"pinion\.body\.bore = 0 mm: must be above 0 mm"):
         build(read_spec(spec), tmp_path / "out", [Format.STEP], bracket=True)
     assert names(tmp_path) == {"bare.toml"}
+
+
+RING = """[gear]
+name = "annulus"
+teeth = -60
+normal_module = 2.0
+face_width = 12.0
+helix_angle = 15.0
+cutter.teeth = 22
+cutter.tip_radius = 0.2
+body.end_chamfer = 0.8
+"""
+
+
+def test_a_ring_is_built_in_every_faceted_and_flat_format(tmp_path: Path) -> None:
+    spec, target = tmp_path / "ring.toml", tmp_path / "files"
+    spec.write_text(f"{RING}body.rim_diameter = 150.0\n")
+    result = CliRunner().invoke(main, ["build", str(spec), "-o", str(target), "--format", "stl,3mf,glb,dxf,csv", "--circles"])
+    assert result.exit_code == 0, result.output
+    assert names(target) == {"data.json", *(f"gear.{suffix}" for suffix in ("stl", "3mf", "glb", "dxf", "csv"))}
+
+
+def test_a_ring_without_a_rim_is_drawn_but_has_no_body(tmp_path: Path) -> None:
+    spec = tmp_path / "ring.toml"
+    spec.write_text(RING)
+    drawn = CliRunner().invoke(main, ["build", str(spec), "-o", str(tmp_path / "flat"), "--format", "dxf,csv"])
+    assert drawn.exit_code == 0, drawn.output
+    for kind in ("stl", "step"):
+        result = CliRunner().invoke(main, ["build", str(spec), "-o", str(tmp_path / kind), "--format", kind])
+        assert result.exit_code != 0
+        (line,) = (line for line in result.output.splitlines() if line.startswith("Error"))
+        assert "body.rim_diameter = None: must be given, at least 129.634 mm" in line
+        assert not (tmp_path / kind).exists()
