@@ -64,6 +64,9 @@ _BELONGS_TO = {
 }
 """Features of a body, a cutter and a double helix that mean nothing without another one."""
 
+_OF_SPUR_RINGS = {"span_measurement": "spur only", "between_pins": "spur only"}
+"""What the sheet of a helical ring says of them."""
+
 _ABSENT = "-"
 
 _WIDE = 96
@@ -110,9 +113,13 @@ def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
 
 
 def _in_use(gear: Gear) -> dict[str, Any]:
-    """What the sheet shows of a gear otherwise than its document: modifications that do something, a pitch that was given."""
+    """What the sheet shows of a gear otherwise than its document.
+
+    Modifications that do something, a diametral pitch that was given, and that some gauges are for spur rings.
+    """
     pitch = gear.normal_diametral_pitch
-    return {"modification": gear.modification.in_use, "normal_diametral_pitch": pitch if is_given(pitch) else None}
+    shown = {"modification": gear.modification.in_use, "normal_diametral_pitch": pitch if is_given(pitch) else None}
+    return shown | (_OF_SPUR_RINGS if gear.internal and gear.helix_angle else {})
 
 
 def _block(title: str, rows: list[tuple[symbols.Symbol, list[str]]], with_source: bool) -> Iterator[_Line]:

@@ -49,10 +49,10 @@ class Body:
     hub_diameter: Annotated[float, FEATURE, Words("hub diameter")] = 0.0
     hub_length: Annotated[float, FEATURE, Words("hub length on each side")] = 0.0
     hub_side: Annotated[HubSide, Words("side of the hub")] = HubSide.FRONT
-    rim_diameter: Annotated[float | None, Range("mm", 0, None, ends="(]"), Words("rim diameter (internal gears)")] = None
-    bolt_circle: Annotated[float, FEATURE, Words("bolt circle diameter (internal gears)")] = 0.0
-    bolt_holes: Annotated[int, Whole(1, 1000, may_vanish=True), Words("number of bolt holes (internal gears)")] = 0
-    bolt_diameter: Annotated[float, FEATURE, Words("diameter of the bolt holes (internal gears)")] = 0.0
+    rim_diameter: Annotated[float | None, Range("mm", 0, None, ends="(]"), Words("rim diameter (rings)")] = None
+    bolt_circle: Annotated[float, FEATURE, Words("bolt circle diameter (rings)")] = 0.0
+    bolt_holes: Annotated[int, Whole(1, 1000, may_vanish=True), Words("number of bolt holes (rings)")] = 0
+    bolt_diameter: Annotated[float, FEATURE, Words("bolt hole diameter (rings)")] = 0.0
     end_chamfer: Annotated[float, FEATURE, Words("end chamfer, axial length")] = 0.0
     end_chamfer_angle: Annotated[float, Range("deg", 5, 85), Words("end chamfer, angle to the axis")] = 45.0
     tip_chamfer: Annotated[float, FEATURE, Words("tip chamfer, radial height", "h_K", "6.1")] = 0.0

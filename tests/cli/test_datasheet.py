@@ -11,6 +11,7 @@ from gearcad.cli import datasheet
 from gearcad.cli.datasheet import print_datasheet
 from gearcad.designs import GearDesign, read_spec
 from gearcad.designs.design import Design
+from gearcad.geometry import ShaperCutter
 from gearcad.schema import symbols_of
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
@@ -63,3 +64,27 @@ def test_spur_gear_has_no_lead_and_zero_has_no_sign() -> None:
     lines = sheet(GearDesign(name="x", gear=gear)).splitlines()
     assert not any("lead" in line for line in lines)
     assert next(line for line in lines if "profile shift" in line).endswith(" 0.0000")
+
+
+def _lines(gear: Gear) -> dict[str, list[str]]:
+    text = sheet(GearDesign(name="trial", gear=gear))
+    return {line[:39].strip(): line[39:].split() for line in text.splitlines()}
+
+
+def test_a_ring_is_measured_inside_and_has_its_shift_in_both_signs() -> None:
+    lines = _lines(Gear(teeth=-70, normal_diametral_pitch=8, face_width=10, profile_shift=-0.5))
+    assert "trial: internal spur gear, z = -70" in lines
+    assert lines["profile shift coefficient"] == ["x", "-0.5000"]
+    assert lines["profile shift in KHK's sign (rings)"] == ["x", "0.5000"]
+    assert lines["normal diametral pitch"] == ["P_nd", "1/inch", "8.0000"]
+    assert lines["between two balls (rings)"][0] == "M_dK"
+    assert not {"over two balls", "over two pins", "teeth spanned", "cutter, profile shift coefficient"} & lines.keys()
+    assert any(line.startswith("form root: no cutter given") for line in lines)
+
+
+def test_a_helical_ring_says_what_it_is_not_measured_by() -> None:
+    lines = _lines(Gear(teeth=-70, normal_module=2, face_width=10, helix_angle=15, cutter=ShaperCutter(teeth=25)))
+    assert lines["span measurement"] == ["W_k", "mm", "spur", "only"]
+    assert lines["between two pins (spur rings)"] == ["M_dR", "mm", "spur", "only"]
+    assert lines["cutter, number of teeth"] == ["z_0", "25"]
+    assert not {"normal diametral pitch", "spaces spanned (spur rings)"} & lines.keys()

@@ -9,7 +9,7 @@ import pytest
 from support.cases import case, diameters, half_unit
 
 from gearcad import BasicRack, Gear, GearPair
-from gearcad.geometry import inverse_involute, involute, profile_shift_sum
+from gearcad.geometry import inverse_involute, involute, profile_shift_sum, zero_backlash_centre_distance
 from gearcad.per_gear import PerGear
 
 VERIFIED = 1e-9
@@ -147,6 +147,28 @@ def test_chordal_thickness() -> None:
     assert found == pytest.approx({key: verified[key] for key in found}, abs=VERIFIED, rel=0)
     for key, printed in case("book_sdp_chord_spur")["expected_printed"].items():
         assert found[key] == pytest.approx(float(printed), abs=half_unit(printed), rel=0), key
+
+
+def test_internal_pair_in_its_own_sign_and_in_khks() -> None:
+    """z and x of the ring are positive there, and so are all diameters."""
+    given, verified = case("book_khk_internal")["inputs"], case("book_khk_internal")["verified"]
+    pinion = _single(teeth=given["z"][0], normal_module=given["m"], profile_shift=given["x"][0])
+    ring = _single(teeth=-given["z"][1], normal_module=given["m"], profile_shift=-given["x"][1])
+    assert ring.profile_shift_khk == given["x"][1]
+    assert pinion.profile_shift_khk is None
+    distance = -zero_backlash_centre_distance(
+        normal_module=given["m"],
+        teeth=PerGear(pinion.teeth, ring.teeth),
+        helix_angle=0.0,
+        pressure_angle=given["alpha"],
+        shift_sum=pinion.profile_shift + ring.profile_shift,
+    )
+    found = {"a": distance, "db1": pinion.base_diameter, "da1": pinion.tip_diameter, "df1": pinion.root_diameter}
+    found |= {"db2": -ring.base_diameter, "da2": -ring.tip_diameter, "df2": -ring.root_diameter}
+    assert found == pytest.approx({key: verified[key] for key in found}, abs=VERIFIED, rel=0)
+    for key, value in found.items():
+        printed = case("book_khk_internal")["expected_printed"][key]
+        assert value == pytest.approx(float(printed), abs=_tolerance("book_khk_internal", key, printed), rel=0), key
 
 
 # ---------------------------------------------------------------------- Alm thesis, stage 1-2

@@ -128,3 +128,22 @@ def test_infeasible_tool_by_the_bare_equations() -> None:
         assert half_angles == pytest.approx([point[reference] for point in points], abs=ANGLE, rel=0)
     end = tool.cut(tool.last_angle)[0]
     assert 2 * end == pytest.approx(verified["d_Ff"], abs=DIAMETER, rel=0)
+
+
+RINGS = ["s000_gear4_internal", "s000_gear5_internal", "s000_gear5_hyp_internal", "s000_T3_gear4_internal"]
+"""Rings of the Alm thesis: circles and involutes, as their roots belong to a cutter that is not known."""
+
+
+@pytest.mark.parametrize("name", RINGS)
+def test_rings(name: str) -> None:
+    given, verified = case(name)["inputs"], case(name)["verified"]
+    ring = Gear(teeth=given["z"], normal_module=given["mn"], face_width=10.0, profile_shift=given["x"])
+    found = {"d": ring.reference_diameter, "db": ring.base_diameter, "da": ring.tip_diameter, "df": ring.root_diameter}
+    assert found == pytest.approx({key: verified[key] for key in found}, abs=DIAMETER, rel=0)
+    rows = verified["rows"]
+    radii = np.array([row["R_mm"] for row in rows])
+    half_angles = np.radians(ring.profile.half_angle(radii))
+    assert half_angles == pytest.approx([row["half_tooth_angle_rad"] for row in rows], abs=ANGLE, rel=0)
+    assert 2 * radii * half_angles == pytest.approx([row["tooth_thickness_mm"] for row in rows], abs=DIAMETER, rel=0)
+    spaces = 2 * radii * (math.pi / ring.tooth_count - half_angles)
+    assert spaces == pytest.approx([row["space_width_mm"] for row in rows], abs=DIAMETER, rel=0)

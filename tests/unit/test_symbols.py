@@ -35,6 +35,11 @@ def test_every_field_of_a_gear_has_a_symbol_and_every_symbol_a_field() -> None:
     assert _keys(ring.to_dict()) - _keys(gear.to_dict()) == of_rings
 
 
+def test_words_of_gears_and_pairs_fit_their_column_of_the_sheet() -> None:
+    for table in (symbols_of(Gear) | symbols.GEAR, symbols_of(GearPair) | symbols.PAIR):
+        assert [symbol.words for symbol in table.values() if len(symbol.words) > 37] == []
+
+
 def test_every_field_of_a_pair_has_a_symbol_and_every_symbol_a_field() -> None:
     gear = Gear(teeth=20, normal_module=2.0, face_width=10.0)
     inputs = {name for name, field in schema_of(GearPair).items() if field.part is None} - {"name"}
