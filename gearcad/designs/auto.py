@@ -1,4 +1,4 @@
-""" "auto" in a pair's spec: profile shifts from the centre distance, tip alteration from the tip clearance."""
+""" "auto" and "clear" in a pair's spec: profile shifts from the centre distance, tips from tip clearance or a fillet."""
 
 from __future__ import annotations
 
@@ -9,11 +9,16 @@ from typing import Any
 from gearcad.errors import GeometryError, InputError, ParameterError, format_number
 from gearcad.geometry import Gear, GearPair, ShiftSplit, profile_shift_sum, split_profile_shift, zero_backlash_centre_distance
 from gearcad.geometry.diametral import module_of_pitch
-from gearcad.per_gear import PerGear, Role
+from gearcad.geometry.gear_data import GearData
+from gearcad.geometry.internal_mating import tip_on_form_circle
+from gearcad.per_gear import PerGear, Role, naming
 
-__all__ = ["AUTO", "make_gears", "resolve_profile_shifts", "resolve_tip_alterations"]
+__all__ = ["AUTO", "CLEAR", "clear_tip_alteration", "make_gears", "resolve_profile_shifts", "resolve_tip_alterations"]
 
 AUTO = "auto"
+
+CLEAR = "clear"
+"""Tip alteration of a ring whose tip stays off its pinion's fillet."""
 
 _SAME = 1e-9
 """Difference of two modules or pressure angles that is rounding, as in GearPair."""
@@ -62,9 +67,27 @@ def resolve_tip_alterations(gears: PerGear[GearInputs], shift_sum: float, centre
     def of(gear: GearInputs) -> float:
         value: Any = gear.get("tip_alteration", AUTO)
         automatic = 0.0 if "tip_diameter" in gear else keeping
-        return automatic if value == AUTO else float(value)
+        return automatic if value in (AUTO, CLEAR) else float(value)
 
     return gears.map(of)
+
+
+def clear_tip_alteration(gears: PerGear[GearInputs], centre_distance: float | None) -> float:
+    """Tip alteration k of the ring, in normal modules, that ends its flank on the pinion's root form circle; never positive.
+
+    The gears are resolved but for it. Raises InputError of the pinion, its parameter led by it.
+    """
+    with naming(Role.PINION):
+        pinion = Gear(**gears.pinion)
+    ring = GearData(**{**gears.wheel, "tip_alteration": 0.0})
+    if centre_distance is None:
+        shift_sum = sum(gears.map(lambda gear: gear["profile_shift"]))
+        try:
+            centre_distance = zero_backlash_centre_distance(**_sizes(gears), shift_sum=shift_sum)
+        except GeometryError:
+            return 0.0  # no such centre distance: GearPair says so
+    tip = tip_on_form_circle(ring, pinion, centre_distance)
+    return 0.0 if tip is None else min((tip - ring.standard_tip_diameter) / (2 * ring.normal_module), 0.0)
 
 
 def make_gears(gears: PerGear[GearInputs], automatic: PerGear[Collection[str]], centre_distance: float | None) -> PerGear[Gear]:
@@ -139,7 +162,7 @@ def _require_sound_numbers(gears: PerGear[GearInputs]) -> None:
     for role, gear in gears.items():
         trial = {name: value for name, value in gear.items() if name != "tip_diameter"}
         for automatic in ("profile_shift", "tip_alteration"):
-            if trial.get(automatic) == AUTO:
+            if trial.get(automatic) in (AUTO, CLEAR):
                 del trial[automatic]
         try:
             Gear(**trial)
@@ -169,6 +192,8 @@ def _shared(total: float, gears: PerGear[GearInputs], centre_distance: float, sp
 def _clearance_keeping(gears: PerGear[GearInputs], shift_sum: float, centre_distance: float | None) -> float:
     """k that keeps the rack's tip clearance at the given, or else the backlash-free, centre distance."""
     sizes = _sizes(gears)
+    if gears.wheel["teeth"] < 0:
+        return 0.0  # as of PairData.tip_alteration
     module: float = sizes["normal_module"]
     if centre_distance is None:
         try:

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Self, TypeVar
 
-from gearcad.designs.auto import AUTO
+from gearcad.designs.auto import AUTO, CLEAR
 from gearcad.designs.design import require_plain_name
 from gearcad.designs.files import Where, require_sane_tables
 from gearcad.designs.keys import COUNTS, FIELDS, KEYS, PARTS, SHARED, explain_unknown_key
@@ -73,7 +73,9 @@ class Spec:
         field = "body.tip_chamfer" if field == "tip_chamfer" else field
         permitted = error.permitted
         if owner in _ROLES and field in ("profile_shift", "tip_alteration") and isinstance(error, ParameterError):
-            permitted += f', or "{AUTO}"'
+            permitted += f', or "{AUTO}"' + (
+                f', or of a ring "{CLEAR}"' if field == "tip_alteration" and owner == "wheel" else ""
+            )
         given = self.values.get(f"{owner}.{field}")
         if given is None and error.value is None:
             shared = " (here or in [pair])" if owner in _ROLES and field in SHARED else ""

@@ -24,6 +24,11 @@ _SOUND = {
     for kind, owners in _GEARS.items()
 }
 
+_RINGS: dict[str, dict[str, Cell]] = {
+    owner: {f"{owner}.teeth": -70, f"{owner}.profile_shift": -0.3} for owner in ("gear", "wheel")
+}
+"""What makes rings of these sound gears: diameters and centre distances are negative beside them."""
+
 
 def nested(values: Mapping[str, Cell], kind: DesignKind) -> dict[str, dict[str, Cell]]:
     """Values under their full keys as one mapping per table of a spec; the tables of the kind are there even if empty."""
@@ -44,8 +49,11 @@ def fault_alone(key: str, value: Cell, where: Where) -> SpecError | None:
         others = {other: given for other, given in others.items() if not other.endswith(f".{field}")}
     if field in MODULE_OR_PITCH:
         others = {other: given for other, given in others.items() if other.partition(".")[2] not in MODULE_OR_PITCH}
-    error = _fault(others | {key: value}, kind, where)
-    return error if error and error.key == key and not isinstance(error.__cause__, GeometryError) else None
+    for ring in ({}, *(rings for name, rings in _RINGS.items() if name == owner or (name == "wheel" and owner == "pair"))):
+        error = _fault({**others, **ring, key: value}, kind, where)
+        if error is None or error.key != key or isinstance(error.__cause__, GeometryError):
+            return None
+    return error
 
 
 @lru_cache(maxsize=4096, typed=True)

@@ -24,10 +24,20 @@ from gearcad.geometry.shift import zero_backlash_centre_distance
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
 
-__all__ = ["check_interference", "clear_tip_diameter", "interference_margins", "interference_notices", "tip_on_form_circle"]
+__all__ = [
+    "check_interference",
+    "clear_tip_diameter",
+    "interference_margins",
+    "interference_notices",
+    "ring_tip_limit",
+    "tip_on_form_circle",
+]
 
 ROUNDING = 1e-9
 """Cut into a fillet, in normal modules, that counts as rounding."""
+
+_ASIDE = 1e-6
+"""What a limit keeps off a tip that would just touch, in normal modules."""
 
 _HALVINGS = 40
 _COARSE_HALVINGS = 20
@@ -67,12 +77,24 @@ def check_interference(pair: PairData) -> None:
     if tips.first <= 0 and (cut := _fillet_cut(pair, Role.PINION)):
         limit = 2 * math.hypot(pair.wheel.base_diameter / 2, tips.tangent) - 2 * pair.wheel.body.tip_chamfer
         permitted = (
-            f"must be below {at_most(-limit)} mm: involute interference, the tip reaches {-tips.first:.4g} mm beyond the"
-            f" base tangent point T1 and cuts {cut.depth:.2g} mm into the pinion's root{_clearing(pair, Role.WHEEL)}"
+            f"must be {ring_tip_limit(pair) or f'below {at_most(-limit)}'} mm: involute interference, the tip reaches"
+            f" {-tips.first:.4g} mm beyond the base tangent point T1 and cuts {cut.depth:.2g} mm into the pinion's"
+            f" root{_clearing(pair, Role.WHEEL)}"
         )
         raise GeometryError("wheel.tip_diameter", pair.wheel.tip_diameter, permitted, "mm")
     if (margin := tips.trochoid_margin) < 0:
         raise _trochoid_interference(pair, -margin)
+
+
+def ring_tip_limit(pair: PairData) -> str | None:
+    """ "at most" the ring's tip diameter (mm) that fouls nothing of the pinion but perhaps its fillet; None if none does."""
+    root, aside = -pair.centre_distance + pair.pinion.root_diameter / 2, _ASIDE * pair.pinion.normal_module
+
+    def room(tips: InternalTips) -> float:
+        return min(tips.first - aside, tips.trochoid_margin, tips.ring.edges[-1][0] - root - aside)
+
+    limit = _shorter_tip(pair, room)
+    return None if limit is None else f"at most {limit}"
 
 
 def _trochoid_interference(pair: PairData, depth: float) -> GeometryError:
@@ -177,7 +199,7 @@ def _fillet_text(pair: PairData, role: Role, cut: FilletCut) -> str:
     """What the tip of its mate does to the fillet of a gear, and the tip that would not."""
     owner, other, gear, margin = role.value, role.mate.value, pair.gears.pick(role), _fillet_margin(pair, role)
     form = f"{'outside' if gear.internal else 'below'} its root form circle {gear.form_diameter:.4f} mm"
-    if margin < 0:
+    if margin < -ROUNDING * pair.pinion.normal_module:
         roll = abs(tangent_length(gear.form_diameter, gear.base_diameter)) + (-margin if gear.internal else margin)
         reached = math.copysign(math.hypot(gear.base_diameter, 2 * max(roll, 0.0)), gear.teeth)
         text = (

@@ -10,15 +10,24 @@ import math
 from gearcad.errors import GeometryError, ParameterError, format_number, require_name
 from gearcad.geometry.derived import is_given
 from gearcad.geometry.gear import Gear
-from gearcad.geometry.internal_mating import check_interference
+from gearcad.geometry.internal_mating import check_interference, ring_tip_limit
 from gearcad.geometry.involute import tangent_length
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.pair_data import PairData
 from gearcad.geometry.path import farthest_centre_distance
 from gearcad.geometry.shift import shift_sum_limit
+from gearcad.per_gear import PerGear, Role
 from gearcad.schema import require_fields
 
-__all__ = ["check_centre_distance", "check_inputs", "check_mates", "check_shift_sum", "check_teeth"]
+__all__ = [
+    "check_centre_distance",
+    "check_inputs",
+    "check_mates",
+    "check_ring",
+    "check_shift_sum",
+    "check_teeth",
+    "wrong_side",
+]
 
 ROUNDING_OVERLAP = 1e-4
 """Overlap at the working circle, in normal modules, that comes from shifts printed to four digits: reported, not refused."""
@@ -33,18 +42,31 @@ def check_inputs(pair: PairData) -> None:
             raise ParameterError(role.value, gear, "must be a Gear")
     require_fields(pair)
     if is_given(distance := pair.centre_distance) and distance * (pair.pinion.teeth + pair.wheel.teeth) <= 0:
-        permitted = "must be a number below 0 mm with a ring (ISO 21771)" if pair.internal else "must be a number above 0 mm"
-        raise ParameterError("centre_distance", distance, permitted, "mm")
+        raise wrong_side(distance, ring=pair.internal)
     require_name("name", pair.name)
+
+
+def wrong_side(distance: float, *, ring: bool) -> ParameterError:
+    """The error for a centre distance (mm) of the wrong sign, or 0."""
+    if not ring:
+        return ParameterError("centre_distance", distance, "must be a number above 0 mm", "mm")
+    write = f": write {format_number(-distance)}" if distance > 0 else ""
+    return ParameterError("centre_distance", distance, f"must be a number below 0 mm with a ring (ISO 21771){write}", "mm")
+
+
+def check_ring(teeth: PerGear[int]) -> None:
+    """If one of the gears is a ring, it is the wheel, and the pinion fits inside."""
+    pinion, wheel = teeth
+    if pinion < 0:
+        raise GeometryError("pinion.teeth", pinion, "must be above 0: of an internal pair the ring is the wheel")
+    if wheel < 0 and -wheel <= pinion:
+        raise GeometryError("wheel.teeth", wheel, f"must be below {-pinion}: the pinion stands inside the ring")
 
 
 def check_mates(pair: PairData) -> None:
     """Module, pressure angle and helix angle belong together, and the gears face each other."""
     pinion, wheel = pair.gears
-    if pinion.internal:
-        raise GeometryError("pinion.teeth", pinion.teeth, "must be above 0: of an internal pair the ring is the wheel")
-    if wheel.internal and wheel.tooth_count <= pinion.teeth:
-        raise GeometryError("wheel.teeth", wheel.teeth, f"must be below {-pinion.teeth}: the pinion stands inside the ring")
+    check_ring(pair.gears.map(lambda gear: gear.teeth))
     for name, unit, one, other in (
         ("normal_module", "mm", pinion.normal_module, wheel.normal_module),
         ("rack.pressure_angle", "deg", pinion.rack.pressure_angle, wheel.rack.pressure_angle),
@@ -106,7 +128,7 @@ def check_centre_distance(pair: PairData) -> None:
     least = (pair.pinion.base_diameter + pair.wheel.base_diameter) / 2
     if pair.internal:
         if pair.centre_distance >= least:
-            permitted = f"must be below {at_most(least)} mm, where the base circles touch"
+            permitted = f"must be below {at_most(min(least, _nearest_to_ring(pair)))} mm, where the base circles touch"
             raise GeometryError("centre_distance", pair.centre_distance, permitted, "mm")
         return
     if pair.centre_distance <= least:
@@ -120,7 +142,10 @@ def check_teeth(pair: PairData) -> None:
     for role, clearance in pair.tip_clearances.items():
         if clearance <= 0:
             tip = pair.gears.pick(role).tip_diameter
-            permitted = f"must be below {tip + 2 * clearance:.6f} mm: the tip reaches the {role.mate.value}'s root circle"
+            limit = f"below {tip + 2 * clearance:.6f}"
+            if pair.internal and role is Role.WHEEL:
+                limit = ring_tip_limit(pair) or limit
+            permitted = f"must be {limit} mm: the tip reaches the {role.mate.value}'s root circle"
             raise GeometryError(f"{role.value}.tip_diameter", tip, permitted, "mm")
     if pair.internal:
         _check_path(pair)
@@ -136,11 +161,16 @@ def check_teeth(pair: PairData) -> None:
 
 def _check_path(pair: PairData) -> None:
     """Some path of contact in a ring: E beyond A, T1T2 < t_a1 + t_a2."""
+    if pair.centre_distance >= (nearest := _nearest_to_ring(pair)):
+        permitted = f"must be below {at_most(nearest)} mm, where the tips reach each other's flanks"
+        raise GeometryError("centre_distance", pair.centre_distance, permitted, "mm")
+
+
+def _nearest_to_ring(pair: PairData) -> float:
+    """Centre distance (mm, negative) in a ring at which the path of contact vanishes; infinite where it never does."""
     reach = sum(tangent_length(gear.tip_form_diameter, gear.base_diameter) for gear in pair.gears)
     bases = sum(gear.base_diameter for gear in pair.gears) / 2
-    if reach < 0 and pair.centre_distance >= (farthest := -math.hypot(bases, reach)):
-        permitted = f"must be below {at_most(farthest)} mm, where the tips reach each other's flanks"
-        raise GeometryError("centre_distance", pair.centre_distance, permitted, "mm")
+    return -math.hypot(bases, reach) if reach < 0 else math.inf
 
 
 def _check_backlash(pair: PairData) -> None:

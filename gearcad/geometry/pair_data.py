@@ -120,7 +120,12 @@ class PairData:
 
     @property
     def tip_alteration(self) -> float:
-        """k that keeps the rack's tip clearance: (a - a_d)/m_n - (x_1 + x_2), never positive ("auto" in a spec)."""
+        """k that keeps the rack's tip clearance: (a - a_d)/m_n - (x_1 + x_2), never positive ("auto" in a spec).
+
+        With a ring that is never negative where flanks do not overlap, so there is nothing to shorten.
+        """
+        if self.internal:
+            return 0.0
         change = (self.centre_distance - self.reference_centre_distance) / self.pinion.normal_module
         return min(change - self.profile_shift_sum, 0.0)
 

@@ -7,18 +7,26 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
-from gearcad.designs.auto import AUTO, make_gears, resolve_profile_shifts, resolve_tip_alterations
+from gearcad.designs.auto import (
+    AUTO,
+    CLEAR,
+    clear_tip_alteration,
+    make_gears,
+    resolve_profile_shifts,
+    resolve_tip_alterations,
+)
 from gearcad.designs.design import DesignKind
 from gearcad.designs.files import Where
 from gearcad.designs.keys import MAIN_TABLES, SHARED
 from gearcad.designs.kinds.geared import GearedDesign, beside_teeth, require_tables
 from gearcad.designs.spec import Given, Spec
-from gearcad.errors import ParameterError, SpecError, as_choice, require_number
+from gearcad.errors import GeometryError, ParameterError, SpecError, as_choice, require_number
 from gearcad.geometry import Gear, GearPair, ShiftSplit
 from gearcad.geometry.diametral import MODULE_OR_PITCH
+from gearcad.geometry.mating import check_ring, wrong_side
 from gearcad.load import Load
 from gearcad.per_gear import PerGear, Role
 
@@ -82,6 +90,9 @@ def _require_pair(tables: Mapping[str, Any], where: Where) -> None:
             raise SpecError(f"{where('')}: [{table}] is missing: a pair needs [pair], [pinion] and [wheel]")
 
 
+_ROUNDING = 1e-9
+"""Change of a tip alteration, in normal modules, that is rounding."""
+
 _OPPOSED = ("helix_angle", "double_helix.offset")
 """Fields of a gear that its mate has with the opposite sign, and a ring with the same."""
 
@@ -98,9 +109,31 @@ class _PairSpec(Spec):
             given = self._pair_inputs()
             split = given.pop("profile_shift_split", None)
             distance = given.get("centre_distance")
+            self._check_words(inputs)
             resolved = self._resolve_auto(inputs, distance, split)
             gears = make_gears(resolved, PerGear.each(self._automatic), distance)
-            return GearPair(pinion=gears.pinion, wheel=gears.wheel, **given | {"name": name})
+            return self._cleared(GearPair(pinion=gears.pinion, wheel=gears.wheel, **given | {"name": name}))
+
+    @property
+    def _ring(self) -> bool:
+        """Whether the wheel is a ring."""
+        teeth = self.values.get("wheel.teeth")
+        return teeth is not None and isinstance(teeth.value, int) and teeth.value < 0
+
+    def _check_words(self, inputs: PerGear[dict[str, Any]]) -> None:
+        """Which gear may be a ring, and that only its tip is told to be clear."""
+        teeth = inputs.map(lambda gear: gear["teeth"])
+        if all(isinstance(z, int) for z in teeth):
+            check_ring(teeth)
+        for role, gear in inputs.items():
+            if gear.get("tip_alteration") != CLEAR:
+                continue
+            if role is Role.PINION or not self._ring:
+                permitted = f'must be a number, or "{AUTO}": "{CLEAR}" is for the ring of an internal pair'
+                raise GeometryError(f"{role.value}.tip_alteration", CLEAR, permitted)
+            if "tip_diameter" in gear:
+                permitted = f'must be left out, or tip_alteration not be "{CLEAR}"'
+                raise GeometryError("wheel.tip_diameter", gear["tip_diameter"], permitted, "mm")
 
     def _inputs(self, role: Role) -> dict[str, Any]:
         """Those of a gear as they are written, named by its role unless it has a name."""
@@ -115,7 +148,11 @@ class _PairSpec(Spec):
     def _pair_inputs(self) -> dict[str, Any]:
         given = {key: value for key, value in self.fields_of("pair").items() if key not in SHARED}
         if "centre_distance" in given:
-            require_number("centre_distance", given["centre_distance"], "mm", above=0)
+            require_number("centre_distance", distance := given["centre_distance"], "mm")
+            if distance == 0:
+                raise wrong_side(distance, ring=self._ring)
+            if (distance < 0) is not self._ring:
+                raise GeometryError("centre_distance", distance, wrong_side(distance, ring=self._ring).permitted, "mm")
         if "profile_shift_split" in given:
             given["profile_shift_split"] = as_choice("profile_shift_split", given["profile_shift_split"], ShiftSplit)
         return given
@@ -134,13 +171,11 @@ class _PairSpec(Spec):
 
     def _match_helix(self) -> None:
         """The gear without a helix angle, or offset of its halves, takes the mate's: opposed, or the same in a ring."""
-        teeth = self.values.get("wheel.teeth")
-        ring = teeth is not None and isinstance(teeth.value, int) and teeth.value < 0
         for role, field in itertools.product((Role.WHEEL, Role.PINION), _OPPOSED):
             own, given = f"{role.value}.{field}", self.values.get(f"{role.mate.value}.{field}")
             if given is None or own in self.values:
                 continue
-            opposed = isinstance(given.value, float) and not ring
+            opposed = isinstance(given.value, float) and not self._ring
             self.values[own] = given._replace(value=0.0 - given.value) if opposed else given
 
     def _resolve_auto(
@@ -156,8 +191,26 @@ class _PairSpec(Spec):
             written = {"profile_shift": 0.0, "tip_alteration": AUTO} | inputs.pick(role)
             for field, note in (("profile_shift", AUTO + asked), ("tip_alteration", AUTO)):
                 if written[field] == AUTO:
-                    key = f"{role.value}.{field}"
-                    self.values[key] = Given(found[field], self.values.get(key, Given(AUTO, key)).key, note)
+                    self._note(f"{role.value}.{field}", found[field], note)
             return inputs.pick(role) | found
 
-        return PerGear.each(resolved)
+        gears = PerGear.each(resolved)
+        if inputs.wheel.get("tip_alteration") == CLEAR:
+            gears.wheel["tip_alteration"] = clear_tip_alteration(gears, distance)
+            self._note("wheel.tip_alteration", gears.wheel["tip_alteration"], CLEAR)
+        return gears
+
+    def _note(self, key: str, value: float, note: str) -> None:
+        """Keep what stands for a word among the values."""
+        self.values[key] = Given(value, self.values.get(key, Given(AUTO, key)).key, note)
+
+    def _cleared(self, pair: GearPair) -> GearPair:
+        """The pair, whose ring's tip is drawn in further if it is to be clear and its edge still cuts the pinion's fillet."""
+        given, tip = self.values.get("wheel.tip_alteration"), pair.wheel.tip_diameter
+        if given is None or given.note != CLEAR or (clear := pair.clear_tip_diameter) is None:
+            return pair
+        change = (clear - tip) / (2 * pair.wheel.normal_module)
+        if change >= -_ROUNDING:
+            return pair
+        self._note("wheel.tip_alteration", given.value + change, CLEAR)
+        return replace(pair, wheel=replace(pair.wheel, tip_alteration=given.value + change))
