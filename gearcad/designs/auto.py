@@ -79,7 +79,7 @@ def clear_tip_alteration(gears: PerGear[GearInputs], centre_distance: float | No
     """
     with naming(Role.PINION):
         pinion = Gear(**gears.pinion)
-    ring = GearData(**{**gears.wheel, "tip_alteration": 0.0})
+    ring = GearData(**{**gears.wheel, "normal_module": _module(gears.wheel), "tip_alteration": 0.0})
     if centre_distance is None:
         shift_sum = sum(gears.map(lambda gear: gear["profile_shift"]))
         try:
