@@ -79,7 +79,7 @@ def test_a_ring_is_measured_inside_and_has_its_shift_in_both_signs() -> None:
     assert lines["normal diametral pitch"] == ["P_nd", "1/inch", "8.0000"]
     assert lines["between two balls (rings)"][0] == "M_dK"
     assert not {"over two balls", "over two pins", "teeth spanned", "cutter, profile shift coefficient"} & lines.keys()
-    assert any(line.startswith("form root: no cutter given") for line in lines)
+    assert any("form root: no cutter given" in line for line in lines)
 
 
 def test_a_helical_ring_says_what_it_is_not_measured_by() -> None:
