@@ -69,6 +69,9 @@ def check_numbers(gear: GearData) -> None:
 def _check_double_helix(gear: GearData) -> None:
     """Two hands need a helix, and halves of some width beside the gap."""
     double = gear.double_helix
+    if gear.internal:
+        permitted = "must be left out on a ring: its halves are two rings, each with its own hand"
+        raise GeometryError("double_helix.gap_width", double.gap_width, permitted, "mm")
     if gear.helix_angle == 0:
         raise GeometryError("helix_angle", 0.0, "must not be 0 deg on a double helical gear", "deg")
     least = 0.02 * gear.normal_module

@@ -153,10 +153,10 @@ class GearData:
 
     @property
     def gap_diameter(self) -> float:
-        """Diameter between the halves of a double helical gear (mm), a magnitude."""
+        """Diameter between the halves of a double helical gear (mm)."""
         if self.double_helix.gap_diameter is not None:
             return self.double_helix.gap_diameter
-        return abs(self.root_diameter - _GAP_DEPTH * self.normal_module)
+        return self.root_diameter - _GAP_DEPTH * self.normal_module
 
     @property
     def half_width(self) -> float:

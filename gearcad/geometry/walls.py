@@ -20,21 +20,17 @@ LEAST_RIM = 0.1
 def check_body(gear: GearData) -> None:
     """Bore, keyway and hub must leave a rim, the end chamfers some end face; a ring must fit in its rim."""
     (_check_ring if gear.internal else _check_disc)(gear)
-    if (given := gear.double_helix.gap_diameter) is not None:
-        _check_gap(gear, given)
+    if gear.double_helix.gap_width:
+        _check_gap(gear)
 
 
-def _check_gap(gear: GearData, given: float) -> None:
-    """What is between the halves of a double helical gear lies below the teeth and leaves a wall."""
-    body, wall, root = gear.body, 2 * LEAST_RIM * gear.normal_module, abs(gear.root_diameter)
-    if gear.internal:
-        inner, outer = root, math.inf if body.rim_diameter is None else body.rim_diameter - wall
-    else:
-        inner, outer = max(body.opening_diameter + wall, 0.0), root
-    if not inner <= given <= outer:
-        limits = f"at least {at_least(inner)} mm" + ("" if math.isinf(outer) else f" and at most {at_most(outer)} mm")
-        permitted = f"must be {limits}, between the root circle and what the body leaves"
-        raise GeometryError("double_helix.gap_diameter", given, permitted, "mm")
+def _check_gap(gear: GearData) -> None:
+    """What is between the halves of a double helical gear lies below the teeth and leaves a wall round bore and keyway."""
+    wall = 2 * LEAST_RIM * gear.normal_module
+    least, most = gear.body.opening_diameter + wall, gear.root_diameter - wall
+    if not least <= gear.gap_diameter <= most:
+        permitted = f"must be from {at_least(least)} to {at_most(most)} mm, between bore and root circle"
+        raise GeometryError("double_helix.gap_diameter", gear.gap_diameter, permitted, "mm")
 
 
 def least_rim_diameter(gear: GearData) -> float:
@@ -113,7 +109,8 @@ def _check_disc(gear: GearData) -> None:
         permitted = f"must be at most {at_most(deep)} mm, what bore and keyway leave below the root circle"
         raise GeometryError("body.rim_thickness", body.rim_thickness, permitted, "mm")
     if body.end_chamfer:
-        least_face = max(body.opening_diameter, body.hub_diameter) + 2 * wall
+        between = gear.gap_diameter if gear.double_helix.gap_width else 0.0
+        least_face = max(body.opening_diameter, body.hub_diameter, between) + 2 * wall
         _check_end_chamfer(gear, (gear.tip_diameter - least_face) / 2)
 
 
@@ -121,7 +118,7 @@ def _check_end_chamfer(gear: GearData, deepest: float) -> None:
     """End chamfers reach no deeper than `deepest` (mm, along the radius from the tip circle)."""
     length = gear.body.end_chamfer
     slope = math.tan(math.radians(gear.body.end_chamfer_angle))
-    most = min(0.49 * gear.face_width, deepest / slope)
+    most = min(0.49 * gear.half_width, deepest / slope)
     if length > most:
         raise GeometryError(
             "body.end_chamfer",

@@ -49,7 +49,11 @@ def test_two_halves_carry_what_their_pairs_do(offset: float) -> None:
     [
         (lambda: _gear(gap_width=60.0), "double_helix.gap_width = 60 mm: must be at most 49.96 mm"),
         (lambda: _gear(helix=0.0), "helix_angle = 0 deg: must not be 0 deg on a double helical gear"),
-        (lambda: _gear(gap_diameter=70.0), "double_helix.gap_diameter = 70 mm: must be at least"),
+        (lambda: _gear(gap_diameter=70.0), "double_helix.gap_diameter = 70 mm: must be from 0.4 to 47.5621 mm"),
+        (
+            lambda: Gear(teeth=-40, normal_module=2, face_width=50, helix_angle=9, double_helix=DoubleHelix(gap_width=9)),
+            "double_helix.gap_width = 9 mm: must be left out on a ring",
+        ),
         (lambda: DoubleHelix(gap_width=0.0, offset=0.5), "gap_width = 0 mm: must be above 0 mm where offset is 0.5"),
         (lambda: DoubleHelix(gap_width=-1.0), "gap_width = -1 mm: must be a number"),
         (

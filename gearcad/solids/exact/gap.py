@@ -6,7 +6,7 @@ import math
 
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.halves import halves
-from gearcad.solids.exact.kernel import Edges, Kernel, backward
+from gearcad.solids.exact.kernel import Edges, Kernel
 from gearcad.solids.exact.teeth import add_teeth
 from gearcad.solids.exact.tubes import tube
 
@@ -22,8 +22,7 @@ def add_halves(gear: Gear, kernel: Kernel) -> tuple[Edges, Edges]:
     first, below = add_teeth(lower.gear, kernel)
     above, last = add_teeth(upper.gear, kernel.moved(upper.z, math.radians(upper.rotation)))
     heights, radius = (gear.half_width, upper.z), gear.gap_diameter / 2
-    rings = tube(kernel, radius, heights, outward=not gear.internal)
+    rings = tube(kernel, radius, heights, outward=True)
     for ring, loop, z, outward in zip(rings, (below, above), heights, (True, False), strict=True):
-        loops = [ring.loop(along=True), backward(loop)] if gear.internal else [loop, ring.loop(along=False)]
-        kernel.face(kernel.plane(z), loops, outward=outward)
+        kernel.face(kernel.plane(z), [loop, ring.loop(along=False)], outward=outward)
     return first, last

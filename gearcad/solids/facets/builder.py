@@ -38,7 +38,7 @@ class Builder:
         grid, layers = self.grid, self.grid.layers
         radius, setback, angle = grid.outline
         z = layers.heights(setback)[:, None, :]
-        turn = angle[:, None, :] + 2 * np.pi / grid.teeth * np.arange(grid.teeth)[:, None] + layers.kappa * z
+        turn = angle[:, None, :] + 2 * np.pi / grid.teeth * np.arange(grid.teeth)[:, None] + layers.turn(z)
         x, y, z = np.broadcast_arrays(radius * np.cos(turn), radius * np.sin(turn), z)
         numbers = self.add(np.stack([x, y, z], -1).reshape(-1, 3)).reshape(layers.count + 1, -1)
         a, d = numbers[:-1], numbers[1:]

@@ -21,6 +21,7 @@ On modified flanks the deviation is that of the middle of the edge from the surf
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -120,7 +121,10 @@ def _inside(one: Floats, two: Floats, three: Floats) -> Floats:
 def _deviations(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone) -> list[_Deviations]:
     """Those of the left and, where it is another one, the right flank."""
     if not gear.modification.present:
-        return [_of_screw(piece.curve, s, layers, cone)]
+        left = _of_screw(piece.curve, s, layers, cone)
+        if not (layers.apex and cone.present):
+            return [left]
+        return [left, _of_screw(piece.curve, s, replace(layers, kappa=-layers.kappa), cone)]
     return [_of_modified(gear, piece, s, layers, cone, left=left) for left in (True, False)]
 
 

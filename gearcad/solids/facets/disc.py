@@ -27,8 +27,8 @@ class DiscBuilder(Builder):
         self.faces.append(self.side())
         back, front = gear.body.hub_ends
         self.opening = self._opening(-back, gear.face_width + front)
-        self._end(top=False)
-        self._end(top=True)
+        self._end(top=False, hub=back)
+        self._end(top=True, hub=front)
 
     def _opening(self, bottom: float, top: float) -> tuple[Floats, Wholes, Wholes] | None:
         """Wall of bore and keyway; angles of its points, and their numbers at the bottom and at the top."""
@@ -42,18 +42,18 @@ class DiscBuilder(Builder):
         self.faces.append(wall(low, high)[:, ::-1])
         return np.arctan2(loop[:, 1], loop[:, 0]), low, high
 
-    def _end(self, *, top: bool) -> None:
-        """End faces of teeth, cone, hub and bore. Built as seen from outside at the top, turned over at the bottom."""
+    def _tooth_end(self, inner_radius: float, *, top: bool) -> GearEnd:
+        """One end of the teeth around something of a radius (mm)."""
+        first = self.grid.layers.count * self.grid.teeth * self.grid.period if top else 0
+        step = arc_step(self.gear.tip_diameter / 2, self.chord_error)
+        return GearEnd(first_vertex=first, top=top, inner_radius=inner_radius, step=step)
+
+    def _end(self, *, top: bool, hub: float) -> None:
+        """End faces of teeth, cone, hub of a length (mm) and bore. Built as seen from outside at the top, turned over below."""
         body, faces = self.gear.body, list[Wholes]()
-        hub = body.hub_ends[top]
         z = self.gear.face_width if top else 0.0
-        end = GearEnd(
-            first_vertex=self.grid.layers.count * self.grid.teeth * self.grid.period if top else 0,
-            top=top,
-            inner_radius=(body.hub_diameter if hub else body.opening_diameter) / 2,
-            step=arc_step(self.gear.tip_diameter / 2, self.chord_error),
-        )
-        cap = cap_teeth(self.grid, end, self.count)
+        inner = (body.hub_diameter if hub else body.opening_diameter) / 2
+        cap = cap_teeth(self.grid, self._tooth_end(inner, top=top), self.count)
         self.add(cap.vertices)
         faces.append(cap.faces)
         ring, angle = cap.ring, cap.ring_angle

@@ -25,7 +25,8 @@ class Layers:
     """Copies of the section between the ends, turned by `kappa` (rad/mm, signed) per height, over `width` (mm).
 
     `knots` are the heights (mm) of the layers that every column has, both ends first and last; `counts` the number of
-    layers between them. A column that a cone cuts short of a knot has `margin` (mm) for the layers up to it.
+    layers between them. A column that a cone cuts short of a knot has `margin` (mm) for the layers up to it. The section at
+    z = 0 is turned by `start` (rad). An `apex` is an upper end where a mirror image goes on: no cone cuts columns short there.
     """
 
     kappa: float
@@ -33,6 +34,8 @@ class Layers:
     knots: tuple[float, ...]
     counts: tuple[int, ...]
     margin: float = 0.0
+    start: float = 0.0
+    apex: bool = False
 
     @classmethod
     def of(cls, gear: Gear, chord_error: float) -> Layers:
@@ -47,23 +50,28 @@ class Layers:
         counts = tuple(_count(gear, kappa, low, high, aim) for low, high in pairwise(knots))
         return cls(kappa, width, knots, counts, min(_MARGIN * chord_error, (width / 2 - gear.body.end_chamfer) / 4))
 
+    def turn(self, z: Floats) -> Floats:
+        """Angle (rad) by which the section at heights z (mm) is turned."""
+        return self.start + self.kappa * z
+
     @property
     def count(self) -> int:
         """Number of stretches between layers over the whole width."""
         return sum(self.counts)
 
     def heights(self, setback: Floats) -> Floats:
-        """Heights z (count + 1, n) in mm of the points whose columns stop short of both ends by `setback` (n,)."""
+        """Heights z (count + 1, n) in mm of the points whose columns stop short of the ends by `setback` (n,)."""
+        above = 0.0 * setback if self.apex else setback
         if len(self.counts) == 1:
             share = np.linspace(0.0, 1.0, self.count + 1)[:, None]
-            result: Floats = setback + share * (self.width - 2 * setback)
+            result: Floats = setback + share * (self.width - (setback + above))
             return result
         inner = np.array(self.knots[1:-1])[:, None]
-        low, high = setback + self.margin, self.width - setback - self.margin
+        low, high = setback + self.margin, self.width - above - self.margin
         knots = [
             setback,
             *np.where(inner <= self.width / 2, np.maximum(inner, low), np.minimum(inner, high)),
-            self.width - setback,
+            self.width - above,
         ]
         parts = [np.linspace(a, b, n, endpoint=False) for (a, b), n in zip(pairwise(knots), self.counts, strict=True)]
         return np.concatenate([*parts, knots[-1][None]])

@@ -6,7 +6,7 @@ Profile points by layers make the cells of a grid, on the exact or the modified 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -92,9 +92,9 @@ class ToothGrid:
         return np.concatenate([right, shorter[:, tip : tip + self.tip_steps], left[:, ::-1], shorter[:, space:]], axis=1)
 
 
-def tooth_grid(gear: Gear, chord_error: float) -> ToothGrid:
-    """Grid of one tooth within `chord_error` (mm) of the surface everywhere."""
-    layers, pieces = Layers.of(gear, chord_error), flank_curves(gear)
+def tooth_grid(gear: Gear, chord_error: float, *, apex: bool = False) -> ToothGrid:
+    """Grid of one tooth within `chord_error` (mm) of the surface everywhere; at an `apex` its upper end has no cone."""
+    layers, pieces = replace(Layers.of(gear, chord_error), apex=apex), flank_curves(gear)
     ends = [gear.profile.root_diameter / 2, *(float(piece.curve.polar(1.0)[0]) for piece in pieces)]
     cone = EndCone.of(gear).snapped(ends, least_distance(gear, chord_error))
     samples = [_samples(gear, piece, layers, cone, chord_error) for piece in pieces]

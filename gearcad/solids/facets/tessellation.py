@@ -9,9 +9,9 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import ParameterError, require_number
 from gearcad.geometry import Gear
-from gearcad.geometry.halves import refuse_halves
 from gearcad.geometry.limits import at_least
 from gearcad.solids.facets.disc import DiscBuilder
+from gearcad.solids.facets.double import double_facets
 from gearcad.solids.facets.ring import RingBuilder
 from gearcad.solids.facets.sampling import tooth_grid
 from gearcad.solids.rim import require_rim
@@ -52,13 +52,14 @@ def tessellate(gear: Gear, chord_error: float = 0.005) -> Facets:
     GeometryError for a ring without a rim.
     """
     require_number("chord_error", chord_error, "mm", above=0)
-    refuse_halves(gear, "facets")
     outside, words = (require_rim(gear), "rim") if gear.internal else (gear.tip_diameter, "tip")
     least = LEAST_CHORD_ERROR * outside
     if chord_error < least:
         permitted = f"must be at least {at_least(least)} mm for a {words} diameter of {outside:.6g} mm (single precision)"
         raise ParameterError("chord_error", chord_error, permitted, "mm")
     error = min(chord_error, MOST_CHORD_ERROR * gear.normal_module)
+    if gear.double_helix.present:
+        return Facets(*double_facets(gear, error))
     grid = tooth_grid(gear, error)
     builder = (RingBuilder if gear.internal else DiscBuilder)(gear, grid, error)
     return Facets(np.concatenate(builder.vertices), np.concatenate(builder.faces))

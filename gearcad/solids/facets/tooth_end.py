@@ -44,7 +44,7 @@ class ToothEnd:
     def __init__(self, grid: ToothGrid, end: GearEnd, next_vertex: int) -> None:
         self.grid, self.end, self.next_vertex = grid, end, next_vertex
         self.z = grid.layers.width - grid.setback if end.top else grid.setback
-        self.turn = grid.layers.kappa * self.z
+        self.turn = grid.layers.turn(self.z)
         right, left = (turns[-1 if end.top else 0] for turns in grid.turns)
         self.right, self.left = right - grid.half_angle, left + grid.half_angle
         self.own: list[tuple[int, float]] = []
