@@ -60,7 +60,8 @@ class DynamicsOptions:
     `seed`.
 
     Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh; "auto" is plane
-    strain for spur gears, whose teeth come into mesh by and by under load, and potential energy for helical ones.
+    strain for spur gears, whose teeth come into mesh by and by under load, and potential energy for helical ones, strain energy
+    where one of these is a ring.
     `damping_ratio` is that of the pair alone, `pinion_inertia` and `wheel_inertia` are in kg·m² (None: of their own solids).
     With `pinion_bearing_stiffness` and `wheel_bearing_stiffness` (N/µm across the axis) and a `bearing_damping` (N·s/m) the
     gears travel as well as turn: six degrees of freedom.
@@ -144,7 +145,9 @@ class DynamicsOptions:
         """Name of the method for a pair's mesh stiffness."""
         if self.stiffness != AUTO:
             return self.stiffness
-        return "potential-energy" if pair.pinion.helix_angle else "plane-strain"
+        if not pair.pinion.helix_angle:
+            return "plane-strain"
+        return "strain-energy" if pair.internal else "potential-energy"
 
     @property
     def pair_model(self) -> PairModel:

@@ -20,6 +20,10 @@ from gearcad.per_gear import PerGear
 __all__ = ["ContactStudy", "PairStudy"]
 
 
+_STANDS_STILL = 1e6
+"""Inertia (kg·m²) of what hardly turns at all."""
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PairStudy:
     """A pair as mounted, its mesh cycle and inertias (kg·m²), and the study of both as a train of one mesh.
@@ -51,7 +55,7 @@ class PairStudy:
         factor = self.study.method_b
         unrated = Notice("no-standard-factor", f"no K_v of ISO 6336-1: {self.unrated}")
         standard = factor.notices if factor is not None else (unrated,)
-        return (*self.study.notices, *self.cycle.notices, *self._full_discs(), *standard)
+        return (*self.study.notices, *self.cycle.notices, *self._full_discs(), *self._free_ring(), *standard)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -65,6 +69,15 @@ class PairStudy:
                 own = role.value
                 text = f"the {own}'s moment of inertia is that of a full disc, without its web; {own}_inertia gives another"
                 yield Notice("full-disc", text)
+
+    def _free_ring(self) -> Iterator[Notice]:
+        """Of a ring whose inertia nobody gave: most stand still."""
+        if self.pair.internal and self.study.options.inertias.wheel is None:
+            text = (
+                "the ring turns with its pinion, with the inertia of its solid, in m_red of ISO 6336-1 too; for one that"
+                f" stands still give wheel_inertia = {_STANDS_STILL:g} kg·m²"
+            )
+            yield Notice("free-ring", text)
 
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it."""

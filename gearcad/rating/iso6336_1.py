@@ -248,7 +248,9 @@ def blank_notices(gear: Gear, owner: str) -> Iterator[Notice]:
 
 
 def _ring_notices(gear: Gear) -> Iterator[Notice]:
-    """That C_R, which is of webs, leaves out the rim of a ring."""
+    """What q' has for a ring; and that C_R, which is of webs, leaves out its rim."""
+    text = "c': q' takes the ring for a rack (1/z_n2 = 0), as remembered of ISO 6336-1, whose text was not at hand: verify it"
+    yield Notice("stiffness-ring-to-verify", text)
     if not gear.body.web_thickness:
         rim = ring_rim_ratio(gear)
         known = "not given" if rim is None else f"{rim:.3g} m_n"

@@ -157,8 +157,8 @@ def _ring_notices(pair: GearPair) -> Iterator[Notice]:
     """What of the rating of a ring is to be verified."""
     if pair.internal:
         text = (
-            "q' with 1/z_n2 = 0, Z_D = 1, Y_B and the root formulas of rings are as remembered of ISO 6336:2006, whose text was"
-            " not at hand: verify them before they decide"
+            "Z_D = 1, Y_B and the root formulas of rings are as remembered of ISO 6336:2006, whose text was not at hand:"
+            " verify them before they decide"
         )
         yield Notice("ring-to-verify", text)
 

@@ -43,6 +43,6 @@ class MethodB(StiffnessMethod):
 
     def notices(self, load: Load) -> Iterator[Notice]:
         for notice in rate(self.mounted, self.material, load).notices:
-            if notice.code.startswith(("scope-", "stiffness-", "ring-")):
+            if notice.code.startswith(("scope-", "stiffness-")):
                 yield notice
         yield from super().notices(load)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -55,7 +56,9 @@ def test_a_pair_with_a_ring_is_two_inertias_that_turn_the_same_way() -> None:
 
 def test_natural_frequency_and_dynamic_factor_of_a_pair_with_a_ring() -> None:
     """k (r_b1²/J_1 + r_b2²/J_2) of the two inertias; K_v is that of an external wheel of the same size far from resonance."""
-    study = study_pair(PAIR, Material(), LOAD, _cycle(), INERTIAS, DynamicsOptions(speeds=40)).study
+    found = study_pair(PAIR, Material(), LOAD, _cycle(), INERTIAS, DynamicsOptions(speeds=40))
+    study = found.study
+    assert "free-ring" in {notice.code for notice in found.notices}
     r_1, r_2 = (math.cos(math.radians(20)) * teeth / 1000 for teeth in (24, 70))
     tangent = 400e6  # the mean
     expected = math.sqrt(tangent * (r_1**2 / 2e-4 + r_2**2 / 9e-3)) / (2 * math.pi)
@@ -120,3 +123,18 @@ def test_contact_study_of_a_ring() -> None:
     expected = math.sqrt(250e6 * (r_1**2 / 2e-4 + r_2**2 / 9e-3)) / (2 * math.pi)
     assert found.model.natural_frequency() == pytest.approx(expected, rel=1e-12)
     assert found.to_dict()["contact_ratio"] == pytest.approx(PAIR.transverse_contact_ratio, rel=1e-12)
+
+
+def test_a_ring_that_stands_still_leaves_the_pinion_alone() -> None:
+    """With an inertia without end in the ring K_v of ISO 6336-1 knows the pinion's mass only."""
+    still = DynamicsOptions(speeds=40, wheel_inertia=1e6)
+    found = study_pair(PAIR, Material(), LOAD, _cycle(), PerGear(2e-4, 1e6), still)
+    r_1 = math.cos(math.radians(20)) * 24 / 1000
+    assert found.study.method_b is not None
+    assert found.study.method_b.reduced_mass == pytest.approx(2e-4 / r_1**2 / 18.0, rel=1e-8)
+    assert "free-ring" not in {notice.code for notice in found.notices}
+
+
+def test_stiffness_of_rings_where_none_is_asked_for() -> None:
+    helical = GearPair(pinion=replace(PAIR.pinion, helix_angle=10.0), wheel=replace(PAIR.wheel, helix_angle=10.0))
+    assert [DynamicsOptions().method_for(pair) for pair in (PAIR, helical)] == ["plane-strain", "strain-energy"]

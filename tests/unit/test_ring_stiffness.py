@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from gearcad import Body, Gear, GearPair, Load, Material
+from gearcad import Body, Gear, GearPair, Load, Material, stiffness
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.geometry import ShaperCutter
-from gearcad.stiffness import StrainEnergy
+from gearcad.stiffness import CLOSED_FORMS, StrainEnergy
 
 LOAD = Load(torque=50.0)
 
@@ -49,3 +49,16 @@ def test_virtual_rings_of_a_nearly_spur_ring() -> None:
     spur, helical = (StrainEnergy(pair=_pair(helix)).single(lengths, LOAD) for helix in (0.0, 0.5))
     for part in ("pinion", "wheel"):
         assert helical.parts[part] == pytest.approx(spur.parts[part], rel=2e-3)
+
+
+def test_methods_without_an_internal_form_say_why() -> None:
+    found = stiffness(_pair(0.0), LOAD, methods=CLOSED_FORMS)
+    assert [cycle.method for cycle in found.cycles] == ["iso6336"]
+    said = "wheel.teeth = -70: must be above 0 for {}: {}"
+    expected = {
+        "potential-energy": "Sainsot's elastic ring lies inside the teeth, held at its bore, not outside them",
+        "weber-banaschek": "its beam and half-plane are those of teeth that stand out from their body",
+    }
+    assert found.left_out == {name: said.format(name, why) for name, why in expected.items()}
+    flexibility = 0.04723 + 0.15551 / 24 + 0.00193 * 0.3 + 0.00182 * 0.3**2
+    assert found.cycles[0].single_stiffness == pytest.approx(0.8 * 0.975 / flexibility * 16, rel=1e-12)
