@@ -9,7 +9,7 @@ from gearcad.shipped import templates
 
 __all__ = ["starter_text", "starters"]
 
-_ALIASES = {"gear": "spur", "pair": "volvo-13-44"}
+_ALIASES = {"gear": "spur", "pair": "volvo-13-44", "ring": "ring-22-70"}
 """What a newcomer would ask for."""
 
 
@@ -31,6 +31,6 @@ def starter_text(kind: str) -> tuple[str, str]:
     files = _files()
     matches = [kind] if kind in files else [name for name in files if name.startswith(_ALIASES.get(kind, kind))]
     if len(matches) != 1:
-        raise ParameterError("kind", kind, f"must be one of {', '.join(files)} (or gear, pair)")
+        raise ParameterError("kind", kind, f"must be one of {', '.join(files)} (or {', '.join(_ALIASES)})")
     path = files[matches[0]]
     return path.name, path.read_text(encoding="utf-8")

@@ -15,9 +15,9 @@ from gearcad.designs import read_spec
 from gearcad.designs.starters import starters
 
 VOLVO = "volvo-13-44"
-STARTERS = ["alm-18-161", "double-23-81", "fzg-c", "reducer-21-43", "spur", "uhlir-19-23", VOLVO]
+STARTERS = ["alm-18-161", "double-23-81", "fzg-c", "reducer-21-43", "ring-22-70", "spur", "uhlir-19-23", VOLVO]
 TRAINS = ["train-1-stage", "train-2-stage"]
-TABLES = ["gears", "pairs"]
+TABLES = ["gears", "pairs", "rings"]
 
 RATIO = 1e-9
 """Absolute, for contact ratios of about 1: what the references promise."""
@@ -80,7 +80,7 @@ def test_new_refuses_what_it_does_not_have() -> None:
     result = run("new", "bevel", status=2)
     assert (
         result.stderr
-        == f"Error: kind = 'bevel': must be one of {', '.join(sorted([*STARTERS, *TRAINS, *TABLES]))} (or gear, pair)\n"
+        == f"Error: kind = 'bevel': must be one of {', '.join(sorted([*STARTERS, *TRAINS, *TABLES]))} (or gear, pair, ring)\n"
     )
 
 

@@ -40,7 +40,7 @@ def test_new_writes_a_table_under_another_name_or_prints_it() -> None:
     assert (printed.stdout, printed.stderr) == (Path("mine.txt").read_text(), "")
 
 
-@pytest.mark.parametrize(("kind", "file"), [("pair", "volvo-13-44.toml"), ("gear", "spur.toml")])
+@pytest.mark.parametrize(("kind", "file"), [("pair", "volvo-13-44.toml"), ("gear", "spur.toml"), ("ring", "ring-22-70.toml")])
 def test_one_pair_or_gear_is_a_spec_still(kind: str, file: str) -> None:
     assert run("new", kind).stdout == f"{file}\n"
 
@@ -54,6 +54,8 @@ def test_new_lists_tables_beside_specs() -> None:
         "gears",
         "pairs",
         "reducer-21-43",
+        "ring-22-70",
+        "rings",
         "spur",
         "train-1-stage",
         "train-2-stage",

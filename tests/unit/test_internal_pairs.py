@@ -5,15 +5,18 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from support.ring_mesh import RingMesh
+from support.sheets import TEMPLATES, faults_of
 
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError, ParameterError
 from gearcad.designs.design import Design
 from gearcad.designs.reader import design_from_tables
+from gearcad.designs.table import open_table
 from gearcad.errors import SpecError
 from gearcad.geometry import ShaperCutter, specific_sliding
 from gearcad.geometry.helix import twist
@@ -319,3 +322,27 @@ def test_a_right_hand_pinion_has_a_right_hand_ring() -> None:
     for owner in ("pair", "pinion", "wheel"):
         pair = _pair(**{owner: {"helix_angle": 12.0}})
         assert [gear.helix_angle for gear in pair.gears] == [12.0, 12.0]
+
+
+# ---------------------------------------------------------------------- tables
+
+
+def test_table_of_rings_has_no_interference_and_follows_its_words() -> None:
+    rows = {row.name: row.design() for row in open_table(TEMPLATES / "rings.csv").rows()}
+    pairs = {name: design.assembly for name, design in rows.items()}  # type: ignore[attr-defined]
+    assert all(pair.internal and pair.wheel.body.rim_diameter for pair in pairs.values())
+    codes = {notice.code for design in rows.values() for notice in design.notices}
+    assert not any("interference" in code or "radial" in code or "undercut" in code for code in codes)
+    assert pairs["standard-24-66"].wheel.tip_diameter == pytest.approx(-128.4710217, abs=1e-6)
+    shared = pairs["equal-sliding-20-56"]
+    assert shared.pinion.profile_shift + shared.wheel.profile_shift == pytest.approx(shared.zero_backlash_shift_sum, rel=1e-12)
+
+
+def test_every_fault_of_a_row_with_a_ring_is_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is wrong beside an external wheel is not beside a ring: negative centre distances and diameters."""
+    monkeypatch.chdir(tmp_path)
+    heading = "name,normal_module,centre_distance,pinion.teeth,wheel.teeth,wheel.profile_shift,wheel.tip_diameter,face_width"
+    first, second = faults_of(f"{heading}\na,2.8,-69,22,-70,auto,-197.2,-15\nb,2.8,69,22,-70,auto,,15\n")
+    assert first.startswith("t.csv row 2 column H (a): pair.face_width = -15 mm: must be a number above 0 mm")
+    write = "pair.centre_distance = 69 mm: must be a number below 0 mm with a ring (ISO 21771): write -69"
+    assert second == f"t.csv row 3 column C (b): {write}"

@@ -179,7 +179,7 @@ def test_the_data_sheet_shows_what_there_is(spec: Path) -> None:
     assert not {"root relief", "end relief, shape", "misalignment across that plane"} & set(lines)
 
 
-@pytest.mark.parametrize("name", ["volvo-13-44", "fzg-c", "alm-18-161", "spur"])
+@pytest.mark.parametrize("name", ["volvo-13-44", "fzg-c", "alm-18-161", "spur", "ring-22-70"])
 def test_what_the_starters_offer_is_permitted(name: str) -> None:
     """Their commented lines of modifications and mounting, with the # taken away."""
     _, text = starter_text(name)

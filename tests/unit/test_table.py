@@ -308,14 +308,14 @@ def test_a_cell_without_a_heading_is_a_fault_and_hides_the_rest_of_its_row() -> 
 # ---------------------------------------------------------------------- templates and names
 
 
-@pytest.mark.parametrize(("name", "kind"), [("pairs.csv", "pair"), ("gears.csv", "gear")])
+@pytest.mark.parametrize(("name", "kind"), [("pairs.csv", "pair"), ("gears.csv", "gear"), ("rings.csv", "pair")])
 def test_templates_are_tables_of_good_designs(name: str, kind: str) -> None:
     rows = list(open_table(TEMPLATES / name).rows())
     assert 4 <= len(rows) <= 6
     assert [row.design().kind.value for row in rows] == [kind] * len(rows)
 
 
-@pytest.mark.parametrize("name", ["pairs.csv", "gears.csv"])
+@pytest.mark.parametrize("name", ["pairs.csv", "gears.csv", "rings.csv"])
 def test_templates_open_well_in_a_spreadsheet(name: str) -> None:
     """Plain ASCII, comments of one cell wherever the spreadsheet separates, every row as wide as the heading."""
     text = (TEMPLATES / name).read_bytes().decode("ascii")
