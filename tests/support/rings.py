@@ -201,7 +201,7 @@ class RingSection:
         if not self._apart:
             nearest = inside(np.zeros(len(points)), points)
         else:
-            turns = np.linspace(-2.0, 0.5, 500)
+            turns = np.linspace(-2.0, 2.0, 800)
             step = turns[1] - turns[0]
             best = turns[np.argmin(np.abs(inside(turns[:, None], points)), axis=0)]
             low, high = best - step, best + step
