@@ -63,8 +63,8 @@ def _check_bolt_circle(gear: GearData) -> None:
     inner = abs(gear.root_diameter) + wall + body.bolt_diameter
     outer = math.inf if body.rim_diameter is None else body.rim_diameter - wall - body.bolt_diameter
     walls = f"walls of {LEAST_RIM} m_n to the root circle {abs(gear.root_diameter):.6g} mm and to the rim"
-    if inner > outer:
-        most = (outer - inner) / 2 + body.bolt_diameter
+    most = math.inf if body.rim_diameter is None else (body.rim_diameter - abs(gear.root_diameter)) / 2 - wall
+    if body.bolt_diameter > most:
         room = "must be left out" if most <= 0 else f"must be at most {at_most(most)} mm"
         raise GeometryError("body.bolt_diameter", body.bolt_diameter, f"{room} ({walls})", "mm")
     if not inner <= body.bolt_circle <= outer:

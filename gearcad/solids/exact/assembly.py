@@ -49,10 +49,13 @@ def part_names(pair: GearPair) -> PartNames:
 def pair_assembly(pair: GearPair, *, bracket: bool = False) -> cadquery.Assembly:
     """Pinion at the origin and wheel at (centre distance, 0), a tooth in a space, the backlash split evenly.
 
-    The parts are called as `part_names` has it. `bracket` adds two shafts that fill the bores, joined by an arm below the
-    gears. Raises GeometryError for a bracket without bores.
+    The parts are called as `part_names` has it. The centre distance of a ring is negative. `bracket` adds two shafts that fill
+    the bores, joined by an arm below the gears. Raises GeometryError for a bracket without bores, for a ring without a rim.
     """
     import cadquery
+
+    if bracket and pair.internal:
+        raise GeometryError("bracket", True, "must be left out with a ring: it has no bore for a shaft")
 
     names, pose, assembly = part_names(pair), pair.wheel_pose(), cadquery.Assembly(name=pair.name)
     wheel_at = cadquery.Location(cadquery.Vector(pose.x, 0, pose.z), cadquery.Vector(0, 0, 1), pose.rotation)
