@@ -7,9 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import cadquery
+import numpy as np
 import pytest
+from OCP.BRepAdaptor import BRepAdaptor_Surface
+from support.rings import RingSection
 
 from gearcad import BasicRack, Body, Gear, GearPair, GeometryError
+from gearcad.geometry import ShaperCutter
 from gearcad.per_gear import PerGear
 from gearcad.solids import pair_assembly, write_step
 from gearcad.solids.exact.assembly import PartNames, part_names
@@ -95,6 +99,52 @@ def test_parts_are_products_of_their_pair() -> None:
     assert part_names(replace(pair, pinion=pinion)).gears == PerGear("4711", "pair wheel")
     assert part_names(replace(pair, pinion=pinion, wheel=wheel)) == names  # a name must not be that of both
     assert part_names(replace(pair, pinion=pinion, name="4711")).gears.pinion == "4711 pinion"  # nor that of the pair
+
+
+def _with_ring() -> GearPair:
+    shared = {"normal_module": 2.0, "helix_angle": 18.0, "tooth_thinning": 0.05}
+    ring = Gear(teeth=-60, face_width=9.5, body=Body(rim_diameter=140), cutter=ShaperCutter(teeth=25), **shared)
+    return GearPair(pinion=Gear(teeth=24, face_width=12.3, **shared), wheel=ring, axial_offset=0.7)
+
+
+def test_a_ring_stands_about_its_pinion(tmp_path: Path) -> None:
+    """The pinion's involutes, read back from STEP, leave half of the backlash to the ring's helicoids on both sides."""
+    pair, path = _with_ring(), tmp_path / "assembly.step"
+    write_step(pair_assembly(pair), path, name=pair.name)
+    again = cadquery.Assembly.importStep(str(path))
+    assert [child.name for child in again.children] == ["pair pinion", "pair wheel"]
+    pinion, ring = (child.obj.moved(child.loc) for child in again.children)
+    assert ring.isValid()
+    assert pair.centre_distance < 0
+    assert ring.Center().toTuple() == pytest.approx((pair.centre_distance, 0.0, 6.15 + 0.7), abs=1e-6)
+    pose, section = pair.wheel_pose(), RingSection(pair.wheel)
+    points = _flank_points(pinion)
+    points = points[np.hypot(*points[:, :2].T) > pair.pinion.form_diameter / 2] - [pose.x, 0, pose.z]
+    turn = math.radians(-pose.rotation)
+    points[:, :2] @= [[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]]
+    radius, angle = section.folded(points)
+    inside = (radius > section.tip) & (radius < section.form) & (points[:, 2] > 0) & (points[:, 2] < 9.5)
+    gap = section.base * (np.abs(angle[inside]) - section.involute_angle(radius[inside]))
+    least = [gap[np.sign(angle[inside]) == side].min() for side in (1, -1)]
+    half = pair.normal_backlash / 2 / math.cos(math.radians(pair.wheel.base_helix_angle))
+    assert least == pytest.approx([half, half], abs=2e-6)  # both flanks are within 1e-6
+
+
+def _flank_points(pinion: cadquery.Shape) -> np.ndarray:
+    """Points (n, 3) of the sides of the teeth that face +x."""
+    faces = [face for face in pinion.Faces() if face.Center().x > 15 and face.geomType() == "BSPLINE"]
+    surfaces = [BRepAdaptor_Surface(face.wrapped) for face in faces]
+    share = np.linspace(0, 1, 41)
+    places = [face.Value(u, v * face.LastVParameter()) for face in surfaces for u in share for v in share]
+    return np.array([(place.X(), place.Y(), place.Z()) for place in places])
+
+
+def test_a_ring_needs_its_rim_and_takes_no_bracket() -> None:
+    pair = _with_ring()
+    with pytest.raises(GeometryError, match=r"^bracket = True: must be left out with a ring: it has no bore for a shaft"):
+        pair_assembly(pair, bracket=True)
+    with pytest.raises(GeometryError, match=r"^wheel\.body\.rim_diameter = None: must be given, at least"):
+        pair_assembly(replace(pair, wheel=replace(pair.wheel, body=Body())))
 
 
 def test_bracket_needs_bores() -> None:

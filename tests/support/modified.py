@@ -100,28 +100,30 @@ def removed_volume(gear: Gear) -> float:
     m = gear.modification
     first, last = roll_ends(gear)
     slope = math.tan(math.radians(gear.body.end_chamfer_angle))
-    face = gear.tip_diameter / 2 - gear.body.end_chamfer * slope
+    side = -1 if gear.internal else 1
+    face = side * (gear.tip_diameter / 2 - gear.body.end_chamfer * slope)
     ends = [0.0, m.end_relief_length if m.end_relief else 0.0]
     rolls = [last - m.tip_relief_length, first + m.root_relief_length]
-    root, tip = gear.root_diameter / 2, gear.tip_diameter / 2
-    radii = [root, gear.form_diameter / 2, gear.tip_form_diameter / 2, tip, *(face + z * slope for z in ends)]
+    circles = (gear.root_diameter, gear.form_diameter, gear.tip_form_diameter, gear.tip_diameter)
+    radii = [*(side * circle / 2 for circle in circles), *(face + side * z * slope for z in ends)]
+    low, high = sorted((radii[0], radii[3]))
     radii += [math.hypot(roll, gear.base_diameter / 2) for roll in rolls if first < roll < last]
-    return gear.teeth * sum(
+    return gear.tooth_count * sum(
         _over_ring(gear, inner, outer, ends, face, slope)
-        for inner, outer in pairwise(sorted({min(max(radius, root), tip) for radius in radii}))
+        for inner, outer in pairwise(sorted({min(max(radius, low), high) for radius in radii}))
     )
 
 
 def _over_ring(gear: Gear, inner: float, outer: float, ends: list[float], face: float, slope: float) -> float:
     """The integral over one tooth between two radii (mm), over the roll xi where there is one: R dR = xi dxi."""
-    base, width = gear.base_diameter / 2, gear.face_width
-    core = base if inner > gear.form_diameter / 2 - 1e-9 else 0.0
+    base, width, side = abs(gear.base_diameter) / 2, gear.face_width, -1 if gear.internal else 1
+    core = base if side * (inner + outer) > gear.form_diameter else 0.0
     low_roll, high_roll = (math.sqrt(max(radius**2 - core**2, 0.0)) for radius in (inner, outer))
     nodes, weights = leggauss(12)
     total = 0.0
     for roll, share in zip(*_placed(nodes, weights, low_roll, high_roll), strict=True):
         radius = math.hypot(core, roll)
-        setback = max(radius - face, 0.0) / slope if gear.body.end_chamfer else 0.0
+        setback = max(side * (radius - face), 0.0) / slope if gear.body.end_chamfer else 0.0
         inside = (min(max(z, setback), width - setback) for end in ends for z in (end, width - end))
         for low, high in pairwise(sorted(inside)):
             z, part = _placed(nodes, weights, low, high)

@@ -60,9 +60,9 @@ def pair_assembly(pair: GearPair, *, bracket: bool = False) -> cadquery.Assembly
     names, pose, assembly = part_names(pair), pair.wheel_pose(), cadquery.Assembly(name=pair.name)
     wheel_at = cadquery.Location(cadquery.Vector(pose.x, 0, pose.z), cadquery.Vector(0, 0, 1), pose.rotation)
     places = PerGear(None, wheel_at)
-    for role, gear in pair.gears.items():
+    for role, solid in pair.gears.map(gear_solid).items():
         colour = cadquery.Color(*PART_COLOURS[role.value], 1.0)
-        assembly.add(gear_solid(gear), name=names.gears.pick(role), loc=places.pick(role), color=colour)
+        assembly.add(solid, name=names.gears.pick(role), loc=places.pick(role), color=colour)
     if bracket:
         assembly.add(_bracket(pair), name=names.bracket, color=cadquery.Color(*PART_COLOURS["bracket"], 1.0))
     return assembly
