@@ -89,7 +89,7 @@ def _root_land_stays(gear: Gear) -> bool:
     if land.kind is not CurveKind.ROOT:
         return False
     form = gear.flank_form
-    z = np.union1d(np.linspace(0.0, gear.face_width, _HEIGHTS), form.height_breaks)
+    z = np.union1d(np.linspace(0.0, gear.half_width, _HEIGHTS), form.height_breaks)
     right, left = (form.turn(form.first, z, left=side) for side in (False, True))
     width = 2 * (math.pi / gear.tooth_count - float(land.polar(1.0)[1])) + right - left
     return float(width.min()) * gear.profile.root_diameter / 2 >= LEAST_LAND
@@ -123,7 +123,7 @@ class TurnedCurve:
     def of(cls, gear: Gear, piece: FlankCurve) -> TurnedCurve:
         """A piece of the left flank at mid face width. Over a piece the depth is a parabola, so three places give it."""
         s = np.array([0.0, 0.5, 1.0])
-        at = gear.flank_form.turn(piece.lengths(s), gear.face_width / 2)
+        at = gear.flank_form.turn(piece.lengths(s), gear.half_width / 2)
         slope = at[2] - at[0]
         bend = 2 * (at[0] - 2 * at[1] + at[2])
         turn = Polynomial([at[0], slope - bend, bend])

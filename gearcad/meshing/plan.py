@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import Gear, GearPair
-from gearcad.geometry.halves import refuse_halves
 from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.sizing import Amount, body_sizes, factor_for
@@ -103,12 +102,16 @@ def _with_zones(plan: GearPlan, zones: Mapping[int, ContactZone]) -> GearPlan:
 def plan_mesh(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | None) -> MeshPlan:
     """What is meshed of a design's `gears`, which are those of a `pair` or one alone. Raises ParameterError, GeometryError."""
     chosen = _chosen(options, gears, pair)
-    for gear in chosen.values():
-        refuse_halves(gear, "a mesh")
     element_given = None if options.element == AUTO else Element(options.element)
     dimension = _dimension(options, element_given, chosen)
+    gap = max((gear.double_helix.gap_width or 0.0 for gear in chosen.values()), default=0.0)
+    if gap and dimension == 3 and element_given is None:
+        element_given = Element.TET10
     extent = options.extent or _usual(dimension, element_given, pair if len(chosen) == 2 else None)
     element = element_given or _usual_element(dimension, extent)
+    if gap and element in (Element.HEX20, Element.HEX8):
+        permitted = f"must be tet10 for a body with a gap of {gap:g} mm between its halves, where no section is swept"
+        raise GeometryError("element", element.value, permitted)
     _require_possible(options, extent, element, pair, chosen)
     plans = {name: _planned(gear, options, extent, element) for name, gear in chosen.items()}
     return MeshPlan(plans, pair if extent.what is What.PAIR else None, extent, element, options)

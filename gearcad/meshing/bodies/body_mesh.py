@@ -11,7 +11,7 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear
-from gearcad.geometry.helix import twist
+from gearcad.geometry.helix import height_in_half, section_turn
 from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.layers import body_planes, check_planes
@@ -117,7 +117,7 @@ class _Swept:
         stack = self._stack
         middles = (self.planes[1:] + self.planes[:-1]) / 2
         heights = np.r_[self.planes, middles] if stack.half else self.planes
-        turns = modification_turns(self.section, self.gear, heights)
+        turns = modification_turns(self.section, self.gear, height_in_half(self.gear, heights))
         points = np.empty((stack.total, 3))
         for number, z in enumerate(heights):
             layer = number - len(self.planes)
@@ -127,7 +127,7 @@ class _Swept:
 
     def _place(self, points: Floats, turns: Turns, number: int, z: float) -> None:
         """Set the points (n, 3) of the first nodes of the section at a height."""
-        angle = twist(self.gear, z) + (turns.at(number)[: len(points)] if len(turns.fields) else 0.0)
+        angle = section_turn(self.gear, np.asarray(z)) + (turns.at(number)[: len(points)] if len(turns.fields) else 0.0)
         cosine, sine = np.cos(angle), np.sin(angle)
         x, y = self.section.points[: len(points), :2].T
         points[:, 0] = cosine * x - sine * y

@@ -10,7 +10,7 @@ import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.geometry import Gear
-from gearcad.geometry.helix import twist
+from gearcad.geometry.helix import height_in_half, section_turn
 from gearcad.geometry.turned import FlankCurve
 
 __all__ = ["ExactFlank"]
@@ -63,8 +63,8 @@ class ExactFlank:
 
     def _turn(self, s: Floats, z: Floats, teeth: Wholes) -> Floats:
         """Angles (rad) by which points of tooth 0 at z = 0 are turned into place."""
-        own = self.curve.turn(self.gear.flank_form, s, z, left=self.left)
-        found: Floats = own + twist(self.gear) * z + 2 * math.pi / self.gear.tooth_count * teeth
+        own = self.curve.turn(self.gear.flank_form, s, height_in_half(self.gear, z), left=self.left)
+        found: Floats = own + section_turn(self.gear, z) + 2 * math.pi / self.gear.tooth_count * teeth
         return found
 
     def _unturned(self, points: Floats, s: Floats, teeth: Wholes) -> Floats:

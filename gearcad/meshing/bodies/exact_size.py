@@ -30,7 +30,10 @@ def exact_area(gear: Gear, held_radius: float) -> float:
 def exact_volume(gear: Gear, held_radius: float) -> float:
     """Volume (mm³) of the same over the face width, flanks modified as they are."""
     plain = _body(gear, gear.profile.curves, held_radius) * gear.face_width
-    return plain - sum(_taken(gear, left=left) for left in (True, False)) if gear.modification.present else plain
+    if not gear.modification.present:
+        return plain
+    taken = sum(_taken(gear, left=left) for left in (True, False))
+    return plain - (2 * taken if gear.double_helix.present else taken)
 
 
 def _body(gear: Gear, curves: Iterable[Curve], held_radius: float) -> float:
@@ -57,10 +60,10 @@ def _polar(curve: Curve) -> tuple[Chebyshev, Chebyshev]:
 
 
 def _taken(gear: Gear, *, left: bool) -> float:
-    """Volume (mm³) that modifications take from one side of a tooth: each point goes its turn times its radius."""
+    """Volume (mm³) that modifications take from one side of a tooth, of one half: each point goes its turn times its radius."""
     form, taken = gear.flank_form, 0.0
     sense = (-1 if left else 1) * (-1 if gear.internal else 1)  # radii of a ring fall along its curves
-    for low, high in pairwise(sorted((0.0, *form.height_breaks, gear.face_width / 2, gear.face_width))):
+    for low, high in pairwise(sorted((0.0, *form.height_breaks, gear.half_width / 2, gear.half_width))):
         z = (low + high) / 2 + (high - low) / 2 * _PLACES
         for piece in flank_curves(gear):
             radius, _ = _polar(piece.curve)

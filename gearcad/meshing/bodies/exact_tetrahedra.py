@@ -12,6 +12,8 @@ import numpy as np
 from gearcad.arrays import Bools, Floats, Wholes
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
+from gearcad.geometry.halves import halves
+from gearcad.geometry.helix import height_in_half
 from gearcad.geometry.turned import flank_curves
 from gearcad.meshing.bodies.brep import Filled, Surface
 from gearcad.meshing.bodies.elements import Element
@@ -156,16 +158,19 @@ class _Surface:
 
     @cached_property
     def _ends(self) -> tuple[End, End]:
-        return gear_ends(self.gear, [piece.start[0] for piece in tooth_outline(self.gear)])
+        half = halves(self.gear)[0].gear if self.gear.double_helix.present else self.gear
+        return gear_ends(half, [piece.start[0] for piece in tooth_outline(half)])
 
     @cached_property
     def _on_cones(self) -> tuple[Bools, Bools]:
         return self._marked(Surface.CONE)
 
     def _end_heights(self, radius: Floats, z: Floats) -> Floats:
-        """Heights (mm) of the nearer end at these radii (mm)."""
-        lower, upper = self._ends
-        return np.where(z < self.gear.face_width / 2, lower.height(radius), upper.height(radius))
+        """Heights (mm) of the nearer end at these radii (mm); the halves of a double helical gear have two each."""
+        (lower, upper), width = self._ends, self.gear.face_width
+        inside = height_in_half(self.gear, z)
+        heights = np.where(inside < self.gear.half_width / 2, lower.height(radius), upper.height(radius))
+        return np.where(inside == z, heights, width - heights)
 
     @property
     def inner_middles(self) -> Bools:
@@ -215,7 +220,8 @@ class _Surface:
     def _round_cone(self, points: Floats) -> Floats:
         """Points (n, 3) moved onto the cones of the end chamfers."""
         lower, upper = self._ends
-        setback = np.minimum(points[:, 2] - lower.z, upper.z - points[:, 2])
+        inside = height_in_half(self.gear, points[:, 2])
+        setback = np.minimum(inside - lower.z, upper.z - inside)
         return _at_radius(points, lower.cone.face_radius + lower.cone.side * setback * lower.cone.slope)
 
 

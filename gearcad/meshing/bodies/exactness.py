@@ -14,7 +14,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import Chamfer, CurveKind, Fillet, Involute
-from gearcad.geometry.helix import twist
+from gearcad.geometry.helix import height_in_half, section_turn, twist
 from gearcad.geometry.turned import FlankCurve, flank_curves
 from gearcad.meshing.bodies.interpolation import shape_values
 from gearcad.meshing.bodies.mesh import ElementMesh
@@ -109,9 +109,10 @@ class _Surface:
         """Distances (n,) in mm of points (n, 3) that are near the surface."""
         curve, sense = self.piece.curve, 1 if self.left else -1
         x, y, z = points.T
-        height = z if self.solid else np.full_like(z, self.gear.face_width / 2)
-        rate = twist(self.gear) if self.solid else 0.0
-        radius, angle = np.hypot(x, y), sense * (np.arctan2(y, x) - self.place - rate * z)
+        gear, middle = self.gear, self.gear.half_width / 2
+        height = height_in_half(gear, z) if self.solid else np.full_like(z, middle)
+        rate, helix = (twist(gear), section_turn(gear, z)) if self.solid else (0.0, 0.0)
+        radius, angle = np.hypot(x, y), sense * (np.arctan2(y, x) - self.place - helix)
         s = self._on_radius(radius)
         for _ in range(_STEPS):
             turned = angle - sense * self.piece.turn(self.gear.flank_form, s, height, left=self.left)

@@ -12,10 +12,10 @@ import numpy as np
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
 from gearcad.geometry.curves import CurveKind
-from gearcad.geometry.helix import twist
+from gearcad.geometry.helix import section_turn
 from gearcad.geometry.turned import FlankCurve, flank_curves
 from gearcad.meshing.bodies.brep import BrepFace, Surface
-from gearcad.meshing.bodies.names import RIM, named_left
+from gearcad.meshing.bodies.names import GAP, RIM, named_left
 
 __all__ = ["ROOT", "GearFace", "GearFaces"]
 
@@ -65,7 +65,7 @@ class GearFaces:
         """The tooth whose middle is nearest, and the angle (rad) from there."""
         x, y, z = face.middle
         pitch = 2 * math.pi / self.gear.tooth_count
-        angle = math.atan2(y, x) - twist(self.gear, float(z))
+        angle = math.atan2(y, x) - float(section_turn(self.gear, np.asarray(z)))
         tooth = round(angle / pitch)
         return tooth % self.gear.tooth_count, angle - tooth * pitch
 
@@ -84,6 +84,8 @@ class GearFaces:
         middle = (profile.root_diameter + profile.tip_diameter) / 4
         if gear.internal and radius > profile.root_diameter / 2 + _NEAR:
             return self._outside(face, radius)
+        if gear.double_helix.gap_width and abs(radius - gear.gap_diameter / 2) < _NEAR:
+            return GearFace(face.surface, GAP, radius=gear.gap_diameter / 2)
         if radius < gear.body.bore / 2 + _NEAR:
             name, known = "bore", gear.body.bore / 2
         elif not -_NEAR < face.middle[2] < gear.face_width + _NEAR:
@@ -117,6 +119,9 @@ class GearFaces:
             return GearFace(face.surface, "keyway")
         back, front = self.gear.body.hub_ends
         heights = {"end_back": 0.0, "end_front": self.gear.face_width}
+        if self.gear.double_helix.gap_width:
+            half = self.gear.half_width
+            heights |= {"gap_back": half, "gap_front": self.gear.face_width - half}
         heights |= {"hub_back": -back} if back else {}
         heights |= {"hub_front": self.gear.face_width + front} if front else {}
         for name, height in heights.items():

@@ -10,6 +10,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear
+from gearcad.geometry.halves import halves
 from gearcad.geometry.helix import twist
 from gearcad.meshing.section.grading import Grading, graded
 from gearcad.meshing.section.outline import MeshSizes
@@ -36,8 +37,12 @@ _FEWEST = 2
 def body_planes(gear: Gear, sizes: MeshSizes, layers: int | None = None) -> Floats:
     """Heights z (n + 1,) in mm of the planes between layers, closer together at the ends of the face and of end reliefs.
 
-    As many as the sizes ask for, or so many `layers`. Raises ParameterError for fewer than the end reliefs ask for.
+    As many as the sizes ask for, or so many `layers`; of double helical teeth as many in both halves. Raises ParameterError for
+    fewer than the end reliefs ask for.
     """
+    if gear.double_helix.present:
+        lower = body_planes(halves(gear)[0].gear, sizes, None if layers is None else (layers + 1) // 2)
+        return np.concatenate([lower, gear.face_width - lower[-2::-1]])
     gradings = _gradings(gear, _thickness(gear, sizes))
     counts = [max(1, math.ceil(grading.edges - 1e-9)) for grading in gradings]
     if layers is None and sum(counts) < _FEWEST:

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from gearcad.geometry import Gear
 
-__all__ = ["BORE", "RIM", "body_side", "named_left", "rises"]
+__all__ = ["BORE", "GAP", "RIM", "body_side", "named_left", "rises"]
 
 BORE = "bore"
 """The inner circle of an external gear, that is none where its section is a full disc."""
+
+GAP = "gap"
+"""The ground between the halves of a double helical gear; its ends are "gap_back" and "gap_front"."""
 
 RIM = "rim"
 """The outside of a ring."""

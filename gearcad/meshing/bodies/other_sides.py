@@ -14,7 +14,7 @@ from gearcad.arrays import Floats
 from gearcad.geometry import Gear
 from gearcad.meshing.bodies.exactness import chamfer_distances, face_samples
 from gearcad.meshing.bodies.mesh import ElementMesh
-from gearcad.meshing.bodies.names import body_side
+from gearcad.meshing.bodies.names import GAP, body_side
 
 __all__ = ["SideDeviations", "matched_distance", "side_deviations"]
 
@@ -63,7 +63,16 @@ def _sides(mesh: ElementMesh, gear: Gear, held_radius: float) -> Iterator[tuple[
     """The sides that are measured, how, and whether they are flat."""
     back, front = gear.body.hub_ends
     radii = {body_side(gear): held_radius, "hub": gear.body.hub_diameter / 2}
-    heights = {"end_back": 0.0, "end_front": gear.face_width, "hub_back": -back, "hub_front": gear.face_width + front}
+    if gear.double_helix.gap_width:
+        radii[GAP] = gear.gap_diameter / 2
+    heights = {
+        "end_back": 0.0,
+        "end_front": gear.face_width,
+        "gap_back": gear.half_width,
+        "gap_front": gear.face_width - gear.half_width,
+        "hub_back": -back,
+        "hub_front": gear.face_width + front,
+    }
     solid = mesh.element.shape.dimension == 3
     for name, faces in mesh.sides.items():
         if not len(faces):

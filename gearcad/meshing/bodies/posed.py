@@ -42,7 +42,7 @@ def poses(pair: GearPair, roll_angle: float, approach: float = 0.0, *, solid: bo
     lengths = _lengths(pair, roll_angle)
     rolled = PerGear(lengths.pinion + approach, lengths.wheel)
     z = PerGear(0.0, (pair.pinion.face_width - pair.wheel.face_width) / 2 + pair.axial_offset)
-    middle = pair.pinion.face_width / 2 + pair.common_width.offset
+    middle = _middle(pair, z.wheel)
 
     def pose(role: Role, facing: float, x: float) -> Pose:
         gear = pair.gears.pick(role)
@@ -73,6 +73,13 @@ def contacts(pair: GearPair, roll_angle: float, beyond: float = 0.0, *, left: bo
         {sense * tooth: place for tooth, place in places.items()},
         {follows * sense * tooth: whole - place for tooth, place in places.items()},
     )
+
+
+def _middle(pair: GearPair, wheel_z: float) -> float:
+    """Height (mm) on the pinion of the middle of the common face width, or of the common width of the lower halves."""
+    if not pair.double_helical:
+        return pair.pinion.face_width / 2 + pair.common_width.offset
+    return (max(0.0, wheel_z) + min(pair.pinion.half_width, wheel_z + pair.wheel.half_width)) / 2
 
 
 def _lengths(pair: GearPair, roll_angle: float) -> PerGear[float]:

@@ -76,7 +76,7 @@ def mesh_section(
 
 def _turned_flanks(mesh: ElementMesh, gear: Gear) -> ElementMesh:
     """The section at mid face width, not turned by the helix."""
-    turns = modification_turns(mesh, gear, np.array([gear.face_width / 2])).at(0)
+    turns = modification_turns(mesh, gear, np.array([gear.half_width / 2])).at(0)
     cosine, sine = np.cos(turns), np.sin(turns)
     x, y, z = mesh.points.T
     return replace(mesh, points=np.stack([cosine * x - sine * y, sine * x + cosine * y, z], -1))

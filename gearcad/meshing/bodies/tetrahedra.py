@@ -12,7 +12,7 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import ParameterError, SolverError, require_number, require_whole
 from gearcad.geometry import Gear
-from gearcad.geometry.helix import twist
+from gearcad.geometry.helix import section_turn
 from gearcad.meshing.bodies.brep import BrepFace, EdgeLengths, Filled, Stage, fill_brep
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.bodies.exact_tetrahedra import quadratic
@@ -165,7 +165,7 @@ def _halved(gear: Gear, tooth: int, triangles: Cells, points: Floats) -> dict[st
     """A root land parted at the middle of the space: what is of this tooth, and of the next. No edges run along there."""
     x, y, z = points[triangles].mean(1).T
     middle = (tooth + 0.5) * 2 * math.pi / gear.tooth_count
-    ahead = np.mod(np.arctan2(y, x) - twist(gear) * z - middle, 2 * math.pi) < math.pi
+    ahead = np.mod(np.arctan2(y, x) - section_turn(gear, z) - middle, 2 * math.pi) < math.pi
     before, after = ("right", "left") if gear.internal else ("left", "right")
     return {
         f"{before}_root_{tooth}": triangles[~ahead],
