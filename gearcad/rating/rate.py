@@ -24,9 +24,6 @@ from gearcad.rating.options import RatingOptions
 
 __all__ = ["Rating", "fillet_notices", "rate", "require_ratable", "scope_notices"]
 
-_RECALLED = ("q_prime", "Z_D", "wheel.Y_B", "wheel.formula")
-"""Of rings."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Rating:
@@ -121,7 +118,7 @@ def rate(
         flank=flank_rating(pair, material, force, edition),
         roots=roots,
         pitch_point=pitch_point_contact(pair, material, load.torque),
-        verify=_RECALLED if pair.internal else (),
+        verify=_recalled(roots.wheel) if pair.internal else (),
         notices=(
             *scope_notices(pair),
             *_ring_notices(pair),
@@ -131,6 +128,11 @@ def rate(
             *(notice for role, gear in pair.gears.items() for notice in root_notices(gear, role, roots.pick(role), mesh)),
         ),
     )
+
+
+def _recalled(ring: RootRating) -> tuple[str, ...]:
+    """What of a ring's rating is to be verified."""
+    return ("q_prime", "Z_D", "wheel.Y_B", *(() if ring.formula is None else ("wheel.formula",)))
 
 
 def require_ratable(pair: GearPair | RackPair, load: Load) -> None:

@@ -248,7 +248,9 @@ def test_what_is_said_of_a_ring() -> None:
     bare = rate(_pair(body=Body()), LOAD)
     assert {"rim-not-given"} < {notice.code for notice in bare.notices}
     assert bare.roots.wheel.rim_thickness_factor == 1
-    form = rate(_pair(cutter=ShaperCutter(tip_radius=0.3)), LOAD).roots.wheel
+    own = rate(_pair(cutter=ShaperCutter(tip_radius=0.3)), LOAD)
+    assert own.verify == ("q_prime", "Z_D", "wheel.Y_B")
+    form = own.roots.wheel
     assert form.formula is None
     assert form.section.fillet_radius == pytest.approx(0.3 * 2.7, rel=1e-9)
     german = rate(pair, LOAD, rating=RatingOptions(standard=Edition.DIN_1987))
