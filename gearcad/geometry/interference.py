@@ -39,17 +39,22 @@ def fillet_cut(
     At a centre distance (mm) and its working transverse pressure angle (degrees). Where contact already ends in the fillet
     (d_Ff above d_Nf) this includes what the involute of the mate overlaps.
     """
-    cuts = (
-        _cut_by_edge(own, mate, radius, angle, centre_distance, pressure_angle) for radius, angle in sorted(tip_edges(mate))
-    )
+    edges = sorted({_flank_end(mate), _land_edge(mate)})
+    cuts = (_cut_by_edge(own, mate, radius, angle, centre_distance, pressure_angle) for radius, angle in edges)
     return max((cut for cut in cuts if cut and cut.depth > rounding), default=None)
 
 
 def tip_edges(profile: ToothProfile) -> tuple[tuple[float, float], ...]:
     """Edges of a tip: radius (mm) and half tooth angle (rad), where the involute ends and, behind a chamfer, the tip land."""
-    flank = (profile.tip_form_diameter / 2, math.radians(profile.half_angle(profile.tip_form_diameter / 2)))
-    land = (profile.tip_diameter / 2, float(profile.curves[-1].polar(0.0)[1]))
-    return (flank, land) if profile.tip_chamfer else (land,)
+    return (_flank_end(profile), _land_edge(profile)) if profile.tip_chamfer else (_land_edge(profile),)
+
+
+def _flank_end(profile: ToothProfile) -> tuple[float, float]:
+    return profile.tip_form_diameter / 2, math.radians(profile.half_angle(profile.tip_form_diameter / 2))
+
+
+def _land_edge(profile: ToothProfile) -> tuple[float, float]:
+    return profile.tip_diameter / 2, float(profile.curves[-1].polar(0.0)[1])
 
 
 def deepest_cut(own: ToothProfile, path: EdgePath, farthest: float) -> FilletCut:
