@@ -106,7 +106,7 @@ class Inspection:
 
     @cached_property
     def ball_diameter(self) -> float:
-        """Diameter of the ball that touches the flanks at d + 2 x m_n, rounded up to two significant digits.
+        """Diameter of the ball that touches the flanks at d + 2 x m_n, rounded to two significant digits, upwards.
 
         Its centre lies on the normals to both flanks: alpha_K + tan^2 beta_b (tan alpha_K - tan alpha_y) = space half angle at
         the touching circle + alpha_y, D = d_b (tan alpha_K - tan alpha_y)/cos beta_b.
@@ -125,7 +125,11 @@ class Inspection:
                 high = centre
         ideal = self.base_diameter * (math.tan(centre) - math.tan(touching)) / math.cos(base_helix)
         step = 10.0 ** (math.floor(math.log10(ideal)) - 1)
-        return round(math.ceil(ideal / step) * step, 9)
+        return round(self._whole(ideal / step) * step, 9)
+
+    def _whole(self, steps: float) -> int:
+        """A larger ball touches further up the flank: rounded up."""
+        return math.ceil(steps)
 
     def _touching(self, wanted: float) -> float:
         """Pressure angle (rad) where the ball touches: the one wanted, or less where the centre would be too far out."""

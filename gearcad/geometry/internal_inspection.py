@@ -52,6 +52,10 @@ class InternalInspection(Inspection):
 
     # ------------------------------------------------------------------ balls and pins
 
+    def _whole(self, steps: float) -> int:
+        """A larger ball may come to the base circle: rounded down."""
+        return math.floor(steps)
+
     def _touching(self, wanted: float) -> float:
         """Pressure angle (rad) where the ball touches: the one wanted, or more where the centre would be too far in."""
         nearest = min(_NEAREST_CENTRE, wanted / 2)

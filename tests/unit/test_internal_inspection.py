@@ -48,7 +48,7 @@ def test_between_balls(inputs: dict[str, Any], ball: float, circle: float, betwe
     ring = Gear(face_width=20, **inputs)
     assert ring.inspection.between_balls(ball) == pytest.approx(between, rel=EXACT)
     step = 10.0 ** (math.floor(math.log10(ideal)) - 1)
-    assert ideal <= ring.ball_diameter < ideal + step  # rounded up
+    assert ideal - step < ring.ball_diameter <= ideal  # rounded down
     middle = ring.reference_diameter + 2 * ring.profile_shift * ring.normal_module
     assert ring.inspection.ball_contact_diameter(ideal) == pytest.approx(middle, rel=EXACT)
     assert ring.between_pins == (None if ring.helix_angle else ring.between_balls)
