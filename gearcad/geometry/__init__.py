@@ -3,6 +3,7 @@
 from gearcad.geometry.basic_rack import ISO53_A, ISO53_B, ISO53_C, ISO53_D, NAMED_RACKS, BasicRack
 from gearcad.geometry.body import Body, HubSide
 from gearcad.geometry.cutter import ShaperCutter
+from gearcad.geometry.double_helix import DoubleHelix
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.inspection import Inspection
 from gearcad.geometry.internal_profile import InternalProfile
@@ -37,6 +38,7 @@ __all__ = [
     "CommonWidth",
     "ContactLineLengths",
     "ContactZone",
+    "DoubleHelix",
     "FlankForm",
     "FlankModification",
     "Gear",

@@ -46,13 +46,14 @@ _OF_RINGS = (
 class Gear(GearData):
     """One spur or helical gear, external or internal (z < 0). Lengths in mm, angles in degrees.
 
+    `normal_module`, or `normal_diametral_pitch` (1/inch), is given and the other derived (see `Derived`).
     `helix_angle` is signed: right hand positive. `profile_shift` x and `tip_alteration` k are coefficients of the
     normal module; `tooth_thinning` is the reduction of the normal tooth thickness (mm). `tip_diameter` and
     `root_diameter` may be given, else they are derived, and read as numbers either way (see `Derived`): a given tip
     circle wins over k, a given root circle prescribes the depth of the tool, which then follows from the gear.
     An internal gear has the signs of ISO 21771: teeth and all diameters are negative, and x > 0 makes its teeth thicker (KHK
-    and others give x the opposite sign); its `profile` and everything along a flank are magnitudes. `cutter` is the shaper
-    cutter that makes its roots, else they are form roots.
+    and others give x the opposite sign, `profile_shift_khk`); its `profile` and everything along a flank are magnitudes.
+    `cutter` is the shaper cutter that makes the roots; without one those of a ring are form roots.
     `modification` of the flanks leaves all of that as it is: diameters and thicknesses are those of the exact involute.
     Raises ParameterError for one value out of range, GeometryError for a combination that makes no gear.
     """
