@@ -145,18 +145,20 @@ def check_area(gear: Gear) -> None:
 
 
 def check_envelope(gear: Gear) -> None:
-    """What the cutter sweeps on a circle through the fillet and one through the flank."""
+    """What the cutter sweeps on two circles, through fillet and flank; more where it trims tips, and says so."""
     tool = gear.profile.tool
     assert isinstance(tool, ShaperTip)
     cutter = Cutter.of(gear, tool.radius / gear.normal_module)
-    root, form, tip = (size / 2 for size in (gear.profile.root_diameter, gear.profile.form_diameter, gear.profile.tip_diameter))
+    root, form, tip = (
+        size / 2 for size in (gear.profile.root_diameter, gear.profile.form_diameter, gear.profile.tip_form_diameter)
+    )
     trims = any(notice.code == "cutter-trims-tips" for notice in gear.notices)
-    for radius in (root + 0.6 * (form - root), form + 0.3 * (gear.profile.tip_form_diameter / 2 - form)):
-        if trims and abs(radius - tip) < abs(radius - root):
-            continue
+    for radius in (root + 0.6 * (form - root), form + 0.3 * (tip - form)):
         space = math.pi / gear.tooth_count - math.radians(gear.profile.half_angle(radius))
-        swept = half_space_angle(gear, cutter, radius)
-        assert abs(space - swept) * radius < ENVELOPE * gear.normal_module + 2e-13 * (radius + cutter.tip_radius)
+        more = (half_space_angle(gear, cutter, radius) - space) * radius
+        rounding = ENVELOPE * gear.normal_module + 2e-13 * (radius + cutter.tip_radius)
+        assert more > -rounding
+        assert more < rounding or trims
 
 
 def check_inputs(inputs: dict[str, Any], *, external: bool = False) -> None:
