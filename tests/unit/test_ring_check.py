@@ -165,7 +165,7 @@ def test_wide_contacts_are_told_and_not_held_against_cylinders(monkeypatch: pyte
     wide = [contact for _, contact in heavy.cycle.interior_contacts if conformal(contact)]
     assert 0 < len(wide) < len(list(heavy.cycle.interior_contacts))
     assert "Hertz can be more than 1 % off" in said(heavy, "conformal-contact")
-    monkeypatch.setattr("gearcad.contact.plane.limits._WIDE", 0.01)
+    monkeypatch.setattr("gearcad.contact.shared.conformal._WIDE", 0.01)
     found = {each.quantity: each for each in compare_plane(heavy.task, heavy.cycle, heavy.summary, ())}
     assert found["peak contact pressure"].role is ComparisonRole.INFORMATION
     assert found["torque reaction of the wheel"].role is ComparisonRole.GATE

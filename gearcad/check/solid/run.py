@@ -17,6 +17,7 @@ from gearcad.check.sweep import sweep_points
 from gearcad.check.task import CheckTask
 from gearcad.contact.shared.loaded_left import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.contact.solid.limits import wide_contacts
 from gearcad.contact.solid.pair import SolidPair, solid_pair
 from gearcad.notice import Notice
 from gearcad.progress import Agenda, Share, unheard
@@ -43,7 +44,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     convergence = three_solid_meshes(_refined(task, model, agenda)) if task.options.refines else ()
     agenda(RATING)
     comparisons = compare_solid(task, cycle, summary, convergence)
-    notices = (*common_notices(task, cycle, summary), *_edge_notices(cycle, summary))
+    notices = (*common_notices(task, cycle, summary), *_edge_notices(cycle, summary), *wide_contacts(cycle))
     return SolidCheck(
         task=task,
         cycle=cycle,

@@ -21,11 +21,14 @@ from gearcad.geometry import Gear, GearPair
 from gearcad.mounting import Mounting
 from gearcad.per_gear import PerGear
 
-__all__ = ["ContactLine", "Gaps", "contact_lines", "gaps", "line_gap", "places_beside"]
+__all__ = ["ContactLine", "Gaps", "contact_lines", "gaps", "line_gap", "near_path", "places_beside"]
 
 
 BEND = 0.05
 """Distance (mm per mm of normal module) over which slope and curvature of a modification are taken."""
+
+_PLACES = 2001
+"""On the line of action, at which flanks are looked at."""
 
 _LEAST_BEND = 0.05
 """Share of the exact flanks' curvature that a hollow modification leaves at the least."""
@@ -139,6 +142,13 @@ def _bent(line: LineOfAction) -> PerGear[tuple[float, float]]:
     if line.whole > 0:
         return PerGear((least, line.whole - least), (least, line.whole - least))
     return PerGear((least, math.inf), (-math.inf, line.whole - least))
+
+
+def near_path(line: LineOfAction, farthest_gap: float) -> float:
+    """Length (mm) of the line of action over which exact flanks, or edges of their tips, come nearer than a gap (mm)."""
+    nominal = np.linspace(0.0, sum(max(abs(each.first), abs(each.last)) for each in line.flanks), _PLACES)
+    usable, (*_, gap, _) = _facing(line, nominal)
+    return float(np.ptp(nominal[usable & (gap < farthest_gap)]))
 
 
 class Gaps(NamedTuple):

@@ -15,7 +15,7 @@ from gearcad.contact.shared.engaged import FlexiblePair
 from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.contact.shared.loaded_left import gears_loaded_left
 from gearcad.contact.solid.body import assemble_body
-from gearcad.contact.solid.contact_lines import contact_lines, gaps
+from gearcad.contact.solid.contact_lines import contact_lines, gaps, near_path
 from gearcad.contact.solid.cost import BodyCost, body_cost
 from gearcad.contact.solid.flank import SolidCompliance, solid_compliance
 from gearcad.contact.solid.line_contact import LineSolution, Responses, responses, solve_lines
@@ -41,6 +41,9 @@ _SOFT = 8000.0
 _STEP = 0.05
 """Step (mm) of that bound, so that loads and modifications that differ little share their responses."""
 
+
+_BENT = 0.02
+"""How far (normal modules) teeth under great loads give way, so that pairs touch whose flanks are no further apart."""
 
 _SINGLE = 15
 """Positions of one pair of teeth along its path of contact, among which it is stiffest."""
@@ -216,7 +219,13 @@ def expected_bodies(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> Expec
 
 def teeth_moved(pair: GearPair) -> int:
     """Teeth on each side of the loaded one that others' loads can move."""
-    return max(1, math.floor(pair.total_contact_ratio + 0.2))
+    moved = max(1, math.floor(pair.total_contact_ratio + 0.2))
+    if not pair.internal:
+        return moved
+    # Flanks stay close to each other beyond the path of contact: more pairs touch as teeth bend.
+    line = line_of_action(pair)
+    near = near_path(line, _BENT * line.module)
+    return max(moved, math.floor(near / line.pitch + pair.overlap_ratio))
 
 
 def _meshes(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> list[SweptMesh]:
