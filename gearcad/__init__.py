@@ -26,7 +26,7 @@ Traceback (most recent call last):
 ...
 gearcad.errors.ParameterError: load = 60: must be a Load
 
-    read(file)                     the design in a spec: a gear, a pair or a train, with its load and options
+    read(file)                     the design in a spec: a gear, a rack, a pair or a train, with its load and options
     data(pair)                     every derived quantity
     build(pair, folder)            STEP, STL, 3MF, GLB, DXF, points
     check(pair, load)              contact and root stress by finite elements, beside Hertz and ISO 6336

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 __all__ = [
     "CHECK",
+    "DRIVE",
     "DYNAMICS",
     "GEAR",
     "GEAR_RATING",
@@ -20,6 +21,8 @@ __all__ = [
     "MODIFY_FIGURES",
     "PAIR",
     "PER_GEAR",
+    "RACK",
+    "RACK_PAIR",
     "RATING",
     "RING_FORMULA",
     "STIFFNESS",
@@ -98,6 +101,44 @@ PAIR = {
     "interference_margins.trochoid": Symbol("", "mm", "", "tips beside the mesh (trochoid)"),
     "interference_margins.radial": Symbol("", "mm", "", "tips when put in radially"),
 }
+
+RACK = {
+    "transverse_module": GEAR["transverse_module"],
+    "transverse_pressure_angle": GEAR["transverse_pressure_angle"],
+    "base_helix_angle": GEAR["base_helix_angle"],
+    "normal_pitch": Symbol("p_n", "mm", "4.4", "normal pitch"),
+    "transverse_pitch": Symbol("p_t", "mm", "4.4", "transverse pitch, along the rack"),
+    "transverse_base_pitch": GEAR["transverse_base_pitch"],
+    "tip_height": Symbol("h_a", "mm", "4.5", "tip above the reference line"),
+    "tip_form_height": Symbol("h_Fa", "mm", "", "end of the flank above that line"),
+    "form_depth": Symbol("h_Ff", "mm", "", "begin of the flank below that line"),
+    "root_depth": Symbol("h_f", "mm", "4.5", "root below the reference line"),
+    "total_height": Symbol("", "mm", "", "total height"),
+    "normal_tooth_thickness": GEAR["normal_tooth_thickness"],
+    "transverse_tooth_thickness": GEAR["transverse_tooth_thickness"],
+    "tip_thickness": GEAR["tip_thickness"],
+    "pin_diameter": Symbol("D_M", "mm", "Annex A", "ball or pin diameter"),
+    "over_pin": Symbol("M", "mm", "", "over a pin, from the back"),
+}
+
+RACK_PAIR = {
+    "back_distance": Symbol("", "mm", "", "axis to the rack's back"),
+    "shifted_distance": Symbol("", "mm", "", "mounting distance r + x m_n"),
+    "zero_backlash_distance": Symbol("", "mm", "", "mounting distance without backlash"),
+    "pitch_line_height": Symbol("", "mm", "", "pitch line above the reference line"),
+    "travel_per_revolution": Symbol("", "mm", "", "travel per turn of the pinion"),
+    "travel_per_degree": Symbol("", "mm", "", "travel per degree of the pinion"),
+    "tip_clearances.rack": Symbol("c", "mm", "5.2", "tip clearance of the rack"),
+    "active_root_diameter": Symbol("d_Nf", "mm", "5.4", "active root diameter of the pinion"),
+    "active_root_depth": Symbol("h_Nf", "mm", "", "active flank of the rack ends below"),
+}
+"""Of a pinion and a rack, beside those that they have in common with PAIR."""
+
+DRIVE = {
+    "rack_force": Symbol("F", "N", "", "force along the rack, without losses"),
+    "rack_speed": Symbol("v", "m/s", "", "speed of the rack"),
+}
+"""What a load comes to on a rack."""
 
 PER_GEAR = ("working_pitch_diameters", "active_root_diameters", "tip_clearances")
 """Keys of PAIR that pinion and wheel each have."""

@@ -151,9 +151,10 @@ def plan_study(spec: Path | str, variations: Sequence[str], sample: Sample | Non
 
 
 def _replaced(key: str, varied: Sequence[str]) -> bool:
-    """Whether a module gives way to a diametral pitch of its table that varies, or that to the module."""
+    """Whether a module gives way to a diametral pitch of its table that varies, or that to the module; teeth and length alike."""
     table, _, field = key.partition(".")
-    return field in MODULE_OR_PITCH and any(f"{table}.{other}" in varied for other in MODULE_OR_PITCH)
+    either = (MODULE_OR_PITCH, ("teeth", "length"))
+    return any(field in fields and any(f"{table}.{other}" in varied for other in fields) for fields in either)
 
 
 def write_study(study: Study, path: Path) -> None:

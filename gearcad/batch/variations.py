@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from gearcad.designs.cells import CellReader, Layout
 from gearcad.designs.design import DesignKind
-from gearcad.designs.keys import COUNTS, KEYS, TEXTS, Cell, explain_unknown_column
+from gearcad.designs.keys import COUNTS, KEYS, MAIN_TABLES, TEXTS, Cell, explain_unknown_column
 from gearcad.errors import ParameterError, format_number
 
 if TYPE_CHECKING:
@@ -22,6 +22,13 @@ __all__ = ["MOST_ROWS", "Choices", "Span", "read_variation"]
 
 MOST_ROWS = 1_000_000
 """Rows of the largest study: beyond it a number was mistyped, or one table is not the way."""
+
+_BESIDE = {
+    DesignKind.GEAR: ("material", "load"),
+    DesignKind.RACK: ("material",),
+    DesignKind.RACK_PAIR: ("material", "load", "rating"),
+}
+"""Tables beside those of the teeth whose keys may vary; a pair has all others."""
 
 _MOST_SHOWN = 6
 """Values of a wrong list that a message repeats."""
@@ -75,11 +82,12 @@ def read_variation(text: str, kind: DesignKind, *, sampled: bool) -> Choices | S
 
 def _full_key(text: str, name: str, kind: DesignKind) -> str:
     """The key with its table; one without belongs to [pair] or [gear]."""
-    main = kind.value
+    main = MAIN_TABLES[kind][0]
     table, _, field = (main, "", name) if name in KEYS[main] else name.partition(".")
     if field not in KEYS.get(table, ()):
         raise ParameterError("vary", text, explain_unknown_column(name, main))
-    permitted = [owner for owner in KEYS if owner in ("material", "load") or (owner == "gear") == (kind is DesignKind.GEAR)]
+    beside = _BESIDE.get(kind, tuple(owner for owner in KEYS if owner not in ("gear", "rack")))
+    permitted = [owner for owner in KEYS if owner in (*MAIN_TABLES[kind], *beside)]
     if table not in permitted:
         tables = ", ".join(f"[{owner}]" for owner in permitted)
         raise ParameterError("vary", text, f"the spec makes a {main}; permitted are keys of {tables}")

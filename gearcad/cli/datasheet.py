@@ -9,7 +9,7 @@ from gearcad import symbols
 from gearcad.designs.design import Design
 from gearcad.designs.keys import FIELDS
 from gearcad.errors import format_number
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.geometry.derived import is_given
 from gearcad.schema import symbols_of
 
@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 __all__ = ["print_datasheet"]
 
 _OF_GEAR = symbols_of(Gear) | symbols.GEAR
-_OF_PAIR = symbols_of(GearPair) | symbols.PAIR
+_OF_RACK = symbols_of(Rack) | symbols.RACK
+_OF_PAIR = symbols_of(GearPair) | symbols_of(RackPair) | symbols.PAIR | symbols.RACK_PAIR | symbols.DRIVE
+_OF_PAIR["tip_clearances.pinion"] = symbols.PAIR["tip_clearances"]._replace(words="tip clearance of the pinion")
 
 
 def _of_part(part: str) -> str:
@@ -44,11 +46,25 @@ _GEAR_BLOCKS = {
 _PLACED = {"name", *" ".join(_GEAR_BLOCKS.values()).split()}
 _GEAR_BLOCKS["Teeth"] += "".join(f" {key}" for key in _OF_GEAR if key not in _PLACED)
 
+_RACK_BLOCKS = {
+    "Rack": "teeth length normal_module normal_diametral_pitch helix_angle face_width height total_height tip_alteration tooth_thinning tip_chamfer",
+    "Basic rack": " ".join(key for key in _OF_RACK if key.startswith("rack.")),
+    "Transverse section": "transverse_module transverse_pressure_angle base_helix_angle normal_pitch transverse_pitch"
+    " transverse_base_pitch",
+    "Height of teeth": "tip_height tip_form_height form_depth root_depth",
+    "Tooth thickness": "normal_tooth_thickness transverse_tooth_thickness tip_thickness",
+    "Inspection": "pin_diameter over_pin",
+}
+
 _PAIR_BLOCKS = {
-    "Mesh": "gear_ratio centre_distance reference_centre_distance axial_offset working_transverse_pressure_angle"
-    " profile_shift_sum zero_backlash_shift_sum tip_alteration circumferential_backlash normal_backlash axial_force_ratio",
+    "Mesh": "gear_ratio centre_distance reference_centre_distance axial_offset mounting_distance back_distance"
+    " shifted_distance zero_backlash_distance pitch_line_height working_transverse_pressure_angle"
+    " profile_shift_sum zero_backlash_shift_sum tip_alteration circumferential_backlash normal_backlash axial_force_ratio"
+    " tip_clearances.pinion tip_clearances.rack",
+    "Motion": "travel_per_revolution travel_per_degree rack_force rack_speed",
     "Contact": "transverse_contact_ratio usable_contact_ratio overlap_ratio total_contact_ratio common_width.width"
-    " common_width.offset contact_line_lengths.minimum contact_line_lengths.mean contact_line_lengths.maximum",
+    " common_width.offset contact_line_lengths.minimum contact_line_lengths.mean contact_line_lengths.maximum"
+    " active_root_diameter active_root_depth",
     "Line of action, from T1": "path_of_contact.A path_of_contact.B path_of_contact.C path_of_contact.D path_of_contact.E",
     "Free of interference by (negative: it is there)": "interference_margins.involute interference_margins.pinion_fillet"
     " interference_margins.wheel_fillet interference_margins.trochoid interference_margins.radial",
@@ -68,6 +84,8 @@ _OF_SPUR_RINGS = {"span_measurement": "spur only", "between_pins": "spur only"}
 """What the sheet of a helical ring says of them."""
 
 _ABSENT = "-"
+
+_NOTHING = symbols.Symbol("", "", "", "")
 
 _WIDE = 96
 """Console width from which the column of sources fits."""
@@ -92,16 +110,19 @@ def print_datasheet(design: Design, console: Console) -> None:
 def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
     document = design.to_dict()
     gears = {name: _flat(document[name] | _in_use(gear)) for name, gear in design.gears.items()}
-    pair = _flat(document.get("pair", {}))
+    pair = _flat(document.get("pair", {})) | document.get("drive", {})
     yield _Line(f"{design.name}: {_title(design)}", "bold")
     yield _Line("lengths in mm, angles in degrees" + (", clauses of ISO 21771:2007" if with_source else ""), "dim")
     yield _Line("")
-    yield _Line(_columns(symbols.Symbol("", "", "", ""), gears, with_source=False), "bold")
-    for title, keys in _GEAR_BLOCKS.items():
+    if gears:
+        yield _Line(_columns(_NOTHING, gears, with_source=False), "bold")
+    for title, keys in _GEAR_BLOCKS.items() if gears else ():
         rows = [(_OF_GEAR[key], [_shown(values, key) for values in gears.values()]) for key in keys.split()]
         if title == "Diameters" and pair:
-            rows += [(_OF_PAIR[key], [_value(value) for value in pair[key]]) for key in symbols.PER_GEAR]
+            rows += [(_OF_PAIR[key], [_value(value) for value in pair[key]]) for key in symbols.PER_GEAR if key in pair]
         yield from _block(title, [row for row in rows if set(row[1]) != {_ABSENT}], with_source)
+    if isinstance(rack := design.described.get("rack"), Rack):
+        yield from _rack_lines(rack, with_source)
     for title, keys in _PAIR_BLOCKS.items() if pair else ():
         yield from _block(title, [(_OF_PAIR[key], [_value(pair[key])]) for key in keys.split() if key in pair], with_source)
     for block in ("material", "load", "mounting", "rating"):
@@ -117,9 +138,23 @@ def _in_use(gear: Gear) -> dict[str, Any]:
 
     Modifications that do something, a diametral pitch that was given, and that some gauges are for spur rings.
     """
-    pitch = gear.normal_diametral_pitch
-    shown = {"modification": gear.modification.in_use, "normal_diametral_pitch": pitch if is_given(pitch) else None}
+    shown = {"modification": gear.modification.in_use} | _given_pitch(gear)
     return shown | (_OF_SPUR_RINGS if gear.internal and gear.helix_angle else {})
+
+
+def _given_pitch(part: Gear | Rack) -> dict[str, Any]:
+    """The diametral pitch, if it was given."""
+    pitch = part.normal_diametral_pitch
+    return {"normal_diametral_pitch": pitch if is_given(pitch) else None}
+
+
+def _rack_lines(rack: Rack, with_source: bool) -> Iterator[_Line]:
+    """The blocks of a rack."""
+    values = _flat(rack.to_dict() | _given_pitch(rack))
+    yield _Line(_columns(_NOTHING, ["rack"], with_source=False), "bold")
+    for title, keys in _RACK_BLOCKS.items():
+        rows = [(_OF_RACK[key], [_value(values[key])]) for key in keys.split()]
+        yield from _block(title, [row for row in rows if row[1] != [_ABSENT]], with_source)
 
 
 def _block(title: str, rows: list[tuple[symbols.Symbol, list[str]]], with_source: bool) -> Iterator[_Line]:
@@ -147,6 +182,9 @@ def _warnings(design: Design) -> Iterator[_Line]:
 
 
 def _title(design: Design) -> str:
+    if isinstance(rack := design.described.get("rack"), Rack):
+        teeth = " / ".join(map(str, [*(gear.teeth for gear in design.gears.values()), rack.teeth]))
+        return f"{'helical' if rack.helix_angle else 'spur'} {'pinion and ' if design.gears else ''}rack, z = {teeth}"
     teeth = " / ".join(str(gear.teeth) for gear in design.gears.values())
     double = any(gear.double_helix.present for gear in design.gears.values())
     helical = any(gear.helix_angle for gear in design.gears.values())

@@ -9,6 +9,9 @@ if TYPE_CHECKING:
     from gearcad.designs.kinds.gear import GearDesign
     from gearcad.designs.kinds.geared import GearedDesign, Inputs
     from gearcad.designs.kinds.pair import PairDesign
+    from gearcad.designs.kinds.rack import RackDesign
+    from gearcad.designs.kinds.rack_pair import RackPairDesign
+    from gearcad.designs.kinds.toothed import ToothedDesign
     from gearcad.designs.kinds.train import TrainDesign
     from gearcad.designs.reader import design_from_tables, read_spec
     from gearcad.designs.table import Row, Table, open_table
@@ -20,8 +23,11 @@ __all__ = [
     "GearedDesign",
     "Inputs",
     "PairDesign",
+    "RackDesign",
+    "RackPairDesign",
     "Row",
     "Table",
+    "ToothedDesign",
     "TrainDesign",
     "design_from_tables",
     "open_table",
@@ -29,8 +35,7 @@ __all__ = [
 ]
 
 if not TYPE_CHECKING:
+    _KINDS = ("toothed", "geared", "gear", "pair", "rack", "rack_pair", "train")
     from gearcad.lazy import lazily
 
-    __getattr__ = lazily(
-        __name__, __all__, ("design", "kinds.geared", "kinds.gear", "kinds.pair", "reader", "table", "kinds.train")
-    )
+    __getattr__ = lazily(__name__, __all__, ("design", *(f"kinds.{home}" for home in _KINDS), "reader", "table"))

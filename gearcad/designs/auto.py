@@ -13,7 +13,7 @@ from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.internal_mating import tip_on_form_circle
 from gearcad.per_gear import PerGear, Role, naming
 
-__all__ = ["AUTO", "CLEAR", "clear_tip_alteration", "make_gears", "resolve_profile_shifts", "resolve_tip_alterations"]
+__all__ = ["AUTO", "CLEAR", "clear_tip_alteration", "make_gears", "module_of", "resolve_profile_shifts", "resolve_tip_alterations"]
 
 AUTO = "auto"
 
@@ -79,7 +79,7 @@ def clear_tip_alteration(gears: PerGear[GearInputs], centre_distance: float | No
     """
     with naming(Role.PINION):
         pinion = Gear(**gears.pinion)
-    ring = GearData(**{**gears.wheel, "normal_module": _module(gears.wheel), "tip_alteration": 0.0})
+    ring = GearData(**{**gears.wheel, "normal_module": module_of(gears.wheel), "tip_alteration": 0.0})
     if centre_distance is None:
         shift_sum = sum(gears.map(lambda gear: gear["profile_shift"]))
         try:
@@ -138,14 +138,14 @@ def _led_back(
 def _sizes(gears: PerGear[GearInputs]) -> dict[str, Any]:
     """What the formulas of profile shift and centre distance want to know of both gears, as GearPair has it."""
     return {
-        "normal_module": _module(gears.pinion),
+        "normal_module": module_of(gears.pinion),
         "teeth": gears.map(lambda gear: gear["teeth"]),
         "helix_angle": gears.pinion.get("helix_angle", 0.0),
         "pressure_angle": gears.pinion["rack"].pressure_angle,
     }
 
 
-def _module(gear: GearInputs) -> float:
+def module_of(gear: GearInputs) -> float:
     """The normal module, given itself or as a diametral pitch."""
     module: float | None = gear.get("normal_module")
     return module_of_pitch(gear["normal_diametral_pitch"]) if module is None else module
@@ -153,7 +153,7 @@ def _module(gear: GearInputs) -> float:
 
 def _mate(gears: PerGear[GearInputs]) -> bool:
     """Whether both have one module and one pressure angle."""
-    pinion, wheel = gears.map(lambda gear: (_module(gear), gear["rack"].pressure_angle))
+    pinion, wheel = gears.map(lambda gear: (module_of(gear), gear["rack"].pressure_angle))
     return all(abs(one - other) <= _SAME for one, other in zip(pinion, wheel, strict=True))
 
 
@@ -183,7 +183,7 @@ def _shared(total: float, gears: PerGear[GearInputs], centre_distance: float, sp
 
     def addendum(role: Role) -> float:
         gear = gears.pick(role)
-        return float(gear["rack"].addendum + altered.pick(role) - gear["body"].tip_chamfer / _module(gear))
+        return float(gear["rack"].addendum + altered.pick(role) - gear["body"].tip_chamfer / module_of(gear))
 
     addenda = PerGear.each(addendum)
     return split_profile_shift(total, split, **_sizes(gears), centre_distance=centre_distance, addenda=addenda)

@@ -6,16 +6,16 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, ClassVar, Self, TypeVar
+from typing import Any, ClassVar, Protocol, Self, TypeVar
 
 from gearcad.designs.files import Where
 from gearcad.errors import ParameterError
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear
 from gearcad.notice import Notice, texts
 from gearcad.reprs import concise
 from gearcad.version import __version__
 
-__all__ = ["LONGEST_NAME", "LONGEST_NAME_IN_BYTES", "Design", "DesignKind", "not_accepted", "require_plain_name"]
+__all__ = ["LONGEST_NAME", "LONGEST_NAME_IN_BYTES", "Described", "Design", "DesignKind", "not_accepted", "require_plain_name"]
 
 LONGEST_NAME = 100
 """Most characters of a design's name: it becomes a folder, and file systems stop at 255 bytes."""
@@ -29,11 +29,23 @@ Accepted = TypeVar("Accepted", bound="Design")
 
 
 class DesignKind(Enum):
-    """What a spec makes; the value names its main table and its module in `kinds`."""
+    """What a spec makes; the value names its module in `kinds`, and its main table: of a pinion and a rack that is [pair]."""
 
     GEAR = "gear"
     PAIR = "pair"
+    RACK = "rack"
+    RACK_PAIR = "rack_pair"
     TRAIN = "train"
+
+
+class Described(Protocol):
+    """What has derived properties and warnings of its own: a gear, a rack, or a pair of them."""
+
+    @property
+    def notices(self) -> tuple[Notice, ...]: ...
+
+    def to_dict(self) -> dict[str, Any]:
+        """Inputs and derived properties under their field names."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +77,7 @@ class Design(ABC):
         return {}
 
     @property
-    def described(self) -> Mapping[str, Gear | GearPair]:
+    def described(self) -> Mapping[str, Described]:
         """What has derived properties and warnings of its own, under its name in `data.json`."""
         return self.gears
 
@@ -93,7 +105,7 @@ class Design(ABC):
 
 def not_accepted(kind: type[Design], accepted: Iterable[type[Design]], why: str) -> ParameterError:
     """The error for a kind of design that is none of the accepted ones; `why` is said of those that know no better."""
-    permitted = " or ".join(f"a {each.kind.value}" for each in accepted)
+    permitted = " or ".join(f"a {each.kind.value.replace('_', ' ')}" for each in accepted)
     return ParameterError("kind", kind.kind.value, f"must be {permitted}: {kind.elsewhere or why}")
 
 

@@ -23,9 +23,16 @@ def column_letter(index: int) -> str:
 
 
 def kinds_of(keys: Iterable[str]) -> set[DesignKind]:
-    """What full keys can make; none of [material] and [load] makes anything."""
+    """What full keys can make; none of [material] and [load] makes anything. A pinion may have a wheel or a rack."""
     owners = {key.partition(".")[0] for key in keys}
-    return {kind for kind, tables in MAIN_TABLES.items() if owners.intersection(tables)}
+    paired = bool(owners & {"pair", "pinion"})
+    makes = {
+        DesignKind.GEAR: "gear" in owners,
+        DesignKind.PAIR: "wheel" in owners or (paired and "rack" not in owners),
+        DesignKind.RACK: "rack" in owners and not paired,
+        DesignKind.RACK_PAIR: "rack" in owners and paired,
+    }
+    return {kind for kind, made in makes.items() if made}
 
 
 def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
@@ -37,7 +44,8 @@ def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
     headings = [plain_text(cell) for cell in cells]
     while headings and not headings[-1]:
         headings.pop()
-    kinds = kinds_of(nearest_table(heading.partition(".")[0]) or "" for heading in headings if "." in heading)
+    dotted = (heading for heading in headings if "." in heading and heading not in COLUMNS["gear"])
+    kinds = kinds_of(nearest_table(heading.partition(".")[0]) or "" for heading in dotted)
     places: dict[str, int] = {}
     columns, faults = [], []
     for index, heading in enumerate(headings):
@@ -60,16 +68,18 @@ def _key_of(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
     """The full key of a heading, and what is wrong with it."""
     if heading == "name":
         return heading, ""
-    if heading in ("pair.name", "gear.name"):
+    if heading in ("pair.name", "gear.name", "rack.name"):
         return "", "is the name of the design; write name"
     table, _, field = heading.partition(".")
     if table in COLUMNS and field in COLUMNS[table]:
         return heading, ""
-    if len(kinds) == 2 and heading in COLUMNS["gear"]:
-        homes = ("gear", "pair") if heading in COLUMNS["pair"] else ("gear", "pinion", "wheel")
+    mains = dict.fromkeys(MAIN_TABLES[kind][0] for kind in MAIN_TABLES if kind in kinds)
+    if len(mains) > 1 and heading in COLUMNS["gear"]:
+        homes = tuple(mains) if heading in COLUMNS["pair"] else (*(main for main in mains if main != "pair"), "pinion", "wheel")
         written = " or ".join(f"{owner}.{heading}" for owner in homes)
-        return "", f"could be of a gear or of a pair, and this table has both; write {written}"
-    main = "pair" if DesignKind.PAIR in kinds else "gear"
-    if heading in COLUMNS[main] and len(kinds) < 2:
+        owners = " or of a ".join(mains)
+        return "", f"could be of a {owners}, and this table has both; write {written}"
+    main = "pair" if "pair" in mains else next(iter(mains), "gear")
+    if heading in COLUMNS[main] and len(mains) < 2:
         return f"{main}.{heading}", ""
     return "", explain_unknown_column(heading, main)

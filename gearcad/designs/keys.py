@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 from gearcad.check.options import CheckOptions
 from gearcad.designs.design import DesignKind
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.geometry import Gear, GearPair, ShiftSplit
+from gearcad.geometry import Gear, GearPair, Rack, RackPair, ShiftSplit
 from gearcad.geometry.diametral import MODULE_OR_PITCH
 from gearcad.load import Load
 from gearcad.material import Material
@@ -47,8 +47,13 @@ Cell = int | float | str | tuple[float, ...]
 PARTS = {name: field.part for name, field in schema_of(Gear).items() if field.part is not None}
 """Fields of a gear that have fields of their own, and their types."""
 
-MAIN_TABLES = {DesignKind.GEAR: ("gear",), DesignKind.PAIR: ("pair", *(role.value for role in Role))}
-"""The tables without which a spec makes no gear, and no pair."""
+MAIN_TABLES = {
+    DesignKind.GEAR: ("gear",),
+    DesignKind.PAIR: ("pair", *(role.value for role in Role)),
+    DesignKind.RACK: ("rack",),
+    DesignKind.RACK_PAIR: ("pair", "pinion", "rack"),
+}
+"""The tables without which a spec makes no gear, no rack, and no pair of them; the first one is what bare keys are of."""
 
 BESIDE: dict[str, type[DataclassInstance]] = {
     "material": Material,
@@ -89,6 +94,7 @@ def _flat(kind: type[DataclassInstance]) -> Iterator[tuple[str, FieldSchema]]:
 _OF_SPECS = schema_of(_OfSpecs)
 _GEAR = dict(_flat(Gear))
 _PAIR = schema_of(GearPair)
+_RACK = dict(_flat(Rack))
 
 _PLAIN_SHARED = (*MODULE_OR_PITCH, "helix_angle", "face_width", "tip_alteration", "tooth_thinning")
 _OF_ONE = ("cutter",)
@@ -98,10 +104,12 @@ SHARED = (*_PLAIN_SHARED, *(key for key in _GEAR if (part := key.partition(".")[
 FIELDS: dict[str, dict[str, FieldSchema]] = {
     "gear": _GEAR,
     "pair": {key: _PAIR[key] for key in ("name", "centre_distance", "axial_offset")}
+    | {"mounting_distance": schema_of(RackPair)["mounting_distance"]}
     | {"profile_shift_split": _OF_SPECS["profile_shift_split"]}
     | {key: _GEAR[key] for key in SHARED},
     "pinion": _GEAR,
     "wheel": _GEAR,
+    "rack": _RACK,
     **{table: dict(_flat(kind)) for table, kind in BESIDE.items()},
 }
 """What each key of each table says of itself, the keys flattened with dots."""
@@ -122,10 +130,12 @@ _MOVED = {
 }
 """Where keys of earlier specs went."""
 
-_NO_COLUMN = (("gear", "name"), ("pair", "name"))
+_NO_COLUMN = (("gear", "name"), ("pair", "name"), ("rack", "name"))
 
 COLUMNS = {table: tuple(field for field in fields if (table, field) not in _NO_COLUMN) for table, fields in KEYS.items()}
 """The same for the columns of a design table, where the design's own name has a column `name`."""
+
+_USUAL = tuple(table for table in COLUMNS if table not in ("gear", "rack"))
 
 
 def explain_unknown_table(table: str) -> str:
@@ -139,7 +149,9 @@ def explain_unknown_key(table: str, key: str) -> str:
     """The end of the message about a key that `table` does not have: where it belongs, or the nearest one."""
     if (moved := _MOVED.get(f"{table}.{key}")) is not None:
         return f"is no key any more: {moved}"
-    homes = [f"[{name}]" for name, keys in KEYS.items() if key in keys and name != "gear"]
+    homes = [f"[{name}]" for name, keys in KEYS.items() if key in keys and name not in ("gear", "rack")]
+    if not homes and key in KEYS["rack"]:
+        homes = ["[rack]"]
     if homes and table != "gear":
         return f"unknown key here; it belongs in {' or '.join(homes)}"
     known = KEYS[table]
@@ -175,13 +187,13 @@ def explain_unknown_column(heading: str, main: str) -> str:
     first, dot, rest = heading.partition(".")
     table = nearest_table(first) if dot else None
     owner, field = (table, rest) if table else (main, heading)
-    # A pair has no [gear]; a table with nothing but bare keys may have been meant for pairs.
-    owners = [owner, *(name for name in COLUMNS if name != owner and (name != "gear" or main == "gear"))]
+    # A pair has no [gear], and few have a [rack]; a table with nothing but bare keys may have been meant for pairs.
+    owners = [owner, *(name for name in COLUMNS if name != owner and name in (main, *_USUAL))]
     for meant in (field, *(_nearest(field, name, COLUMNS[name]) for name in owners)):
         if homes := [f"{name}.{meant}" for name in owners if meant in COLUMNS[name]]:
             found = homes[:1] if homes[0].startswith(f"{owner}.") else homes
             return f"unknown column; did you mean {' or '.join(found)}?"
     if table:
         return f"unknown column; permitted behind {table}. are {', '.join(COLUMNS[table])}"
-    examples = "gear.teeth" if main == "gear" else "pair.normal_module, pinion.teeth"
+    examples = f"{main}.teeth" if main != "pair" else "pair.normal_module, pinion.teeth"
     return f"unknown column; must be name, or a key of a spec with its table, such as {examples} or load.torque"

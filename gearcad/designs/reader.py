@@ -1,6 +1,7 @@
 """Spec files: TOML in, a Design out. The keys are the field names of the inputs; README.md and the templates show them.
 
-The main table decides the kind: `[gear]`, `[pair]` with `[pinion]` and `[wheel]`, or `[train]`. Whatever is not understood is
+The main table decides the kind: `[gear]`, `[pair]` with `[pinion]` and `[wheel]`, `[rack]`, which may have a `[pinion]` in its
+`[pair]`, or `[train]`. Whatever is not understood is
 refused, so nothing is silently ignored.
 """
 
@@ -12,11 +13,11 @@ from typing import Any
 
 from gearcad.designs.design import Design, DesignKind, not_accepted
 from gearcad.designs.files import Where, read_tables
-from gearcad.designs.keys import LISTS, Cell
+from gearcad.designs.keys import LISTS, MAIN_TABLES, Cell
 from gearcad.designs.kinds import type_of
 from gearcad.designs.kinds.gear import GearDesign
-from gearcad.designs.kinds.geared import GearedDesign
 from gearcad.designs.kinds.pair import PairDesign
+from gearcad.designs.kinds.toothed import ToothedDesign
 from gearcad.errors import SpecError, format_number
 
 __all__ = ["design_from_tables", "read_spec", "spec_values"]
@@ -47,11 +48,11 @@ def spec_values(path: Path | str) -> tuple[DesignKind, str, dict[str, Cell]]:
     """
     tables, where = read_tables(path)
     made = type_of(_kind(tables))
-    if not issubclass(made, GearedDesign):
+    if not issubclass(made, ToothedDesign):
         raise not_accepted(made, (GearDesign, PairDesign), "no table holds another")
-    spec = made.spec(tables, where)
-    name = spec.name(made.kind.value, Path(path).stem)
-    values = {key: given.value for key, given in spec.values.items() if key != f"{made.kind.value}.name"}
+    spec, main = made.spec(tables, where), MAIN_TABLES[made.kind][0]
+    name = spec.name(main, Path(path).stem)
+    values = {key: given.value for key, given in spec.values.items() if key != f"{main}.name"}
     for key, value in values.items():
         if key in LISTS and isinstance(value, list) and all(type(item) in (int, float) for item in value):
             values[key] = tuple(float(item) for item in value)
@@ -62,4 +63,7 @@ def spec_values(path: Path | str) -> tuple[DesignKind, str, dict[str, Cell]]:
 
 def _kind(tables: Mapping[str, Any]) -> DesignKind:
     """By the main table; the larger kind says what cannot stand beside its tables, and a pair what nothing lacks."""
+    if "rack" in tables and "train" not in tables:
+        paired = any(table in tables for table in MAIN_TABLES[DesignKind.PAIR])
+        return DesignKind.RACK_PAIR if paired else DesignKind.RACK
     return next((kind for kind in reversed(DesignKind) if kind.value in tables), DesignKind.PAIR)

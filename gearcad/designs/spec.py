@@ -20,7 +20,7 @@ from gearcad.per_gear import Role
 
 __all__ = ["Given", "Spec"]
 
-_DERIVED = ("normal_module", "tip_diameter", "root_diameter", "centre_distance")
+_DERIVED = ("normal_module", "tip_diameter", "root_diameter", "centre_distance", "mounting_distance")
 _ROLES = tuple(role.value for role in Role)
 
 Simple = TypeVar("Simple")
@@ -67,10 +67,10 @@ class Spec:
 
     def _explained(self, error: InputError, owner: str) -> SpecError:
         field = error.parameter
-        if field.partition(".")[0] in _ROLES:
+        if (first := field.partition(".")[0]) in _ROLES or (first == "rack" and owner == "pair"):
             owner, _, field = field.partition(".")
         # The profile knows the chamfer, not whose it is.
-        field = "body.tip_chamfer" if field == "tip_chamfer" else field
+        field = "body.tip_chamfer" if field == "tip_chamfer" and owner != "rack" else field
         permitted = error.permitted
         if owner in _ROLES and field in ("profile_shift", "tip_alteration") and isinstance(error, ParameterError):
             permitted += f', or "{AUTO}"' + (
@@ -78,7 +78,7 @@ class Spec:
             )
         given = self.values.get(f"{owner}.{field}")
         if given is None and error.value is None:
-            shared = " (here or in [pair])" if owner in _ROLES and field in SHARED else ""
+            shared = " (here or in [pair])" if self._in_pair(owner) and field in SHARED else ""
             key = f"{owner}.{field}"
             return SpecError(f"{self.where(key)}: {key} is missing: {permitted}{shared}", key)
         if given is None:
@@ -88,6 +88,10 @@ class Spec:
         cause = self._automatic_cause(owner, field)
         text = f"{self.where(given.key)}: {given.key} = {format_number(error.value)}{unit}{note}: {permitted}{cause}"
         return SpecError(text, given.key)
+
+    def _in_pair(self, owner: str) -> bool:
+        """Whether a table's values may stand in [pair] too."""
+        return owner in _ROLES or (owner == "rack" and any(f"{role}.teeth" in self.values for role in _ROLES))
 
     def _automatic_cause(self, owner: str, field: str) -> str:
         """A reminder that the profile shift of the gear at fault was derived, and from what."""
@@ -125,8 +129,16 @@ class Spec:
 
     def gear_inputs(self, owner: str) -> dict[str, Any]:
         """Keyword arguments of Gear; "auto" not yet resolved, what is missing as None for Gear to complain about."""
+        return self._inputs_of(owner, PARTS)
+
+    def rack_inputs(self, owner: str) -> dict[str, Any]:
+        """Keyword arguments of Rack; what is missing as None."""
+        return self._inputs_of(owner, {"rack": BasicRack})
+
+    def _inputs_of(self, owner: str, kinds: Mapping[str, type[Any]]) -> dict[str, Any]:
+        """Keyword arguments of what has parts of these kinds."""
         given = self.fields_of(owner)
-        parts: dict[str, dict[str, Any]] = {part: {} for part in PARTS}
+        parts: dict[str, dict[str, Any]] = {part: {} for part in kinds}
         inputs = _missing(owner)
         for key, value in given.items():
             part, _, field = key.partition(".")
@@ -138,7 +150,7 @@ class Spec:
             rack = _named_rack(given["rack"])
             with _within("rack"):
                 inputs["rack"] = replace(rack, **parts["rack"])
-        for part, kind in PARTS.items():
+        for part, kind in kinds.items():
             if part not in inputs:
                 with _within(part):
                     inputs[part] = kind(**parts[part])

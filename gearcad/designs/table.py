@@ -5,7 +5,7 @@ A table is read row by row, so that its length does not matter; every fault name
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -99,22 +99,26 @@ class Row:
     def _kind(self) -> DesignKind:
         """What the table makes; in one of gears and pairs, what the row has values for. Raises SpecError."""
         kinds = kinds_of(self.columns)
-        if len(kinds) == 2:
+        if len(kinds) > 1:
             filled = (*self.values, *self.unread)
             kinds = kinds_of(filled)
-            if len(kinds) == 2:
-                key = next(key for key in filled if kinds_of([key]) == {DesignKind.PAIR})
-                raise SpecError(
-                    f"{self.where(key)}: {key}: cannot stand beside keys of gear: a row makes a gear or a pair", key
-                )
+            if len(kinds) > 1:
+                raise self._of_two_kinds(filled, kinds)
             if not kinds:
                 raise SpecError(f"{self.where('')}: makes nothing: every cell of gear, pair, pinion and wheel is blank")
-        return DesignKind.PAIR if DesignKind.PAIR in kinds else DesignKind.GEAR
+        return next(iter(kinds), DesignKind.GEAR)
+
+    def _of_two_kinds(self, filled: Sequence[str], kinds: Collection[DesignKind]) -> SpecError:
+        """The fault of a row whose values are of several kinds."""
+        other = "gear" if DesignKind.GEAR in kinds else "wheel" if DesignKind.PAIR in kinds else "pair"
+        key = next(key for key in filled if not kinds_of([key]) & kinds_of([f"{other}."]))
+        made = "a gear or a pair" if other == "gear" else "one with a wheel or with a rack"
+        return SpecError(f"{self.where(key)}: {key}: cannot stand beside keys of {other}: a row makes {made}", key)
 
     def _index(self, key: str) -> int:
         """Place from 0 of the column with the key, else with what both gears share; or -1."""
         owner, _, field = key.partition(".")
-        homes = (key, f"pair.{field}") if owner in ("pinion", "wheel") else (key,)
+        homes = (key, f"pair.{field}") if owner in ("pinion", "wheel", "rack") else (key,)
         return next((self.columns.index(home) for home in homes if home and home in self.columns), -1)
 
 

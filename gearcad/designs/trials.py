@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import lru_cache
 
 from gearcad.designs.design import DesignKind
-from gearcad.designs.keys import MAIN_TABLES, SHARED, Cell
+from gearcad.designs.keys import FIELDS, MAIN_TABLES, SHARED, Cell
 from gearcad.designs.reader import design_from_tables
 from gearcad.errors import GeometryError, SpecError
 from gearcad.geometry.diametral import MODULE_OR_PITCH
@@ -15,13 +15,13 @@ __all__ = ["fault_alone", "missing_faults", "nested", "permitted_alone"]
 
 Where = Callable[[str], str]
 
-_REQUIRED: dict[str, Cell] = {"teeth": 20, "normal_module": 2.0, "face_width": 20.0}
-"""What a gear cannot do without, and values that fit each other."""
+_REQUIRED: dict[str, Cell] = {"teeth": 20, "normal_module": 2.0, "face_width": 20.0, "height": 20.0}
+"""What a gear or a rack cannot do without, as far as they have it, and values that fit each other."""
 
-_GEARS = {kind: tuple(table for table in tables if table != "pair") for kind, tables in MAIN_TABLES.items()}
+_TOOTHED = {kind: tuple(table for table in tables if table != "pair") for kind, tables in MAIN_TABLES.items()}
 _SOUND = {
-    kind: {f"{owner}.{field}": value for owner in owners for field, value in _REQUIRED.items()}
-    for kind, owners in _GEARS.items()
+    kind: {f"{owner}.{field}": value for field, value in _REQUIRED.items() for owner in owners if field in FIELDS[owner]}
+    for kind, owners in _TOOTHED.items()
 }
 
 _RINGS: dict[str, dict[str, Cell]] = {
@@ -42,7 +42,7 @@ def nested(values: Mapping[str, Cell], kind: DesignKind) -> dict[str, dict[str, 
 def fault_alone(key: str, value: Cell, where: Where) -> SpecError | None:
     """What is wrong with a value whatever the others are; `where` locates a key for the message."""
     owner, _, field = key.partition(".")
-    kind = DesignKind.PAIR if owner in MAIN_TABLES[DesignKind.PAIR] else DesignKind.GEAR
+    kind = _home(key)
     others = _SOUND[kind] | ({"load.torque": 1.0} if owner == "load" else {})
     if owner == "pair":
         # What the gears have of their own would win.
@@ -56,6 +56,16 @@ def fault_alone(key: str, value: Cell, where: Where) -> SpecError | None:
     return error
 
 
+def _home(key: str) -> DesignKind:
+    """The kind of design among whose sound values a key is tried."""
+    owner = key.partition(".")[0]
+    if owner == "rack":
+        return DesignKind.RACK
+    if key == "pair.mounting_distance":
+        return DesignKind.RACK_PAIR
+    return DesignKind.PAIR if owner in MAIN_TABLES[DesignKind.PAIR] else DesignKind.GEAR
+
+
 @lru_cache(maxsize=4096, typed=True)
 def permitted_alone(key: str, value: Cell) -> bool:
     """True if a value is not wrong by itself. The rows of a table share many of theirs."""
@@ -65,8 +75,8 @@ def permitted_alone(key: str, value: Cell) -> bool:
 def missing_faults(given: Collection[str], kind: DesignKind, where: Where) -> Iterator[SpecError]:
     """The faults of values that are not among the keys `given`; what both gears may share is missed once."""
     for field in _REQUIRED:
-        fields = MODULE_OR_PITCH if field in MODULE_OR_PITCH else (field,)
-        for owner in _GEARS[kind]:
+        fields = MODULE_OR_PITCH if field in MODULE_OR_PITCH else ("teeth", "length") if field == "teeth" else (field,)
+        for owner in (each for each in _TOOTHED[kind] if f"{each}.{field}" in _SOUND[kind]):
             if not any(f"{table}.{each}" in given for each in fields for table in (owner, "pair")):
                 yield from _fault_without(f"{owner}.{field}", _SOUND[kind], kind, where)
                 if field in SHARED:

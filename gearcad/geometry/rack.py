@@ -9,10 +9,11 @@ from typing import Any
 
 from gearcad.errors import GeometryError
 from gearcad.geometry.derived import derive, derive_count
+from gearcad.geometry.diametral import derive_module
 from gearcad.geometry.gear import THIN_TIP
 from gearcad.geometry.profile import LEAST_LAND
 from gearcad.geometry.rack_data import RackData
-from gearcad.geometry.rack_feasibility import check_rack_length, check_rack_numbers, check_rack_teeth
+from gearcad.geometry.rack_feasibility import check_rack_fields, check_rack_length, check_rack_numbers, check_rack_teeth
 from gearcad.geometry.rack_inspection import RackInspection
 from gearcad.geometry.rack_profile import RackProfile
 from gearcad.notice import Notice, texts
@@ -46,6 +47,8 @@ class Rack(RackData):
     __repr__ = concise
 
     def __post_init__(self) -> None:
+        check_rack_fields(self)
+        derive_module(self)
         check_rack_numbers(self)
         derive(self, "length", (self.teeth or 0) * self.transverse_pitch)
         check_rack_length(self)

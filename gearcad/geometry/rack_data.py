@@ -9,6 +9,7 @@ from typing import Annotated
 
 from gearcad.geometry.basic_rack import ISO53_A, BasicRack
 from gearcad.geometry.derived import NOT_GIVEN
+from gearcad.geometry.diametral import NormalDiametralPitch, NormalModule
 from gearcad.ranges import Range, Whole
 from gearcad.schema import Words
 
@@ -28,7 +29,8 @@ class RackData:
     name: Annotated[str, Words("name")] = "rack"
     teeth: Annotated[int | None, Whole(1, 2000), Words("number of teeth (whole pitches)", "z")] = None
     length: Annotated[float, _LENGTH, Words("length", "L")] = NOT_GIVEN
-    normal_module: Annotated[float, Range("mm", 0.01, 200), Words("normal module", "m_n", "4.2")]
+    normal_module: NormalModule = NOT_GIVEN
+    normal_diametral_pitch: NormalDiametralPitch = NOT_GIVEN
     helix_angle: Annotated[float, Range("deg", -75, 75), Words("helix angle (right hand +)", "β", "4.2")] = 0.0
     face_width: Annotated[float, Range("mm", 0, 10000, ends="(]"), Words("face width", "b", "4.1")]
     height: Annotated[float, Range("mm", 0, 10000, ends="(]"), Words("height, back to reference line", "H_0")]

@@ -18,16 +18,20 @@ from gearcad.geometry.rack_data import RackData
 from gearcad.geometry.walls import LEAST_RIM
 from gearcad.schema import require_fields
 
-__all__ = ["check_rack_length", "check_rack_numbers", "check_rack_teeth"]
+__all__ = ["check_rack_fields", "check_rack_length", "check_rack_numbers", "check_rack_teeth"]
 
 MOST_PITCHES = 2000
 """As many as a rack may have teeth."""
 
 
-def check_rack_numbers(rack: RackData) -> None:
-    """Each number by itself, and either teeth or a length."""
+def check_rack_fields(rack: RackData) -> None:
+    """Each field by itself."""
     require_name("name", rack.name)
     require_fields(rack)
+
+
+def check_rack_numbers(rack: RackData) -> None:
+    """Numbers as the module is known, and either teeth or a length."""
     if 0 < abs(rack.helix_angle) < LEAST_HELIX:
         raise ParameterError("helix_angle", rack.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
     if not isinstance(rack.rack, BasicRack):

@@ -30,7 +30,7 @@ FELT = 1e-7
 _DERIVED = (
     "back_distance shifted_distance zero_backlash_distance working_transverse_pressure_angle pitch_line_height "
     "travel_per_revolution travel_per_degree tip_alteration transverse_contact_ratio usable_contact_ratio overlap_ratio "
-    "total_contact_ratio circumferential_backlash normal_backlash active_root_diameter active_root_depth common_width"
+    "total_contact_ratio circumferential_backlash normal_backlash active_root_diameter active_root_depth"
 ).split()
 """What a document has beside what was given."""
 
@@ -186,6 +186,7 @@ class RackPair(RackPairData):
         return {
             "mounting_distance": self.mounting_distance,
             **{name: getattr(self, name) for name in _DERIVED},
+            "common_width": {"width": self.common_width},
             "tip_clearances": self.tip_clearances._asdict(),
             "path_of_contact": self.path_of_contact._asdict(),
             "contact_line_lengths": self.contact_line_lengths._asdict(),

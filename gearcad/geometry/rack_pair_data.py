@@ -34,7 +34,7 @@ class RackPairData:
 
     pinion: Gear
     rack: Rack
-    mounting_distance: Annotated[float, _DISTANCE, Words("mounting distance, axis to reference line", "H")] = NOT_GIVEN
+    mounting_distance: Annotated[float, _DISTANCE, Words("mounting distance to reference line", "H")] = NOT_GIVEN
     name: Annotated[str, Words("name")] = "pair"
 
     @property

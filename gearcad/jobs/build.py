@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from gearcad.designs import Design, GearDesign, GearedDesign, PairDesign
+from gearcad.designs import Design, GearDesign, PairDesign, RackDesign, RackPairDesign, ToothedDesign
 from gearcad.errors import GeometryError, ParameterError, as_choice
-from gearcad.geometry import Gear, GearPair
 from gearcad.jobs.data import Data
 from gearcad.jobs.job import Job, Writer
-from gearcad.jobs.subject import as_design
+from gearcad.jobs.subject import Subject, as_design
 from gearcad.notice import Notice
 from gearcad.progress import Progress
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.files.formats import formats_minding
 from gearcad.solids.files.products import GearProduct, PairProduct
+from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
 from gearcad.version import __version__
 
 __all__ = ["Build", "build"]
+
+PartProduct = GearProduct | RackProduct
 
 _DEFAULT = (Format.STEP, Format.STL)
 
@@ -30,15 +32,15 @@ _WHERE = {"bracket": "the bracket is part of assembly.step", "circles": "the cir
 
 
 @dataclass(frozen=True, kw_only=True)
-class Build(Job[GearedDesign, GearedDesign]):
+class Build(Job[ToothedDesign, ToothedDesign]):
     """The files of a design in some formats. Its result is the design itself: solids are made as they are written.
 
-    Per gear `pinion.step`, `wheel.step` or `gear.step` and so on; a pair also gets `assembly.*`, posed in mesh, in the formats
-    that have assemblies. Raises ParameterError without a format.
+    Per part `pinion.step`, `wheel.step`, `rack.step` or `gear.step` and so on; a pair also gets `assembly.*`, posed in mesh, in
+    the formats that have assemblies. Raises ParameterError without a format.
     """
 
     verb = "build"
-    accepts = (GearDesign, PairDesign)
+    accepts = (GearDesign, PairDesign, RackDesign, RackPairDesign)
     why = "there are no teeth"
     solves = False
 
@@ -50,31 +52,31 @@ class Build(Job[GearedDesign, GearedDesign]):
         if not self.formats:
             raise ParameterError("format", "", f"must be one or more of {', '.join(kind.value for kind in Format)}")
 
-    def _run(self, design: GearedDesign, _progress: Progress | None) -> GearedDesign:
-        if self.options.bracket and design.assembly is None:
-            raise GeometryError("bracket", True, "needs a pair: a single gear has no assembly")
+    def _run(self, design: ToothedDesign, _progress: Progress | None) -> ToothedDesign:
+        if self.options.bracket and not isinstance(design, PairDesign):
+            alone = "a single gear has no assembly" if design.assembly is None else "it stands on the shafts of both"
+            raise GeometryError("bracket", True, f"needs a pair of gears: {alone}")
         for option, where in _WHERE.items():
             needed = formats_minding(option)
             if getattr(self.options, option) and not set(self.formats).intersection(needed):
                 raise GeometryError(option, True, f"needs the format {' or '.join(kind.value for kind in needed)}: {where}")
         return design
 
-    def document(self, result: GearedDesign) -> dict[str, Any]:
+    def document(self, result: ToothedDesign) -> dict[str, Any]:
         """Whose files these are; `--json` tells of them."""
         return {"kind": "build", "name": result.name, "gearcad": __version__}
 
-    def notices(self, result: GearedDesign) -> Sequence[Notice]:
+    def notices(self, result: ToothedDesign) -> Sequence[Notice]:
         return result.notices
 
-    def files(self, result: GearedDesign) -> dict[str, Writer]:
+    def files(self, result: ToothedDesign) -> dict[str, Writer]:
         """Every file of the design, quickest first."""
         found = Data().files(result)
-        pair = PairProduct(result.assembly, self.options) if result.assembly is not None else None
-        gears = _products(result, pair, self.options)
+        parts, pair = _products(result, self.options)
         for kind in reversed(Format):
             if kind not in self.formats:
                 continue
-            found |= {f"{name}.{kind.value}": partial(kind.entry.write, product) for name, product in gears.items()}
+            found |= {f"{name}.{kind.value}": partial(kind.entry.write, product) for name, product in parts.items()}
             if pair is not None and kind.entry.write_pair is not None:
                 found[f"assembly.{kind.value}"] = partial(kind.entry.write_pair, pair)
         return found
@@ -104,15 +106,23 @@ def _formats(given: object) -> tuple[Format, ...]:
     return tuple(as_choice("format", each, Format) for each in given)
 
 
-def _products(design: GearedDesign, pair: PairProduct | None, options: FileOptions) -> dict[str, GearProduct]:
-    """The gears as files hold them, by the names of these files."""
-    if pair is not None:
-        return {role.value: product for role, product in pair.gears.items()}
-    return {name: GearProduct(gear=gear, name=design.name, options=options) for name, gear in design.gears.items()}
+def _products(
+    design: ToothedDesign, options: FileOptions
+) -> tuple[Mapping[str, PartProduct], PairProduct | RackPairProduct | None]:
+    """Gears and racks as files hold them, by the names of these files, and what they are in mesh."""
+    if isinstance(design, PairDesign):
+        pair = PairProduct(design.pair, options)
+        return pair.parts, pair
+    if isinstance(design, RackPairDesign):
+        with_rack = RackPairProduct(design.pair, options)
+        return with_rack.parts, with_rack
+    if isinstance(design, RackDesign):
+        return {"rack": RackProduct(rack=design.rack, name=design.name, options=options)}, None
+    return {name: GearProduct(gear=gear, name=design.name, options=options) for name, gear in design.gears.items()}, None
 
 
 def build(
-    subject: Design | GearPair | Gear,
+    subject: Subject,
     folder: Path | str,
     formats: Iterable[Format | str] = _DEFAULT,
     *,
@@ -121,10 +131,10 @@ def build(
     circles: bool = False,
     progress: Progress | None = None,
 ) -> list[Path]:
-    """Write the files of a gear or a pair into `folder`, all or none, and return their paths in the order they were made.
+    """Write the files of a gear, a rack or a pair into `folder`, all or none, and return their paths as they were made.
 
     `formats` are of "step", "stl", "3mf", "glb", "dxf" and "csv". `chord_error` (mm) bounds the facets; `bracket` puts a pair
-    on two shafts with a bracket (STEP); `circles` draws the tip, reference, base and root circles (DXF).
+    on two shafts with a bracket (STEP); `circles` draws the tip, reference, base and root circles (DXF), of a rack the lines.
 
     >>> import tempfile
     >>> from gearcad import Gear

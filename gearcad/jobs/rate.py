@@ -6,16 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Unpack
 
-from gearcad.designs import Design, Inputs, PairDesign
-from gearcad.errors import ParameterError
-from gearcad.geometry import GearPair, RackPair
+from gearcad.designs import Inputs, PairDesign, RackPairDesign
 from gearcad.jobs.job import Job, Writer
-from gearcad.jobs.subject import as_design
+from gearcad.jobs.subject import Subject, as_design
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.notice import Notice
 from gearcad.progress import Progress
-from gearcad.rating.rack_rating import RackRating, rate_rack
+from gearcad.rating.rack_rating import rate_rack
 from gearcad.rating.rate import Rating
 from gearcad.rating.rate import rate as rate_pair
 
@@ -25,15 +23,17 @@ _NO_LOAD = "without it there is no stress"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rate(Job[PairDesign, Rating]):
+class Rate(Job[PairDesign | RackPairDesign, Rating]):
     """The rating of a pair as mounted, by the standard that its design's [rating] names."""
 
     verb = "rate"
-    accepts = (PairDesign,)
+    accepts = (PairDesign, RackPairDesign)
     why = "a single gear carries nothing"
     solves = False
 
-    def _run(self, design: PairDesign, _progress: Progress | None) -> Rating:
+    def _run(self, design: PairDesign | RackPairDesign, _progress: Progress | None) -> Rating:
+        if isinstance(design, RackPairDesign):
+            return rate_rack(design.pair, design.material or Material(), design.loaded(_NO_LOAD), design.rating)
         pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)
         return rate_pair(pair, design.material or Material(), design.loaded(_NO_LOAD), design.rating)
 
@@ -54,7 +54,7 @@ class Rate(Job[PairDesign, Rating]):
         return {}
 
 
-def rate(subject: Design | GearPair | RackPair, load: Load | None = None, **inputs: Unpack[Inputs]) -> Rating:
+def rate(subject: Subject, load: Load | None = None, **inputs: Unpack[Inputs]) -> Rating:
     """Rate a pair as mounted, under a load, by ISO 6336:2006 or DIN 3990:1987, Method B, and Hertz at the pitch point.
 
     `material`, `mounting` and `rating` (RatingOptions), as the load, stand in place of those of a design; a pair has the
@@ -68,16 +68,4 @@ def rate(subject: Design | GearPair | RackPair, load: Load | None = None, **inpu
 
     Raises ParameterError without a pair or a torque, GeometryError for a pair whose contact the standard does not describe.
     """
-    if isinstance(subject, RackPair):
-        return _rate_rack(subject, load, inputs)
     return Rate().run(as_design(subject, load, **inputs))
-
-
-def _rate_rack(pair: RackPair, load: Load | None, inputs: Inputs) -> RackRating:
-    """The rating of a pinion and a rack. Raises ParameterError for inputs that have no use there."""
-    for name, value in inputs.items():
-        if name not in ("material", "rating"):
-            raise ParameterError(name, value, "is nothing that a pinion and a rack have; they have load, material, rating")
-    if load is None:
-        raise ParameterError("load.torque", None, f"must be given, in N·m on the pinion: {_NO_LOAD}")
-    return rate_rack(pair, inputs.get("material") or Material(), load, inputs.get("rating"))

@@ -5,28 +5,36 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, Unpack
 
-from gearcad.designs import Design, GearDesign, Inputs, PairDesign
+from gearcad.designs import Design, GearDesign, Inputs, PairDesign, RackDesign, RackPairDesign
 from gearcad.designs.keys import BESIDE
 from gearcad.errors import ParameterError
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.load import Load
 
-__all__ = ["as_design"]
+__all__ = ["Subject", "as_design"]
+
+Subject = Design | GearPair | Gear | RackPair | Rack
+"""What Python may give to a job."""
 
 
-def as_design(subject: Design | GearPair | Gear, load: Load | None = None, **inputs: Unpack[Inputs]) -> Design:
-    """A design as it is, or that of a gear or a pair, with what is given in place of its own. Raises ParameterError."""
+def as_design(subject: Subject, load: Load | None = None, **inputs: Unpack[Inputs]) -> Design:
+    """A design as it is, or that of a gear, a rack or a pair, with what is given in place of its own. Raises ParameterError."""
     if isinstance(subject, Gear):
         subject = GearDesign(name=subject.name, gear=subject)
     elif isinstance(subject, GearPair):
         subject = PairDesign(name=subject.name, pair=subject)
+    elif isinstance(subject, Rack):
+        subject = RackDesign(name=subject.name, rack=subject)
+    elif isinstance(subject, RackPair):
+        subject = RackPairDesign(name=subject.name, pair=subject)
     if not isinstance(subject, Design):
-        raise ParameterError("subject", subject, "must be a GearPair, a Gear, or a design such as gearcad.read gives")
+        permitted = "must be a GearPair, a Gear, a RackPair, a Rack, or a design such as gearcad.read gives"
+        raise ParameterError("subject", subject, permitted)
     given: dict[str, Any] = {**inputs, "load": load} if load is not None else {**inputs}
     for name, value in given.items():
         if not hasattr(subject, name):
             known = ", ".join(each for each in BESIDE if hasattr(subject, each))
-            raise ParameterError(name, value, f"is nothing that a {subject.kind.value} has; it has {known}")
+            raise ParameterError(name, value, f"is nothing that a {subject.kind.value.replace('_', ' ')} has; it has {known}")
         if value is not None and not isinstance(value, BESIDE[name]):
             raise ParameterError(name, value, f"must be a {BESIDE[name].__name__}")
     return replace(subject, **given)

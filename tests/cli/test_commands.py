@@ -15,7 +15,7 @@ from gearcad.designs import read_spec
 from gearcad.designs.starters import starters
 
 VOLVO = "volvo-13-44"
-STARTERS = ["alm-18-161", "double-23-81", "fzg-c", "reducer-21-43", "ring-22-70", "spur", "uhlir-19-23", VOLVO]
+STARTERS = ["alm-18-161", "double-23-81", "fzg-c", "rack", "reducer-21-43", "ring-22-70", "spur", "uhlir-19-23", VOLVO]
 TRAINS = ["train-1-stage", "train-2-stage"]
 TABLES = ["gears", "pairs", "rings"]
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from gearcad import Body, Gear, symbols
+from gearcad import Body, Gear, Rack, symbols
 from gearcad.cli import datasheet
 from gearcad.cli.datasheet import print_datasheet
 from gearcad.designs import GearDesign, read_spec
@@ -27,7 +27,10 @@ def test_every_quantity_has_its_place() -> None:
     gear = {key for keys in datasheet._GEAR_BLOCKS.values() for key in keys.split()}
     pair = {key for keys in datasheet._PAIR_BLOCKS.values() for key in keys.split()} | set(symbols.PER_GEAR)
     assert gear == {*symbols_of(Gear), *symbols.GEAR} - {"name"}
-    assert pair == {"centre_distance", "axial_offset", *symbols.PAIR}
+    of_racks = {"mounting_distance", "tip_clearances.pinion", *symbols.RACK_PAIR, *symbols.DRIVE}
+    assert pair == {"centre_distance", "axial_offset", *symbols.PAIR, *of_racks}
+    rack = {key for keys in datasheet._RACK_BLOCKS.values() for key in keys.split()}
+    assert rack == {*symbols_of(Rack), *symbols.RACK} - {"name"}
 
 
 def test_pair_shows_both_gears_side_by_side_then_the_pair() -> None:

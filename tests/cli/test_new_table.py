@@ -53,6 +53,7 @@ def test_new_lists_tables_beside_specs() -> None:
         "fzg-c",
         "gears",
         "pairs",
+        "rack",
         "reducer-21-43",
         "ring-22-70",
         "rings",

@@ -50,7 +50,7 @@ CHEAP = {"positions": 12, "refinement": 0.25, "convergence": "off", "body_teeth"
 """A check that takes a second."""
 
 _PARTS = {"inertia": Inertia, "shaft": Shaft, "mesh": Mesh}
-_DESIGNS = ("fzg-c", "volvo-13-44", "spur", "uhlir-19-23")
+_DESIGNS = ("fzg-c", "volvo-13-44", "spur", "uhlir-19-23", "rack")
 _TRAINS = ("train-1-stage", "train-2-stage")
 
 

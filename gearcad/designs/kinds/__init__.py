@@ -13,4 +13,5 @@ __all__ = ["type_of"]
 def type_of(kind: DesignKind) -> type[Design]:
     """The class of a kind's designs; a train's is not imported for a gear."""
     module = import_module(f"gearcad.designs.kinds.{kind.value}")
-    return cast("type[Design]", getattr(module, f"{kind.value.capitalize()}Design"))
+    name = "".join(word.capitalize() for word in kind.value.split("_"))
+    return cast("type[Design]", getattr(module, f"{name}Design"))

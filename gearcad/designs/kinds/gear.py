@@ -9,7 +9,8 @@ from typing import Any, ClassVar, Self
 from gearcad.designs.auto import AUTO
 from gearcad.designs.design import DesignKind
 from gearcad.designs.files import Where
-from gearcad.designs.kinds.geared import GearedDesign, beside_teeth
+from gearcad.designs.kinds.geared import GearedDesign
+from gearcad.designs.kinds.toothed import beside_teeth
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, TypedDict
 
 from gearcad.check.options import CheckOptions
-from gearcad.designs.design import Design, DesignKind
+from gearcad.designs.design import DesignKind
 from gearcad.designs.files import Where
-from gearcad.designs.keys import BESIDE, KEYS, MAIN_TABLES, explain_unknown_table
+from gearcad.designs.keys import MAIN_TABLES
+from gearcad.designs.kinds.toothed import ToothedDesign, require_known_tables
 from gearcad.designs.spec import Spec
 from gearcad.dynamics.options import DynamicsOptions
-from gearcad.errors import SpecError, format_number, shown
+from gearcad.errors import SpecError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
@@ -20,7 +21,7 @@ from gearcad.meshing.options import MeshOptions
 from gearcad.mounting import Mounting
 from gearcad.rating.options import RatingOptions
 
-__all__ = ["GearedDesign", "Inputs", "beside_teeth", "require_tables"]
+__all__ = ["GearedDesign", "Inputs", "require_tables"]
 
 
 class Inputs(TypedDict, total=False):
@@ -35,7 +36,7 @@ class Inputs(TypedDict, total=False):
 
 
 @dataclass(frozen=True, kw_only=True)
-class GearedDesign(Design):
+class GearedDesign(ToothedDesign):
     """A gear or a pair with the inputs that later stages need; None for those of which a spec says nothing."""
 
     material: Material | None = None
@@ -57,24 +58,10 @@ class GearedDesign(Design):
         """What stands in mesh; None for a single gear."""
         return None
 
-    def to_dict(self) -> dict[str, Any]:
-        """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
-        given = {table: getattr(self, table) for table in BESIDE}
-        return super().to_dict() | {table: asdict(value) for table, value in given.items() if value is not None}
-
 
 def require_tables(tables: Mapping[str, Any], where: Where) -> None:
     """Raise SpecError for tables that no gear and no pair has, and for those of a pair beside [gear]."""
-    for table, content in tables.items():
-        if table not in KEYS:
-            raise SpecError(f"{where(table)}: {shown(table)}: {explain_unknown_table(table)}")
-        if not isinstance(content, Mapping):
-            raise SpecError(f"{where(table)}: {table} = {format_number(content)}: must be a table, headed [{table}]")
+    require_known_tables(tables, where)
     for other in MAIN_TABLES[DesignKind.PAIR]:
         if "gear" in tables and other in tables:
             raise SpecError(f"{where(other)}: [{other}] cannot stand beside [gear]: one spec makes a gear or a pair")
-
-
-def beside_teeth(spec: Spec, tables: Mapping[str, Any]) -> dict[str, Any]:
-    """What the tables beside those of the gears make, as keyword arguments of a GearedDesign."""
-    return {table: spec.simple(table, kind) for table, kind in BESIDE.items() if table in tables}

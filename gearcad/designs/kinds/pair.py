@@ -18,10 +18,11 @@ from gearcad.designs.auto import (
     resolve_profile_shifts,
     resolve_tip_alterations,
 )
-from gearcad.designs.design import DesignKind
+from gearcad.designs.design import Described, DesignKind
 from gearcad.designs.files import Where
 from gearcad.designs.keys import MAIN_TABLES, SHARED
-from gearcad.designs.kinds.geared import GearedDesign, beside_teeth, require_tables
+from gearcad.designs.kinds.geared import GearedDesign, require_tables
+from gearcad.designs.kinds.toothed import beside_teeth
 from gearcad.designs.spec import Given, Spec
 from gearcad.errors import GeometryError, ParameterError, SpecError, as_choice, require_number
 from gearcad.geometry import Gear, GearPair, ShiftSplit
@@ -56,7 +57,10 @@ class PairDesign(GearedDesign):
         """The values of a spec that has all tables of a pair. Raises SpecError."""
         require_tables(tables, where)
         _require_pair(tables, where)
-        return _PairSpec.of(tables, where)
+        spec = _PairSpec.of(tables, where)
+        if (key := "pair.mounting_distance") in spec.values:
+            raise SpecError(f"{where(key)}: {key}: is of a pinion and a [rack]; did you mean centre_distance?", key)
+        return spec
 
     @property
     def gears(self) -> dict[str, Gear]:
@@ -69,7 +73,7 @@ class PairDesign(GearedDesign):
         return self.pair
 
     @property
-    def described(self) -> Mapping[str, Gear | GearPair]:
+    def described(self) -> Mapping[str, Described]:
         """The gears, and the pair that they make."""
         return {**self.gears, "pair": self.pair}
 

@@ -1,0 +1,51 @@
+"""What gears, racks and their pairs have in common: tables beside those of the teeth, and the document that holds them."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from gearcad.designs.design import Design
+from gearcad.designs.files import Where
+from gearcad.designs.keys import BESIDE, KEYS, explain_unknown_table
+from gearcad.designs.spec import Spec
+from gearcad.errors import SpecError, format_number, shown
+from gearcad.geometry import GearPair, RackPair
+
+__all__ = ["ToothedDesign", "beside_teeth", "require_known_tables"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ToothedDesign(Design):
+    """A design with teeth; a table beside them, such as [material], is a field of its name, None where a spec says nothing."""
+
+    @classmethod
+    @abstractmethod
+    def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:
+        """The values of a spec, whose tables are those of this kind. Raises SpecError."""
+
+    @property
+    def assembly(self) -> GearPair | RackPair | None:
+        """What stands in mesh; None for a gear or a rack by itself."""
+        return None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
+        given = {table: getattr(self, table) for table in BESIDE if hasattr(self, table)}
+        return super().to_dict() | {table: asdict(value) for table, value in given.items() if value is not None}
+
+
+def require_known_tables(tables: Mapping[str, Any], where: Where) -> None:
+    """Raise SpecError for what no design with teeth has, and for what is no table."""
+    for table, content in tables.items():
+        if table not in KEYS:
+            raise SpecError(f"{where(table)}: {shown(table)}: {explain_unknown_table(table)}")
+        if not isinstance(content, Mapping):
+            raise SpecError(f"{where(table)}: {table} = {format_number(content)}: must be a table, headed [{table}]")
+
+
+def beside_teeth(spec: Spec, tables: Mapping[str, Any]) -> dict[str, Any]:
+    """What the tables beside those of the teeth make, as keyword arguments of a ToothedDesign."""
+    return {table: spec.simple(table, kind) for table, kind in BESIDE.items() if table in tables}
