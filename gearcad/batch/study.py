@@ -43,6 +43,9 @@ class Method(Enum):
 
 _METHOD_WORDS = {Method.LATIN_HYPERCUBE: "a Latin hypercube", Method.SOBOL: "a scrambled Sobol sequence"}
 
+_SIZES_OF_RACKS = ("teeth", "length")
+"""One of them is given."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Sample:
@@ -151,10 +154,11 @@ def plan_study(spec: Path | str, variations: Sequence[str], sample: Sample | Non
 
 
 def _replaced(key: str, varied: Sequence[str]) -> bool:
-    """Whether a module gives way to a diametral pitch of its table that varies, or that to the module; teeth and length alike."""
+    """Whether a module gives way to a diametral pitch of its table that varies, or that to it; so a rack's teeth and length."""
     table, _, field = key.partition(".")
-    either = (MODULE_OR_PITCH, ("teeth", "length"))
-    return any(field in fields and any(f"{table}.{other}" in varied for other in fields) for fields in either)
+    if table == "rack" and field in _SIZES_OF_RACKS:
+        return any(f"rack.{other}" in varied for other in _SIZES_OF_RACKS)
+    return field in MODULE_OR_PITCH and any(f"{table}.{other}" in varied for other in MODULE_OR_PITCH)
 
 
 def write_study(study: Study, path: Path) -> None:

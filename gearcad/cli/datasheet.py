@@ -47,7 +47,8 @@ _PLACED = {"name", *" ".join(_GEAR_BLOCKS.values()).split()}
 _GEAR_BLOCKS["Teeth"] += "".join(f" {key}" for key in _OF_GEAR if key not in _PLACED)
 
 _RACK_BLOCKS = {
-    "Rack": "teeth length normal_module normal_diametral_pitch helix_angle face_width height total_height tip_alteration tooth_thinning tip_chamfer",
+    "Rack": "teeth length normal_module normal_diametral_pitch helix_angle face_width height total_height tip_alteration"
+    " tooth_thinning tip_chamfer",
     "Basic rack": " ".join(key for key in _OF_RACK if key.startswith("rack.")),
     "Transverse section": "transverse_module transverse_pressure_angle base_helix_angle normal_pitch transverse_pitch"
     " transverse_base_pitch",

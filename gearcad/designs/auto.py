@@ -13,7 +13,15 @@ from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.internal_mating import tip_on_form_circle
 from gearcad.per_gear import PerGear, Role, naming
 
-__all__ = ["AUTO", "CLEAR", "clear_tip_alteration", "make_gears", "module_of", "resolve_profile_shifts", "resolve_tip_alterations"]
+__all__ = [
+    "AUTO",
+    "CLEAR",
+    "clear_tip_alteration",
+    "make_gears",
+    "module_of",
+    "resolve_profile_shifts",
+    "resolve_tip_alterations",
+]
 
 AUTO = "auto"
 

@@ -11,6 +11,7 @@ import pytest
 
 import gearcad
 from gearcad import Gear, Load, Rack, RackPair, SpecError
+from gearcad.batch.study import plan_study
 from gearcad.designs import RackDesign, RackPairDesign, design_from_tables, open_table, read_spec
 from gearcad.designs.columns import column_symbol
 from gearcad.designs.design import Design
@@ -230,3 +231,19 @@ def test_columns_of_results_have_symbols() -> None:
     assert column_symbol("pair.tip_clearances.rack")[1].symbol == "c"  # type: ignore[index]
     assert column_symbol("pair.tip_clearances.pinion") == column_symbol("pair.tip_clearances.pinion")
     assert column_symbol("drive.rack_force")[1].unit == "N"  # type: ignore[index]
+
+
+def test_studies_vary_racks(tmp_path: Path) -> None:
+    spec = tmp_path / "rack.toml"
+    spec.write_text(starter_text("rack")[1], encoding="utf-8")
+    study = plan_study(spec, ["rack.length=100:200:3", "mounting_distance=21.2,21.3"])
+    assert "rack.teeth" not in study.keys and study.rows == 6
+    with pytest.raises(ParameterError, match=r"permitted are keys of \[pair\], \[pinion\], \[rack\], \[material\], \[load\]"):
+        plan_study(spec, ["wheel.teeth=20,30"])
+
+
+def test_diametral_pitch_of_both() -> None:
+    made = design(tables(pair={"normal_module": None, "normal_diametral_pitch": 10.0}))
+    assert isinstance(made, RackPairDesign)
+    assert made.pair.rack.normal_module == made.pair.pinion.normal_module == pytest.approx(2.54, rel=EXACT)
+    assert Rack(**RACK | {"normal_module": 2.0}).normal_diametral_pitch == pytest.approx(12.7, rel=EXACT)
