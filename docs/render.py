@@ -32,6 +32,10 @@ from gearcad.plots import plot_contours, save_plot
 from gearcad.plots.mesh import plot_body_mesh, plot_section_mesh
 from gearcad.plots.table_data import read_points
 from gearcad.solids import tessellate
+from gearcad.solids.files.options import FileOptions
+from gearcad.solids.files.part import Part
+from gearcad.solids.files.products import PairProduct
+from gearcad.solids.files.rack_products import RackPairProduct
 
 FOLDER = Path(__file__).parent
 SPEC = FOLDER.parent / "templates" / "volvo-13-44.toml"
@@ -46,12 +50,15 @@ Place = tuple[float, float, float]
 
 
 def actors(gear: Gear, colour: tuple[float, float, float], turn: float = 0.0, x: float = 0.0, z: float = 0.0) -> list[vtkActor]:
+    """A gear in its place."""
+    part = Part(name="gear", facets=tessellate(gear, 0.002), colour=colour, rotation=turn, offset=(x, 0.0, z))
+    return shaded(part, colour)
+
+
+def shaded(part: Part, colour: tuple[float, float, float]) -> list[vtkActor]:
     """A shaded body and its sharp edges."""
-    facets = tessellate(gear, 0.002)
-    angle = np.radians(turn)
-    cosine, sine = np.cos(angle), np.sin(angle)
-    points = facets.vertices @ np.array([[cosine, sine, 0], [-sine, cosine, 0], [0, 0, 1]]) + [x, 0, z]
-    cells = np.ascontiguousarray(facets.faces, np.int64).ravel()
+    points = part.facets.vertices @ part.pose[:3, :3].T + part.pose[:3, 3]
+    cells = np.ascontiguousarray(part.facets.faces, np.int64).ravel()
     mesh, places, triangles = vtkPolyData(), vtkPoints(), vtkCellArray()
     places.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
     triangles.SetData(3, numpy_to_vtkIdTypeArray(cells, deep=True))
@@ -78,7 +85,9 @@ def actors(gear: Gear, colour: tuple[float, float, float], turn: float = 0.0, x:
     return made
 
 
-def render(parts: list[vtkActor], path: Path, *, focus: Place, eye: Place, scale: float) -> None:
+def render(
+    parts: list[vtkActor], path: Path, *, focus: Place, eye: Place, scale: float, size: tuple[int, int] = (1400, 700)
+) -> None:
     """Write one picture; `eye` is the direction to look from, `scale` half the height of the view in mm."""
     renderer, window = vtkRenderer(), vtkRenderWindow()
     renderer.SetBackground(1, 1, 1)
@@ -100,7 +109,7 @@ def render(parts: list[vtkActor], path: Path, *, focus: Place, eye: Place, scale
     renderer.ResetCameraClippingRange()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(8)
-    window.SetSize(1400, 700)
+    window.SetSize(*size)
     window.AddRenderer(renderer)
     window.Render()
     image, writer = vtkWindowToImageFilter(), vtkPNGWriter()
@@ -139,6 +148,25 @@ def plot_elements(path: Path) -> None:
     Image.open(path).convert("RGB").quantize(48).save(path, optimize=True)
 
 
+def render_kinds(path: Path) -> None:
+    """A pinion in its ring, one on a rack, and double helical gears: the starters, side by side."""
+    fine = FileOptions(chord_error=0.004)
+    views = {
+        "ring-22-70": (PairProduct, ((-66, 0, 0), (0.35, -0.8, 1.3), 122)),
+        "rack": (RackPairProduct, ((12, 0, 12), (-1.1, -0.35, 0.9), 62)),
+        "double-23-81": (PairProduct, ((165, 0, 75), (-0.25, -1.0, 0.75), 235)),
+    }
+    pictures = []
+    with TemporaryDirectory() as folder:
+        for name, (product, (focus, eye, scale)) in views.items():
+            scene = product(read_spec(SPEC.with_name(f"{name}.toml")).assembly, fine).scene()
+            parts = [actor for part, colour in zip(scene, (BRASS, STEEL), strict=True) for actor in shaded(part, colour)]
+            target = Path(folder, f"{name}.png")
+            render(parts, target, focus=focus, eye=eye, scale=scale, size=(640, 560))
+            pictures.append(np.array(Image.open(target).convert("RGB")))
+    Image.fromarray(np.hstack(pictures)).quantize(96).save(path, optimize=True)
+
+
 def main() -> None:
     pair = read_spec(SPEC).pair
     assert pair is not None  # the starter is one
@@ -148,6 +176,7 @@ def main() -> None:
     render(pinion + wheel, FOLDER / "mesh.png", focus=(19, 0, 18), eye=(0.0, -0.05, 1.0), scale=9)
     plot_study(FOLDER / "study.png")
     plot_elements(FOLDER / "elements.png")
+    render_kinds(FOLDER / "kinds.png")
 
 
 if __name__ == "__main__":
