@@ -121,7 +121,7 @@ def _of_ring(rim: _Rim) -> Iterator[Notice]:
     thickness = rim.ratio * (rim.gear.tip_diameter - rim.gear.root_diameter) / 2 / rim.gear.normal_module
     if rim.support.hold is Hold.BOLTS:
         text = (
-            f"the ring is {rim.support.words(rim.radius)}: at each the sector of a tooth is rigid from there outwards, and "
+            f"the ring is {rim.support.describe(rim.radius)}: at each the sector of a tooth is rigid from there outwards, and "
             "nothing holds the rim between them; root stresses are those of the loaded teeth"
         )
         yield Notice("bolted-ring", text)

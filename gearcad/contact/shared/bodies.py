@@ -92,7 +92,7 @@ class BodyModel:
         return each._asdict()
 
     def _words(self, gear: Gear, radius: float, support: Support) -> str:
-        inner = support.words(radius)
+        inner = support.describe(radius)
         if (held := self.teeth_held(gear)) is None:
             return f"full ring, {inner}"
         return f"{held} teeth with {self.cuts.value} cuts, {inner}"

@@ -78,12 +78,17 @@ class Support:
         places = ((bolt + 0.5) * self.teeth / self.bolts for bolt in range(self.bolts))
         return frozenset(math.floor(place + 0.5) % self.teeth for place in places)
 
-    def words(self, held_radius: float) -> str:
+    @property
+    def words(self) -> str:
+        """How the body is held, before "diameter ..." in a sentence; not by bolts."""
+        return _WORDS[self.hold]
+
+    def describe(self, held_radius: float) -> str:
         """How the body is held at a radius (mm)."""
         if self.hold is Hold.BOLTS:
             circle = f"diameter {format_number(round(self.bolt_circle, 4))} mm"
             return f"held by {self.bolts} bolts on {circle}, the loaded tooth midway between two"
-        return f"{_WORDS[self.hold]} diameter {format_number(round(held_radius * 2, 4))} mm"
+        return f"{self.words} diameter {format_number(round(held_radius * 2, 4))} mm"
 
     @property
     def bends(self) -> bool:
