@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
+from itertools import islice
 
 from gearcad.errors import GeometryError, InputError
 from gearcad.geometry.derived import is_given
@@ -46,7 +47,10 @@ _SHORTER = 0.5
 """How far a tip circle is drawn in at the most, in normal modules of diameter, for its edge to clear a fillet."""
 
 _MOST_STEPS = 400
-"""Rings of more teeth that are tried, to say which would do."""
+"""Rings of more teeth that are looked at, to say which would do."""
+
+_MOST_TRIALS = 4
+"""Those with room enough that are made: they may not be permitted for other reasons, such as their rim."""
 
 
 def internal_tips(pair: PairData, ring: ToothProfile | None = None) -> InternalTips:
@@ -138,14 +142,19 @@ def _more_teeth(pair: PairData, margin: Callable[[InternalTips], float]) -> int 
     """The nearest number of teeth of the ring, negative, whose margin is not; None where it could not be changed alone."""
     if is_given(pair.centre_distance) or is_given(pair.wheel.tip_diameter):
         return None
-    for teeth in range(pair.wheel.tooth_count + 1, pair.wheel.tooth_count + _MOST_STEPS):
-        try:
-            tips = _sharp_tips(pair, teeth)
-        except (InputError, ValueError):  # no such pair, or a tip inside its base circle
-            continue
-        if margin(tips) >= 0 and _permitted(pair, partial(replace, pair.wheel, teeth=-teeth)):
+    enough = filter(partial(_has_room, pair, margin), range(pair.wheel.tooth_count + 1, pair.wheel.tooth_count + _MOST_STEPS))
+    for teeth in islice(enough, _MOST_TRIALS):
+        if _permitted(pair, partial(replace, pair.wheel, teeth=-teeth)):
             return -teeth
     return None
+
+
+def _has_room(pair: PairData, margin: Callable[[InternalTips], float], teeth: int) -> bool:
+    """Whether a margin would not be negative with so many teeth of the ring."""
+    try:
+        return margin(_sharp_tips(pair, teeth)) >= 0
+    except (InputError, ValueError):  # no such pair, or a tip inside its base circle
+        return False
 
 
 def _sharp_tips(pair: PairData, teeth: int) -> InternalTips:

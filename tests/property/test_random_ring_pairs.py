@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from functools import partial
@@ -136,13 +137,16 @@ def deepest_on_the_way_in(pair: GearPair) -> float:
     m = pair.pinion.transverse_module
     mesh = RingMesh(pair.pinion, pair.wheel, -pair.centre_distance, COARSE)
     way_out = -pair.centre_distance + pair.pinion.tip_diameter / 2 + pair.wheel.tip_diameter / 2
+    way_out = min(way_out, -pair.centre_distance * (1 - 1e-6))  # a pinion larger than the opening is never out
+    least = math.inf
     places, backs = np.linspace(0, 1, 17)[:, None], np.linspace(SEATED * m, way_out, 17)
     for _ in range(4):
         found = mesh.clearance(places, back=backs)
+        least = min(least, float(found.min()))
         row, column = np.unravel_index(np.argmin(found), found.shape)
         places = np.linspace(places[max(row - 1, 0), 0], places[min(row + 1, 16), 0], 17)[:, None]
         backs = np.linspace(backs[max(column - 1, 0)], backs[min(column + 1, 16)], 17)
-    return float(found.min())
+    return least
 
 
 def check_way_in(inputs: dict[str, Any]) -> None:

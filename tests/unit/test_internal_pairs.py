@@ -161,6 +161,14 @@ def test_pinion_that_goes_in_along_the_axis_is_told_with_the_ring_that_takes_it_
     assert "radial-assembly" not in codes[teeth] and "radial-assembly" in codes[teeth + 1]
 
 
+def test_pinion_of_a_ring_whose_rim_holds_no_more_teeth_is_told_the_tip_that_would_do() -> None:
+    rim = {"wheel": {"tip_alteration": -0.3, "body": Body(rim_diameter=91.0)}}
+    pair = _ring_pair((30, -42), (0.3, -0.3), **rim)
+    tip = float(re.search(r"with wheel.tip_diameter at most (-[\d.]+) mm", _only(pair, "radial-assembly"))[1])  # type: ignore[index]
+    shorter = replace(pair, wheel=replace(pair.wheel, tip_diameter=tip))
+    assert not any(notice.code == "radial-assembly" for notice in shorter.notices)
+
+
 def test_external_pairs_have_no_margins() -> None:
     gear = Gear(teeth=30, normal_module=2.0, face_width=20.0)
     pair = GearPair(pinion=gear, wheel=gear)
