@@ -30,7 +30,7 @@ _CHATTY = ("matplotlib", "ezdxf")
 def main() -> None:
     """Exact cylindrical gears from a handful of numbers: data sheet, STEP, STL and more.
 
-    A gear or a pair is described in a SPEC, a short TOML file. Lengths are in mm, angles in degrees.
+    A gear, a rack or a pair is described in a SPEC, a short TOML file. Lengths are in mm, angles in degrees.
     """
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from html import escape
 from typing import NamedTuple
 
@@ -18,13 +18,13 @@ from gearcad.geometry.profile import ToothProfile
 from gearcad.per_gear import PerGear, Role
 from gearcad.schema import symbols_of
 
-__all__ = ["gear_html", "pair_html"]
+__all__ = ["CHORD_ERROR", "drawing", "gear_html", "gear_shapes", "pair_html", "polygon", "sheet"]
 
 
 _PIXELS = 240
 """Of the longer side."""
 
-_CHORD_ERROR = 0.2
+CHORD_ERROR = 0.2
 """Pixels that a polygon may be off the outline."""
 
 _OF_GEAR = "teeth normal_module helix_angle profile_shift face_width reference_diameter tip_diameter root_diameter".split()
@@ -41,7 +41,7 @@ def gear_html(gear: GearData, profile: ToothProfile) -> str:
     """A picture of the gear from +z, and a table."""
     written = symbols_of(GearData) | symbols.GEAR
     rows = ((written[name], [getattr(gear, name)]) for name in _looked_up(gear))
-    return _html(gear.name, _svg([_Placed(gear, profile, Pose(0.0, 0.0, 0.0))]), [], rows)
+    return sheet(gear.name, _svg([_Placed(gear, profile, Pose(0.0, 0.0, 0.0))]), [], rows)
 
 
 def pair_html(
@@ -57,7 +57,7 @@ def pair_html(
     rows += [(symbol, [value]) for symbol, value in figures]
     poses = PerGear(Pose(0.0, 0.0, 0.0), wheel)
     picture = _svg([_Placed(*each) for each in zip(gears, profiles, poses, strict=True)])
-    return _html(name, picture, [role.value for role in Role], rows)
+    return sheet(name, picture, [role.value for role in Role], rows)
 
 
 def _looked_up(*gears: GearData) -> list[str]:
@@ -74,7 +74,8 @@ class _Placed(NamedTuple):
     pose: Pose
 
 
-def _html(name: str, picture: str, headings: list[str], rows: Iterable[tuple[symbols.Symbol, list[float | None]]]) -> str:
+def sheet(name: str, picture: str, headings: list[str], rows: Iterable[tuple[symbols.Symbol, list[float | None]]]) -> str:
+    """A picture beside a table of figures, a column for each heading."""
     columns = len(headings) or 1
     head = "".join(f"<th>{escape(heading)}</th>" for heading in headings)
     lines = [f"<tr><th>{escape(name)}</th><th></th>{head}</tr>"]
@@ -98,12 +99,22 @@ def _svg(placed: list[_Placed]) -> str:
     left = min(pose.x - _outside(gear) / 2 for gear, _, pose in placed)
     right = max(pose.x + _outside(gear) / 2 for gear, _, pose in placed)
     height = max(_outside(gear) for gear, _, _ in placed)
-    scale = _PIXELS / max(right - left, height)
-    shapes = "".join(shape for each in placed for shape in _shapes(each, 1 / scale))
-    view = f"{left:.6g} {-height / 2:.6g} {right - left:.6g} {height:.6g}"
-    size = f'width="{(right - left) * scale:.0f}" height="{height * scale:.0f}"'
+
+    def shapes(pixel: float) -> str:
+        return "".join(shape for each in placed for shape in gear_shapes(*each, pixel))
+
+    return drawing((left, -height / 2, right - left, height), shapes)
+
+
+def drawing(view: tuple[float, float, float, float], shapes: Callable[[float], str]) -> str:
+    """An SVG of what is in a view (left, top, width, height in mm, y down), whose shapes are drawn for the size of a pixel."""
+    left, top, width, height = view
+    scale = _PIXELS / max(width, height)
+    box = f"{left:.6g} {top:.6g} {width:.6g} {height:.6g}"
+    size = f'width="{width * scale:.0f}" height="{height * scale:.0f}"'
     style = f'fill="currentColor" fill-opacity=".15" stroke="currentColor" stroke-width="{1 / scale:.3g}"'
-    return f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{view}" overflow="visible"><g {style}>{shapes}</g></svg>'
+    drawn = shapes(1 / scale)
+    return f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{box}" overflow="visible"><g {style}>{drawn}</g></svg>'
 
 
 def _outside(gear: GearData) -> float:
@@ -113,14 +124,13 @@ def _outside(gear: GearData) -> float:
     return gear.body.rim_diameter or 2 * _RIM * gear.normal_module - gear.root_diameter
 
 
-def _shapes(placed: _Placed, pixel: float) -> Iterator[str]:
+def gear_shapes(gear: GearData, profile: ToothProfile, pose: Pose, pixel: float) -> Iterator[str]:
     """The outline with its bore or rim, and the reference circle; `pixel` is its size (mm)."""
-    gear, profile, pose = placed
     # Seen at the pinion's z = 0, a helical wheel that begins at another height is turned by then.
     turn = math.radians(pose.rotation) - twist(gear, pose.z)
     cosine, sine = math.cos(turn), math.sin(turn)
-    turned = profile.contour(_CHORD_ERROR * pixel) @ np.array([[cosine, sine], [-sine, cosine]])
-    outline = _polygon(turned + np.array([pose.x, 0.0]), pixel)
+    turned = profile.contour(CHORD_ERROR * pixel) @ np.array([[cosine, sine], [-sine, cosine]])
+    outline = polygon(turned + np.array([pose.x, 0.0]), pixel)
     rim = _circle(_outside(gear) / 2, pose.x)
     if not gear.internal:
         yield f'<path fill-rule="evenodd" d="{outline}{_circle(gear.body.bore / 2, pose.x)}"/>'
@@ -144,7 +154,7 @@ def _bolt_holes(gear: GearData, x: float, turn: float) -> str:
     return "".join(_circle(body.bolt_diameter / 2, x + half * cosine, -half * sine) for cosine, sine in centres)
 
 
-def _polygon(points: Floats, pixel: float) -> str:
+def polygon(points: Floats, pixel: float) -> str:
     """A closed path, to a tenth of a pixel; y is down in an SVG."""
     digits = max(0, 1 - math.floor(math.log10(pixel)))
     return "M" + " ".join(f"{x:.{digits}f},{-y:.{digits}f}" for x, y in points.tolist()) + "Z"

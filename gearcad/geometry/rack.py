@@ -15,6 +15,7 @@ from gearcad.geometry.profile import LEAST_LAND
 from gearcad.geometry.rack_data import RackData
 from gearcad.geometry.rack_feasibility import check_rack_fields, check_rack_length, check_rack_numbers, check_rack_teeth
 from gearcad.geometry.rack_inspection import RackInspection
+from gearcad.geometry.rack_picture import rack_html
 from gearcad.geometry.rack_profile import RackProfile
 from gearcad.notice import Notice, texts
 from gearcad.reprs import concise
@@ -115,6 +116,9 @@ class Rack(RackData):
         if self.tip_thickness < THIN_TIP * self.normal_module:
             thickness = f"normal thickness {self.tip_thickness:.4f} mm is below {THIN_TIP} m_n"
             yield Notice("thin-tip", f"thin tip: {thickness} (0.4 m_n if case-hardened)")
+
+    def _repr_html_(self) -> str:
+        return rack_html(self, self.profile)
 
     def to_dict(self) -> dict[str, Any]:
         """Inputs and derived properties under their field names, for JSON."""

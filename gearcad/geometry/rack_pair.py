@@ -10,6 +10,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
+from gearcad import symbols
 from gearcad.geometry.derived import derive
 from gearcad.geometry.helix import twist
 from gearcad.geometry.involute import tangent_length
@@ -19,8 +20,10 @@ from gearcad.geometry.pose import RackPose
 from gearcad.geometry.rack_interference import RackPlace, cut_by_pinion, cut_by_rack
 from gearcad.geometry.rack_mating import check_rack_inputs, check_rack_mates, check_rack_mesh
 from gearcad.geometry.rack_pair_data import RackPairData
+from gearcad.geometry.rack_picture import rack_pair_html
 from gearcad.notice import Notice, texts
 from gearcad.reprs import concise
+from gearcad.schema import symbols_of
 
 __all__ = ["RackPair"]
 
@@ -33,6 +36,9 @@ _DERIVED = (
     "total_contact_ratio circumferential_backlash normal_backlash active_root_diameter active_root_depth"
 ).split()
 """What a document has beside what was given."""
+
+_SKETCHED = "mounting_distance travel_per_revolution transverse_contact_ratio overlap_ratio circumferential_backlash".split()
+"""The figures beside its picture."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,6 +186,11 @@ class RackPair(RackPairData):
                 f"the pinion's tip cuts {cut.depth:.2g} mm into the rack's fillet {-cut.place:.4f} mm below its reference line"
             )
             yield Notice("fillet-interference", f"fillet interference: {text}")
+
+    def _repr_html_(self) -> str:
+        written = symbols_of(RackPair) | symbols.PAIR | symbols.RACK_PAIR
+        figures = [(written[name], getattr(self, name)) for name in _SKETCHED]
+        return rack_pair_html(self.name, self.pinion, self.rack, self.rack.profile, self.rack_pose(), figures)
 
     def to_dict(self) -> dict[str, Any]:
         """Derived properties of the pair under their names, for JSON (pinion and rack have their own)."""

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from itertools import pairwise
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from matplotlib.path import Path as Outline
 
 from gearcad import BasicRack, Gear, Rack, RackPair
 from gearcad.errors import GeometryError, InputError, ParameterError
@@ -221,3 +224,19 @@ def test_pairs_that_cannot_be() -> None:
         pair({"teeth": -60, "cutter": Gear(**PINION).cutter})
     with pytest.raises(ParameterError, match="must be a Rack"):
         RackPair(pinion=Gear(**PINION), rack=Gear(**PINION))  # type: ignore[arg-type]
+
+
+def test_a_notebook_shows_both_in_mesh() -> None:
+    """Neither outline has points inside the other, but for the pixels they are drawn to."""
+    wide = pair({"helix_angle": 20.0, "face_width": 40.0}, {"helix_angle": -20.0, "teeth": 60})
+    html = wide._repr_html_()
+    outlines = [np.array([place.split(",") for place in found.split()], float) for found in re.findall(r'd="M([^Za]*)Z', html)]
+    pinion, rack = (outline * [1, -1] for outline in outlines)
+    scale = (wide.pinion.tip_diameter + 24 * wide.rack.transverse_pitch) / 240
+    assert rack[:, 0].max() == pytest.approx(wide.back_distance, abs=0.1)
+    for one, other in ((pinion, rack), (rack, pinion)):
+        inside = one[Outline(other).contains_points(one)]
+        assert max((np.hypot(*(other - place).T).min() for place in inside), default=0.0) < scale
+    assert min(np.hypot(*(pinion - place).T).min() for place in rack) < scale
+    for shown in (wide, wide.rack):
+        ElementTree.fromstring(shown._repr_html_().replace("cellpadding=3", ""))
