@@ -31,7 +31,7 @@ def format_option(command: Command) -> Command:
 @format_option
 @click.option("--chord-error", default=0.005, show_default=True, metavar="MM", help="Largest error of the facets, in mm.")
 @click.option("--bracket", is_flag=True, help="Put the assembly on two shafts with a bracket (STEP).")
-@click.option("--circles", is_flag=True, help="Draw the tip, reference, base and root circles too (DXF).")
+@click.option("--circles", is_flag=True, help="Draw the tip, reference, base and root circles too, of a rack the lines (DXF).")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document: the files and the warnings.")
 @click.option("--quiet", is_flag=True, help="No progress and no warnings on the screen.")
 @debug_option

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from gearcad.errors import GeometryError, require_number
+from gearcad.geometry.limits import at_least, at_most
 from gearcad.notice import Notice
 
 __all__ = ["RackInspection"]
@@ -56,12 +57,25 @@ class RackInspection:
 
         Raises GeometryError for a pin that rests on the root, or on no flank.
         """
-        centre, contact = self.pin_centre(pin), self.pin_contact(pin)
-        if centre - pin / 2 < -self.root_depth or contact < -self.form_depth:
-            raise GeometryError("pin_diameter", pin, "must be larger: the pin falls to the root", "mm")
-        if contact > self.tip_form_height:
-            raise GeometryError("pin_diameter", pin, "must be smaller: the pin rests on the tips", "mm")
+        centre, (least, most) = self.pin_centre(pin), self.pin_limits
+        if pin < least:
+            raise GeometryError("pin_diameter", pin, f"must be at least {at_least(least)} mm: the pin falls to the root", "mm")
+        if pin > most:
+            raise GeometryError("pin_diameter", pin, f"must be at most {at_most(most)} mm: the pin rests on the tips", "mm")
         return self.height + centre + pin / 2
+
+    @property
+    def pin_limits(self) -> tuple[float, float]:
+        """Least and greatest diameter of a pin that touches the flanks: at their ends, D = (e_n + 2 y tan alpha_n)/cos alpha_n.
+
+        Nor may it rest on the root, D = (e_n/tan alpha_n - 2 h_f) sin alpha_n/(1 - sin alpha_n).
+        """
+        angle = math.radians(self.pressure_angle)
+        sine, tangent = math.sin(angle), math.tan(angle)
+        lowest, highest = (
+            (self._normal_space + 2 * y * tangent) / math.cos(angle) for y in (-self.form_depth, self.tip_form_height)
+        )
+        return max(lowest, (self._normal_space / tangent - 2 * self.root_depth) * sine / (1 - sine)), highest
 
     def notices(self) -> Iterator[Notice]:
         """What to know of the suggested pin."""

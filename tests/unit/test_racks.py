@@ -102,6 +102,19 @@ def test_height_over_a_pin_is_where_a_circle_rests_between_flanks(helix: float) 
         assert rack.inspection.over_pin(pin) == pytest.approx(18 + centre[1] + pin / 2, rel=EXACT)
 
 
+def test_pins_that_touch_no_flank_are_refused_with_the_one_that_does() -> None:
+    rack = Rack(**RACK | {"tip_chamfer": 0.2, "rack": BasicRack(root_radius=0.1)})
+    least, most = rack.inspection.pin_limits
+    for pin, words in ((least - 0.01, "falls to the root"), (most + 0.01, "rests on the tips")):
+        with pytest.raises(GeometryError, match=words) as caught:
+            rack.inspection.over_pin(pin)
+        permitted = float(re.search(r"(?:least|most) ([0-9.]+) mm", str(caught.value))[1])  # type: ignore[index]
+        rack.inspection.over_pin(permitted)
+    assert rack.inspection.pin_contact(most) == pytest.approx(1.8, abs=1e-12)
+    touching = min(rack.inspection.pin_contact(least) + rack.form_depth, rack.inspection.pin_centre(least) - least / 2 + 2.5)
+    assert touching == pytest.approx(0, abs=1e-12)
+
+
 # ---------------------------------------------------------------------- the pair
 
 
