@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 from OCP.BRepMesh import BRepMesh_IncrementalMesh
 
-from gearcad import BasicRack, Gear
+from gearcad import BasicRack, Body, Gear
 from gearcad.solids import gear_solid, tessellate, write_step, write_stl
 
 pytestmark = pytest.mark.benchmark_suite
@@ -63,6 +63,16 @@ def test_solid(benchmark: Any, name: str, maker: str) -> None:
     benchmark.group = f"solid: {name}"
     build = (lambda: gear_solid(Gear(**GEARS[name]))) if maker == "gearcad" else _py_gearworks(GEARS[name])
     benchmark.pedantic(build, rounds=7, warmup_rounds=1)
+
+
+@pytest.mark.parametrize("sign", [1, -1], ids=["external", "ring"])
+@pytest.mark.parametrize("teeth", [40, 120, 300])
+def test_solid_of_a_ring(benchmark: Any, teeth: int, sign: int) -> None:
+    """A ring costs what an external gear of as many teeth does: 0.9 to 1.2 of it."""
+    benchmark.group = f"solid: {teeth} teeth, outside and inside"
+    body = Body(bore=20, end_chamfer=1) if sign > 0 else Body(rim_diameter=2.5 * teeth, end_chamfer=1)
+    given = {"teeth": sign * teeth, "normal_module": 2.0, "face_width": 12.0, "helix_angle": 20.0, "body": body}
+    benchmark.pedantic(lambda: gear_solid(Gear(**given)), rounds=7, warmup_rounds=1)
 
 
 @pytest.mark.parametrize("name", GEARS)
