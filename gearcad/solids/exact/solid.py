@@ -22,8 +22,7 @@ def gear_solid(gear: Gear) -> cadquery.Solid:
     """The gear as a closed boundary representation, within 1 nm of the exact involute and fillet, or of its modified flanks.
 
     Teeth from z = 0 to the face width, tooth 0 centred on +x at z = 0. Go on in CadQuery with
-    `cadquery.Workplane(obj=gear_solid(gear))`. Raises GeometryError for a ring without a rim
-    diameter.
+    `cadquery.Workplane(obj=gear_solid(gear))`. Raises GeometryError for a ring without a rim diameter.
     """
     import cadquery
 
