@@ -67,3 +67,39 @@ def test_volvo_pair(name: str, record_property: Any) -> None:
     assert found["bodies and 24 positions"] < seconds
     assert found["peak_GB"] < memory
     assert max(found["new load"], found["new modification"]) < _AGAIN
+
+
+_RING_CODE = """
+import json, time
+import gmsh, skfem, scipy.interpolate, scipy.linalg, scipy.sparse
+from threadpoolctl import threadpool_limits
+from gearcad import Body, Gear, GearPair, Load, Material, ShaperCutter
+from gearcad.check.options import CheckOptions
+from gearcad.check.run import check_pair
+common = {"normal_module": 2.0, "face_width": 14}
+pinion = Gear(teeth=22, helix_angle=15, profile_shift=0.3, body=Body(bore=20), **common)
+wheel = Gear(teeth=70, helix_angle=-15, body=Body(bore=110), **common)
+ring = Gear(
+    teeth=-70, helix_angle=15, profile_shift=-0.3, cutter=ShaperCutter(teeth=25, tip_radius=0.2),
+    body=Body(rim_diameter=170), **common,
+)
+found = []
+with threadpool_limits(1):
+    for mate in (wheel, ring):
+        start = time.process_time()
+        check_pair(GearPair(pinion=pinion, wheel=mate), Material(), Load(torque=100), CheckOptions(model="3d"))
+        found.append(time.process_time() - start)
+print(json.dumps(found))
+"""
+
+_RING = 1.5
+"""Seconds of a check of a pinion in a ring, over those beside a wheel of as many teeth."""
+
+
+def test_a_ring_costs_about_as_much_as_a_wheel(record_property: Any) -> None:
+    done = subprocess.run([sys.executable, "-c", _RING_CODE], check=True, capture_output=True, text=True)
+    wheel, ring = json.loads(done.stdout)
+    record_property("wheel", wheel)
+    record_property("ring", ring)
+    print(f"\nchecked beside a wheel in {wheel:.1f} s, in a ring in {ring:.1f} s")
+    assert ring < _RING * wheel

@@ -79,7 +79,7 @@ class BodyModel:
         if hold not in (Hold.AUTO, Hold.RIGID, Hold.BOLTS):
             raise ParameterError(key, hold.value, 'must be "rigid" or "bolts": a ring is held on its rim, it has no bore')
         if self.solid and hold is Hold.BOLTS:
-            raise ParameterError(key, hold.value, 'must be "rigid" for the solid body of a ring')
+            raise ParameterError(key, hold.value, 'must be "rigid" for the solid body of a ring: bolts hold sections only (2d)')
 
     def for_solids(self) -> BodyModel:
         """The same bodies as solids: of what can hold them, only "rigid" and "free"."""
