@@ -21,8 +21,8 @@ from gearcad.errors import InputError
 TOUCH = 1e-7
 """In normal modules: what the search along curves and the touching travel leave; also what counts as interference."""
 
-SHOWN = 1e-3
-"""A cut of this depth (normal modules) shows in one of 200 positions."""
+SHOWN = 1e-2
+"""A cut of this depth (normal modules) shows in one of 60 positions."""
 
 
 def check_pair(pair: RackPair, start: float, side: int) -> None:
@@ -32,7 +32,7 @@ def check_pair(pair: RackPair, start: float, side: int) -> None:
     if cuts:
         event("fillet interference")
         if any(float(cut.text.split("cuts ")[1].split()[0]) > SHOWN * m for cut in cuts):
-            gaps = travel_to_touch(pair, np.linspace(0, 360 / pair.pinion.teeth, 200), side)
+            gaps = travel_to_touch(pair, np.linspace(0, 360 / pair.pinion.teeth, 60), side)
             assert gaps.min() < half - TOUCH * m  # what is said to cut does
         return
     always = pair.usable_contact_ratio >= 1 + 1e-6
