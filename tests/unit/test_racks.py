@@ -118,12 +118,13 @@ def test_pins_that_touch_no_flank_are_refused_with_the_one_that_does() -> None:
 # ---------------------------------------------------------------------- the pair
 
 
-def test_path_of_contact_is_the_limit_of_a_large_wheel() -> None:
-    """BaseTangent with a wheel of radius R: what is left of the difference falls like 1/R."""
+@pytest.mark.parametrize("side", [1, -1])
+def test_path_of_contact_is_the_limit_of_a_large_wheel_and_of_a_large_ring(side: int) -> None:
+    """BaseTangent with a wheel of radius R (a ring's is negative): what is left of the difference falls like 1/R."""
     found = HELICAL.path_of_contact
     angle = math.radians(HELICAL.working_transverse_pressure_angle)
     misses = []
-    for radius in (1e6, 1e7):
+    for radius in (side * 1e6, side * 1e7):
         bases = PerGear(HELICAL.pinion.base_diameter, 2 * radius * math.cos(angle))
         distance = HELICAL.pitch_radius + radius
         tip = 2 * (radius - HELICAL.pitch_line_height + HELICAL.rack.tip_form_height)
