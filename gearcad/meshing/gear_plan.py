@@ -123,6 +123,8 @@ class SectorsPlan(GearPlan):
             yield Notice("no-bore", text)
         if self._solid:
             yield from swept_notices(self.gear)
+        elif self.gear.body.bolt_holes:
+            yield Notice("section-body", "sections of a ring are meshed without its bolt holes; tet10 has them")
 
 
 @dataclass(frozen=True, kw_only=True)

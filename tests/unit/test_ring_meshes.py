@@ -165,3 +165,12 @@ def test_tetrahedra_fill_a_ring(name: str) -> None:
         centres = 19.0 * np.stack([np.cos(turns), np.sin(turns)], -1)
         off = np.linalg.norm(holes[:, None] - centres, axis=-1).min(axis=1)
         assert off == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(("element", "code"), [("hex20", "swept-body"), ("quad8", "section-body")])
+def test_bolt_holes_that_are_left_out_are_told(element: str, code: str) -> None:
+    body = Body(rim_diameter=240.0, bolt_circle=226.0, bolt_holes=8, bolt_diameter=6.6)
+    gear = Gear(**_ALM | {"body": body})
+    plan = plan_mesh(MeshOptions(element=element, what="sector"), {"gear": gear}, None)
+    told = {notice.code: notice.text for notice in plan.notices}
+    assert "bolt holes" in told[code]

@@ -63,7 +63,12 @@ def mesh_body(
 def swept_notices(gear: Gear) -> list[Notice]:
     """What of a gear's body swept hexahedra do not have."""
     body = gear.body
-    features = {"keyway": body.keyway_width, "hub": body.hub_diameter, "end chamfers": body.end_chamfer}
+    features = {
+        "keyway": body.keyway_width,
+        "hub": body.hub_diameter,
+        "bolt holes": body.bolt_holes,
+        "end chamfers": body.end_chamfer,
+    }
     missing = [name for name, size in features.items() if size]
     if not missing:
         return []
