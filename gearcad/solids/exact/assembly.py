@@ -19,7 +19,7 @@ __all__ = ["UNNAMED", "PartNames", "pair_assembly", "part_names"]
 _ARM = 0.6
 """Width of the bracket's arm as a share of the thicker shaft's diameter."""
 
-UNNAMED = ("gear", "pinion", "wheel", "rack")
+UNNAMED = ("gear", "pinion", "wheel")
 """Names that a gear has where nobody named it."""
 
 

@@ -19,9 +19,8 @@ __all__ = ["rack_assembly", "rack_part_names"]
 def rack_part_names(pair: RackPair) -> tuple[str, str]:
     """Names of pinion and rack as products, as `part_names` gives them to gears."""
     ours = f"{pair.name} pinion", f"{pair.name} rack"
-    pinion, rack = (
-        given if given not in UNNAMED else our for given, our in zip((pair.pinion.name, pair.rack.name), ours, strict=True)
-    )
+    given, unnamed = (pair.pinion.name, pair.rack.name), (*UNNAMED, "rack")
+    pinion, rack = (our if own in unnamed else own for own, our in zip(given, ours, strict=True))
     return (pinion, rack) if len({pair.name, pinion, rack}) == 3 else ours
 
 
