@@ -14,11 +14,26 @@ from gearcad.designs.auto import AUTO, CLEAR
 from gearcad.designs.design import require_plain_name
 from gearcad.designs.files import Where, require_sane_tables
 from gearcad.designs.keys import COUNTS, FIELDS, KEYS, PARTS, SHARED, explain_unknown_key
-from gearcad.errors import InputError, ParameterError, SpecError, format_number, shown
+from gearcad.errors import GeometryError, InputError, ParameterError, SpecError, format_number, shown
 from gearcad.geometry import NAMED_RACKS, BasicRack
 from gearcad.per_gear import Role
 
-__all__ = ["Given", "Spec"]
+__all__ = ["OF_SHIFT", "Given", "Spec"]
+
+OF_SHIFT = (
+    "profile_shift",
+    "tip_alteration",
+    "tooth_thinning",
+    "tip_diameter",
+    "root_diameter",
+    "rack.addendum",
+    "rack.dedendum",
+    "rack.root_radius",
+    "cutter.profile_shift",
+    "cutter.tip_radius",
+    "body.tip_chamfer",
+)
+"""Fields of a gear whose limits go with its profile shift."""
 
 _DERIVED = ("normal_module", "tip_diameter", "root_diameter", "centre_distance", "mounting_distance")
 _ROLES = tuple(role.value for role in Role)
@@ -85,7 +100,7 @@ class Spec:
             given = self._unwritten(owner, field)
         note = f" ({given.note})" if given.note else ""
         unit = f" {error.unit}" if error.unit else ""
-        cause = self._automatic_cause(owner, field)
+        cause = self._automatic_cause(owner, field) if isinstance(error, GeometryError) else ""
         text = f"{self.where(given.key)}: {given.key} = {format_number(error.value)}{unit}{note}: {permitted}{cause}"
         return SpecError(text, given.key)
 
@@ -94,9 +109,9 @@ class Spec:
         return owner in _ROLES or (owner == "rack" and any(f"{role}.teeth" in self.values for role in _ROLES))
 
     def _automatic_cause(self, owner: str, field: str) -> str:
-        """A reminder that the profile shift of the gear at fault was derived, and from what."""
+        """A reminder that the profile shift of the gear at fault was derived, and from what, where the fault depends on it."""
         shift = self.values.get(f"{owner}.profile_shift")
-        if field == "profile_shift" or shift is None or not shift.note:
+        if field == "profile_shift" or field not in OF_SHIFT or shift is None or not shift.note:
             return ""
         return f"; its profile_shift is {shift.value:.6g} ({shift.note})"
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import partial
 from itertools import islice
 
@@ -142,36 +142,62 @@ def _more_teeth(pair: PairData, margin: Callable[[InternalTips], float]) -> int 
     """The nearest number of teeth of the ring, negative, whose margin is not; None where it could not be changed alone."""
     if is_given(pair.centre_distance) or is_given(pair.wheel.tip_diameter):
         return None
-    enough = filter(partial(_has_room, pair, margin), range(pair.wheel.tooth_count + 1, pair.wheel.tooth_count + _MOST_STEPS))
-    for teeth in islice(enough, _MOST_TRIALS):
-        if _permitted(pair, partial(replace, pair.wheel, teeth=-teeth)):
+    clear = _is_clear(pair)
+    more = range(pair.wheel.tooth_count + 1, pair.wheel.tooth_count + _MOST_STEPS)
+    for teeth in islice(filter(partial(_has_room, pair, margin, clear), more), _MOST_TRIALS):
+        alteration = _tip_alteration(pair, teeth, clear)
+        if _permitted(pair, partial(replace, pair.wheel, teeth=-teeth, tip_alteration=alteration)):
             return -teeth
     return None
 
 
-def _has_room(pair: PairData, margin: Callable[[InternalTips], float], teeth: int) -> bool:
+def _has_room(pair: PairData, margin: Callable[[InternalTips], float], clear: bool, teeth: int) -> bool:
     """Whether a margin would not be negative with so many teeth of the ring."""
     try:
-        return margin(_sharp_tips(pair, teeth)) >= 0
+        return margin(_sharp_tips(pair, teeth, _tip_alteration(pair, teeth, clear))) >= 0
     except (InputError, ValueError):  # no such pair, or a tip inside its base circle
         return False
 
 
-def _sharp_tips(pair: PairData, teeth: int) -> InternalTips:
-    """Those of the same pair with another number of teeth of the ring, but for its tip chamfers, by formula."""
+def _sharp_tips(pair: PairData, teeth: int, tip_alteration: float) -> InternalTips:
+    """Those of the same pair with another number of teeth and tip of the ring, but for its tip chamfers, by formula."""
     pinion, ring = pair.gears
     share = teeth / ring.tooth_count
     half_angle = ring.normal_tooth_thickness / (ring.normal_module * teeth) - involute(ring.transverse_pressure_angle)
-    tip = -(ring.reference_diameter * share + ring.tip_diameter - ring.reference_diameter) / 2
-    distance = zero_backlash_centre_distance(
-        normal_module=ring.normal_module,
-        teeth=PerGear(pinion.teeth, -teeth),
-        helix_angle=ring.helix_angle,
-        pressure_angle=ring.rack.pressure_angle,
+    rise = ring.tip_diameter - ring.reference_diameter + 2 * ring.normal_module * (tip_alteration - ring.tip_alteration)
+    tip = -(ring.reference_diameter * share + rise) / 2
+    tips = ToothTips.sharp(teeth, -ring.base_diameter / 2 * share, half_angle, tip)
+    return InternalTips(ToothTips.of(pinion.profile), tips, -_distance_with(pair, teeth))
+
+
+def _distance_with(pair: PairData, teeth: int) -> float:
+    """The centre distance (mm, negative) without backlash for another number of teeth of the ring."""
+    return zero_backlash_centre_distance(
+        normal_module=pair.wheel.normal_module,
+        teeth=PerGear(pair.pinion.teeth, -teeth),
+        helix_angle=pair.wheel.helix_angle,
+        pressure_angle=pair.wheel.rack.pressure_angle,
         shift_sum=pair.profile_shift_sum,
     )
-    tips = ToothTips.sharp(teeth, -ring.base_diameter / 2 * share, half_angle, tip)
-    return InternalTips(ToothTips.of(pinion.profile), tips, -distance)
+
+
+def _is_clear(pair: PairData) -> bool:
+    """Whether the ring's tip was drawn in just to stay off the pinion's fillet ("clear" in a spec): it follows the teeth."""
+    if pair.wheel.tip_alteration >= 0 or (clear := clear_tip_diameter(pair)) is None:
+        return False
+    return abs(clear - pair.wheel.tip_diameter) <= _ASIDE * pair.wheel.normal_module
+
+
+def _tip_alteration(pair: PairData, teeth: int, clear: bool) -> float:
+    """k of the ring with another number of teeth: its own, or what is then clear. More teeth need less."""
+    ring = pair.wheel
+    if not clear:
+        return ring.tip_alteration
+    given = {each.name: getattr(ring, each.name) for each in fields(GearData)}
+    other = GearData(**given | {"teeth": -teeth, "tip_alteration": 0.0})
+    tip = tip_on_form_circle(other, pair.pinion, _distance_with(pair, teeth))
+    drawn_in = 0.0 if tip is None else min((tip - other.standard_tip_diameter) / (2 * ring.normal_module), 0.0)
+    return max(ring.tip_alteration, drawn_in)
 
 
 def _permitted(pair: PairData, ring: Callable[[], Gear]) -> bool:

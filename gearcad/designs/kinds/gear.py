@@ -9,6 +9,7 @@ from typing import Any, ClassVar, Self
 from gearcad.designs.auto import AUTO
 from gearcad.designs.design import DesignKind
 from gearcad.designs.files import Where
+from gearcad.designs.khk import khk_reminder
 from gearcad.designs.kinds.geared import GearedDesign
 from gearcad.designs.kinds.toothed import beside_teeth
 from gearcad.errors import GeometryError
@@ -36,7 +37,9 @@ class GearDesign(GearedDesign):
             for key in ("profile_shift", "tip_alteration"):
                 if inputs.get(key) == AUTO:
                     raise GeometryError(key, AUTO, "must be a number: only the gears of a pair know what to derive it from")
-            return cls(name=name, gear=Gear(**inputs | {"name": name}), **beside)
+            with khk_reminder("", inputs, lambda other: Gear(**other)):
+                gear = Gear(**inputs | {"name": name})
+            return cls(name=name, gear=gear, **beside)
 
     @property
     def gears(self) -> dict[str, Gear]:

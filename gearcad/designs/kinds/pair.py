@@ -8,6 +8,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, ClassVar, Self
 
 from gearcad.designs.auto import (
@@ -21,6 +22,7 @@ from gearcad.designs.auto import (
 from gearcad.designs.design import Described, DesignKind
 from gearcad.designs.files import Where
 from gearcad.designs.keys import MAIN_TABLES, SHARED
+from gearcad.designs.khk import khk_reminder
 from gearcad.designs.kinds.geared import GearedDesign, require_tables
 from gearcad.designs.kinds.toothed import beside_teeth
 from gearcad.designs.spec import Given, Spec
@@ -30,6 +32,7 @@ from gearcad.geometry.diametral import MODULE_OR_PITCH
 from gearcad.geometry.mating import check_ring, wrong_side
 from gearcad.load import Load
 from gearcad.per_gear import PerGear, Role
+from gearcad.schema import schema_of
 
 __all__ = ["PairDesign"]
 
@@ -110,13 +113,22 @@ class _PairSpec(Spec):
         self._match_helix()
         inputs = PerGear(*map(self._inputs, Role))
         with self.blame("pair"):
-            given = self._pair_inputs()
-            split = given.pop("profile_shift_split", None)
-            distance = given.get("centre_distance")
             self._check_words(inputs)
-            resolved = self._resolve_auto(inputs, distance, split)
-            gears = make_gears(resolved, PerGear.each(self._automatic), distance)
-            return self._cleared(GearPair(pinion=gears.pinion, wheel=gears.wheel, **given | {"name": name}))
+            with khk_reminder("wheel", inputs.wheel, partial(self._tried, name, inputs)):
+                return self._made(name, inputs)
+
+    def _made(self, name: str, inputs: PerGear[dict[str, Any]]) -> GearPair:
+        """The pair, with every "auto" resolved. Raises InputError."""
+        given = self._pair_inputs()
+        split = given.pop("profile_shift_split", None)
+        distance = given.get("centre_distance")
+        resolved = self._resolve_auto(inputs, distance, split)
+        gears = make_gears(resolved, PerGear.each(self._automatic), distance)
+        return self._cleared(GearPair(pinion=gears.pinion, wheel=gears.wheel, **given | {"name": name}))
+
+    def _tried(self, name: str, inputs: PerGear[dict[str, Any]], wheel: Mapping[str, Any]) -> GearPair:
+        """The pair with another wheel, without a trace among the values. Raises InputError."""
+        return replace(self, values=dict(self.values))._made(name, inputs._replace(wheel=dict(wheel)))
 
     @property
     def _ring(self) -> bool:
@@ -126,9 +138,9 @@ class _PairSpec(Spec):
 
     def _check_words(self, inputs: PerGear[dict[str, Any]]) -> None:
         """Which gear may be a ring, and that only its tip is told to be clear."""
-        teeth = inputs.map(lambda gear: gear["teeth"])
-        if all(isinstance(z, int) for z in teeth):
-            check_ring(teeth)
+        if (count := schema_of(Gear)["teeth"].permitted) is not None:
+            inputs.map(lambda gear: count.require("teeth", gear["teeth"]))
+        check_ring(inputs.map(lambda gear: gear["teeth"]))
         for role, gear in inputs.items():
             if gear.get("tip_alteration") != CLEAR:
                 continue
