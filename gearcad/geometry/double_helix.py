@@ -24,6 +24,7 @@ class DoubleHelix:
     the teeth of the upper half (beyond the gap) are turned on, counter-clockwise, in pitches: 0 where each tooth goes on
     behind the gap, 0.5 where it faces a space; -0.5 is the same. `gap_diameter` (mm) is that of the gear between the halves,
     None a quarter of a module below the root circle. The gear's helix angle is that of the lower half, which begins at z = 0.
+    End chamfers are on both ends of each half, but for an apex.
     Raises ParameterError, or GeometryError for an offset without a gap.
     """
 
