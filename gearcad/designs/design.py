@@ -37,6 +37,11 @@ class DesignKind(Enum):
     RACK_PAIR = "rack_pair"
     TRAIN = "train"
 
+    @property
+    def words(self) -> str:
+        """As one says it to whoever never typed the value."""
+        return "rack and pinion" if self is DesignKind.RACK_PAIR else self.value
+
 
 class Described(Protocol):
     """What has derived properties and warnings of its own: a gear, a rack, or a pair of them."""
@@ -105,8 +110,8 @@ class Design(ABC):
 
 def not_accepted(kind: type[Design], accepted: Iterable[type[Design]], why: str) -> ParameterError:
     """The error for a kind of design that is none of the accepted ones; `why` is said of those that know no better."""
-    permitted = " or ".join(f"a {each.kind.value.replace('_', ' ')}" for each in accepted)
-    return ParameterError("kind", kind.kind.value, f"must be {permitted}: {kind.elsewhere or why}")
+    permitted = " or ".join(f"a {each.kind.words}" for each in accepted)
+    return ParameterError("kind", kind.kind.words, f"must be {permitted}: {kind.elsewhere or why}")
 
 
 def require_plain_name(name: Any) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 
 from gearcad.designs import Design, GearDesign, PairDesign, RackDesign, RackPairDesign, ToothedDesign
 from gearcad.errors import GeometryError, ParameterError, as_choice
+from gearcad.geometry import Gear
 from gearcad.jobs.data import Data
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import Subject, as_design
@@ -19,6 +20,7 @@ from gearcad.solids import FileOptions, Format
 from gearcad.solids.files.formats import formats_minding
 from gearcad.solids.files.products import GearProduct, PairProduct
 from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
+from gearcad.solids.rim import require_rim
 from gearcad.version import __version__
 
 __all__ = ["Build", "build"]
@@ -60,6 +62,9 @@ class Build(Job[ToothedDesign, ToothedDesign]):
             needed = formats_minding(option)
             if getattr(self.options, option) and not set(self.formats).intersection(needed):
                 raise GeometryError(option, True, f"needs the format {' or '.join(kind.value for kind in needed)}: {where}")
+        if any(kind.entry.of_bodies for kind in self.formats):
+            for name, gear in design.gears.items():
+                _require_body(name, gear)
         return design
 
     def document(self, result: ToothedDesign) -> dict[str, Any]:
@@ -97,6 +102,15 @@ class Build(Job[ToothedDesign, ToothedDesign]):
             return Data()
         options = FileOptions(**{name: value for kind in formats for name, value in kind.minded(self.options).items()})
         return Build(formats=formats, options=options if isinstance(design, PairDesign) else replace(options, bracket=False))
+
+
+def _require_body(name: str, gear: Gear) -> None:
+    """A ring's body ends at its rim. Raises GeometryError, its parameter led by the gear's name."""
+    try:
+        if gear.internal:
+            require_rim(gear)
+    except GeometryError as error:
+        raise error.within(name) from error
 
 
 def _formats(given: object) -> tuple[Format, ...]:

@@ -34,7 +34,7 @@ def as_design(subject: Subject, load: Load | None = None, **inputs: Unpack[Input
     for name, value in given.items():
         if not hasattr(subject, name):
             known = ", ".join(each for each in BESIDE if hasattr(subject, each))
-            raise ParameterError(name, value, f"is nothing that a {subject.kind.value.replace('_', ' ')} has; it has {known}")
+            raise ParameterError(name, value, f"is nothing that a {subject.kind.words} has; it has {known}")
         if value is not None and not isinstance(value, BESIDE[name]):
             raise ParameterError(name, value, f"must be a {BESIDE[name].__name__}")
     return replace(subject, **given)

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.errors import GearcadError, ParameterError
 from gearcad.geometry import GearPair
+from gearcad.geometry.halves import refuse_halves
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
@@ -20,6 +21,8 @@ from gearcad.stiffness.methods import METHODS
 
 __all__ = ["compare_methods", "expected_methods"]
 
+
+_WHAT = "a mesh stiffness"
 
 _PROGRAM = 0.4e9
 """Bytes of Python, its libraries, and plane bodies."""
@@ -41,8 +44,10 @@ def compare_methods(
 ) -> StiffnessComparison:
     """Mesh stiffness of a pair by several methods: their names, or methods that are made already.
 
-    A method that cannot treat the pair is left out with its reason; if none can, the first reason is raised.
+    A method that cannot treat the pair is left out with its reason; if none can, the first reason is raised. Raises
+    GeometryError at once for a double helical pair.
     """
+    refuse_halves(pair.pinion, _WHAT)
     body, mounting = body or BodyModel(), mounting or Mounting()
     inputs = _MethodInputs(pair, material, body, mounting, positions)
     made = [(_name_of(each), inputs.method(each)) for each in methods]
@@ -84,6 +89,7 @@ def expected_methods(
     positions: int = 0,
 ) -> Expected:
     """What `compare_methods` is expected to take."""
+    refuse_halves(pair.pinion, _WHAT)
     inputs = _MethodInputs(pair, material, body or BodyModel(), mounting or Mounting(), positions)
     every = [_expected(inputs.method(name)) for name in methods]
     return Expected(sum(each.seconds for each in every), _PROGRAM + max((each.memory for each in every), default=0.0))

@@ -127,3 +127,16 @@ def test_closed_forms_warn_of_a_thin_rim(here: Path) -> None:
     ]
     text = (here / "output/pair/stiffness.html").read_text(encoding="utf-8")
     assert "1.129" in text and text.count(thin) == 2
+
+
+def test_double_helical_pairs_are_refused_before_any_method_begins(tmp_path: Path) -> None:
+    double = {"pair.face_width": "40.0", "pair.helix_angle": "25.0", "pair.double_helix.gap_width": "8.0"}
+    text = "".join(f"{key} = {value}\n" for key, value in double.items())
+    spec = tmp_path / "double.toml"
+    spec.write_text(f"pair.normal_module = 2.0\npinion.teeth = 24\nwheel.teeth = 40\nload.torque = 60.0\n{text}")
+    result = CliRunner().invoke(main, ["stiffness", str(spec), "-o", str(tmp_path / "files")])
+    assert result.exit_code == 2
+    assert result.output.splitlines() == [
+        "Error: double_helix.gap_width = 8 mm: must be left out for a mesh stiffness: take one half, of face width 16 mm,"
+        " and half the torque"
+    ]

@@ -168,11 +168,13 @@ def test_jobs_take_racks_or_say_why_not(tmp_path: Path) -> None:
     with pytest.raises(GeometryError, match="bracket = True: needs a pair of gears"):
         gearcad.build(pair, tmp_path, ["step"], bracket=True)
     for verb in ("check", "mesh", "stiffness", "dynamics", "modify"):
-        with pytest.raises(ParameterError, match=r"^kind = 'rack_pair': must be a .*pair.*: finite elements, stiffness"):
+        with pytest.raises(ParameterError, match=r"^kind = 'rack and pinion': must be a .*pair.*: finite elements, stiffness"):
             getattr(gearcad, verb)(pair)
-    with pytest.raises(ParameterError, match=r"^kind = 'rack': must be a pair or a rack pair: a rack by itself is for"):
+    with pytest.raises(ParameterError, match=r"^kind = 'rack': must be a pair or a rack and pinion: a rack by itself is for"):
         gearcad.rate(pair.rack)
-    with pytest.raises(ParameterError, match=r"^mounting = None: is nothing that a rack pair has; it has material, load,"):
+    with pytest.raises(
+        ParameterError, match=r"^mounting = None: is nothing that a rack and pinion has; it has material, load,"
+    ):
         gearcad.data(pair, mounting=None)  # type: ignore[typeddict-item]
 
 

@@ -42,13 +42,14 @@ class Format(Enum):
 @dataclass(frozen=True)
 class Entry:
     """One format: what it holds, in words; what writes a gear or a rack, and a pair in mesh (None: it has no assemblies); which
-    fields of FileOptions matter to it.
+    fields of FileOptions matter to it; whether it holds bodies, so that a ring needs its rim.
     """
 
     words: str
     write: Callable[[PartProduct, Path], None]
     write_pair: Callable[[AssemblyProduct, Path], None] | None = None
     options: tuple[str, ...] = ()
+    of_bodies: bool = True
 
 
 def formats_minding(option: str) -> list[Format]:
@@ -95,6 +96,6 @@ _ENTRIES = {
     Format.STL: Entry("facets within --chord-error", _stl, None, _FACETED),
     Format.THREE_MF: Entry("facets, for printing", _3mf, _3mf, _FACETED),
     Format.GLB: Entry("facets, for viewers", _glb, _glb, _FACETED),
-    Format.DXF: Entry("exact section, for cutting", _dxf, None, ("circles",)),
-    Format.CSV: Entry("points of flank and fillet", _csv),
+    Format.DXF: Entry("exact section, for cutting", _dxf, None, ("circles",), of_bodies=False),
+    Format.CSV: Entry("points of flank and fillet", _csv, of_bodies=False),
 }
