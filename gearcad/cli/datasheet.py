@@ -33,7 +33,7 @@ _GEAR_BLOCKS = {
     "Teeth": "teeth normal_module normal_diametral_pitch helix_angle profile_shift profile_shift_khk"
     " tip_alteration tooth_thinning face_width virtual_teeth lead",
     "Basic rack": _of_part("rack"),
-    "Shaper cutter": _of_part("cutter"),
+    "Shaper cutter": _of_part("cutter") + " cutter_tip_diameter",
     "Double helix": _of_part("double_helix"),
     "Transverse section": "transverse_module transverse_pressure_angle base_helix_angle transverse_pitch transverse_base_pitch",
     "Diameters": "tip_diameter tip_form_diameter reference_diameter base_diameter form_diameter root_diameter undercut",

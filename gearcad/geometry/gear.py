@@ -19,7 +19,7 @@ from gearcad.geometry.internal_profile import InternalProfile
 from gearcad.geometry.modification import FlankForm, check_flanks
 from gearcad.geometry.picture import gear_html
 from gearcad.geometry.profile import ToothProfile, base_half_angle
-from gearcad.geometry.tooling import corner_notices, fillet_tool
+from gearcad.geometry.tooling import corner_notices, fillet_tool, shaper_tip
 from gearcad.geometry.trimming import trimming_notices
 from gearcad.geometry.walls import check_body
 from gearcad.notice import Notice, texts
@@ -33,7 +33,7 @@ THIN_TIP = 0.2
 _DERIVED = (
     "transverse_module transverse_pressure_angle base_helix_angle reference_diameter base_diameter tip_form_diameter "
     "form_diameter undercut normal_tooth_thickness transverse_tooth_thickness tip_thickness transverse_pitch "
-    "transverse_base_pitch lead virtual_teeth"
+    "transverse_base_pitch lead virtual_teeth cutter_tip_diameter"
 ).split()
 _OF_EXTERNAL = "span_teeth span_measurement span_contact_diameter ball_diameter over_balls over_pins pin_axial_shift".split()
 _OF_RINGS = (
@@ -123,6 +123,11 @@ class Gear(GearData):
     def undercut(self) -> bool:
         """True if the tool removes part of the involute."""
         return self.profile.undercut
+
+    @property
+    def cutter_tip_diameter(self) -> float | None:
+        """d_a0 of the shaper cutter (mm), set to reach the root circle; None without one."""
+        return None if self.cutter.teeth is None else 2 * shaper_tip(self, 0.0).tip_radius
 
     @property
     def tip_thickness(self) -> float:

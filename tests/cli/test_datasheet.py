@@ -90,4 +90,5 @@ def test_a_helical_ring_says_what_it_is_not_measured_by() -> None:
     assert lines["span measurement"] == ["W_k", "mm", "spur", "only"]
     assert lines["between two pins (spur rings)"] == ["M_dR", "mm", "spur", "only"]
     assert lines["cutter, number of teeth"] == ["z_0", "25"]
+    assert lines["cutter, tip diameter for this root"][:2] == ["d_a0", "mm"]
     assert not {"normal diametral pitch", "spaces spanned (spur rings)"} & lines.keys()

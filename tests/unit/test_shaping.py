@@ -10,7 +10,8 @@ import pytest
 
 from gearcad import BasicRack, Body, Gear, GeometryError, ParameterError
 from gearcad.errors import InputError
-from gearcad.geometry import ShaperCutter
+from gearcad.geometry import ShaperCutter, zero_backlash_centre_distance
+from gearcad.per_gear import PerGear
 
 
 def _inputs(**changes: Any) -> dict[str, Any]:
@@ -81,6 +82,19 @@ def test_the_limits_are_tight() -> None:
         Gear(**_with(inputs, parameter, value))
         with pytest.raises(GeometryError, match="the cutter's involute begins on its base circle"):
             Gear(**_with(inputs, parameter, value + step))
+
+
+@pytest.mark.parametrize("teeth", [-70, 40])
+@pytest.mark.parametrize("shift", [0.0, -0.4])
+def test_tip_of_the_cutter_reaches_the_root_at_the_centre_distance_without_backlash(teeth: int, shift: float) -> None:
+    gear = Gear(**_inputs(teeth=teeth, profile_shift=shift, cutter=ShaperCutter(teeth=25, profile_shift=0.1)))
+    apart = zero_backlash_centre_distance(
+        normal_module=2.0, teeth=PerGear(25, teeth), helix_angle=0.0, pressure_angle=20.0, shift_sum=shift + 0.1
+    )
+    assert gear.cutter_tip_diameter == pytest.approx(abs(2 * apart - gear.root_diameter), rel=1e-12)
+    standard = replace(gear, profile_shift=0.0, cutter=CUTTER)
+    assert standard.cutter_tip_diameter == pytest.approx(2.0 * (25 + 2 * 1.25), rel=1e-12)
+    assert replace(gear, cutter=ShaperCutter()).cutter_tip_diameter is None
 
 
 def test_too_few_teeth_and_wrong_signs() -> None:
