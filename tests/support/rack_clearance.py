@@ -24,9 +24,6 @@ FINE = 13
 REFINEMENTS = 6
 """Each narrows the search to two cells of the last grid: (2/48) (2/12)^5, 5e-6 of a curve's length at the end."""
 
-NEIGHBOURS = 3
-"""Teeth on each side of the line of centres that are looked at."""
-
 ROUNDING = 1e-12
 
 
@@ -41,10 +38,13 @@ class _Meshed:
         self.turn = np.radians(rotations + 360 * poses[0].z / lead)[:, None, None]
         self.x, self.y = poses[0].x, np.array([pose.y for pose in poses])[:, None, None]
         self.pitch, self.angle = self.rack.pitch, 2 * math.pi / self.pinion.teeth
+        # As many teeth on each side of the line of centres as have their tips beyond the line of the other's.
+        tip, line = self.pinion.tip_diameter / 2, self.x - self.rack.tip_height
+        self.count = math.ceil(math.sqrt(max(tip**2 - line**2, 0.0)) / self.pitch) + 1
 
     def from_pinion(self) -> Floats:
         """How far (mm) the rack may move towards points of the pinion."""
-        count = min(NEIGHBOURS, (int(self.pinion.teeth) - 1) // 2)
+        count = min(self.count, (int(self.pinion.teeth) - 1) // 2)
         near = np.arange(-count, count + 1)[:, None] + np.round(-self.turn / self.angle)
         turns = self.turn + self.angle * near
 
@@ -62,7 +62,7 @@ class _Meshed:
 
     def from_rack(self, moved: Floats) -> Floats:
         """By what angle (rad) the pinion may turn towards points of the rack that has moved."""
-        near = np.arange(-NEIGHBOURS, NEIGHBOURS + 1)[:, None] + np.round(-self.y / self.pitch - 0.5)
+        near = np.arange(-self.count, self.count + 1)[:, None] + np.round(-self.y / self.pitch - 0.5)
         centres = self.y + self.side * moved[:, None, None] + self.pitch * (near + 0.5)
 
         def gaps(points: Floats, centres: Floats) -> Floats:
