@@ -24,7 +24,12 @@ _HEADER = re.compile(rb"HEADER;.*?ENDSEC;\n", re.DOTALL)
 _PREPROCESSOR = re.compile(rb"'(Open CASCADE STEP processor [^']*)'")
 _SCHEMA = re.compile(rb"FILE_SCHEMA\(\('([^']*)'\)\)")
 _TOKEN = re.compile(rb"'gearcad-name-(\d+)'")
-_OCCURRENCE = re.compile(rb"(NEXT_ASSEMBLY_USAGE_OCCURRENCE\()'\d+'")
+_OCCURRENCE = re.compile(rb"^(#\d+ = NEXT_ASSEMBLY_USAGE_OCCURRENCE\()'\d+'([^;]*)\);", re.MULTILINE)
+_LINE_BREAK = re.compile(rb"\n *")
+_PIECE = re.compile(rb",|[^,]+")
+_LONGEST_LINE = 72
+"""Of the kernel, where it begins a new one between parameters and commas."""
+
 _COLOUR_BLOCK = re.compile(
     rb"^#(\d+) = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION\([^;]*;"
     rb"\s*#\d+ = STYLED_ITEM\('color',\([^)]*\),#(\d+)\);"
@@ -181,7 +186,17 @@ def _with_header(content: bytes, name: str) -> bytes:
 def _reproducible(content: bytes) -> bytes:
     """The kernel numbers occurrences through the whole session: count them by file."""
     number = count(1)
-    return _sort_colours(_OCCURRENCE.sub(lambda match: match[1] + b"'%d'" % next(number), content))
+    return _sort_colours(_OCCURRENCE.sub(lambda match: _numbered(match, next(number)), content))
+
+
+def _numbered(occurrence: re.Match[bytes], number: int) -> bytes:
+    """An occurrence with a number of its own, its lines broken where the kernel breaks them with that."""
+    text, line = b"", occurrence[1] + b"'%d'" % number
+    for piece in (*_PIECE.findall(_LINE_BREAK.sub(b"", occurrence[2])), b");"):
+        if len(line) + len(piece) > _LONGEST_LINE:
+            text, line = text + line + b"\n", b"  "
+        line += piece
+    return text + line
 
 
 def _sort_colours(content: bytes) -> bytes:
