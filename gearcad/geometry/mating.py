@@ -60,7 +60,7 @@ def check_ring(teeth: PerGear[int]) -> None:
     if pinion < 0:
         raise GeometryError("pinion.teeth", pinion, "must be above 0: of an internal pair the ring is the wheel")
     if wheel < 0 and -wheel <= pinion:
-        raise GeometryError("wheel.teeth", wheel, f"must be below {-pinion}: the pinion stands inside the ring")
+        raise GeometryError("wheel.teeth", wheel, f"must be far below {-pinion}: the pinion stands inside the ring")
 
 
 def check_mates(pair: PairData) -> None:

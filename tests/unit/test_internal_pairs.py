@@ -80,7 +80,7 @@ def test_which_gear_is_the_ring() -> None:
     ring = Gear(teeth=-60, normal_module=2.0, face_width=20.0)
     with pytest.raises(GeometryError, match=r"pinion.teeth = -60: must be above 0: of an internal pair the ring is the wheel"):
         GearPair(pinion=ring, wheel=Gear(teeth=20, normal_module=2.0, face_width=20.0))
-    with pytest.raises(GeometryError, match=r"wheel.teeth = -60: must be below -70: the pinion stands inside the ring"):
+    with pytest.raises(GeometryError, match=r"wheel.teeth = -60: must be far below -70: the pinion stands inside the ring"):
         GearPair(pinion=Gear(teeth=70, normal_module=2.0, face_width=20.0), wheel=ring)
     with pytest.raises(ParameterError, match=r"centre_distance = 42 mm: .* below 0 mm with a ring \(ISO 21771\): write -42$"):
         _ring_pair((24, -66), pair={"centre_distance": 42.0})
@@ -305,7 +305,7 @@ def test_clear_tip_that_clears_already_is_not_lengthened() -> None:
 WRONG: list[tuple[dict[str, dict[str, Any]], str]] = [
     ({"pair": {"centre_distance": 69.0}}, "centre_distance = 69 mm: must be a number below 0 mm with a ring (ISO 21771): wr"),
     ({"pair": {"centre_distance": 0.0}}, "pair.centre_distance = 0 mm: must be a number below 0 mm with a ring (ISO 21771)"),
-    ({"wheel": {"teeth": -20}}, "wheel.teeth = -20: must be below -22: the pinion stands inside the ring"),
+    ({"wheel": {"teeth": -20}}, "wheel.teeth = -20: must be far below -22: the pinion stands inside the ring"),
     ({"pinion": {"teeth": -70}}, "pinion.teeth = -70: must be above 0: of an internal pair the ring is the wheel"),
     ({"pinion": {"helix_angle": 15.0}, "wheel": {"helix_angle": -15.0}}, "wheel.helix_angle = -15 deg: must be 15 deg, as on"),
     ({"wheel": {"teeth": -26, "profile_shift": -0.5}}, "wheel.teeth = -26: must be at most -30: trochoid interference"),

@@ -72,3 +72,13 @@ def test_shift_that_followed_from_the_centre_distance_is_told_only_of_faults_tha
         assert "profile_shift" not in _refusal(**changes, wheel={"profile_shift": "auto", field: value})
     text = _refusal(**changes, wheel={"profile_shift": "auto", "tip_diameter": -180.0})
     assert "; its profile_shift is -1.20" in text
+
+
+@pytest.mark.parametrize("wheel", [{}, {"rack": {"addendum": 0.7}}, {"profile_shift": -0.4, "tip_alteration": "clear"}])
+def test_ring_of_fewer_teeth_than_its_pinion_is_told_how_many_make_the_pair(wheel: dict[str, Any]) -> None:
+    text = _refusal(wheel=wheel | {"teeth": -20})
+    start = "ring.toml: wheel.teeth = -20: must be far below -22: the pinion stands inside the ring; with the other numbers"
+    assert text.startswith(start)
+    named = int(re.search(r" at most (-\d+)$", text)[1])  # type: ignore[index]
+    assert _design(wheel=wheel | {"teeth": named}).gears["wheel"].teeth == named
+    _refusal(wheel=wheel | {"teeth": named + 1})

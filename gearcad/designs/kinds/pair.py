@@ -6,6 +6,7 @@ What both gears share may stand in `[pair]`; a gear's own value wins, and the wh
 from __future__ import annotations
 
 import itertools
+from bisect import bisect_left
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
@@ -26,7 +27,7 @@ from gearcad.designs.khk import khk_reminder
 from gearcad.designs.kinds.geared import GearedDesign, require_tables
 from gearcad.designs.kinds.toothed import beside_teeth
 from gearcad.designs.spec import Given, Spec
-from gearcad.errors import GeometryError, ParameterError, SpecError, as_choice, require_number
+from gearcad.errors import GeometryError, InputError, ParameterError, SpecError, as_choice, require_number
 from gearcad.geometry import Gear, GearPair, ShiftSplit
 from gearcad.geometry.diametral import MODULE_OR_PITCH
 from gearcad.geometry.mating import check_ring, wrong_side
@@ -100,6 +101,9 @@ def _require_pair(tables: Mapping[str, Any], where: Where) -> None:
 _ROUNDING = 1e-9
 """Change of a tip alteration, in normal modules, that is rounding."""
 
+_MORE_TEETH = (1, 2, 4, 8, 16, 32, 64, 128)
+"""By how many teeth rings beyond their pinion are tried, each twice the last, before those between are."""
+
 _OPPOSED = ("helix_angle", "double_helix.offset")
 """Fields of a gear that its mate has with the opposite sign, and a ring with the same."""
 
@@ -113,6 +117,7 @@ class _PairSpec(Spec):
         self._match_helix()
         inputs = PerGear(*map(self._inputs, Role))
         with self.blame("pair"):
+            self._check_teeth(name, inputs)
             self._check_words(inputs)
             with khk_reminder("wheel", inputs.wheel, partial(self._tried, name, inputs)):
                 return self._made(name, inputs)
@@ -136,11 +141,37 @@ class _PairSpec(Spec):
         teeth = self.values.get("wheel.teeth")
         return teeth is not None and isinstance(teeth.value, int) and teeth.value < 0
 
-    def _check_words(self, inputs: PerGear[dict[str, Any]]) -> None:
-        """Which gear may be a ring, and that only its tip is told to be clear."""
+    def _check_teeth(self, name: str, inputs: PerGear[dict[str, Any]]) -> None:
+        """The numbers of teeth by themselves, and which gear may be a ring; of how many teeth is added where that is found."""
         if (count := schema_of(Gear)["teeth"].permitted) is not None:
             inputs.map(lambda gear: count.require("teeth", gear["teeth"]))
-        check_ring(inputs.map(lambda gear: gear["teeth"]))
+        try:
+            check_ring(inputs.map(lambda gear: gear["teeth"]))
+        except GeometryError as error:
+            if error.parameter != "wheel.teeth" or (fewest := self._fewest_teeth(name, inputs)) is None:
+                raise
+            permitted = f"{error.permitted}; with the other numbers as they are at most {-fewest}"
+            raise GeometryError(error.parameter, error.value, permitted) from error
+
+    def _fewest_teeth(self, name: str, inputs: PerGear[dict[str, Any]]) -> int | None:
+        """Of a ring that takes the pinion with all else as it is; None if none was found."""
+        pinion: int = inputs.pinion["teeth"]
+
+        def makes(more: int) -> bool:
+            try:
+                self._tried(name, inputs, {**inputs.wheel, "teeth": -pinion - more})
+            except InputError:
+                return False
+            return True
+
+        enough = next(filter(makes, _MORE_TEETH), None)
+        if enough is None:
+            return None
+        fewer = range(enough // 2 + 1, enough)
+        return pinion + enough // 2 + 1 + bisect_left(fewer, True, key=makes)
+
+    def _check_words(self, inputs: PerGear[dict[str, Any]]) -> None:
+        """Only the tip of a ring is told to be clear."""
         for role, gear in inputs.items():
             if gear.get("tip_alteration") != CLEAR:
                 continue
