@@ -6,6 +6,7 @@ Raises GeometryError, whose limits can be used as they are printed.
 from __future__ import annotations
 
 import math
+from dataclasses import fields, replace
 
 from gearcad.errors import GeometryError
 from gearcad.geometry.body import LEAST_FEATURE
@@ -115,11 +116,17 @@ def _check_generated(gear: GearData, teeth: int) -> None:
     side = -1 if gear.internal else 1
     limit = side * 2 * math.hypot(gear.base_diameter / 2, line_of_generation(gear, teeth)) + 2 * gear.body.tip_chamfer
     others = range(teeth + 1, gear.tooth_count if gear.internal else _MOST_CUTTER_TEETH + 1)
-    more = next((other for other in others if _generates(gear, other)), None)
+    more = next((other for other in others if _generates(gear, other) and cutter_fits(_cut_by(gear, other))), None)
     hint = "" if more is None else f"; or cutter.teeth at least {more}"
     words = f"must be at most {at_most(limit)} mm{tip_words(gear, limit, 'at most')}"
     why = "the cutter's involute begins on its base circle and generates no flank beyond that"
     raise GeometryError("tip_diameter", gear.tip_diameter, f"{words}: {why}{hint}", "mm")
+
+
+def _cut_by(gear: GearData, teeth: int) -> GearData:
+    """The gear, unchecked, with another number of teeth of its cutter."""
+    given = {each.name: getattr(gear, each.name) for each in fields(GearData)}
+    return GearData(**given | {"cutter": replace(gear.cutter, teeth=teeth)})
 
 
 def _generates(gear: GearData, teeth: int) -> bool:

@@ -82,3 +82,14 @@ def test_ring_of_fewer_teeth_than_its_pinion_is_told_how_many_make_the_pair(whee
     named = int(re.search(r" at most (-\d+)$", text)[1])  # type: ignore[index]
     assert _design(wheel=wheel | {"teeth": named}).gears["wheel"].teeth == named
     _refusal(wheel=wheel | {"teeth": named + 1})
+
+
+def test_ring_that_its_cutter_cannot_make_is_told_what_the_pair_asks_of_its_tip_besides() -> None:
+    ring = {"teeth": -28, "rack": {"addendum": 0.7}, "cutter": {"teeth": 15}}
+    text = _refusal(wheel=ring)
+    assert "no flank beyond that; or cutter.teeth at least 17; whatever the cutter, wheel.tip_diameter must be" in text
+    tip = float(re.search(r"whatever the cutter, wheel.tip_diameter must be at most (-[\d.]+) mm", text)[1])  # type: ignore[index]
+    assert _design(wheel=ring | {"tip_diameter": tip}).gears["wheel"].cutter.teeth == 15
+    assert "whatever the cutter" not in _refusal(
+        wheel=ring | {"teeth": -66, "rack": {"addendum": 0.9}, "cutter": {"teeth": 12}}
+    )

@@ -28,7 +28,7 @@ from gearcad.designs.kinds.geared import GearedDesign, require_tables
 from gearcad.designs.kinds.toothed import beside_teeth
 from gearcad.designs.spec import Given, Spec
 from gearcad.errors import GeometryError, InputError, ParameterError, SpecError, as_choice, require_number
-from gearcad.geometry import Gear, GearPair, ShiftSplit
+from gearcad.geometry import Gear, GearPair, ShaperCutter, ShiftSplit
 from gearcad.geometry.diametral import MODULE_OR_PITCH
 from gearcad.geometry.mating import check_ring, wrong_side
 from gearcad.load import Load
@@ -128,8 +128,25 @@ class _PairSpec(Spec):
         split = given.pop("profile_shift_split", None)
         distance = given.get("centre_distance")
         resolved = self._resolve_auto(inputs, distance, split)
-        gears = make_gears(resolved, PerGear.each(self._automatic), distance)
+        gears = self._gears(resolved, given)
         return self._cleared(GearPair(pinion=gears.pinion, wheel=gears.wheel, **given | {"name": name}))
+
+    def _gears(self, resolved: PerGear[dict[str, Any]], given: Mapping[str, Any]) -> PerGear[Gear]:
+        """Both gears; a ring whose tip its cutter cannot make is told what the pair asks of it too. Raises InputError."""
+        automatic, distance = PerGear.each(self._automatic), given.get("centre_distance")
+        try:
+            return make_gears(resolved, automatic, distance)
+        except GeometryError as error:
+            if error.parameter != "wheel.tip_diameter" or resolved.wheel["cutter"].teeth is None:
+                raise
+            try:
+                gears = make_gears(resolved._replace(wheel={**resolved.wheel, "cutter": ShaperCutter()}), automatic, distance)
+                GearPair(pinion=gears.pinion, wheel=gears.wheel, **given)
+            except GeometryError as other:
+                if other.parameter in ("wheel.tip_diameter", "wheel.teeth") and other.permitted != error.permitted:
+                    besides = f"; whatever the cutter, {other.parameter} {other.permitted}"
+                    raise GeometryError(error.parameter, error.value, error.permitted + besides, error.unit) from error
+            raise
 
     def _tried(self, name: str, inputs: PerGear[dict[str, Any]], wheel: Mapping[str, Any]) -> GearPair:
         """The pair with another wheel, without a trace among the values. Raises InputError."""
