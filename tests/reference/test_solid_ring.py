@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from support.hertz import hertz_ellipse
 
-from gearcad import BasicRack, Body, FlankModification, Gear, GearPair, Material, Mounting
+from gearcad import Body, FlankModification, Gear, GearPair, Material, Mounting
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.plane.pair import plane_pair
@@ -19,17 +19,21 @@ from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.field import solid_field
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.geometry import ShaperCutter
+from gearcad.geometry.curves import CurveKind
 from gearcad.meshing.section import MeshSizes
 from gearcad.per_gear import PerGear, Role
 
 STEEL = Material()
 SECTORS = BodyModel(teeth=3, cuts=Cuts.FIXED)
+FIVE = BodyModel(teeth=5, cuts=Cuts.FIXED)
+"""As many as sections have at the least where flanks stay close."""
+
 SECTION = MeshSizes(flank=0.5, corner=0.1, fillet=0.2, outline=0.6, cut=0.4, rim=6.0, growth=0.6)
 QUICK = SolidSizes(section=SECTION, layer=1.4, fewest_layers=5)
 """Coarse: 7 to 12 thousand dofs a gear."""
 
-BENT = SolidSizes(section=replace(SECTION, fillet=0.13), layer=1.4, fewest_layers=5)
-"""Finer along the fillets, which have small radii in rings."""
+BENT = SolidSizes(section=replace(SECTION, fillet=0.14), layer=1.4, fewest_layers=5)
+"""Finer along the fillets."""
 
 POSITIONS = 8
 
@@ -50,7 +54,7 @@ HELICAL_TORQUE = 180.0
 
 @pytest.fixture(scope="module")
 def spur() -> SolidPair:
-    return solid_pair(SPUR, STEEL, body=SECTORS, sizes=BENT)
+    return solid_pair(SPUR, STEEL, body=FIVE, sizes=BENT)
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +66,7 @@ def test_spur_gear_lies_between_the_plane_states(spur: SolidPair) -> None:
     """As external ones do: thin gears are in plane stress, wide ones in plane strain. Mean root stresses differed by 1 %."""
     solid = SolidCycle.run(spur, SPUR_TORQUE, POSITIONS)
     stress, strain = (
-        PlaneCycle.run(plane_pair(SPUR, STEEL, body=SECTORS, plane=plane), SPUR_TORQUE, POSITIONS)
+        PlaneCycle.run(plane_pair(SPUR, STEEL, body=FIVE, plane=plane), SPUR_TORQUE, POSITIONS)
         for plane in (Plane.STRESS, Plane.STRAIN)
     )
     soft, stiff = (cycle.values("stiffness").mean() for cycle in (stress, strain))
@@ -127,8 +131,7 @@ def test_rings_and_wheels_of_many_teeth_are_the_same_rack() -> None:
     cycles = []
     for side in (1, -1):
         # The hob's tip and the form root of a ring of as many teeth are both the tip of the rack.
-        sizes = {"normal_module": 3.0, "face_width": 20, "helix_angle": -side * 18.0, "rack": BasicRack(root_radius=0.3)}
-        wheel = Gear(teeth=side * 2000, **sizes)
+        wheel = Gear(teeth=side * 2000, normal_module=3.0, face_width=20, helix_angle=-side * 18.0)
         body = replace(wheel.body, rim_diameter=wheel.profile.root_diameter + 24) if side < 0 else wheel.body
         pair = GearPair(pinion=pinion, wheel=replace(wheel, body=body), axial_offset=1.5)
         held = BodyModel(teeth=3, inner_diameters=PerGear(None, wheel.profile.root_diameter - 24 if side > 0 else None))
@@ -210,3 +213,17 @@ def test_the_field_of_a_ring_is_that_of_the_ring_as_it_stands(helical: SolidPair
     pressed, behind = (surface & (sign * straight > 0) for sign in (-1, 1))
     assert min(field.displacement[pressed, 1].mean(), field.displacement[behind, 1].mean()) > 0
     assert field.stress[pressed, 1].min() < 3 * field.stress[behind, 1].min() < 0  # square to the flank, about
+
+
+def test_edges_are_shorter_where_a_cutter_leaves_sharp_fillets() -> None:
+    """And those of other gears are what they were."""
+    sizes = SolidSizes()
+    for gear in (*HELICAL.gears, replace(SPUR.wheel, cutter=ShaperCutter(teeth=25, tip_radius=0.1))):
+        fillet = next(curve for curve in gear.profile.curves if curve.kind is CurveKind.FILLET)
+        points = fillet.points(np.linspace(0, 1, 2001))
+        one, two, chord = (np.hypot(*(points[k:] - points[:-k]).T) for k in (1, 1, 2))
+        double = np.abs(np.linalg.det(np.stack([points[1:-1] - points[:-2], points[2:] - points[:-2]], -1)))
+        least = (one[:-1] * two[1:] * chord / (2 * double)).min() / gear.normal_module  # of circles through three points
+        expected = min(0.3 * least, sizes.section.fillet) if gear.internal else sizes.section.fillet
+        assert sizes.section_of(gear).fillet == pytest.approx(expected, rel=1e-3)
+        assert sizes.refined(2).section_of(gear).fillet == pytest.approx(expected / 2, rel=1e-3)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from gearcad import Body, Gear, GearPair, Material
+from gearcad import Body, Gear, GearPair, Material, ShaperCutter
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.designs import read_spec
@@ -29,7 +29,9 @@ def coarse_pair(name: str) -> GearPair:
         return pair
     pinion = Gear(teeth=20, normal_module=2, face_width=10, helix_angle=20, tooth_thinning=0.05, body=Body(bore=28))
     if name == "ring":
-        return GearPair(pinion=pinion, wheel=Gear(teeth=-54, normal_module=2, face_width=10, helix_angle=20))
+        cutter = ShaperCutter(teeth=18, tip_radius=0.15)
+        ring = Gear(teeth=-54, normal_module=2, face_width=10, helix_angle=20, cutter=cutter)
+        return GearPair(pinion=pinion, wheel=ring)
     wheel = Gear(teeth=30, normal_module=2, face_width=10, helix_angle=-20, tooth_thinning=0.05, body=Body(bore=48))
     return GearPair(pinion=pinion, wheel=wheel)
 
