@@ -110,7 +110,8 @@ class Design(ABC):
 
 def not_accepted(kind: type[Design], accepted: Iterable[type[Design]], why: str) -> ParameterError:
     """The error for a kind of design that is none of the accepted ones; `why` is said of those that know no better."""
-    permitted = " or ".join(f"a {each.kind.words}" for each in accepted)
+    *others, last = (f"a {each.kind.words}" for each in accepted)
+    permitted = f"{', '.join(others)} or {last}" if others else last
     return ParameterError("kind", kind.kind.words, f"must be {permitted}: {kind.elsewhere or why}")
 
 

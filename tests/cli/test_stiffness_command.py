@@ -105,7 +105,7 @@ def test_wrong_options(here: Path, arguments: list[str], message: str) -> None:
         (PAIR.replace("[load]\ntorque = 50.0\n", ""), "load.torque = None: must be given"),
         (PAIR.replace("torque = 50.0", "torque = 0.0"), "load.torque = 0 N·m: must not be 0"),
         ("[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 10.0\n", "must be a pair"),
-        (PAIR.replace("teeth = 30", "teeth = -60"), "teeth"),
+        (PAIR.replace("teeth = 30", "teeth = -60"), "wheel.body.bore = 20 mm: must be left out: it is for external gears"),
     ],
 )
 def test_specs_without_a_mesh(here: Path, text: str, message: str) -> None:

@@ -18,6 +18,7 @@ from gearcad.dynamics.trains.parts import static_forces
 from gearcad.dynamics.trains.shafts import dynamic_inertia, dynamic_stiffness, element_matrices
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import InputError
+from gearcad.per_gear import PerGear
 from tests.support.trains import one_stage, random_trains, two_stages
 
 QUICK = settings(max_examples=30, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
@@ -301,3 +302,21 @@ def test_inertias_and_loops_that_make_no_train() -> None:
             natural_modes(train, **arguments)
     with pytest.raises(InputError):
         count_below(train, 0.0)
+
+
+def test_energies_where_a_shaft_weighs_next_to_nothing() -> None:
+    """0.4 millionths of what it joins: modes are of mass 1 all the same."""
+    train = Train(
+        inertias=[Inertia(name=f"i{number}", inertia=1.0) for number in range(4)],
+        shafts=[
+            Shaft(name="s2", start="i0", end="i2", torsional_stiffness=100.0),
+            Shaft(name="s3", start="i0", end="i3", length=100.0, diameter=15.0),
+        ],
+        meshes=[Mesh(name="m1", pinion="i0", wheel="i1", base_radii=PerGear(20.0, 101.0), stiffness=50.0, teeth=20)],
+        model="elements",
+    )
+    modes = natural_modes(train, count=6)
+    kinetic = modes.kinetic_inertias.sum(axis=1) + modes.kinetic_shafts.sum(axis=1)
+    assert kinetic == pytest.approx(np.ones(6), abs=1e-12)
+    exact = natural_modes(replace(train, model="exact"), count=4).frequency
+    assert modes.frequency[:4] == pytest.approx(exact, rel=1e-6, abs=1e-9)

@@ -84,5 +84,7 @@ def test_what_is_said_and_refused_of_racks() -> None:
         rate(_pair(rack=BasicRack(root_radius=0.0)), LOAD)
     with pytest.raises(ValueError, match=r"^load\.torque = None: must be given"):
         rate(_pair())
-    with pytest.raises(ValueError, match=r"^mounting = .*: is nothing that a rack pair has; it has material, load, rating"):
+    with pytest.raises(
+        ValueError, match=r"^mounting = .*: is nothing that a rack and pinion has; it has material, load, rating"
+    ):
         rate(_pair(), LOAD, mounting=None)

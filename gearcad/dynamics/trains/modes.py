@@ -22,6 +22,9 @@ __all__ = ["count_below", "natural_modes"]
 _NEXT = 1 + 1e-9
 """A frequency so much higher counts the mode itself; rounding of elements is below."""
 
+_ROUNDING = 1e-9
+"""How far the mass of a mode may be from 1."""
+
 
 def natural_modes(train: Train, *, count: int | None = None, up_to: float | None = None, points: int = 21) -> NaturalModes:
     """The first `count` modes, or those up to a frequency in Hz; else the first ten; as many as the model has.
@@ -65,7 +68,7 @@ def _count(train: Train, omega: float) -> int:
 def _line_system_modes(train: Train, count: int, limit: float, places: Floats) -> NaturalModes:
     """Modes of the System. Their squares are sums of energies, which rounding cannot make negative."""
     lines = lines_of(train)
-    z = _modes_of(lines)
+    z = _of_mass_one(lines, _modes_of(lines))
     approach, turns = lines.system.mesh.T @ z, lines.system.inertias.T @ z
     shafts = [along @ z for along in lines.shafts]
     pairs = list(zip(shafts, lines.shaft_stiffness, strict=True))
@@ -93,6 +96,15 @@ def _line_system_modes(train: Train, count: int, limit: float, places: Floats) -
         potential_shafts=(energy * per_square).T[kept],
         potential_meshes=(meshes * per_square).T[kept],
     )
+
+
+def _of_mass_one(lines: Lines, z: Floats) -> Floats:
+    """The modes (n, m) over the root of the mass that turns in them, which is off where a shaft weighs next to nothing."""
+    turns = lines.system.inertias.T @ z
+    shafts = [_form(along @ z, inertia) for along, inertia in zip(lines.shafts, lines.shaft_inertia, strict=True)]
+    mass = (lines.parts.inertia[:, None] * turns**2).sum(axis=0) + sum(shafts)
+    scaled: Floats = z / np.sqrt(np.where(np.abs(mass - 1) > _ROUNDING, mass, 1.0))
+    return scaled
 
 
 def _modes_of(lines: Lines) -> Floats:
