@@ -11,6 +11,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
+from gearcad.batch.interrupt import remembered_interrupt
 from gearcad.batch.worker import close_workers, isolated
 from gearcad.errors import GearcadError, ParameterError, require_whole
 from gearcad.version import __version__
@@ -43,12 +44,16 @@ class Outcome(Generic[Argument, Result]):
 
 @dataclass(frozen=True)
 class Pool:
-    """An executor, how many calls it does at a time, what ends all that is waiting or running, and whether it is there yet."""
+    """An executor, how many calls it does at a time, what ends all that is waiting or running, and whether it is there yet.
+
+    `look` raises KeyboardInterrupt where one was lost.
+    """
 
     executor: Executor
     threads: int
     stop: Callable[[], None]
     is_there: Callable[[], bool] = lambda: True
+    look: Callable[[], None] = lambda: None
 
     def run(
         self, function: Callable[[Argument], Result], arguments: Iterable[Argument], time_limit: float
@@ -70,6 +75,7 @@ class Pool:
         done: set[Future[Result]] = set()
         while not done and self.is_there():
             done = wait(pending, _LOOK_SECONDS, FIRST_COMPLETED).done
+            self.look()
         if not done or any(future.cancelled() for future in done):
             raise ClusterLostError("the cluster is gone: its scheduler does not answer any more")
         for future in done:
@@ -92,7 +98,7 @@ def open_pool(jobs: int | None, cluster: str | None) -> Iterator[Pool]:
         require_whole("jobs", jobs, at_least=1, at_most=_MOST_JOBS)
     count = jobs or available_cores()
     if cluster is not None:
-        with _dask_pool(cluster, count) as pool:
+        with remembered_interrupt() as look, _dask_pool(cluster, count, look) as pool:
             yield pool
         return
     executor = ThreadPoolExecutor(count, thread_name_prefix="gearcad")
@@ -102,13 +108,14 @@ def open_pool(jobs: int | None, cluster: str | None) -> Iterator[Pool]:
         close_workers()
 
     try:
-        yield Pool(executor, count, stop)
+        with remembered_interrupt() as look:
+            yield Pool(executor, count, stop, look=look)
     finally:
         stop()
 
 
 @contextmanager
-def _dask_pool(address: str, jobs: int) -> Iterator[Pool]:
+def _dask_pool(address: str, jobs: int, look: Callable[[], None]) -> Iterator[Pool]:
     with _client(address, jobs) as client, _quiet_log():
         _require_our_version(client, address)
         executor = client.get_executor(pure=False)
@@ -119,7 +126,9 @@ def _dask_pool(address: str, jobs: int) -> Iterator[Pool]:
                 client.run(close_workers)
 
         try:
-            yield Pool(executor, sum(client.nthreads().values()), stop, lambda: client.status not in ("closing", "closed"))
+            yield Pool(
+                executor, sum(client.nthreads().values()), stop, lambda: client.status not in ("closing", "closed"), look
+            )
         finally:
             stop()
 
