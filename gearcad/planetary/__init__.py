@@ -1,0 +1,8 @@
+"""Planetary trains: sets of planets of any type, their speeds, torques, assembly, phases and poses. Numpy only."""
+
+from gearcad.planetary.load import TrainLoad
+from gearcad.planetary.members import Carrier, Central, PairStage, Rim
+from gearcad.planetary.mesh import SetMesh, SetType
+from gearcad.planetary.train import PlanetaryTrain
+
+__all__ = ["Carrier", "Central", "PairStage", "PlanetaryTrain", "Rim", "SetMesh", "SetType", "TrainLoad"]

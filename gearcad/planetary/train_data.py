@@ -1,0 +1,90 @@
+"""TrainData: what one gives of a planetary train, and what follows from it by formula."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Annotated, Literal
+
+from gearcad.geometry.derived import NOT_GIVEN
+from gearcad.planetary.members import Carrier, Central, PairStage, Rim
+from gearcad.planetary.mesh import SetMesh, SetType
+from gearcad.ranges import Range, Whole
+from gearcad.schema import Words
+
+__all__ = ["EQUAL", "PERMITTED", "TrainData"]
+
+EQUAL: Literal["equal"] = "equal"
+"""Planets at equal angles."""
+
+PERMITTED: Literal["permitted"] = "permitted"
+"""Planets where the teeth let them stand, as near to equal angles as can be."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrainData:
+    """The fields of a `PlanetaryTrain`, unchecked. Lengths in mm, angles in degrees.
+
+    `centrals` are two, each of which meshes with a rim of every planet; `rims` one, or two of a stepped planet. `fixed`,
+    `input` and `output` are names of centrals, of the carrier, or of the free shaft of a stage; without `fixed` it is a
+    differential. `centre_distance` is a magnitude, of both meshes; not given it is the one without backlash.
+    """
+
+    name: Annotated[str, Words("name")] = "train"
+    planets: Annotated[int, Whole(1, 24), Words("number of planets", "N")]
+    centrals: tuple[Central, ...]
+    rims: tuple[Rim, ...]
+    carrier: Carrier = field(default_factory=Carrier)
+    input: Annotated[str, Words("driven member")]
+    output: Annotated[str, Words("driving member")]
+    fixed: Annotated[str | None, Words("fixed member")] = None
+    stages: tuple[PairStage, ...] = ()
+    centre_distance: Annotated[float, Range("mm", 0.0, None, ends="(]"), Words("centre distance", "a", "5.2")] = NOT_GIVEN
+    planet_angles: Annotated[
+        tuple[float, ...] | Literal["equal", "permitted"], Range("deg", -360.0, 360.0), Words("angles of the planets", "ψ")
+    ] = EQUAL
+    tip_distance: Annotated[float, Range("mm", 0.0, None), Words("least distance between the tips of neighbouring planets")] = (
+        0.0
+    )
+
+    @cached_property
+    def meshes(self) -> tuple[SetMesh, SetMesh]:
+        """The mesh of each central with its rim, in the order of the centrals. Raises GeometryError where one cannot mesh."""
+        first, second = (SetMesh.of(central, self.rim_of(central), float(self.centre_distance)) for central in self.centrals)
+        return first, second
+
+    def rim_of(self, central: Central) -> Rim:
+        """The rim that a central meshes with."""
+        return next(rim for rim in self.rims if rim.name == central.meshes)
+
+    @property
+    def stepped(self) -> bool:
+        """Whether the planets have two rims."""
+        return len(self.rims) == 2
+
+    @property
+    def set_type(self) -> SetType:
+        """A to D, by the rings among the centrals, and by whether the planets are stepped."""
+        rings = sum(central.gear.internal for central in self.centrals)
+        if rings == 1:
+            return SetType.B if self.stepped else SetType.A
+        return SetType.D if rings else SetType.C
+
+    @property
+    def basic_ratio(self) -> float:
+        """i_0 = (w_a - w_c)/(w_b - w_c) = z_2 z_b/(z_a z_2') with the carrier at rest, a and b the centrals in their order."""
+        a, b = self.meshes
+        return (a.rim.gear.teeth * b.central.gear.teeth) / (a.central.gear.teeth * b.rim.gear.teeth)
+
+    @property
+    def positions(self) -> int:
+        """q = |z_a z_2' - z_2 z_b|/gcd(z_2, z_2'): planets fit at multiples of a full turn by q, and nowhere else."""
+        a, b = self.meshes
+        teeth_2, teeth_2p = a.rim.gear.teeth, b.rim.gear.teeth
+        return abs(a.central.gear.teeth * teeth_2p - teeth_2 * b.central.gear.teeth) // math.gcd(teeth_2, teeth_2p)
+
+    @property
+    def members(self) -> tuple[str, ...]:
+        """The members of the set: both centrals, and the carrier."""
+        return (*(central.name for central in self.centrals), self.carrier.name)
