@@ -149,12 +149,11 @@ def _line(mesh: SetMesh, train: PlanetaryTrain, stiffness: ArrayLike, reference:
 def _planet_angles(train: PlanetaryTrain) -> Floats:
     """(N,) in rad."""
     if not isinstance(train.planet_angles, str):
-        return np.radians(np.array(train.planet_angles, float))
+        return np.array([math.radians(angle) for angle in train.planet_angles])
     count = train.planets
     if train.planet_angles == "equal":
-        return 2 * np.pi * np.arange(count) / count
+        return np.array([2 * math.pi * n / count for n in range(count)])
     places = train.positions
     if not places:
         raise GeometryError("positions", places, "must be above 0: with the basic ratio 1 the carrier is free")
-    steps = np.array([math.floor(places * n / count + 0.5) for n in range(count)], float)
-    return 2 * np.pi / places * steps
+    return np.array([2 * math.pi / places * math.floor(places * n / count + 0.5) for n in range(count)])
