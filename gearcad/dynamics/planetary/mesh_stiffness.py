@@ -1,0 +1,175 @@
+"""Stiffness of the meshes of a planetary train, placed as phases are: by how far contact is past the pitch point."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gearcad.arrays import Floats
+from gearcad.errors import ParameterError
+from gearcad.load import Load
+from gearcad.material import Material
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.notice import Notice
+from gearcad.per_gear import Role
+from gearcad.planetary import PlanetaryTrain, SetMesh
+from gearcad.stiffness.methods import METHODS
+
+__all__ = ["NOMINAL_STRESS", "QUICK", "MeshStiffness", "mesh_stiffness", "nominal_load", "train_stiffness"]
+
+QUICK = "strain-energy"
+"""The method that is taken where none is asked for: suns and rings, spur and helical, in less than a second a mesh."""
+
+NOMINAL_STRESS = 10.0
+"""F_bt/(b m_n) in MPa at which a mesh without a load is looked at: little, for contact is the stiffer the more it carries."""
+
+
+_JUMP = 1e-9
+"""Change, over the mean, that is no rounding: helical cycles have places twice where they only bend."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshStiffness:
+    """Stiffness of the mesh of a central with one planet, by the MeshCycle of its pair.
+
+    Everywhere `ahead` is in base pitches: how far contact is past the pitch point in the direction in which it moves, the same
+    for every pair of teeth that touches, so that only its fraction counts. Contact moves from root to tip of the gear that
+    drives, `driver`, with the carrier at rest. Of helical teeth it is that of the middle of the common face width.
+    Where `Central.mesh_stiffness` gives the mean, secant and tangent stiffness have that mean, and the course of the cycle.
+    `nominal`: the train has no load, and the cycle is that of NOMINAL_STRESS.
+    """
+
+    mesh: SetMesh
+    cycle: MeshCycle
+    driver: Role
+    nominal: bool = False
+
+    @property
+    def _sense(self) -> int:
+        """1 where contact moves as the roll angle of the pinion rises, -1 where the wheel drives."""
+        return 1 if self.driver is Role.PINION else -1
+
+    @property
+    def given(self) -> bool:
+        """Whether the mean was given."""
+        return self.mesh.central.mesh_stiffness is not None
+
+    @cached_property
+    def ahead(self) -> Floats:
+        """Places (n,), rising over exactly one base pitch; where the stiffness jumps twice the same."""
+        return self._placed(self._sense * self.cycle.roll_angle / self.cycle.pitch_angle)
+
+    @cached_property
+    def secant(self) -> Floats:
+        """F/delta (n,) at the load (N/µm), at `ahead`."""
+        return self._placed(self.cycle.mesh_stiffness * (self.mean / self.cycle.mean))
+
+    @cached_property
+    def tangent(self) -> Floats:
+        """dF/ddelta (n,) at the load (N/µm), at `ahead`."""
+        return self._placed(self.cycle.tangent_stiffness * (self.tangent_mean / self.cycle.tangent_mean))
+
+    @cached_property
+    def transmission_error(self) -> Floats:
+        """By how much what is driven lags under the load (n,) along the line of action (µm), at `ahead`."""
+        return self._placed(self.cycle.transmission_error)
+
+    @property
+    def mean(self) -> float:
+        """Mean secant stiffness (N/µm)."""
+        return self.cycle.mean if self.mesh.central.mesh_stiffness is None else self.mesh.central.mesh_stiffness
+
+    @property
+    def tangent_mean(self) -> float:
+        """Mean tangent stiffness (N/µm)."""
+        return self.cycle.tangent_mean if self.mesh.central.mesh_stiffness is None else self.mesh.central.mesh_stiffness
+
+    @property
+    def jumps(self) -> Floats:
+        """Places within one base pitch, from 0 to 1, where the number of pairs in contact changes at once."""
+        twice = np.flatnonzero((np.diff(self.ahead) == 0) & (np.abs(np.diff(self.secant)) > _JUMP * self.mean))
+        return np.sort(np.mod(self.ahead[twice], 1.0))
+
+    def stiffness_at(self, ahead: ArrayLike, *, tangent: bool = False) -> Floats:
+        """Secant (or tangent) stiffness (N/µm) at any places (base pitches)."""
+        start = self.ahead[0]
+        within = np.mod(np.asarray(ahead, float) - start, 1.0) + start
+        result: Floats = np.interp(within, self.ahead, self.tangent if tangent else self.secant)
+        return result
+
+    def _placed(self, values: Floats) -> Floats:
+        """Values (n,) of the cycle in the order in which they come."""
+        return values[:: self._sense]
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """Those of the method; that the load is nominal; that the mean was given."""
+        name, found = self.mesh.name, list(self.cycle.notices)
+        if self.nominal:
+            text = f"without a load, its stiffness is that at F_bt/(b m_n) = {NOMINAL_STRESS:g} MPa, {self.cycle.force:.4g} N"
+            found.append(Notice("nominal-load", text))
+        if self.given:
+            text = (
+                f"its stiffness has the mean that was given, {self.mean:g} N/µm; by {self.cycle.method} {self.cycle.mean:.4g}"
+            )
+            found.append(Notice("stiffness-given", text))
+        return tuple(notice.within(name) for notice in found)
+
+
+def mesh_stiffness(
+    mesh: SetMesh,
+    load: Load | None = None,
+    *,
+    driver: Role = Role.PINION,
+    method: str = QUICK,
+    material: Material | None = None,
+    positions: int = 0,
+) -> MeshStiffness:
+    """The stiffness of a mesh under what one planet carries: `load`, of which the torque (N·m) is that on the pair's pinion.
+
+    Without a load, or a torque, it is that of a small nominal one. `method` is a name of `gearcad.stiffness.METHODS`; 0
+    `positions` are its own number. Raises ParameterError for an unknown method, and what methods raise.
+    """
+    if method not in METHODS:
+        raise ParameterError("method", method, f"must be one of {', '.join(METHODS)}")
+    nominal = load is None or not load.torque
+    carried = nominal_load(mesh) if load is None or nominal else load
+    found = METHODS[method](pair=mesh.pair, material=material or Material(), positions=positions)(carried)
+    return MeshStiffness(mesh=mesh, cycle=found, driver=driver, nominal=nominal)
+
+
+def train_stiffness(
+    train: PlanetaryTrain,
+    loads: Mapping[str, Load] | None = None,
+    drivers: Mapping[str, Role] | None = None,
+    *,
+    method: str = QUICK,
+    material: Material | None = None,
+    positions: int = 0,
+) -> dict[str, MeshStiffness]:
+    """Of both meshes by their names; see `mesh_stiffness`. Without `drivers` the first central drives the planets."""
+    loads, drivers = loads or {}, drivers or {}
+    a, b = train.meshes
+    first = {a.name: a.central_role, b.name: b.rim_role}
+    return {
+        mesh.name: mesh_stiffness(
+            mesh,
+            loads.get(mesh.name),
+            driver=drivers.get(mesh.name, first[mesh.name]),
+            method=method,
+            material=material,
+            positions=positions,
+        )
+        for mesh in train.meshes
+    }
+
+
+def nominal_load(mesh: SetMesh) -> Load:
+    """That at which a mesh without a load is looked at: F_bt/(b m_n) = NOMINAL_STRESS."""
+    pinion = mesh.pair.pinion
+    force = NOMINAL_STRESS * mesh.pair.common_width.width * pinion.normal_module
+    return Load(torque=force * pinion.base_diameter / 2000)

@@ -1,0 +1,127 @@
+"""Stiffness of the meshes of trains: at contacts that are found by cutting flanks, whoever drives and whichever way."""
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+
+from gearcad.dynamics.planetary.mesh_stiffness import NOMINAL_STRESS, MeshStiffness, mesh_stiffness, train_stiffness
+from gearcad.errors import ParameterError
+from gearcad.load import Load
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.per_gear import Role
+from gearcad.planetary import Central, PlanetaryTrain, SetMesh
+from gearcad.stiffness import StrainEnergy
+from tests.support.cut_flanks import Contacts, contacts
+from tests.support.loaded_trains import alm_set, simple_set
+
+INTERPOLATED = 5e-5
+"""Relative: straight lines between the 200 roll angles of a cycle against its method at the very place."""
+
+LOAD = Load(torque=50)
+MESHES = [*simple_set(20, 32).meshes, simple_set(24, 21).meshes[0], alm_set().meshes[0]]
+
+
+@cache
+def strain_energy(mesh: SetMesh) -> StrainEnergy:
+    """Its bodies are made once."""
+    return StrainEnergy(pair=mesh.pair)
+
+
+@cache
+def cycle(mesh: SetMesh) -> MeshCycle:
+    return strain_energy(mesh)(LOAD)
+
+
+def at(mesh: SetMesh, found: Contacts) -> float:
+    """The stiffness of the pairs of teeth that touch, each by the strain energy where it does (N/µm)."""
+    method = strain_energy(mesh)
+    from_t1 = np.sqrt(found.radii**2 - (mesh.pair.pinion.base_diameter / 2) ** 2)
+    return float(method.single(from_t1, LOAD).stiffness.sum() * method.width)
+
+
+@pytest.mark.parametrize("driver", Role)
+@pytest.mark.parametrize("mesh", MESHES, ids=lambda mesh: f"{mesh.name}-{mesh.central.gear.teeth}")
+def test_stiffness_is_that_of_the_flanks_that_touch(mesh: SetMesh, driver: Role) -> None:
+    stiffness, pitch = MeshStiffness(mesh=mesh, cycle=cycle(mesh), driver=driver), mesh.pair.pinion.transverse_base_pitch
+    for turning, angle in ((1, 0.3), (1, 0.4), (-1, 1.1)):
+        found = contacts(mesh, angle=angle, psi=0.7, driver=driver, turning=turning)
+        ahead = found.ahead / pitch
+        assert np.ptp(np.mod(ahead - ahead[0] + 0.5, 1)) < 1e-8  # all contacts are base pitches apart
+        assert stiffness.stiffness_at(ahead[0]) == pytest.approx(at(mesh, found), rel=INTERPOLATED)
+
+
+@pytest.mark.parametrize("driver", Role)
+@pytest.mark.parametrize("mesh", MESHES, ids=lambda mesh: f"{mesh.name}-{mesh.central.gear.teeth}")
+def test_both_sides_of_every_jump(mesh: SetMesh, driver: Role) -> None:
+    stiffness, pitch = MeshStiffness(mesh=mesh, cycle=cycle(mesh), driver=driver), mesh.pair.pinion.transverse_base_pitch
+    start = contacts(mesh, angle=0.2, psi=-0.4, driver=driver, turning=1).ahead[0] / pitch
+    touching = []
+    for jump in stiffness.jumps:
+        for ahead in (jump - 1e-4, jump + 1e-4):
+            angle = 0.2 + 2 * math.pi * (ahead - start) / mesh.central.gear.tooth_count
+            found = contacts(mesh, angle=angle, psi=-0.4, driver=driver, turning=1)
+            touching.append(len(found.ahead))
+            assert stiffness.stiffness_at(ahead) == pytest.approx(at(mesh, found), rel=INTERPOLATED)
+    assert sorted(touching) == [1, 1, 2, 2]
+
+
+def test_a_given_mean_scales_the_course() -> None:
+    plain, given = (
+        alm_set(),
+        alm_set(
+            centrals=tuple(
+                Central(name=each.name, gear=each.gear, meshes=each.meshes, mesh_stiffness=250) for each in alm_set().centrals
+            )
+        ),
+    )
+    first, second = (mesh_stiffness(train.meshes[0], LOAD) for train in (plain, given))
+    assert second.mean == second.tangent_mean == 250
+    assert mean(second.ahead, second.secant) == pytest.approx(250, rel=1e-4)
+    assert mean(second.ahead, second.tangent) == pytest.approx(250, rel=1e-4)
+    assert second.secant / first.secant == pytest.approx(250 / first.cycle.mean, rel=1e-12)
+    assert [notice.code for notice in second.notices] == [*(each.code for each in first.notices), "stiffness-given"]
+
+
+def mean(places: np.ndarray, values: np.ndarray) -> float:
+    return float(np.trapezoid(values, places))
+
+
+def test_what_drives_without_word_of_it() -> None:
+    assert roles(simple_set(20, 32)) == {"sun-planet": Role.PINION, "ring-planet": Role.PINION}
+    assert roles(simple_set(24, 21)) == {"sun-planet": Role.WHEEL, "ring-planet": Role.PINION}
+    assert roles(alm_set()) == {"ring_4-rim_3": Role.WHEEL, "ring_5-rim_3p": Role.PINION}
+
+
+def roles(train: PlanetaryTrain) -> dict[str, Role]:
+    return {name: each.driver for name, each in train_stiffness(train, method="iso6336").items()}
+
+
+def test_without_a_load_a_small_one_is_named() -> None:
+    for load in (None, Load(torque=0)):
+        found = mesh_stiffness(alm_set().meshes[0], load, method="iso6336")
+        assert found.nominal
+        assert found.cycle.force == pytest.approx(NOMINAL_STRESS * 14 * 2.8)
+        assert [notice.code for notice in found.notices].count("nominal-load") == 1
+    assert not mesh_stiffness(alm_set().meshes[0], LOAD, method="iso6336").nominal
+
+
+def test_stiffer_under_more_load_and_a_mean_only_method_is_flat() -> None:
+    mesh = alm_set().meshes[0]
+    by_load = [mesh_stiffness(mesh, load).mean for load in (None, Load(torque=50), Load(torque=-165))]
+    assert by_load == sorted(by_load)
+    flat = mesh_stiffness(mesh, LOAD, method="iso6336")
+    assert flat.jumps.size == 0
+    assert flat.stiffness_at([0.0, 0.3, 7.7]) == pytest.approx([flat.mean] * 3)
+
+
+def test_helical_sets_have_no_jumps() -> None:
+    for found in train_stiffness(simple_set(helix_angle=15.0)).values():
+        assert found.jumps.size == 0
+        assert found.ahead[-1] - found.ahead[0] == pytest.approx(1, abs=1e-12)
+
+
+def test_an_unknown_method_names_those_there_are() -> None:
+    with pytest.raises(ParameterError, match=r"must be one of .*strain-energy"):
+        mesh_stiffness(alm_set().meshes[0], method="guess")
