@@ -3,6 +3,20 @@
 from gearcad.planetary.load import TrainLoad
 from gearcad.planetary.members import Carrier, Central, PairStage, Rim
 from gearcad.planetary.mesh import SetMesh, SetType
+from gearcad.planetary.poses import GearPlace, PlanetPose, StagePose, TrainPose
 from gearcad.planetary.train import PlanetaryTrain
 
-__all__ = ["Carrier", "Central", "PairStage", "PlanetaryTrain", "Rim", "SetMesh", "SetType", "TrainLoad"]
+__all__ = [
+    "Carrier",
+    "Central",
+    "GearPlace",
+    "PairStage",
+    "PlanetPose",
+    "PlanetaryTrain",
+    "Rim",
+    "SetMesh",
+    "SetType",
+    "StagePose",
+    "TrainLoad",
+    "TrainPose",
+]

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.geometry.derived import derive, is_given
 from gearcad.planetary.members import Carrier, Central, PairStage, Rim
+from gearcad.planetary.poses import TrainPose, train_pose
 from gearcad.planetary.train_data import TrainData
 from gearcad.reprs import concise
 from gearcad.schema import require_fields
@@ -63,3 +64,7 @@ class PlanetaryTrain(TrainData):
                 raise ParameterError(role, value, f"must be {', '.join(dict.fromkeys(shafts))}")
         if len({self.input, self.output, self.fixed}) < 3:
             raise ParameterError("output", self.output, "must be another member than input and fixed")
+
+    def pose(self, carrier_angle: float = 0.0, central_turn: float = 0.0) -> TrainPose:
+        """All gears in mesh, with the carrier at an angle and the fixed central (or else the second) turned (deg)."""
+        return train_pose(self, carrier_angle, central_turn)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Annotated, Literal
 
 from gearcad.geometry.derived import NOT_GIVEN
+from gearcad.planetary.fitting import SetTeeth, permitted_steps
 from gearcad.planetary.members import Carrier, Central, PairStage, Rim
 from gearcad.planetary.mesh import SetMesh, SetType
 from gearcad.ranges import Range, Whole
@@ -20,6 +20,9 @@ EQUAL: Literal["equal"] = "equal"
 
 PERMITTED: Literal["permitted"] = "permitted"
 """Planets where the teeth let them stand, as near to equal angles as can be."""
+
+ANGLE_ROUNDING = 1e-3
+"""Degrees between an angle as it is given and where the teeth fit that come from printed digits."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,11 +81,27 @@ class TrainData:
         return (a.rim.gear.teeth * b.central.gear.teeth) / (a.central.gear.teeth * b.rim.gear.teeth)
 
     @property
+    def teeth(self) -> SetTeeth:
+        """z_a, z_2, z_2', z_b, with signs."""
+        a, b = self.meshes
+        return SetTeeth(a.central.gear.teeth, a.rim.gear.teeth, b.rim.gear.teeth, b.central.gear.teeth)
+
+    @property
     def positions(self) -> int:
         """q = |z_a z_2' - z_2 z_b|/gcd(z_2, z_2'): planets fit at multiples of a full turn by q, and nowhere else."""
-        a, b = self.meshes
-        teeth_2, teeth_2p = a.rim.gear.teeth, b.rim.gear.teeth
-        return abs(a.central.gear.teeth * teeth_2p - teeth_2 * b.central.gear.teeth) // math.gcd(teeth_2, teeth_2p)
+        return self.teeth.positions
+
+    @cached_property
+    def angles(self) -> tuple[float, ...]:
+        """Where the planets stand on the carrier (degrees); given ones exactly where the teeth have them."""
+        if self.planet_angles == EQUAL or not self.positions:
+            return tuple(360 * number / self.planets for number in range(self.planets))
+        step = 360 / self.positions
+        if self.planet_angles == PERMITTED:
+            return tuple(steps * step for steps in permitted_steps(self.positions, self.planets))
+        first, *_ = given = [float(angle) for angle in self.planet_angles]
+        exact = [first + round((angle - first) / step) * step for angle in given]
+        return tuple(near if abs(near - angle) <= ANGLE_ROUNDING else angle for near, angle in zip(exact, given, strict=True))
 
     @property
     def members(self) -> tuple[str, ...]:

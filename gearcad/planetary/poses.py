@@ -1,0 +1,163 @@
+"""Where every gear of a train stands in mesh: rotation of its tooth 0, place of its axis, height of its teeth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from gearcad.geometry.helix import twist
+from gearcad.per_gear import PerGear, Role
+from gearcad.planetary.fitting import Fit, fit_planets, meshing_angle
+from gearcad.planetary.members import PairStage
+from gearcad.planetary.mesh import SetMesh
+from gearcad.planetary.train_data import TrainData
+
+__all__ = ["GearPlace", "PlanetPose", "StagePose", "TrainPose", "assembled", "heights", "train_pose"]
+
+
+@dataclass(frozen=True)
+class PlanetPose:
+    """A planet whose axis stands at `angle` (degrees, from +x) in (x, y) (mm); `rotations` (degrees) of its rims by name."""
+
+    angle: float
+    x: float
+    y: float
+    rotations: Mapping[str, float]
+
+
+class GearPlace(NamedTuple):
+    """Rotation (degrees), axis (x, y) and height of the bottom of the teeth (mm)."""
+
+    rotation: float
+    x: float
+    y: float
+    height: float
+
+
+@dataclass(frozen=True)
+class StagePose:
+    """The two gears of a stage."""
+
+    name: str
+    gears: PerGear[GearPlace]
+
+
+@dataclass(frozen=True)
+class TrainPose:
+    """All gears of a train in mesh, backlash split; planet 0 stands at `carrier_angle` (and its own angle on the carrier).
+
+    A rotation is that of tooth 0 from +x, counter-clockwise seen from +z, in degrees, at the bottom of that gear's own teeth:
+    a part is its gear turned by it, and moved to (x, y) and to its height. `rotations` of the centrals by name, `heights` (mm)
+    of centrals and rims. Heights are 0 at the bottom of the first rim. As the carrier turns on, rotations run on past 360.
+    """
+
+    carrier_angle: float
+    rotations: Mapping[str, float]
+    planets: tuple[PlanetPose, ...]
+    heights: Mapping[str, float]
+    stages: tuple[StagePose, ...]
+
+
+def heights(train: TrainData) -> dict[str, float]:
+    """Bottom of the teeth (mm) of rims and centrals, which stand middle by middle."""
+    found = {rim.name: rim.axial_position for rim in train.rims}
+    for mesh in train.meshes:
+        found[mesh.central.name] = mesh.rim.axial_position + (mesh.rim.gear.face_width - mesh.central.gear.face_width) / 2
+    return found
+
+
+def assembled(train: TrainData) -> Fit:
+    """How the planets stand at carrier angle 0, with tooth 0 of the second central on +x: rotations (rad) at each bottom."""
+    first, second = train.meshes
+    clocking = math.radians(second.rim.clocking - first.rim.clocking)
+    fit = fit_planets(train.teeth, [math.radians(angle) for angle in train.angles], central_b=_lead(second), clocking=clocking)
+    return fit._replace(central_a=fit.central_a - _lead(first))
+
+
+def _lead(mesh: SetMesh) -> float:
+    """Angle (rad) by which the central's section at the bottom of the rim is turned against its own bottom."""
+    return twist(mesh.central.gear, (mesh.central.gear.face_width - mesh.rim.gear.face_width) / 2)
+
+
+def train_pose(train: TrainData, carrier_angle: float = 0.0, central_turn: float = 0.0) -> TrainPose:
+    """The train with its carrier turned to an angle, and its fixed central (without one, the second) turned by another.
+
+    Degrees; what the other central and the planets turn follows (Willis).
+    """
+    first, second = train.meshes
+    relative = carrier_angle - central_turn  # of the second central
+    if train.fixed == first.central.name:
+        relative /= train.basic_ratio
+    turned = {
+        first.central.name: carrier_angle - train.basic_ratio * relative,
+        second.central.name: carrier_angle - relative,
+    }
+    planet_turn = carrier_angle + second.central.gear.teeth / second.rim.gear.teeth * relative
+    fit = assembled(train)
+    rotations = {first.central.name: _degrees(fit.central_a), second.central.name: 0.0}
+    starts = [_degrees(rotation) for rotation in fit.planets]
+    planets = (
+        _planet(train, angle + carrier_angle, start - first.rim.clocking + planet_turn)
+        for angle, start in zip(train.angles, starts, strict=True)
+    )
+    return TrainPose(
+        carrier_angle=carrier_angle,
+        rotations={name: rotations[name] + turned[name] for name in rotations},
+        planets=tuple(planets),
+        heights=heights(train),
+        stages=_stages(train, {**turned, train.carrier.name: carrier_angle}),
+    )
+
+
+def _planet(train: TrainData, angle: float, rotation: float) -> PlanetPose:
+    """A planet at an angle, whose body is turned by `rotation` (degrees): each rim by its clocking more."""
+    psi, distance = math.radians(angle), float(train.centre_distance)
+    turned = {rim.name: rotation + rim.clocking for rim in train.rims}
+    return PlanetPose(angle, distance * math.cos(psi), distance * math.sin(psi), turned)
+
+
+def _degrees(rotation: float) -> float:
+    return math.degrees(rotation) % 360
+
+
+# ---------------------------------------------------------------------- stages
+
+
+class _Shaft(NamedTuple):
+    """How far a shaft has turned (degrees), and its axis (mm)."""
+
+    turn: float
+    x: float
+    y: float
+
+
+def _stages(train: TrainData, turned: Mapping[str, float]) -> tuple[StagePose, ...]:
+    """Stages in their order: the gear on a shaft that is known starts with tooth 0 on +x, the other gear follows."""
+    shafts = {name: _Shaft(turn, 0.0, 0.0) for name, turn in turned.items()}
+    found = []
+    for stage in train.stages:
+        known = Role.PINION if stage.pinion in shafts else Role.WHEEL
+        names = PerGear(stage.pinion, stage.wheel)
+        shaft = shafts[names.pick(known)]
+        mate, rotation = _mate(stage, known, shaft)
+        shafts[names.pick(known.mate)] = mate
+        z = PerGear(stage.axial_position, stage.axial_position + stage.pair.wheel_pose().z)
+        own = GearPlace(shaft.turn, shaft.x, shaft.y, z.pick(known))
+        other = GearPlace(rotation, mate.x, mate.y, z.pick(known.mate))
+        found.append(StagePose(stage.name, PerGear(own, other) if known is Role.PINION else PerGear(other, own)))
+    return tuple(found)
+
+
+def _mate(stage: PairStage, known: Role, shaft: _Shaft) -> tuple[_Shaft, float]:
+    """The shaft of the gear that meshes with the known one, and that gear's rotation (degrees)."""
+    gears, psi = stage.pair.gears, math.radians(stage.angle)
+    own, other = gears.pick(known), gears.pick(known.mate)
+    towards, other_towards = psi + math.pi * other.internal, psi + math.pi * (not own.internal)
+    start = meshing_angle(other.teeth, other_towards, own.teeth, 0.0, towards)
+    offset = stage.pair.axial_offset if known is Role.PINION else -stage.pair.axial_offset
+    start -= twist(other, (other.face_width - own.face_width) / 2 - offset)  # from the plane of the known gear's bottom
+    turn = -shaft.turn * own.teeth / other.teeth
+    distance = abs(stage.pair.centre_distance)
+    return _Shaft(turn, shaft.x + distance * math.cos(psi), shaft.y + distance * math.sin(psi)), _degrees(start) + turn
