@@ -8,6 +8,8 @@ from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.geometry.derived import derive, is_given
 from gearcad.planetary.members import Carrier, Central, PairStage, Rim
 from gearcad.planetary.poses import TrainPose, train_pose
+from gearcad.planetary.shafts import check_shafts
+from gearcad.planetary.speeds import speeds
 from gearcad.planetary.train_data import TrainData
 from gearcad.reprs import concise
 from gearcad.schema import require_fields
@@ -29,9 +31,18 @@ class PlanetaryTrain(TrainData):
         self._check_parts()
         require_fields(self)
         self._check_names()
+        check_shafts(self)
         if not is_given(self.centre_distance):
             derive(self, "centre_distance", abs(self.meshes[0].pair.centre_distance))
             del self.__dict__["meshes"]  # both at the same distance
+
+    @property
+    def ratio(self) -> float | None:
+        """i, speed of the input over that of the output; None of a differential, where a second speed decides it."""
+        if self.fixed is None:
+            return None
+        found = speeds(self, {self.input: 1.0}).members
+        return found[self.input] / found[self.output]
 
     def _check_parts(self) -> None:
         """The right number of parts of the right types."""
