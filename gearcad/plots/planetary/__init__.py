@@ -1,0 +1,1 @@
+"""Pictures of planetary trains: how they are built, how they stand in mesh, how they turn, share, run and vibrate."""

@@ -1,0 +1,46 @@
+"""What pictures of a train call its parts, and in which colours they draw them."""
+
+from __future__ import annotations
+
+from gearcad.geometry import Gear
+from gearcad.planetary import PairStage, PlanetaryTrain, Rim
+from gearcad.plots.paper import DARK, SERIES
+
+__all__ = ["PLANETS", "colour_of", "placed_stages", "rim_words", "role_of", "signed"]
+
+PLANETS = SERIES[3]
+"""Colour of the planets."""
+
+
+def colour_of(train: PlanetaryTrain, name: str) -> str:
+    """Colour of a member, of a rim, or of the shaft of a stage."""
+    if name in train.members:
+        return SERIES[train.members.index(name)]
+    return PLANETS if any(rim.name == name for rim in train.rims) else DARK
+
+
+def role_of(train: PlanetaryTrain, name: str) -> str:
+    """What a member or shaft is to the train: "input", "output", "fixed", or nothing of these."""
+    return {train.input: "input", train.output: "output", train.fixed: "fixed"}.get(name, "")
+
+
+def rim_words(train: PlanetaryTrain, rim: Rim) -> str:
+    """Such as "3 × planet"."""
+    return f"{train.planets} × {rim.name}" if train.planets > 1 else rim.name
+
+
+def signed(gear: Gear) -> str:
+    """Its number of teeth as formulas have it, with a minus for a ring."""
+    return f"z = {gear.teeth}".replace("-", "−")
+
+
+def placed_stages(train: PlanetaryTrain) -> list[tuple[PairStage, str, str]]:
+    """Stages from the set outwards, each with the shaft towards the set, and with the one that it adds."""
+    known, waiting, found = set(train.members), list(train.stages), []
+    while waiting:
+        near = next((each for each in waiting if {each.pinion, each.wheel} & known), waiting[0])
+        waiting.remove(near)
+        inner, outer = (near.pinion, near.wheel) if near.pinion in known else (near.wheel, near.pinion)
+        found.append((near, inner, outer))
+        known |= {inner, outer}
+    return found
