@@ -1,0 +1,108 @@
+"""What one planet's meshes carry, as loads of their pairs: so that all that exists for pairs takes them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from gearcad.errors import ParameterError, require_number
+from gearcad.load import Load
+from gearcad.per_gear import PerGear, Role
+from gearcad.planetary.mesh import SetMesh
+from gearcad.planetary.power import PowerFlow
+from gearcad.planetary.speeds import speeds
+from gearcad.planetary.train_data import TrainData
+
+__all__ = ["MeshLoad", "mesh_loads"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshLoad:
+    """What the mesh of a central with one planet carries, seen from the carrier.
+
+    The torque of `load` (N·m) is the N-th part of that on the central, on the pair's pinion: positive where it presses the
+    flanks that a pinion which is driven counter-clockwise presses; its speed (rpm) is that of the pinion against the carrier.
+    `application_factor` K_A is the train's, `mesh_load_factor` K_gamma by how much the planet that carries most carries more
+    than its share; that of the load is their product. `driver` drives its mate, with the carrier at rest.
+    """
+
+    mesh: SetMesh
+    planets: int
+    load: Load
+    driver: Role
+    application_factor: float
+    mesh_load_factor: float
+
+    @property
+    def normal_force(self) -> float:
+        """F_bt of one planet's share, without any factor (N)."""
+        return abs(self.load.torque) * 2000 / self.mesh.pair.pinion.base_diameter
+
+    @property
+    def contacts(self) -> PerGear[int]:
+        """How often a flank of each gear's teeth comes into mesh in one of its turns against the carrier."""
+        return PerGear.each(lambda role: self.planets if role is self.mesh.central_role else 1)
+
+    @property
+    def cycles_per_minute(self) -> PerGear[float]:
+        """Load cycles of a flank of each gear in a minute."""
+        rolled = abs(self.load.speed) * self.mesh.pair.pinion.teeth
+        gears = self.mesh.pair.gears
+        return PerGear.each(lambda role: rolled / gears.pick(role).tooth_count * self.contacts.pick(role))
+
+
+def mesh_loads(train: TrainData, flow: PowerFlow, mesh_load_factor: float = 1.0) -> dict[str, MeshLoad]:
+    """Of both meshes of a set by their names, under a flow of power. Raises ParameterError for a K_gamma below 1 or above N."""
+    require_number("mesh_load_factor", mesh_load_factor, at_least=1, at_most=train.planets)
+    first, second = train.meshes
+    central_drives = _rolling(train, flow) >= 0
+    drivers = {
+        first.name: first.central_role if central_drives else first.rim_role,
+        second.name: second.rim_role if central_drives else second.central_role,
+    }
+    factor = flow.load.application_factor
+    return {
+        mesh.name: MeshLoad(
+            mesh=mesh,
+            planets=train.planets,
+            load=Load(
+                torque=_on_pinion(train, mesh, flow),
+                speed=_pinion_speed(train, mesh, flow),
+                application_factor=factor * mesh_load_factor,
+            ),
+            driver=drivers[mesh.name],
+            application_factor=factor,
+            mesh_load_factor=mesh_load_factor,
+        )
+        for mesh in train.meshes
+    }
+
+
+def _on_pinion(train: TrainData, mesh: SetMesh, flow: PowerFlow) -> float:
+    """Torque on the pinion of a mesh (N·m): T_1 = T_2 z_1/z_2 with signed teeth, T_2 that on the central."""
+    ratio = mesh.pair.pinion.teeth / mesh.central.gear.teeth
+    return flow.set_torques[mesh.central.name] / train.planets * ratio + 0.0
+
+
+def _pinion_speed(train: TrainData, mesh: SetMesh, flow: PowerFlow) -> float:
+    """Of the pinion against the carrier (rpm)."""
+    if mesh.rim_role is Role.PINION:
+        # One body with the first rim, whatever the rim.
+        return flow.speeds.planet_relative
+    return flow.speeds.members[mesh.central.name] - flow.speeds.members[train.carrier.name]
+
+
+def _rolling(train: TrainData, flow: PowerFlow) -> float:
+    """Positive where power rolls from the first central to the second, with the carrier at rest; 0 where none rolls.
+
+    Of a train at rest as a positive speed of its input would have it; of a differential that is none.
+    """
+    members = flow.speeds.members
+    if not any(members.values()):
+        try:
+            members = speeds(train, {train.input: 1.0}).members
+        except ParameterError:
+            return 0.0
+    central = train.centrals[0].name
+    relative = members[central] - members[train.carrier.name]
+    return math.copysign(1.0, flow.set_torques[central] * relative) if relative else 0.0
