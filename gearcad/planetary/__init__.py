@@ -3,6 +3,7 @@
 from gearcad.planetary.load import TrainLoad
 from gearcad.planetary.members import Carrier, Central, PairStage, Rim
 from gearcad.planetary.mesh import SetMesh, SetType
+from gearcad.planetary.phases import MeshPhases, mesh_phases, phases_between
 from gearcad.planetary.poses import GearPlace, PlanetPose, StagePose, TrainPose
 from gearcad.planetary.train import PlanetaryTrain
 
@@ -10,6 +11,7 @@ __all__ = [
     "Carrier",
     "Central",
     "GearPlace",
+    "MeshPhases",
     "PairStage",
     "PlanetPose",
     "PlanetaryTrain",
@@ -19,4 +21,6 @@ __all__ = [
     "StagePose",
     "TrainLoad",
     "TrainPose",
+    "mesh_phases",
+    "phases_between",
 ]

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.geometry.derived import derive, is_given
 from gearcad.planetary.members import Carrier, Central, PairStage, Rim
+from gearcad.planetary.phases import MeshPhases, mesh_phases
 from gearcad.planetary.poses import TrainPose, train_pose
 from gearcad.planetary.shafts import check_shafts
 from gearcad.planetary.speeds import speeds
@@ -79,3 +81,8 @@ class PlanetaryTrain(TrainData):
     def pose(self, carrier_angle: float = 0.0, central_turn: float = 0.0) -> TrainPose:
         """All gears in mesh, with the carrier at an angle and the fixed central (or else the second) turned (deg)."""
         return train_pose(self, carrier_angle, central_turn)
+
+    @cached_property
+    def phases(self) -> dict[str, MeshPhases]:
+        """Of both meshes by name, at carrier angle 0, where the first central drives counter-clockwise against the carrier."""
+        return mesh_phases(self)

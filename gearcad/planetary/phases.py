@@ -1,0 +1,110 @@
+"""Mesh phases: how far the contact of each planet is past the pitch point, from the poses, whatever the set."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from gearcad.errors import ParameterError
+from gearcad.geometry import involute
+from gearcad.geometry.helix import twist
+from gearcad.per_gear import Role
+from gearcad.planetary.mesh import SetMesh
+from gearcad.planetary.poses import PlanetPose, train_pose
+from gearcad.planetary.train_data import TrainData
+
+__all__ = ["MeshPhases", "mesh_phases", "phases_between"]
+
+_ROUNDING = 1e-10
+"""Base pitches by which a phase may miss a whole pitch and still count as 0."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshPhases:
+    """Where the contacts of a mesh are, in base pitches from 0 to 1, by planets.
+
+    `ahead`: how far contact is past the pitch point in the direction in which it moves, in the middle plane of the teeth (of
+    double helical ones, of the lower half), with the backlash closed towards the flanks that carry, and the planets as they
+    are posed. `relative`: the same less that of planet 0, which stays as the train turns. Contact moves from root to tip of
+    the gear of the pair that drives, `driver`. `left_flanks`: whether those of the planets that carry are the left ones, seen
+    from +z with the tooth up.
+    """
+
+    ahead: tuple[float, ...]
+    relative: tuple[float, ...]
+    driver: Role
+    left_flanks: bool
+
+    @property
+    def cycle(self) -> tuple[float, ...]:
+        """Where each planet is in the mesh cycle of the pair: roll angle of the pinion over that of a base pitch, 0 to 1."""
+        return self.ahead if self.driver is Role.PINION else tuple(_fraction(-each) for each in self.ahead)
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "ahead": list(self.ahead),
+            "relative": list(self.relative),
+            "driver": self.driver.value,
+            "left_flanks": self.left_flanks,
+        }
+
+
+def mesh_phases(
+    train: TrainData, *, sense: int = 1, turning: int = 1, carrier_angle: float = 0.0, central_turn: float = 0.0
+) -> dict[str, MeshPhases]:
+    """The phases of both meshes by their names, in the pose at `carrier_angle` and `central_turn` (degrees; see `train_pose`).
+
+    The torque on the first central is counter-clockwise with `sense` 1, clockwise with -1; against the carrier it turns
+    counter-clockwise with `turning` 1, clockwise with -1: it drives where the two are equal. Raises ParameterError.
+    """
+    for name, value in (("sense", sense), ("turning", turning)):
+        if value not in (1, -1):
+            raise ParameterError(name, value, "must be 1 or -1")
+    first, second = train.meshes
+    same = 1 if train.basic_ratio > 0 else -1  # w_a - w_c = i_0 (w_b - w_c), T_b = -i_0 T_a
+    planets = train_pose(train, carrier_angle, central_turn).planets
+    return {
+        first.name: _phases(first, planets, sense, turning),
+        second.name: _phases(second, planets, -same * sense, same * turning),
+    }
+
+
+def phases_between(first: MeshPhases, second: MeshPhases) -> tuple[float, ...]:
+    """How far the second mesh of each planet is ahead of the first (base pitches, 0 to 1).
+
+    It stays as the train turns where both mesh with the same rim; of stepped planets it is that of the pose.
+    """
+    return tuple(_fraction(b - a) for a, b in zip(first.ahead, second.ahead, strict=True))
+
+
+def _phases(mesh: SetMesh, planets: tuple[PlanetPose, ...], sense: int, turning: int) -> MeshPhases:
+    """Those of a mesh whose central is turned with `sense` and turns with `turning` against the carrier."""
+    outer = 1 if mesh.external else -1
+    ahead = [_ahead(mesh, planet, side=sense * outer, turning=-turning * outer) for planet in planets]
+    return MeshPhases(
+        ahead=tuple(map(_fraction, ahead)),
+        relative=tuple(_fraction(each - ahead[0]) for each in ahead),
+        driver=mesh.central_role if sense == turning else mesh.rim_role,
+        left_flanks=sense * outer > 0,
+    )
+
+
+def _ahead(mesh: SetMesh, planet: PlanetPose, *, side: int, turning: int) -> float:
+    """lambda = z_p (theta +- psi_w - psi - pi e)/2 pi, of a planet that turns counter-clockwise (1) or clockwise (-1).
+
+    theta +- psi_w is where the flank of tooth 0 on its left (1) or right `side` cuts the working circle.
+    """
+    rim = mesh.rim.gear
+    middle = twist(rim, rim.half_width / 2)
+    half = math.radians(rim.base_half_angle) - involute(mesh.pair.working_transverse_pressure_angle)
+    flank = math.radians(planet.rotations[mesh.rim.name]) + middle + side * half
+    towards = math.radians(planet.angle) + math.pi * mesh.external
+    return turning * rim.teeth * (flank - towards) / (2 * math.pi)
+
+
+def _fraction(pitches: float) -> float:
+    """From 0 to 1; what only rounding keeps from a whole pitch is 0."""
+    within = pitches % 1.0
+    return 0.0 if within > 1 - _ROUNDING else within
