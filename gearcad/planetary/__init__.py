@@ -3,13 +3,14 @@
 from gearcad.planetary.load import TrainLoad
 from gearcad.planetary.members import Carrier, Central, PairStage, Rim
 from gearcad.planetary.mesh import SetMesh, SetType
-from gearcad.planetary.phases import MeshPhases, mesh_phases, phases_between
+from gearcad.planetary.phases import Drive, MeshPhases, drive_of, mesh_phases, phases_between
 from gearcad.planetary.poses import GearPlace, PlanetPose, StagePose, TrainPose
 from gearcad.planetary.train import PlanetaryTrain
 
 __all__ = [
     "Carrier",
     "Central",
+    "Drive",
     "GearPlace",
     "MeshPhases",
     "PairStage",
@@ -21,6 +22,7 @@ __all__ = [
     "StagePose",
     "TrainLoad",
     "TrainPose",
+    "drive_of",
     "mesh_phases",
     "phases_between",
 ]

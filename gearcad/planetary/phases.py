@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from gearcad.errors import ParameterError
 from gearcad.geometry import involute
 from gearcad.geometry.helix import twist
 from gearcad.per_gear import Role
+from gearcad.planetary.load import TrainLoad
 from gearcad.planetary.mesh import SetMesh
 from gearcad.planetary.poses import PlanetPose, train_pose
+from gearcad.planetary.shafts import shafts_of
+from gearcad.planetary.speeds import speeds
 from gearcad.planetary.train_data import TrainData
 
-__all__ = ["MeshPhases", "mesh_phases", "phases_between"]
+__all__ = ["Drive", "MeshPhases", "drive_of", "mesh_phases", "phases_between"]
 
 _ROUNDING = 1e-10
 """Base pitches by which a phase may miss a whole pitch and still count as 0."""
@@ -51,14 +54,45 @@ class MeshPhases:
         }
 
 
+class Drive(NamedTuple):
+    """How a set is driven: the torque on the first central from outside, and its motion against the carrier.
+
+    1 is counter-clockwise, -1 clockwise; where the two are equal the first central drives the planets.
+    """
+
+    sense: int = 1
+    turning: int = 1
+
+
+def drive_of(train: TrainData, load: TrainLoad | None = None) -> Drive:
+    """How a train with a fixed member is driven at a load, of which the signs count; without one, or at rest, its input turns
+    counter-clockwise and drives.
+
+    Losses do not count: what locks itself does not run. Of a differential, which has two inputs, the first central drives.
+    """
+    if train.fixed is None:
+        return Drive()
+    speed = math.copysign(1.0, load.speed) if load and load.speed else 1.0
+    power = math.copysign(1.0, load.torque) if load and load.torque else 1.0
+    moving = speeds(train, {train.input: speed}).members
+    a, b, c = train.members
+    i0, member = train.basic_ratio, shafts_of(train)[train.input].member
+    torque = power * moving[member] * {a: 1.0, b: -i0, c: i0 - 1}[member]  # T_b = -i_0 T_a, T_a + T_b + T_c = 0
+    return Drive(_sign(torque), _sign(moving[a] - moving[c]))
+
+
+def _sign(value: float) -> int:
+    return 1 if value > 0 else -1
+
+
 def mesh_phases(
-    train: TrainData, *, sense: int = 1, turning: int = 1, carrier_angle: float = 0.0, central_turn: float = 0.0
+    train: TrainData, drive: Drive | None = None, *, carrier_angle: float = 0.0, central_turn: float = 0.0
 ) -> dict[str, MeshPhases]:
     """The phases of both meshes by their names, in the pose at `carrier_angle` and `central_turn` (degrees; see `train_pose`).
 
-    The torque on the first central is counter-clockwise with `sense` 1, clockwise with -1; against the carrier it turns
-    counter-clockwise with `turning` 1, clockwise with -1: it drives where the two are equal. Raises ParameterError.
+    Without a `drive` the train's input turns counter-clockwise and drives. Raises ParameterError.
     """
+    sense, turning = drive_of(train) if drive is None else drive
     for name, value in (("sense", sense), ("turning", turning)):
         if value not in (1, -1):
             raise ParameterError(name, value, "must be 1 or -1")

@@ -10,8 +10,8 @@ from typing import NamedTuple
 from gearcad.geometry.helix import twist
 from gearcad.per_gear import PerGear, Role
 from gearcad.planetary.fitting import Fit, fit_planets, meshing_angle
-from gearcad.planetary.members import PairStage
 from gearcad.planetary.mesh import SetMesh
+from gearcad.planetary.shafts import Link, shafts_of
 from gearcad.planetary.train_data import TrainData
 
 __all__ = ["GearPlace", "PlanetPose", "StagePose", "TrainPose", "assembled", "heights", "train_pose"]
@@ -84,11 +84,12 @@ def _lead(mesh: SetMesh) -> float:
 def train_pose(train: TrainData, carrier_angle: float = 0.0, central_turn: float = 0.0) -> TrainPose:
     """The train with its carrier turned to an angle, and its fixed central (without one, the second) turned by another.
 
-    Degrees; what the other central and the planets turn follows (Willis).
+    Degrees; by what the other central and the planets turn, follows (Willis). Of a stage the gear on the side of the set
+    turns with its member, and its tooth 0 stands on +x at carrier angle 0.
     """
     first, second = train.meshes
     relative = carrier_angle - central_turn  # of the second central
-    if train.fixed == first.central.name:
+    if train.fixed is not None and shafts_of(train)[train.fixed].member == first.central.name:
         relative /= train.basic_ratio
     turned = {
         first.central.name: carrier_angle - train.basic_ratio * relative,
@@ -125,8 +126,8 @@ def _degrees(rotation: float) -> float:
 # ---------------------------------------------------------------------- stages
 
 
-class _Shaft(NamedTuple):
-    """How far a shaft has turned (degrees), and its axis (mm)."""
+class _Axis(NamedTuple):
+    """Where a shaft stands (mm), and how far it has turned (degrees)."""
 
     turn: float
     x: float
@@ -134,30 +135,33 @@ class _Shaft(NamedTuple):
 
 
 def _stages(train: TrainData, turned: Mapping[str, float]) -> tuple[StagePose, ...]:
-    """Stages in their order: the gear on a shaft that is known starts with tooth 0 on +x, the other gear follows."""
-    shafts = {name: _Shaft(turn, 0.0, 0.0) for name, turn in turned.items()}
-    found = []
-    for stage in train.stages:
-        known = Role.PINION if stage.pinion in shafts else Role.WHEEL
-        names = PerGear(stage.pinion, stage.wheel)
-        shaft = shafts[names.pick(known)]
-        mate, rotation = _mate(stage, known, shaft)
-        shafts[names.pick(known.mate)] = mate
+    """Stages in their order: the gear on the side of the set starts with tooth 0 on +x, the other one follows."""
+    axes = {name: _Axis(turn, 0.0, 0.0) for name, turn in turned.items()}
+    found = {}
+    for shaft in shafts_of(train).values():
+        if not shaft.path:
+            continue
+        link = shaft.path[-1]
+        stage, own = link.stage, axes[link.shafts[0]]
+        other, rotation = _mate(link, own)
+        axes[shaft.name] = other
         z = PerGear(stage.axial_position, stage.axial_position + stage.pair.wheel_pose().z)
-        own = GearPlace(shaft.turn, shaft.x, shaft.y, z.pick(known))
-        other = GearPlace(rotation, mate.x, mate.y, z.pick(known.mate))
-        found.append(StagePose(stage.name, PerGear(own, other) if known is Role.PINION else PerGear(other, own)))
-    return tuple(found)
+        places = {
+            link.outer.mate: GearPlace(own.turn, own.x, own.y, z.pick(link.outer.mate)),
+            link.outer: GearPlace(rotation, other.x, other.y, z.pick(link.outer)),
+        }
+        found[stage.name] = StagePose(stage.name, PerGear.each(places.__getitem__))
+    return tuple(found[stage.name] for stage in train.stages)
 
 
-def _mate(stage: PairStage, known: Role, shaft: _Shaft) -> tuple[_Shaft, float]:
-    """The shaft of the gear that meshes with the known one, and that gear's rotation (degrees)."""
-    gears, psi = stage.pair.gears, math.radians(stage.angle)
-    own, other = gears.pick(known), gears.pick(known.mate)
-    towards, other_towards = psi + math.pi * other.internal, psi + math.pi * (not own.internal)
-    start = meshing_angle(other.teeth, other_towards, own.teeth, 0.0, towards)
-    offset = stage.pair.axial_offset if known is Role.PINION else -stage.pair.axial_offset
-    start -= twist(other, (other.face_width - own.face_width) / 2 - offset)  # from the plane of the known gear's bottom
-    turn = -shaft.turn * own.teeth / other.teeth
+def _mate(link: Link, axis: _Axis) -> tuple[_Axis, float]:
+    """The axis of the outer gear of a stage, and that gear's rotation (degrees)."""
+    stage, psi = link.stage, math.radians(link.stage.angle)
+    inner, outer = stage.pair.gears.pick(link.outer.mate), stage.pair.gears.pick(link.outer)
+    towards, outer_towards = psi + math.pi * outer.internal, psi + math.pi * (not inner.internal)
+    start = meshing_angle(outer.teeth, outer_towards, inner.teeth, 0.0, towards)
+    offset = stage.pair.axial_offset if link.outer is Role.WHEEL else -stage.pair.axial_offset
+    start -= twist(outer, (outer.face_width - inner.face_width) / 2 - offset)  # from the plane of the inner gear's bottom
+    turn = -axis.turn * inner.teeth / outer.teeth
     distance = abs(stage.pair.centre_distance)
-    return _Shaft(turn, shaft.x + distance * math.cos(psi), shaft.y + distance * math.sin(psi)), _degrees(start) + turn
+    return _Axis(turn, axis.x + distance * math.cos(psi), axis.y + distance * math.sin(psi)), _degrees(start) + turn

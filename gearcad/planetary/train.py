@@ -84,5 +84,5 @@ class PlanetaryTrain(TrainData):
 
     @cached_property
     def phases(self) -> dict[str, MeshPhases]:
-        """Of both meshes by name, at carrier angle 0, where the first central drives counter-clockwise against the carrier."""
+        """Of both meshes by name, at carrier angle 0, where the input turns counter-clockwise and drives (`mesh_phases`)."""
         return mesh_phases(self)

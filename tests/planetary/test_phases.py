@@ -13,7 +13,8 @@ from support.planetary import gear, simple_train, thesis_train
 from gearcad import Gear, GearPair
 from gearcad.errors import ParameterError
 from gearcad.geometry.helix import twist
-from gearcad.planetary import MeshPhases, PlanetaryTrain, mesh_phases, phases_between
+from gearcad.planetary import Drive, MeshPhases, PlanetaryTrain, TrainLoad, drive_of, mesh_phases, phases_between
+from gearcad.planetary.power import power_flow
 
 REFERENCE = {
     (24, 21, -66): ((0.3, 0.2, -0.7), (0.0, 0.0, 0.0), 0.753861844, 0.992276312),
@@ -113,7 +114,7 @@ def thinned_helical() -> PlanetaryTrain:
 @pytest.mark.parametrize("train", [thinned_helical(), thesis_train(), thesis_train(planets=2)], ids=["helical", "D", "D2"])
 @pytest.mark.parametrize(("sense", "turning"), [(1, 1), (-1, -1), (1, -1), (-1, 1)])
 def test_flanks_touch_where_phases_say(train: PlanetaryTrain, sense: int, turning: int) -> None:
-    found = mesh_phases(train, sense=sense, turning=turning, carrier_angle=7.7)
+    found = mesh_phases(train, Drive(sense, turning), carrier_angle=7.7)
     for name, cut in by_cutting(train, sense, turning, 7.7).items():
         assert max(map(apart, found[name].ahead, cut)) < 1e-9
 
@@ -139,10 +140,34 @@ def test_a_wheel_that_drives_runs_through_its_cycle_from_the_end() -> None:
     assert train.phases["ring-planet"].cycle == train.phases["ring-planet"].ahead
 
 
-@pytest.mark.parametrize("given", [{"sense": 0}, {"turning": 2}])
-def test_senses_are_1_or_minus_1(given: dict[str, int]) -> None:
+@pytest.mark.parametrize("drive", [Drive(0, 1), Drive(1, 2)])
+def test_senses_are_1_or_minus_1(drive: Drive) -> None:
     with pytest.raises(ParameterError, match="must be 1 or -1"):
-        mesh_phases(thesis_train(), **given)
+        mesh_phases(thesis_train(), drive)
+
+
+@pytest.mark.parametrize("fixed", ["sun", "ring", "carrier"])
+@pytest.mark.parametrize(("torque", "speed"), [(10.0, 100.0), (10.0, -100.0), (-10.0, 100.0), (-10.0, -100.0)])
+def test_what_drives_is_what_the_power_flow_says(fixed: str, torque: float, speed: float) -> None:
+    train = simple_train((24, 21, -66), (0.3, 0.2, -0.7), 3, fixed=None)
+    others = [name for name in train.members if name != fixed]
+    for given, taken in (others, others[::-1]):
+        each = replace(train, fixed=fixed, input=given, output=taken)
+        load = TrainLoad(torque=torque, speed=speed)
+        flow = power_flow(each, load)
+        seen = flow.speeds.members["sun"] - flow.speeds.members["carrier"]
+        assert drive_of(each, load) == (math.copysign(1, flow.set_torques["sun"]), math.copysign(1, seen))
+
+
+def test_the_pre_stage_turns_what_drives_about() -> None:
+    load, train = TrainLoad(torque=1600.0, speed=100.0), thesis_train()
+    flow = power_flow(train, load)
+    seen = flow.speeds.members["ring_4"] - flow.speeds.members["carrier"]
+    assert drive_of(train) == (math.copysign(1, flow.set_torques["ring_4"]), math.copysign(1, seen))
+
+
+def test_a_differential_is_driven_by_its_first_central() -> None:
+    assert drive_of(simple_train((24, 21, -66), (0.3, 0.2, -0.7), 3, fixed=None)) == (1, 1)
 
 
 def test_mirrored_trains_have_equal_phases() -> None:
@@ -151,6 +176,6 @@ def test_mirrored_trains_have_equal_phases() -> None:
     angles = tuple(360 / 96 * step for step in (0, 19, 38, 58, 77))
     one, other = (replace(train, planet_angles=each) for each in (angles, tuple(-angle for angle in angles)))
     for name, phases in one.phases.items():
-        mirrored = mesh_phases(other, sense=-1, turning=-1)[name]
+        mirrored = mesh_phases(other, Drive(-1, -1))[name]
         assert max(map(apart, phases.relative, mirrored.relative)) < 1e-9
         assert phases.left_flanks is not mirrored.left_flanks
