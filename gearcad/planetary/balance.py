@@ -119,5 +119,6 @@ def rolling_power(train: TrainData, torques: Mapping[str, float], speeds: Mappin
 
 def locking_efficiency(train: TrainData) -> float:
     """The efficiency of a mesh up to which the set cannot be driven by a central to turn the carrier; 0: it always can."""
-    ratio = train.basic_ratio
+    of_a, of_b, _ = willis_row(train).values()
+    ratio = -of_b / of_a
     return math.sqrt(min(ratio, 1 / ratio)) if ratio > 0 else 0.0

@@ -80,6 +80,11 @@ class Central(_Member):
         _require_gear(self.name, self.gear)
         require_name(f"{self.name}.meshes", self.meshes)
 
+    @property
+    def mesh_name(self) -> str:
+        """Of its mesh with the planets, such as "sun-planet"."""
+        return f"{self.name}-{self.meshes}"
+
 
 @dataclass(frozen=True, kw_only=True)
 class Carrier(_Member):

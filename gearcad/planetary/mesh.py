@@ -40,7 +40,7 @@ class SetMesh:
     @property
     def name(self) -> str:
         """Such as "sun-planet"."""
-        return f"{self.central.name}-{self.rim.name}"
+        return self.central.mesh_name
 
     @property
     def external(self) -> bool:
@@ -79,9 +79,7 @@ class SetMesh:
         first = not ring and central.gear.teeth <= rim.gear.teeth
         pinion, wheel = (central.gear, rim.gear) if first else (rim.gear, central.gear)
         given = {} if math.isnan(centre_distance) else {"centre_distance": -centre_distance if ring else centre_distance}
-        return cls(
-            central=central, rim=rim, pair=GearPair(pinion=pinion, wheel=wheel, name=f"{central.name}-{rim.name}", **given)
-        )
+        return cls(central=central, rim=rim, pair=GearPair(pinion=pinion, wheel=wheel, name=central.mesh_name, **given))
 
 
 def base_radius(gear: Gear) -> float:

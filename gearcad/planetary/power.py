@@ -146,11 +146,11 @@ def _ends(train: TrainData, shafts: Mapping[str, Shaft], given: Mapping[str, flo
 def _losses(train: TrainData, found: Balance, members: Mapping[str, float], eta: float) -> dict[str, float]:
     """Power that each mesh of the set and each stage turns into heat (W)."""
     rolling = rolling_power(train, found.members, members)
-    first, second = train.meshes
+    first, second = train.centrals
     entering = rolling if rolling > 0 else -rolling * eta**-2
     lost = {
-        first.name: entering * (1 - eta) * (1 if rolling > 0 else eta),
-        second.name: entering * (1 - eta) * (eta if rolling > 0 else 1),
+        first.mesh_name: entering * (1 - eta) * (1 if rolling > 0 else eta),
+        second.mesh_name: entering * (1 - eta) * (eta if rolling > 0 else 1),
     }
     for stage in train.stages:
         torques = found.stages[stage.name]
