@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearcad import symbols
-from gearcad.designs.design import Design
-from gearcad.designs.keys import FIELDS
+from gearcad.designs.design import Design, DesignKind
+from gearcad.designs.keys import FIELDS, PLANETARY
 from gearcad.errors import format_number
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.geometry.derived import is_given
@@ -126,10 +126,11 @@ def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
         yield from _rack_lines(rack, with_source)
     for title, keys in _PAIR_BLOCKS.items() if pair else ():
         yield from _block(title, [(_OF_PAIR[key], [_value(pair[key])]) for key in keys.split() if key in pair], with_source)
+    fields = PLANETARY if design.kind is DesignKind.PLANETARY else FIELDS
     for block in ("material", "load", "mounting", "rating"):
         absent = (None, 0) if block == "mounting" else (None,)
         given = {key: value for key, value in document.get(block, {}).items() if value not in absent}
-        rows = [(FIELDS[block][key].symbol, [_given(value)]) for key, value in given.items()]
+        rows = [(fields[block][key].symbol, [_given(value)]) for key, value in given.items()]
         yield from _block(block.capitalize(), rows, with_source)
     yield from _warnings(design)
 

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from gearcad.designs.kinds.gear import GearDesign
     from gearcad.designs.kinds.geared import GearedDesign, Inputs
     from gearcad.designs.kinds.pair import PairDesign
+    from gearcad.designs.kinds.planetary import PlanetaryDesign
     from gearcad.designs.kinds.rack import RackDesign
     from gearcad.designs.kinds.rack_pair import RackPairDesign
     from gearcad.designs.kinds.toothed import ToothedDesign
@@ -23,6 +24,7 @@ __all__ = [
     "GearedDesign",
     "Inputs",
     "PairDesign",
+    "PlanetaryDesign",
     "RackDesign",
     "RackPairDesign",
     "Row",
@@ -35,7 +37,7 @@ __all__ = [
 ]
 
 if not TYPE_CHECKING:
-    _KINDS = ("toothed", "geared", "gear", "pair", "rack", "rack_pair", "train")
+    _KINDS = ("toothed", "geared", "gear", "pair", "rack", "rack_pair", "train", "planetary")
     from gearcad.lazy import lazily
 
     __getattr__ = lazily(__name__, __all__, ("design", *(f"kinds.{home}" for home in _KINDS), "reader", "table"))

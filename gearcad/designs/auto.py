@@ -16,6 +16,7 @@ from gearcad.per_gear import PerGear, Role, naming
 __all__ = [
     "AUTO",
     "CLEAR",
+    "backlash_free_distance",
     "clear_tip_alteration",
     "make_gears",
     "module_of",
@@ -78,6 +79,11 @@ def resolve_tip_alterations(gears: PerGear[GearInputs], shift_sum: float, centre
         return automatic if value in (AUTO, CLEAR) else float(value)
 
     return gears.map(of)
+
+
+def backlash_free_distance(gears: PerGear[GearInputs], shift_sum: float) -> float:
+    """Centre distance (mm) at which these gears would mesh without backlash; negative with a ring. Raises GeometryError."""
+    return zero_backlash_centre_distance(**_sizes(gears), shift_sum=shift_sum)
 
 
 def clear_tip_alteration(gears: PerGear[GearInputs], centre_distance: float | None) -> float:

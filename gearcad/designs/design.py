@@ -36,11 +36,12 @@ class DesignKind(Enum):
     RACK = "rack"
     RACK_PAIR = "rack_pair"
     TRAIN = "train"
+    PLANETARY = "planetary"
 
     @property
     def words(self) -> str:
         """As one says it to whoever never typed the value."""
-        return "rack and pinion" if self is DesignKind.RACK_PAIR else self.value
+        return {"rack_pair": "rack and pinion", "planetary": "planetary train"}.get(self.value, self.value)
 
 
 class Described(Protocol):

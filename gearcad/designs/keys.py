@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
@@ -17,6 +17,7 @@ from gearcad.material import Material
 from gearcad.meshing.options import MeshOptions
 from gearcad.mounting import Mounting
 from gearcad.per_gear import Role
+from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad
 from gearcad.rating.options import RatingOptions
 from gearcad.schema import FieldSchema, Words, schema_of
 
@@ -31,15 +32,23 @@ __all__ = [
     "KEYS",
     "LISTS",
     "MAIN_TABLES",
+    "OF_SETS",
     "PARTS",
+    "PLANETARY",
+    "PRE_STAGE",
     "SHARED",
     "TEXTS",
     "Cell",
+    "Fields",
     "explain_unknown_column",
     "explain_unknown_key",
     "explain_unknown_table",
+    "nearest_key",
     "nearest_table",
 ]
+
+Fields = Mapping[str, Mapping[str, FieldSchema]]
+"""What the keys of the tables of a kind of designs say of themselves."""
 
 Cell = int | float | str | tuple[float, ...]
 """What a spec and a cell of a design table can both hold."""
@@ -117,7 +126,49 @@ FIELDS: dict[str, dict[str, FieldSchema]] = {
 KEYS = {table: tuple(fields) for table, fields in FIELDS.items()}
 """Permitted keys of each table."""
 
-_EACH = {f"{table}.{key}": field for table, fields in FIELDS.items() for key, field in fields.items()}
+
+def _plain(kind: type[DataclassInstance], *others: str) -> dict[str, FieldSchema]:
+    """The fields of a type that are no parts, without `others`."""
+    return {name: each for name, each in schema_of(kind).items() if each.part is None and name not in others}
+
+
+_CENTRAL = _GEAR | _plain(Central, "meshes")
+_RIM = _GEAR | _plain(Rim)
+
+OF_SETS: dict[str, dict[str, FieldSchema]] = {
+    "sun": _CENTRAL,
+    "planet": _RIM,
+    "ring": _CENTRAL,
+    "planet_2": _RIM,
+    "sun_2": _CENTRAL,
+    "ring_2": _CENTRAL,
+}
+"""The tables of the gears of a set of planets; `_2` is the second of its kind."""
+
+PRE_STAGE: dict[str, FieldSchema] = {
+    **{key: field for key, field in FIELDS["pair"].items() if key != "mounting_distance"},
+    **_plain(PairStage, "pinion", "wheel"),
+    **{f"{role.value}.{key}": field for role in Role for key, field in _GEAR.items()},
+    **{f"{role.value}.on": schema_of(PairStage)[role.value] for role in Role},
+}
+"""The keys of a pair before or behind the set; `pinion.on` is the member that its pinion turns with."""
+
+PLANETARY: dict[str, dict[str, FieldSchema]] = {
+    "planetary": {
+        **_plain(PlanetaryTrain, "centrals", "rims", "stages"),
+        "profile_shift_split": _OF_SPECS["profile_shift_split"],
+        **{key: _GEAR[key] for key in SHARED},
+        **{f"carrier.{key}": field for key, field in _plain(Carrier).items()},
+        **{f"pre_stage.{key}": field for key, field in PRE_STAGE.items()},
+    },
+    **OF_SETS,
+    **{table: dict(_flat(kind)) for table, kind in {**BESIDE, "load": TrainLoad}.items() if table != "mounting"},
+}
+"""The tables of a planetary train, likewise: its [load] is that of the output."""
+
+_EACH = {
+    f"{table}.{key}": field for kind in (PLANETARY, FIELDS) for table, fields in kind.items() for key, field in fields.items()
+}
 COUNTS = frozenset(key for key, field in _EACH.items() if field.whole)
 LISTS = frozenset(key for key, field in _EACH.items() if field.several)
 TEXTS = frozenset(key for key, field in _EACH.items() if field.text)
@@ -138,11 +189,11 @@ COLUMNS = {table: tuple(field for field in fields if (table, field) not in _NO_C
 _USUAL = tuple(table for table in COLUMNS if table not in ("gear", "rack"))
 
 
-def explain_unknown_table(table: str) -> str:
+def explain_unknown_table(table: str, fields: Fields = FIELDS) -> str:
     """The end of the message about a table that is not one of ours."""
-    if near := difflib.get_close_matches(table, KEYS, n=1):
+    if near := difflib.get_close_matches(table, fields, n=1):
         return f"unknown table; did you mean [{near[0]}]?"
-    return f"unknown table; permitted are {', '.join(f'[{name}]' for name in KEYS)}"
+    return f"unknown table; permitted are {', '.join(f'[{name}]' for name in fields)}"
 
 
 def explain_unknown_key(table: str, key: str) -> str:
@@ -155,14 +206,19 @@ def explain_unknown_key(table: str, key: str) -> str:
     if homes and table != "gear":
         return f"unknown key here; it belongs in {' or '.join(homes)}"
     known = KEYS[table]
-    if (near := _nearest(key, table, known)) is not None:
+    if (near := _nearest(key, FIELDS[table], known)) is not None:
         return f"unknown key; did you mean {near}?"
     return f"unknown key; permitted are {', '.join(known)}"
 
 
-def _nearest(key: str, table: str, known: tuple[str, ...]) -> str | None:
+def nearest_key(key: str, fields: Mapping[str, FieldSchema]) -> str | None:
+    """The key whose symbol, last word or spelling is nearest."""
+    return _nearest(key, fields, tuple(fields))
+
+
+def _nearest(key: str, fields: Mapping[str, FieldSchema], known: tuple[str, ...]) -> str | None:
     """The known key of a table whose symbol, last word or spelling is nearest."""
-    by_symbol = {FIELDS[table][name].symbol.symbol: name for name in known if FIELDS[table][name].symbol.symbol}
+    by_symbol = {fields[name].symbol.symbol: name for name in known if fields[name].symbol.symbol}
     by_tail = {name.rpartition(".")[2]: name for name in reversed(known)}
     if key in by_symbol:
         return by_symbol[key]
@@ -189,7 +245,7 @@ def explain_unknown_column(heading: str, main: str) -> str:
     owner, field = (table, rest) if table else (main, heading)
     # A pair has no [gear], and few have a [rack]; a table with nothing but bare keys may have been meant for pairs.
     owners = [owner, *(name for name in COLUMNS if name != owner and name in (main, *_USUAL))]
-    for meant in (field, *(_nearest(field, name, COLUMNS[name]) for name in owners)):
+    for meant in (field, *(_nearest(field, FIELDS[name], COLUMNS[name]) for name in owners)):
         if homes := [f"{name}.{meant}" for name in owners if meant in COLUMNS[name]]:
             found = homes[:1] if homes[0].startswith(f"{owner}.") else homes
             return f"unknown column; did you mean {' or '.join(found)}?"

@@ -1,7 +1,7 @@
 """Spec files: TOML in, a Design out. The keys are the field names of the inputs; README.md and the templates show them.
 
 The main table decides the kind: `[gear]`, `[pair]` with `[pinion]` and `[wheel]`, `[rack]`, which may have a `[pinion]` in its
-`[pair]`, or `[train]`. Whatever is not understood is
+`[pair]`, `[train]`, or `[planetary]` with its gears. Whatever is not understood is
 refused, so nothing is silently ignored.
 """
 
@@ -13,7 +13,7 @@ from typing import Any
 
 from gearcad.designs.design import Design, DesignKind, not_accepted
 from gearcad.designs.files import Where, read_tables
-from gearcad.designs.keys import LISTS, MAIN_TABLES, Cell
+from gearcad.designs.keys import LISTS, MAIN_TABLES, OF_SETS, Cell
 from gearcad.designs.kinds import type_of
 from gearcad.designs.kinds.gear import GearDesign
 from gearcad.designs.kinds.pair import PairDesign
@@ -66,4 +66,6 @@ def _kind(tables: Mapping[str, Any]) -> DesignKind:
     if "rack" in tables and "train" not in tables:
         paired = any(table in tables for table in MAIN_TABLES[DesignKind.PAIR])
         return DesignKind.RACK_PAIR if paired else DesignKind.RACK
+    if any(table in tables for table in OF_SETS) and "train" not in tables:
+        return DesignKind.PLANETARY
     return next((kind for kind in reversed(DesignKind) if kind.value in tables), DesignKind.PAIR)

@@ -5,10 +5,11 @@ What both gears of a pair share may stand in `[pair]`, so an error is led back t
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, Self, TypeVar
+from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 
 from gearcad.designs.auto import AUTO, CLEAR
 from gearcad.designs.design import require_plain_name
@@ -51,10 +52,17 @@ class Given(NamedTuple):
 
 @dataclass(frozen=True)
 class Spec:
-    """The values of one spec under their dotted keys, and how to make inputs of them."""
+    """The values of one spec under their dotted keys, and how to make inputs of them.
+
+    The values of an owner, such as a gear, are those of the table of its name, unless it is among `names`.
+    """
+
+    main: ClassVar[str] = "pair"
+    """The table that holds what gears share."""
 
     values: dict[str, Given]
     where: Where
+    names: Mapping[str, str] = dataclasses.field(default_factory=dict)
 
     @classmethod
     def of(cls, tables: Mapping[str, Any], where: Where) -> Self:
@@ -80,21 +88,36 @@ class Spec:
         except InputError as error:
             raise self._explained(error, owner) from error
 
+    def _place(self, parameter: str, owner: str) -> tuple[str, str]:
+        """Whose a parameter of an error about `owner` is, and which field of it."""
+        if (first := parameter.partition(".")[0]) in _ROLES or (first == "rack" and owner == "pair"):
+            owner, _, parameter = parameter.partition(".")
+        return owner, parameter
+
+    def _written(self, owner: str, field: str) -> str:
+        """The key under which the user writes, or would write, a field of an owner."""
+        return f"{self.names.get(owner, owner)}.{field}"
+
+    def _words(self, owner: str) -> tuple[str, ...]:
+        """The owner's words that stand for a profile shift, and for a tip alteration, besides."""
+        if owner not in _ROLES:
+            return ()
+        return (AUTO, CLEAR) if owner == "wheel" else (AUTO,)
+
     def _explained(self, error: InputError, owner: str) -> SpecError:
-        field = error.parameter
-        if (first := field.partition(".")[0]) in _ROLES or (first == "rack" and owner == "pair"):
-            owner, _, field = field.partition(".")
+        owner, field = self._place(error.parameter, owner)
         # The profile knows the chamfer, not whose it is.
         field = "body.tip_chamfer" if field == "tip_chamfer" and owner != "rack" else field
         permitted = error.permitted
-        if owner in _ROLES and field in ("profile_shift", "tip_alteration") and isinstance(error, ParameterError):
-            permitted += f', or "{AUTO}"' + (
-                f', or of a ring "{CLEAR}"' if field == "tip_alteration" and owner == "wheel" else ""
-            )
+        if field in ("profile_shift", "tip_alteration") and isinstance(error, ParameterError):
+            words = self._words(owner)
+            permitted += f', or "{AUTO}"' if AUTO in words else ""
+            permitted += f', or of a ring "{CLEAR}"' if field == "tip_alteration" and CLEAR in words else ""
         given = self.values.get(f"{owner}.{field}")
         if given is None and error.value is None:
-            shared = " (here or in [pair])" if self._in_pair(owner) and field in SHARED else ""
-            key = f"{owner}.{field}"
+            key = self._written(owner, field)
+            main = self.names.get(self.main, self.main)
+            shared = f" (here or in [{main}])" if self._shares(owner) and field in SHARED else ""
             return SpecError(f"{self.where(key)}: {key} is missing: {permitted}{shared}", key)
         if given is None:
             given = self._unwritten(owner, field)
@@ -104,8 +127,8 @@ class Spec:
         text = f"{self.where(given.key)}: {given.key} = {format_number(error.value)}{unit}{note}: {permitted}{cause}"
         return SpecError(text, given.key)
 
-    def _in_pair(self, owner: str) -> bool:
-        """Whether a table's values may stand in [pair] too."""
+    def _shares(self, owner: str) -> bool:
+        """Whether an owner's values may stand in the main table too."""
         return owner in _ROLES or (owner == "rack" and any(f"{role}.teeth" in self.values for role in _ROLES))
 
     def _automatic_cause(self, owner: str, field: str) -> str:
@@ -119,9 +142,9 @@ class Spec:
         """Where a value that nobody wrote comes from."""
         named = self.values.get(f"{owner}.rack")
         if named and field.startswith("rack."):
-            return named._replace(key=f"{owner}.{field}", note=f"of {named.value}")
+            return named._replace(key=self._written(owner, field), note=f"of {named.value}")
         note = "derived" if field in _DERIVED else "from the file's name" if field == "name" else "by default"
-        return Given(None, f"{owner}.{field}", note)
+        return Given(None, self._written(owner, field), note)
 
     def name(self, main: str, default: str) -> str:
         """The name of the design, which its main table or else the file gives."""
@@ -132,7 +155,7 @@ class Spec:
 
     def fields_of(self, owner: str) -> dict[str, Any]:
         """Values of one table, still flat: `rack.root_radius` is one key."""
-        return {key.partition(".")[2]: given.value for key, given in self.values.items() if key.startswith(owner + ".")}
+        return {key[len(owner) + 1 :]: given.value for key, given in self.values.items() if key.startswith(owner + ".")}
 
     def simple(self, owner: str, kind: type[Simple]) -> Simple:
         """What a table of plain values makes: a Material, a Load, a Mounting, or the options of a job."""
@@ -144,17 +167,17 @@ class Spec:
 
     def gear_inputs(self, owner: str) -> dict[str, Any]:
         """Keyword arguments of Gear; "auto" not yet resolved, what is missing as None for Gear to complain about."""
-        return self._inputs_of(owner, PARTS)
+        return self._inputs_of(owner, PARTS, "gear")
 
     def rack_inputs(self, owner: str) -> dict[str, Any]:
         """Keyword arguments of Rack; what is missing as None."""
-        return self._inputs_of(owner, {"rack": BasicRack})
+        return self._inputs_of(owner, {"rack": BasicRack}, "rack")
 
-    def _inputs_of(self, owner: str, kinds: Mapping[str, type[Any]]) -> dict[str, Any]:
-        """Keyword arguments of what has parts of these kinds."""
+    def _inputs_of(self, owner: str, kinds: Mapping[str, type[Any]], table: str) -> dict[str, Any]:
+        """Keyword arguments of what has parts of these kinds, and the fields of a table."""
         given = self.fields_of(owner)
         parts: dict[str, dict[str, Any]] = {part: {} for part in kinds}
-        inputs = _missing(owner)
+        inputs = _missing(table)
         for key, value in given.items():
             part, _, field = key.partition(".")
             if field:

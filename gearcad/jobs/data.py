@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Unpack
 
-from gearcad.designs import GearDesign, Inputs, PairDesign, RackDesign, RackPairDesign, ToothedDesign
+from gearcad.designs import GearDesign, Inputs, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, ToothedDesign
 from gearcad.jobs.job import Job
 from gearcad.jobs.subject import Subject, as_design
 from gearcad.load import Load
@@ -21,7 +21,7 @@ class Data(Job[ToothedDesign, ToothedDesign]):
     """The data sheet. Its result is the design itself, whose gears and pair know their derived properties."""
 
     verb = "data"
-    accepts = (GearDesign, PairDesign, RackDesign, RackPairDesign)
+    accepts = (GearDesign, PairDesign, RackDesign, RackPairDesign, PlanetaryDesign)
     why = "there are no teeth"
     solves = False
 

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.geometry.derived import derive, is_given
+from gearcad.notice import Notice
+from gearcad.planetary.document import train_document, train_notices
 from gearcad.planetary.members import Carrier, Central, PairStage, Rim
 from gearcad.planetary.phases import MeshPhases, mesh_phases
 from gearcad.planetary.poses import TrainPose, train_pose
@@ -45,6 +48,15 @@ class PlanetaryTrain(TrainData):
             return None
         found = speeds(self, {self.input: 1.0}).members
         return found[self.input] / found[self.output]
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What an engineer should know about its meshes before making it."""
+        return tuple(train_notices(self))
+
+    def to_dict(self) -> dict[str, Any]:
+        """What is given and derived, for JSON (the gears have their own)."""
+        return train_document(self)
 
     def _check_parts(self) -> None:
         """The right number of parts of the right types."""

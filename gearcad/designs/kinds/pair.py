@@ -35,7 +35,7 @@ from gearcad.load import Load
 from gearcad.per_gear import PerGear, Role
 from gearcad.schema import schema_of
 
-__all__ = ["PairDesign"]
+__all__ = ["PairDesign", "PairSpec"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,11 +57,11 @@ class PairDesign(GearedDesign):
             return cls(name=name, pair=pair, **beside)
 
     @classmethod
-    def spec(cls, tables: Mapping[str, Any], where: Where) -> _PairSpec:
+    def spec(cls, tables: Mapping[str, Any], where: Where) -> PairSpec:
         """The values of a spec that has all tables of a pair. Raises SpecError."""
         require_tables(tables, where)
         _require_pair(tables, where)
-        spec = _PairSpec.of(tables, where)
+        spec = PairSpec.of(tables, where)
         if (key := "pair.mounting_distance") in spec.values:
             raise SpecError(f"{where(key)}: {key}: is of a pinion and a [rack]; did you mean centre_distance?", key)
         return spec
@@ -108,7 +108,7 @@ _OPPOSED = ("helix_angle", "double_helix.offset")
 """Fields of a gear that its mate has with the opposite sign, and a ring with the same."""
 
 
-class _PairSpec(Spec):
+class PairSpec(Spec):
     """The values of a pair's spec, and how its gears come to theirs."""
 
     def pair(self, name: str) -> GearPair:

@@ -1,0 +1,215 @@
+"""The gears of a set of planets from what their tables say, with every "auto" resolved mesh by mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any, NamedTuple
+
+from gearcad.designs.auto import (
+    AUTO,
+    CLEAR,
+    backlash_free_distance,
+    clear_tip_alteration,
+    make_gears,
+    resolve_profile_shifts,
+    resolve_tip_alterations,
+)
+from gearcad.designs.khk import khk_reminder
+from gearcad.designs.planetary_tables import MAIN
+from gearcad.designs.spec import Given, Spec
+from gearcad.errors import GeometryError, InputError, as_choice, format_number, require_number
+from gearcad.geometry import Gear, GearPair, ShiftSplit
+from gearcad.per_gear import PerGear, Role
+
+__all__ = ["TableMesh", "TrainGears"]
+
+_ROUNDING = 1e-9
+"""Change of a tip alteration, in normal modules, that is rounding."""
+
+Inputs = dict[str, dict[str, Any]]
+"""Keyword arguments of each gear, by its table."""
+
+
+class TableMesh(NamedTuple):
+    """The tables of a central and of the rim that it meshes, and whether the central is a ring."""
+
+    central: str
+    rim: str
+    ring: bool
+
+    def roles(self, inputs: Inputs) -> PerGear[str]:
+        """Which table is the pinion's, and which the wheel's, as in SetMesh."""
+        first = not self.ring and inputs[self.central]["teeth"] <= inputs[self.rim]["teeth"]
+        return PerGear(self.central, self.rim) if first else PerGear(self.rim, self.central)
+
+    def signed(self, distance: float) -> float:
+        """A centre distance as a pair has it: negative with a ring."""
+        return -distance if self.ring else distance
+
+    def automatic(self, inputs: Inputs) -> int:
+        """How many of its profile shifts are to be derived."""
+        return sum(inputs[table].get("profile_shift") == AUTO for table in (self.central, self.rim))
+
+
+@dataclass(frozen=True)
+class TrainGears:
+    """The meshes of a set by their tables, and the spec that notes what became of each "auto"."""
+
+    spec: Spec
+    meshes: tuple[TableMesh, ...]
+
+    def made(self, inputs: Inputs) -> tuple[dict[str, Gear], float | None]:
+        """The gears by their tables, and the centre distance (mm) if it is given or shifts follow from it.
+
+        A ring whose shift would fit with the other sign is asked about it. Raises InputError: parameters are led by their
+        table, "centre_distance" is that of the train.
+        """
+        with ExitStack() as reminders:
+            for table in (mesh.central for mesh in self.meshes if mesh.ring):
+                tried = partial(self._tried, inputs, table)
+                reminders.enter_context(khk_reminder(table, inputs[table], tried))
+            return self._made({table: dict(gear) for table, gear in inputs.items()})
+
+    def _tried(self, inputs: Inputs, table: str, gear: Mapping[str, Any]) -> object:
+        """The gears with another one among them, without a trace among the values. Raises InputError."""
+        trial = replace(self, spec=replace(self.spec, values=dict(self.spec.values)))
+        return trial._made({each: dict(own) for each, own in inputs.items()} | {table: dict(gear)})
+
+    def _made(self, inputs: Inputs) -> tuple[dict[str, Gear], float | None]:
+        automatic = {table: _automatic(gear) for table, gear in inputs.items()}
+        given = self._given_distance()
+        distance = self._implied_distance(inputs) if given is None else given
+        self._resolve_shifts(inputs, distance)
+        self._resolve_tips(inputs, distance)
+        gears: dict[str, Gear] = {}
+        for mesh in self.meshes:
+            roles = mesh.roles(inputs)
+            with self._of_mesh(mesh, roles):
+                pair = make_gears(roles.map(inputs.__getitem__), roles.map(automatic.__getitem__), mesh.signed(distance))
+                made = dict(zip(roles, pair, strict=True)) | gears
+                gears = made | {mesh.central: self._fitted(mesh, made, roles, distance)}
+        follows = given is not None or any("profile_shift" in names for names in automatic.values())
+        return gears, distance if follows else None
+
+    # ------------------------------------------------------------------ centre distance
+
+    def _given_distance(self) -> float | None:
+        given = self.spec.values.get(f"{MAIN}.centre_distance")
+        if given is None:
+            return None
+        require_number("centre_distance", given.value, "mm", above=0.0)
+        return float(given.value)
+
+    def _implied_distance(self, inputs: Inputs) -> float:
+        """The one without backlash of the first mesh whose shifts are numbers. Raises InputError."""
+        for mesh in self.meshes:
+            if mesh.automatic(inputs):
+                continue
+            roles = mesh.roles(inputs)
+            pair = roles.map(inputs.__getitem__)
+            with self._of_mesh(mesh, roles):
+                return abs(backlash_free_distance(pair, sum(resolve_profile_shifts(pair, None, None))))
+        table = next(table for table in inputs if inputs[table].get("profile_shift") == AUTO)
+        raise GeometryError(f"{table}.profile_shift", AUTO, f"needs centre_distance in [{MAIN}], or numbers in one mesh")
+
+    # ------------------------------------------------------------------ "auto"
+
+    def _resolve_shifts(self, inputs: Inputs, distance: float) -> None:
+        """Replace each "auto": first in the mesh that has fewest, so that its mate's is known in the other."""
+        split = self._split(inputs)
+        for _ in self.meshes:
+            mesh = min(self.meshes, key=lambda mesh: mesh.automatic(inputs) or len(Role) + 1)
+            if not (count := mesh.automatic(inputs)):
+                return
+            roles = mesh.roles(inputs)
+            with self._of_mesh(mesh, roles):
+                both = split if count == len(Role) else None
+                shifts = resolve_profile_shifts(roles.map(inputs.__getitem__), mesh.signed(distance), both)
+            for table, shift in zip(roles, shifts, strict=True):
+                if inputs[table].get("profile_shift") == AUTO:
+                    inputs[table]["profile_shift"] = shift
+                    self._note(table, "profile_shift", shift, f"{AUTO}: centre distance {distance:g} mm asks for it")
+
+    def _split(self, inputs: Inputs) -> ShiftSplit | None:
+        """How two automatic shifts share their sum."""
+        given = self.spec.values.get(f"{MAIN}.profile_shift_split")
+        if given is None:
+            return None
+        split = as_choice("profile_shift_split", given.value, ShiftSplit)
+        if all(mesh.automatic(inputs) < len(Role) for mesh in self.meshes):
+            raise GeometryError("profile_shift_split", split, 'needs profile_shift = "auto" on both gears of a mesh')
+        return split
+
+    def _resolve_tips(self, inputs: Inputs, distance: float) -> None:
+        """Replace each "auto" by what clears the roots of all mates, and "clear" by what clears the rim's fillet."""
+        found: dict[str, list[float]] = {}
+        for mesh in self.meshes:
+            roles = mesh.roles(inputs)
+            pair = roles.map(inputs.__getitem__)
+            with self._of_mesh(mesh, roles):
+                total = sum(pair.map(lambda gear: gear.get("profile_shift", 0.0)))
+                for table, tip in zip(roles, resolve_tip_alterations(pair, total, mesh.signed(distance)), strict=True):
+                    found.setdefault(table, []).append(tip)
+        written = {table: inputs[table].get("tip_alteration", AUTO) for table in found}
+        for table, tips in found.items():
+            inputs[table] |= {"profile_shift": inputs[table].get("profile_shift", 0.0), "tip_alteration": min(tips)}
+            if written[table] == AUTO:
+                self._note(table, "tip_alteration", min(tips), AUTO)
+        for mesh in self.meshes:
+            if written[mesh.central] == CLEAR:
+                self._clear(mesh, inputs, distance)
+
+    def _clear(self, mesh: TableMesh, inputs: Inputs, distance: float) -> None:
+        """End the flank of a ring on the form circle of its rim."""
+        ring = inputs[mesh.central]
+        if "tip_diameter" in ring:
+            permitted = f'must be left out, or tip_alteration not be "{CLEAR}"'
+            raise GeometryError(f"{mesh.central}.tip_diameter", ring["tip_diameter"], permitted, "mm")
+        roles = mesh.roles(inputs)
+        with self._of_mesh(mesh, roles):
+            tip = clear_tip_alteration(roles.map(inputs.__getitem__), mesh.signed(distance))
+        ring["tip_alteration"] = tip
+        self._note(mesh.central, "tip_alteration", tip, CLEAR)
+
+    def _fitted(self, mesh: TableMesh, gears: Mapping[str, Gear], roles: PerGear[str], distance: float) -> Gear:
+        """The central; a ring that is to be clear is drawn in further if the edge of its tip still cuts the rim's fillet."""
+        pair = GearPair(**roles.map(gears.__getitem__)._asdict(), centre_distance=mesh.signed(distance))
+        central = gears[mesh.central]
+        given = self.spec.values.get(f"{mesh.central}.tip_alteration")
+        if given is None or given.note != CLEAR or (clear := pair.clear_tip_diameter) is None:
+            return central
+        change = (clear - central.tip_diameter) / (2 * central.normal_module)
+        if change >= -_ROUNDING:
+            return central
+        self._note(mesh.central, "tip_alteration", given.value + change, CLEAR)
+        return replace(central, tip_alteration=given.value + change)
+
+    def _note(self, table: str, key: str, value: float, note: str) -> None:
+        """Keep what stands for a word among the values of the spec."""
+        full = f"{table}.{key}"
+        self.spec.values[full] = Given(value, self.spec.values.get(full, Given(AUTO, full)).key, note)
+
+    @contextmanager
+    def _of_mesh(self, mesh: TableMesh, roles: PerGear[str]) -> Iterator[None]:
+        """Turn an error about pinion, wheel or their centre distance into one about the tables and the train."""
+        try:
+            yield
+        except InputError as error:
+            head, _, rest = error.parameter.partition(".")
+            role = next((role for role in Role if role.value == head), None)
+            if role is not None:
+                raise type(error)(f"{roles.pick(role)}.{rest}", error.value, error.permitted, error.unit) from error
+            if error.parameter != "centre_distance" or not isinstance(error.value, float):
+                raise
+            sign = f", where it counts as {format_number(error.value)} mm" if mesh.ring else ""
+            permitted = f"in the mesh of {mesh.central} and {mesh.rim}{sign}: {error.permitted}"
+            raise type(error)(error.parameter, abs(error.value), permitted, error.unit) from error
+
+
+def _automatic(gear: Mapping[str, Any]) -> list[str]:
+    """Fields of a gear that are to be derived."""
+    defaults = {"profile_shift": 0.0, "tip_alteration": AUTO}
+    return [key for key, default in defaults.items() if gear.get(key, default) in (AUTO, CLEAR)]

@@ -1,0 +1,49 @@
+"""What documents say of a train, and what an engineer should know of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from gearcad.notice import Notice
+from gearcad.planetary.members import Carrier, Central, Rim
+from gearcad.planetary.train_data import TrainData
+from gearcad.schema import schema_of
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+__all__ = ["train_document", "train_notices"]
+
+_GIVEN = ("planets", "input", "output", "fixed", "tip_distance", "basic_ratio", "positions")
+
+
+def train_document(train: TrainData) -> dict[str, Any]:
+    """What a train is given and derives, its meshes among it, for JSON; the gears have documents of their own."""
+    parts: list[Central | Rim | Carrier] = [*train.centrals, *train.rims, train.carrier]
+    return {
+        "set_type": train.set_type.value,
+        **{key: getattr(train, key) for key in _GIVEN},
+        "centre_distance": float(train.centre_distance),
+        "planet_angles": list(train.angles),
+        "members": {part.name: _fields(part) for part in parts},
+        "meshes": {mesh.name: mesh.pair.to_dict() for mesh in train.meshes},
+        "stages": {stage.name: _fields(stage) | stage.pair.to_dict() for stage in train.stages},
+        "notices": [notice.to_dict() for notice in train_notices(train)],
+    }
+
+
+def train_notices(train: TrainData) -> Iterator[Notice]:
+    """Those of the meshes of a set and of its stages; the gears have theirs."""
+    for mesh in train.meshes:
+        yield from (notice.within(mesh.name) for notice in mesh.pair.notices)
+    for stage in train.stages:
+        yield from (notice.within(stage.name) for notice in stage.pair.notices)
+
+
+def _fields(part: DataclassInstance) -> dict[str, Any]:
+    """What is given of a part beside its gears; lists as JSON has them."""
+    fields = {
+        name: getattr(part, name) for name, field in schema_of(type(part)).items() if field.part is None and name != "name"
+    }
+    return {name: list(value) if isinstance(value, tuple) else value for name, value in fields.items()}
