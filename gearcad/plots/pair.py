@@ -16,7 +16,7 @@ from gearcad.rating.rim import outer_diameter
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["pair_inches", "plot_pair"]
+__all__ = ["fill_gear", "pair_inches", "plot_pair"]
 
 
 _CHORD = 2e-3
@@ -49,7 +49,7 @@ def plot_pair(pair: GearPair, ax: Axes | None = None) -> Axes:
     turn = _helix_turn(pair)
     gears = ((pair.pinion, 0.0, 0.0), (pair.wheel, pair.centre_distance, pair.wheel_pose(-turn).rotation))
     for (gear, x, rotation), (_, colour, _), pitch in zip(gears, GEARS, pair.working_pitch_diameters, strict=True):
-        _fill(axes, gear, x, math.radians(rotation), colour)
+        fill_gear(axes, gear, (x, 0.0), math.radians(rotation), colour)
         axes.add_patch(Circle((x, 0), abs(pitch) / 2, fill=False, edgecolor=DARK, linestyle="-.", linewidth=0.7))
         axes.plot(x, 0, "+", color=DARK, markersize=9, markeredgewidth=0.8)
     line = _line_of_action(pair)
@@ -74,15 +74,20 @@ def _helix_turn(pair: GearPair) -> float:
     return math.degrees(twist(pair.pinion, pair.wheel_pose().z))
 
 
-def _fill(axes: Axes, gear: Gear, x: float, rotation: float, colour: str) -> None:
-    """A section about (x, 0), its bore left out; that of a ring out to its rim."""
+def fill_gear(
+    axes: Axes, gear: Gear, place: tuple[float, float], rotation: float, colour: str, chord: float | None = None
+) -> None:
+    """A section about a place, turned by `rotation` (rad), its bore left out; that of a ring out to its rim.
+
+    `chord` (mm) is the greatest error of the outline; none: what nobody sees where a pair fills the picture.
+    """
     from matplotlib.patches import Circle, PathPatch
     from matplotlib.path import Path
 
     cosine, sine = math.cos(rotation), math.sin(rotation)
-    outline = gear.profile.contour(_CHORD * gear.normal_module) @ np.array([[cosine, sine], [-sine, cosine]]) + [x, 0.0]
+    outline = gear.profile.contour(chord or _CHORD * gear.normal_module) @ np.array([[cosine, sine], [-sine, cosine]]) + place
     if gear.internal:
-        rim = Path.circle((x, 0), outer_diameter(gear) / 2)
+        rim = Path.circle(place, outer_diameter(gear) / 2)
         opening = Path(np.r_[outline[::-1], outline[-1:]], closed=True)
         axes.add_patch(
             PathPatch(Path.make_compound_path(rim, opening), facecolor=f"{colour}40", edgecolor=colour, linewidth=0.9)
@@ -90,7 +95,7 @@ def _fill(axes: Axes, gear: Gear, x: float, rotation: float, colour: str) -> Non
         return
     axes.fill(*outline.T, facecolor=f"{colour}40", edgecolor=colour, linewidth=0.9)
     if gear.body.bore:
-        axes.add_patch(Circle((x, 0), gear.body.bore / 2, facecolor="white", edgecolor=colour, linewidth=0.9))
+        axes.add_patch(Circle(place, gear.body.bore / 2, facecolor="white", edgecolor=colour, linewidth=0.9))
 
 
 def _line_of_action(pair: GearPair) -> Floats:
