@@ -113,13 +113,13 @@ def _draw_circles(axes: Axes, train: PlanetaryTrain, pose: TrainPose, meshes: li
             axes.add_patch(Circle(place, radius, fill=False, edgecolor=DARK, linestyle="-.", linewidth=0.5))
     axes.plot(0, 0, "+", color=DARK, markersize=9, markeredgewidth=0.8)
     axes.add_patch(
-        Circle((0.0, 0.0), float(train.centre_distance), fill=False, edgecolor=colour_of(train, train.carrier.name), linewidth=0.6)
+        Circle(
+            (0.0, 0.0), float(train.centre_distance), fill=False, edgecolor=colour_of(train, train.carrier.name), linewidth=0.6
+        )
     )
 
 
-def _turns(
-    train: PlanetaryTrain, pose: TrainPose, rim: Rim, turning: Mapping[str, float], reach: float
-) -> Iterator[_Turn]:
+def _turns(train: PlanetaryTrain, pose: TrainPose, rim: Rim, turning: Mapping[str, float], reach: float) -> Iterator[_Turn]:
     """Arrows: in suns, round rings, in every planet, and on the circle of the pins half-way to the next planet."""
     for central in train.centrals:
         if central.meshes == rim.name:
