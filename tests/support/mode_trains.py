@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
+from gearcad.dynamics.planetary.masses import MemberMass, TrainMasses
+from gearcad.dynamics.planetary.planar import MeshLine, PlanarMember, PlanarTrain
+from gearcad.dynamics.planetary.springs import TrainSprings, springs_of
 from gearcad.geometry import Gear
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
 
-__all__ = ["TRAINS", "on_springs"]
+__all__ = ["MASSES", "TRAINS", "lin_parker_train", "masses_of", "on_springs"]
 
 
 def _gear(teeth: int, module: float, shift: float, helix: float = 0.0) -> Gear:
@@ -45,3 +50,38 @@ def on_springs(train: PlanetaryTrain, **stiffness: float | None) -> PlanetaryTra
     centrals = tuple(replace(central, **held) for central in train.centrals)
     carrier = Carrier(pin_stiffness=stiffness.get("pin"), **held)  # type: ignore[arg-type]
     return replace(train, centrals=centrals, carrier=carrier)
+
+
+def masses_of(planet: tuple[float, float], **members: tuple[float, float]) -> TrainMasses:
+    """From mass (kg) and inertia (kg·m²) of each."""
+    found = {name: MemberMass(mass=mass, inertia=inertia) for name, (mass, inertia) in members.items()}
+    return TrainMasses(members=found, planet=MemberMass(mass=planet[0], inertia=planet[1]))
+
+
+MASSES = masses_of((0.7, 3e-4), carrier=(3.2, 6e-3), a=(0.5, 4e-4), b=(2.1, 9e-3))
+"""For any of the trains, on springs or not."""
+
+
+def lin_parker_train(
+    planets: int,
+    *,
+    meshes: tuple[float, float],
+    angles: tuple[float, float],
+    supports: dict[str, float],
+    torsion: dict[str, float],
+    pin: float,
+    turned: float = 0.0,
+    moved: float = 0.0,
+) -> TrainSprings:
+    """As in the paper, N/m and degrees: carrier c, sun s, ring r, with radii of 1 m, so that inertias are those over r².
+
+    All planets are `turned`, the second is `moved` besides (rad).
+    """
+    places = turned + 2 * np.pi * np.arange(planets) / planets
+    places[1] += moved
+    members = tuple(PlanarMember(name=each, radius=1.0, support=supports[each], torsion=torsion[each]) for each in "csr")
+    lines = tuple(
+        MeshLine(name=name, external=name == "s-p", pressure_angle=float(np.radians(angle)), stiffness=np.full(planets, k))
+        for name, k, angle in zip(("s-p", "r-p"), meshes, angles, strict=True)
+    )
+    return springs_of(PlanarTrain(angles=places, members=members, meshes=lines, pin=pin, planet_radius=1.0))  # type: ignore[arg-type]

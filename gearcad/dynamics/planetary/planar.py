@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.errors import ParameterError
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, SetMesh
 
 __all__ = ["MeshLine", "PlanarMember", "PlanarTrain", "held_members", "planar_train"]
@@ -90,7 +90,7 @@ def planar_train(
     distance = float(train.centre_distance) / 1000
     senses = sense, sense if train.basic_ratio < 0 else -sense
     return PlanarTrain(
-        angles=_planet_angles(train),
+        angles=np.array([math.radians(angle) for angle in train.angles]),
         members=(
             _member(train.carrier, distance, held),
             _member(a.central, a.central_base_radius / 1000, held),
@@ -144,16 +144,3 @@ def _line(mesh: SetMesh, train: PlanetaryTrain, stiffness: ArrayLike, reference:
         rim_ratio=mesh.rim_base_radius / reference,
         sense=sense,
     )
-
-
-def _planet_angles(train: PlanetaryTrain) -> Floats:
-    """(N,) in rad."""
-    if not isinstance(train.planet_angles, str):
-        return np.array([math.radians(angle) for angle in train.planet_angles])
-    count = train.planets
-    if train.planet_angles == "equal":
-        return np.array([2 * math.pi * n / count for n in range(count)])
-    places = train.positions
-    if not places:
-        raise GeometryError("positions", places, "must be above 0: with the basic ratio 1 the carrier is free")
-    return np.array([2 * math.pi / places * math.floor(places * n / count + 0.5) for n in range(count)])

@@ -1,0 +1,221 @@
+"""Natural modes of planetary trains: kinds of any set, closed forms, limits, and what keeps modes from having a kind."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+from scipy.optimize import brentq
+from support.mode_trains import MASSES, TRAINS, lin_parker_train, on_springs
+
+from gearcad.dynamics.planetary.eigenspaces import mass_diagonal
+from gearcad.dynamics.planetary.masses import MemberMass, TrainMasses
+from gearcad.dynamics.planetary.modes import ModeKind, PlanetaryModes, planetary_modes
+from gearcad.dynamics.planetary.planar import PlanarTrain
+from gearcad.dynamics.planetary.springs import springs_of, train_springs
+from gearcad.errors import ParameterError
+
+STIFFNESS = (400.0, 500.0)
+ELASTIC = {"support": 60.0, "pin": 200.0, "torsion": 1e5}
+
+
+def _families(modes: PlanetaryModes) -> dict[ModeKind, list[int]]:
+    """Multiplicities of each kind, by rising frequency."""
+    return {kind: [each.multiplicity for each in modes.families if each.kind is kind] for kind in ModeKind}
+
+
+@pytest.mark.parametrize("kind", TRAINS)
+@pytest.mark.parametrize("planets", range(2, 7))
+def test_planets_at_equal_angles_have_the_modes_of_lin_and_parker(kind: str, planets: int) -> None:
+    planar = train_springs(on_springs(TRAINS[kind], **ELASTIC), STIFFNESS).planar
+    lines = tuple(replace(line, stiffness=np.full(planets, line.stiffness[0])) for line in planar.meshes)
+    springs = springs_of(replace(planar, angles=0.4 + 2 * np.pi * np.arange(planets) / planets, meshes=lines))
+    modes = planetary_modes(springs, MASSES)
+    assert _families(modes) == {
+        ModeKind.ROTATIONAL: [1] * 6,
+        ModeKind.TRANSLATIONAL: [2] * 6 if planets > 2 else [1] * 9,
+        ModeKind.PLANET: [planets - 3] * 3 if planets > 3 else [],
+        ModeKind.MIXED: [],
+    }
+    assert modes.rigid == 0
+
+
+@pytest.mark.parametrize("kind", TRAINS)
+@pytest.mark.parametrize("pin", [200.0, None])
+def test_modes_solve_the_equations_of_motion(kind: str, pin: float | None) -> None:
+    """Those of a matrix put together otherwise, by another solver; energies are shared out."""
+    springs = train_springs(on_springs(TRAINS[kind], support=60.0, pin=pin), STIFFNESS)
+    modes = planetary_modes(springs, MASSES)
+    mass = springs.basis.T @ np.diag(mass_diagonal(springs, MASSES)) @ springs.basis
+    squares = eigh(springs.matrix(), mass, eigvals_only=True)
+    assert modes.circular**2 == pytest.approx(squares, rel=1e-9, abs=1e-9 * squares.max())
+    left = springs.matrix() @ modes.reduced.T - mass @ modes.reduced.T * modes.circular**2
+    assert np.abs(left).max() < 1e-12 * np.abs(springs.matrix()).max() * np.abs(modes.reduced).max()
+    assert modes.reduced @ mass @ modes.reduced.T == pytest.approx(np.eye(len(modes)), abs=1e-9)
+    assert modes.kinetic.sum(axis=1) == pytest.approx(1.0)
+    assert modes.potential[modes.rigid :].sum(axis=1) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("kind", TRAINS)
+def test_planets_on_a_carrier_at_rest_between_two_rims(kind: str) -> None:
+    """Everything stands but central a and the planets' turning: N - 1 planet modes, and two of a chain of two bodies."""
+    train = TRAINS[kind]
+    springs = train_springs(train, STIFFNESS, held=("carrier", "b"))
+    modes = planetary_modes(springs, MASSES)
+    a, b = train.meshes
+    planet, central = MASSES.planet.inertia, MASSES.members["a"].inertia
+    assert planet is not None and central is not None
+    k_a, k_b = 400e6 * (a.rim_base_radius / 1000) ** 2, 500e6 * (b.rim_base_radius / 1000) ** 2
+    alone = np.sqrt((k_a + k_b) / planet)
+    count, ratio = train.planets, a.central_base_radius / a.rim_base_radius
+    sign = 1 if a.external else -1
+    chain = np.array([[k_a + k_b, sign * ratio * k_a], [sign * ratio * k_a, ratio**2 * k_a]]) * count
+    together = np.sqrt(eigh(chain, np.diag([count * planet, central]), eigvals_only=True))
+    assert modes.circular == pytest.approx(np.sort([*[alone] * (count - 1), *together]), rel=1e-12)
+    assert sorted(_families(modes)[ModeKind.PLANET]) == [count - 1]
+    assert _families(modes)[ModeKind.ROTATIONAL] == [1, 1]
+
+
+@pytest.mark.parametrize("kind", TRAINS)
+def test_what_nothing_holds_has_modes_of_no_frequency(kind: str) -> None:
+    train = TRAINS[kind]
+    free = planetary_modes(train_springs(on_springs(train, support=None, pin=200.0), STIFFNESS, held=()), MASSES)
+    assert free.rigid == 2 and free.kinds[:2] == (ModeKind.ROTATIONAL,) * 2
+    floating = planetary_modes(train_springs(on_springs(train, pin=200.0), STIFFNESS, held=()), MASSES)
+    # Two meshes and two pins hold six ways of each pattern of planets: besides the train as a whole, centrals can shift.
+    assert floating.rigid == 6
+    assert sorted(kind.value for kind in floating.kinds[:6]) == ["rotational"] * 2 + ["translational"] * 4
+    held = planetary_modes(train_springs(on_springs(train, **ELASTIC), STIFFNESS), MASSES)
+    assert held.rigid == 0 and held.frequency[0] > 10
+
+
+@pytest.mark.parametrize("kind", TRAINS)
+def test_rigid_pins_and_supports_are_the_limit_of_stiff_ones(kind: str) -> None:
+    exact = planetary_modes(train_springs(on_springs(TRAINS[kind], support=None, pin=None), STIFFNESS), MASSES)
+    stiff = planetary_modes(train_springs(on_springs(TRAINS[kind], support=1e9, pin=1e9), STIFFNESS), MASSES)
+    assert stiff.frequency[: len(exact)] == pytest.approx(exact.frequency, rel=1e-5, abs=1e-3)
+
+
+def _crossing(stiffness: float) -> PlanetaryModes:
+    springs = lin_parker_train(
+        5,
+        meshes=(3e8, 4.2e8),
+        angles=(25.0, 21.0),
+        supports={"c": 8e7, "r": 1.5e8, "s": 3e7},
+        torsion={"c": stiffness, "r": 9e8, "s": 0.0},
+        pin=1.2e8,
+    )
+    bodies = {
+        "c": MemberMass(mass=3.2, inertia=3.9),
+        "r": MemberMass(mass=2.1, inertia=2.6),
+        "s": MemberMass(mass=0.5, inertia=0.45),
+    }
+    return planetary_modes(springs, TrainMasses(members=bodies, planet=MemberMass(mass=0.7, inertia=0.6)))
+
+
+@pytest.mark.parametrize(("other", "place"), [(ModeKind.TRANSLATIONAL, 0), (ModeKind.PLANET, 0)])
+@pytest.mark.parametrize("off", [0.0, 1e-12, 1e-9, 1e-7, 1e-5])
+def test_kinds_are_known_where_frequencies_meet(other: ModeKind, place: int, off: float) -> None:
+    """A rotational mode is led onto a translational pair, and onto a pair of planet modes."""
+
+    def gap(stiffness: float) -> float:
+        modes = _crossing(stiffness)
+        place_r = 0 if other is ModeKind.TRANSLATIONAL else 1
+        mine = [family.frequency for family in modes.families if family.kind is ModeKind.ROTATIONAL][place_r]
+        return mine - [family.frequency for family in modes.families if family.kind is other][place]
+
+    met = brentq(gap, 1e6, 3e9, xtol=1e-6, rtol=1e-15)
+    modes = _crossing(met * (1 + off))
+    assert _families(modes) == {
+        ModeKind.ROTATIONAL: [1] * 6,
+        ModeKind.TRANSLATIONAL: [2] * 6,
+        ModeKind.PLANET: [2] * 3,
+        ModeKind.MIXED: [],
+    }
+
+
+@pytest.mark.parametrize("factor", [1e-6, 1e6, 1e9])
+@pytest.mark.parametrize("body", ["carrier", "a", "planet"])
+def test_kinds_do_not_depend_on_how_heavy_a_body_is(body: str, factor: float) -> None:
+    springs = train_springs(on_springs(TRAINS["A helical"], **ELASTIC), STIFFNESS)
+    members = {name: _times(each, factor if name == body else 1.0) for name, each in MASSES.members.items()}
+    planet = _times(MASSES.planet, factor if body == "planet" else 1.0)
+    modes = planetary_modes(springs, TrainMasses(members=members, planet=planet))
+    found = _families(modes)
+    assert found[ModeKind.ROTATIONAL] == [1] * 6 and found[ModeKind.TRANSLATIONAL] == [2] * 6
+    assert found[ModeKind.PLANET] == [1] * 3
+
+
+def _times(body: MemberMass, factor: float) -> MemberMass:
+    assert body.mass and body.inertia
+    return MemberMass(mass=body.mass * factor, inertia=body.inertia * factor)
+
+
+def test_shapes_are_those_of_their_kind() -> None:
+    modes = planetary_modes(train_springs(on_springs(TRAINS["B"], **ELASTIC), STIFFNESS), MASSES)
+    scale = np.abs(modes.shape).max(axis=(1, 2), keepdims=True)
+    shape = modes.shape / scale
+    rotational, translational, planet = (modes.of_kind(kind) for kind in list(ModeKind)[:3])
+    assert np.abs(shape[rotational][:, :3, :2]).max() < 1e-9
+    assert np.ptp(shape[rotational][:, 3:], axis=1).max() < 1e-9
+    assert np.abs(shape[translational][:, :3, 2]).max() < 1e-9
+    assert np.abs(shape[planet][:, :3]).max() < 1e-9
+    assert np.abs(shape[planet][:, 3:].sum(axis=1)).max() < 1e-9
+    for first, second in translational.reshape(-1, 2):
+        # Along x, then along y, and the second is the first turned by a quarter.
+        leading = int(np.abs(modes.shape[first, :3, 0]).argmax())
+        assert modes.shape[first, leading, 1] == pytest.approx(0.0, abs=1e-9)
+        assert modes.shape[second, leading, :2] == pytest.approx([0.0, modes.shape[first, leading, 0]], abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("changed", "why"),
+    [
+        ("angles", "the planets are not at equal angles"),
+        ("stiffness", "the planets are not alike in the stiffness of a-rim1"),
+        ("one", "there is one planet only"),
+    ],
+)
+def test_modes_without_a_kind_say_why(changed: str, why: str) -> None:
+    planar = train_springs(on_springs(TRAINS["A"], **ELASTIC), STIFFNESS).planar
+    modes = planetary_modes(springs_of(_changed(planar, changed)), MASSES)
+    mixed = len(modes.of_kind(ModeKind.MIXED))
+    assert mixed >= 9
+    assert modes.notices[0].code == "modes-mixed"
+    assert modes.notices[0].text == f"{mixed} of {len(modes)} modes are of no kind: {why}"
+
+
+def _changed(planar: PlanarTrain, changed: str) -> PlanarTrain:
+    if changed == "angles":
+        return replace(planar, angles=planar.angles + np.array([0.0, 0.1, 0.0]))
+    if changed == "one":
+        first, second = (replace(line, stiffness=line.stiffness[:1]) for line in planar.meshes)
+        return replace(planar, angles=planar.angles[:1], meshes=(first, second))
+    first, second = planar.meshes
+    return replace(planar, meshes=(replace(first, stiffness=first.stiffness * np.array([1.0, 1.2, 1.0])), second))
+
+
+def test_two_pairs_of_opposite_planets_keep_rotational_and_translational_modes() -> None:
+    """As Lin and Parker (2000) found."""
+    planar = train_springs(on_springs(TRAINS["A helical"], **ELASTIC), STIFFNESS).planar
+    modes = planetary_modes(springs_of(replace(planar, angles=np.array([0.0, 1.3, np.pi, 1.3 + np.pi]))), MASSES)
+    assert _families(modes) == {
+        ModeKind.ROTATIONAL: [1] * 6,
+        ModeKind.TRANSLATIONAL: [1] * 12,
+        ModeKind.PLANET: [1] * 3,
+        ModeKind.MIXED: [],
+    }
+
+
+def test_what_moves_has_a_mass() -> None:
+    springs = train_springs(on_springs(TRAINS["A"], pin=200.0), STIFFNESS)
+    none = TrainMasses(members={**MASSES.members, "carrier": MemberMass(mass=None, inertia=None)}, planet=MASSES.planet)
+    with pytest.raises(ParameterError, match=r"carrier.mass = None: must be given in kg"):
+        planetary_modes(springs, none)
+    still = train_springs(TRAINS["A"], STIFFNESS, held=("carrier",))
+    assert len(planetary_modes(still, none)) == 5
+    bad = replace(MASSES, planet=MemberMass(mass=0.7, inertia=0.0))
+    with pytest.raises(ParameterError, match=r"planet.inertia = 0 kg·m²: must be a number above 0"):
+        planetary_modes(springs, bad)
