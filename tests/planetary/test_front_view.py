@@ -20,7 +20,7 @@ from gearcad.plots.planetary.ladder import plot_ladder
 THINNING = 0.15
 """Of all teeth (mm): more than pictures leave out of an outline."""
 
-TURN = 0.04
+TURN = 0.02
 """Radians by which a gear is turned that must then be seen to overlap: more than that backlash."""
 
 
@@ -45,7 +45,7 @@ SHOWN = {
 
 def _overlaps(axes: Axes) -> int:
     """Points of the outlines of planets that lie in suns, or beyond the teeth of rings, and of these in planets."""
-    filled = [np.asarray(each.get_xy(), float) for each in axes.patches if isinstance(each, Polygon)]
+    filled = [np.asarray(each.get_xy(), float)[:-1] for each in axes.patches if isinstance(each, Polygon)]
     centred = [outline for outline in filled if np.hypot(*outline.mean(axis=0)) < 1e-6]
     planets = [outline for outline in filled if np.hypot(*outline.mean(axis=0)) > 1e-6]
     found = 0

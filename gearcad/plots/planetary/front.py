@@ -112,11 +112,8 @@ def _draw_circles(axes: Axes, train: PlanetaryTrain, pose: TrainPose, meshes: li
             radius = abs(diameters.pick(role)) / 2
             axes.add_patch(Circle(place, radius, fill=False, edgecolor=DARK, linestyle="-.", linewidth=0.5))
     axes.plot(0, 0, "+", color=DARK, markersize=9, markeredgewidth=0.8)
-    axes.add_patch(
-        Circle(
-            (0.0, 0.0), float(train.centre_distance), fill=False, edgecolor=colour_of(train, train.carrier.name), linewidth=0.6
-        )
-    )
+    pins, colour = float(train.centre_distance), colour_of(train, train.carrier.name)
+    axes.add_patch(Circle((0.0, 0.0), pins, fill=False, edgecolor=colour, linewidth=0.6))
 
 
 def _turns(train: PlanetaryTrain, pose: TrainPose, rim: Rim, turning: Mapping[str, float], reach: float) -> Iterator[_Turn]:
