@@ -4,16 +4,51 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import Enum
+from typing import Any, NamedTuple
 
 from gearcad.errors import ParameterError, require_number
 from gearcad.load import Load
 from gearcad.per_gear import PerGear, Role
+from gearcad.planetary.load import TrainLoad
 from gearcad.planetary.mesh import SetMesh
 from gearcad.planetary.power import PowerFlow
 from gearcad.planetary.speeds import speeds
 from gearcad.planetary.train_data import TrainData
 
-__all__ = ["MeshLoad", "mesh_loads"]
+__all__ = ["FactorSource", "MeshLoad", "MeshLoadFactor", "mesh_load_factor", "mesh_loads"]
+
+
+class FactorSource(Enum):
+    """Where K_gamma comes from."""
+
+    GIVEN = "given"
+    COMPUTED = "computed"
+    """Of the errors, stiffnesses and supports of the train."""
+
+    EQUAL = "equal shares"
+    """None was given and none computed: 1."""
+
+
+class MeshLoadFactor(NamedTuple):
+    """K_gamma of ISO 6336-1, and where it comes from."""
+
+    value: float
+    source: FactorSource
+
+
+def mesh_load_factor(train: TrainData, load: TrainLoad, computed: float | None = None) -> MeshLoadFactor:
+    """K_gamma of a train: the one that its load gives, else the one that was `computed`, else 1.
+
+    Raises ParameterError for a given one above the number of planets: then one planet carries all.
+    """
+    if (given := load.mesh_load_factor) is not None:
+        require_number("load.mesh_load_factor", given, at_least=1, at_most=train.planets)
+        return MeshLoadFactor(given, FactorSource.GIVEN)
+    if computed is not None:
+        # The shares have the mean 1: less is rounding.
+        return MeshLoadFactor(max(float(computed), 1.0), FactorSource.COMPUTED)
+    return MeshLoadFactor(1.0, FactorSource.EQUAL)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,8 +57,8 @@ class MeshLoad:
 
     The torque of `load` (N·m) is the N-th part of that on the central, on the pair's pinion: positive where it presses the
     flanks that a pinion which is driven counter-clockwise presses; its speed (rpm) is that of the pinion against the carrier.
-    `application_factor` K_A is the train's, `mesh_load_factor` K_gamma by how much the planet that carries most carries more
-    than its share; that of the load is their product. `driver` drives its mate, with the carrier at rest.
+    `application_factor` K_A is the train's, `mesh_load_factor` K_gamma; that of the load is their product. `driver` drives its
+    mate, with the carrier at rest.
     """
 
     mesh: SetMesh
@@ -31,7 +66,7 @@ class MeshLoad:
     load: Load
     driver: Role
     application_factor: float
-    mesh_load_factor: float
+    mesh_load_factor: MeshLoadFactor
 
     @property
     def normal_force(self) -> float:
@@ -50,10 +85,24 @@ class MeshLoad:
         gears = self.mesh.pair.gears
         return PerGear.each(lambda role: rolled / gears.pick(role).tooth_count * self.contacts.pick(role))
 
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON: N·m, rpm and N."""
+        return {
+            "torque": self.load.torque,
+            "speed": self.load.speed,
+            "normal_force": self.normal_force,
+            "K_A": self.application_factor,
+            "K_gamma": self.mesh_load_factor.value,
+            "K_gamma_source": self.mesh_load_factor.source.value,
+            "driver": self.mesh.pair.gears.pick(self.driver).name,
+            "contacts": self.contacts._asdict(),
+            "cycles_per_minute": self.cycles_per_minute._asdict(),
+        }
 
-def mesh_loads(train: TrainData, flow: PowerFlow, mesh_load_factor: float = 1.0) -> dict[str, MeshLoad]:
-    """Of both meshes of a set by their names, under a flow of power. Raises ParameterError for a K_gamma below 1 or above N."""
-    require_number("mesh_load_factor", mesh_load_factor, at_least=1, at_most=train.planets)
+
+def mesh_loads(train: TrainData, flow: PowerFlow, computed_factor: float | None = None) -> dict[str, MeshLoad]:
+    """Of both meshes of a set by their names, under a flow of power; K_gamma as `mesh_load_factor` has it."""
+    found = mesh_load_factor(train, flow.load, computed_factor)
     first, second = train.meshes
     central_drives = _rolling(train, flow) >= 0
     drivers = {
@@ -68,11 +117,11 @@ def mesh_loads(train: TrainData, flow: PowerFlow, mesh_load_factor: float = 1.0)
             load=Load(
                 torque=_on_pinion(train, mesh, flow),
                 speed=_pinion_speed(train, mesh, flow),
-                application_factor=factor * mesh_load_factor,
+                application_factor=factor * found.value,
             ),
             driver=drivers[mesh.name],
             application_factor=factor,
-            mesh_load_factor=mesh_load_factor,
+            mesh_load_factor=found,
         )
         for mesh in train.meshes
     }

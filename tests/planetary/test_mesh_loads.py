@@ -4,20 +4,20 @@ import math
 from itertools import product
 
 import pytest
+from support.loaded_trains import alm_set, simple_set
+from support.sets import alm_train
 
 from gearcad.errors import ParameterError
 from gearcad.per_gear import PerGear, Role
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.planetary.forces import forces
-from gearcad.planetary.mesh_loads import MeshLoad, mesh_loads
+from gearcad.planetary.mesh_loads import FactorSource, MeshLoad, mesh_load_factor, mesh_loads
 from gearcad.planetary.power import power_flow
-from tests.support.loaded_trains import alm_set, simple_set
-from tests.support.sets import alm_train
 
 _RPM = math.pi / 30
 
 
-def loads(train: PlanetaryTrain, k_gamma: float = 1.0, **given: float) -> dict[str, MeshLoad]:
+def loads(train: PlanetaryTrain, k_gamma: float | None = None, **given: float | None) -> dict[str, MeshLoad]:
     return mesh_loads(train, power_flow(train, TrainLoad(**{"torque": 1600.0, "speed": 1000.0} | given)), k_gamma)
 
 
@@ -62,13 +62,25 @@ def test_losses_part_the_meshes() -> None:
 
 
 def test_k_gamma_multiplies_the_application_factor_only() -> None:
-    plain, uneven = (loads(simple_set(24, 21), k, application_factor=1.25)["sun-planet"] for k in (1.0, 1.2))
+    plain, uneven = (loads(simple_set(24, 21), k, application_factor=1.25)["sun-planet"] for k in (None, 1.2))
     assert uneven.load.torque == plain.load.torque
     assert uneven.load.application_factor == pytest.approx(1.5)
-    assert (uneven.application_factor, uneven.mesh_load_factor) == (1.25, 1.2)
-    for wrong in (0.9, 3.1):
-        with pytest.raises(ParameterError, match="mesh_load_factor"):
-            loads(simple_set(24, 21), wrong)
+    assert (uneven.application_factor, uneven.mesh_load_factor) == (1.25, (1.2, FactorSource.COMPUTED))
+    with pytest.raises(ParameterError, match=r"load.mesh_load_factor = 3.1: must be .* at most 3"):
+        loads(simple_set(24, 21), mesh_load_factor=3.1)
+    with pytest.raises(ParameterError, match=r"mesh_load_factor = 0.9: must be"):
+        TrainLoad(torque=1.0, mesh_load_factor=0.9)
+
+
+def test_the_k_gamma_that_is_given_wins() -> None:
+    for given, computed, wanted in (
+        (1.3, 1.1, (1.3, FactorSource.GIVEN)),
+        (None, 1.1, (1.1, FactorSource.COMPUTED)),
+        (None, 1 - 1e-15, (1.0, FactorSource.COMPUTED)),
+        (None, None, (1.0, FactorSource.EQUAL)),
+    ):
+        load = TrainLoad(torque=1600.0, mesh_load_factor=given)
+        assert mesh_load_factor(alm_set(), load, computed) == wanted
 
 
 def test_load_cycles_are_those_that_teeth_count() -> None:

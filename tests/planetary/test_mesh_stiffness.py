@@ -5,6 +5,8 @@ from functools import cache
 
 import numpy as np
 import pytest
+from support.cut_flanks import Contacts, contacts
+from support.loaded_trains import alm_set, simple_set
 
 from gearcad.dynamics.planetary.mesh_stiffness import NOMINAL_STRESS, MeshStiffness, mesh_stiffness, train_stiffness
 from gearcad.errors import ParameterError
@@ -13,8 +15,6 @@ from gearcad.mesh_cycle import MeshCycle
 from gearcad.per_gear import Role
 from gearcad.planetary import Central, PlanetaryTrain, SetMesh
 from gearcad.stiffness import StrainEnergy
-from tests.support.cut_flanks import Contacts, contacts
-from tests.support.loaded_trains import alm_set, simple_set
 
 INTERPOLATED = 5e-5
 """Relative: straight lines between the 200 roll angles of a cycle against its method at the very place."""

@@ -17,6 +17,8 @@ from gearcad.mesh_cycle import MeshCycle
 from gearcad.notice import Notice
 from gearcad.per_gear import Role
 from gearcad.planetary import PlanetaryTrain, SetMesh
+from gearcad.planetary.mesh_loads import MeshLoad
+from gearcad.planetary.phases import mesh_phases
 from gearcad.stiffness.methods import METHODS
 
 __all__ = ["NOMINAL_STRESS", "QUICK", "MeshStiffness", "mesh_stiffness", "nominal_load", "train_stiffness"]
@@ -144,22 +146,22 @@ def mesh_stiffness(
 
 def train_stiffness(
     train: PlanetaryTrain,
-    loads: Mapping[str, Load] | None = None,
-    drivers: Mapping[str, Role] | None = None,
+    loads: Mapping[str, MeshLoad] | None = None,
     *,
     method: str = QUICK,
     material: Material | None = None,
     positions: int = 0,
 ) -> dict[str, MeshStiffness]:
-    """Of both meshes by their names; see `mesh_stiffness`. Without `drivers` the first central drives the planets."""
-    loads, drivers = loads or {}, drivers or {}
-    a, b = train.meshes
-    first = {a.name: a.central_role, b.name: b.rim_role}
+    """Of both meshes by their names, as `mesh_stiffness`; without `loads` as the input drives it.
+
+    `stiffness_at(MeshPhases.ahead[n])` is then that of planet n in the pose of the phases, if these are of the same drive.
+    """
+    drivers = {name: each.driver for name, each in (loads or mesh_phases(train)).items()}
     return {
         mesh.name: mesh_stiffness(
             mesh,
-            loads.get(mesh.name),
-            driver=drivers.get(mesh.name, first[mesh.name]),
+            None if loads is None else loads[mesh.name].load,
+            driver=drivers[mesh.name],
             method=method,
             material=material,
             positions=positions,

@@ -1,0 +1,66 @@
+"""The spec of a pair: the text of every value that is not its default, which gives the very same pair when it is read."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import is_dataclass
+from enum import Enum
+from functools import reduce
+from typing import Any
+
+from gearcad.designs.keys import BESIDE, FIELDS
+from gearcad.designs.kinds.pair import PairDesign
+from gearcad.geometry import Gear
+from gearcad.geometry.derived import is_given
+
+__all__ = ["pair_text"]
+
+_ALWAYS = ("helix_angle", "profile_shift", "tip_alteration")
+"""Of gears: what a spec without them takes from the mate, or as "auto"."""
+
+
+def pair_text(design: PairDesign, comments: Sequence[str] = ()) -> str:
+    """The TOML of a design of a pair, led by `comments`, a line each. "auto" stands nowhere: what it gave does."""
+    pair = design.pair
+    tables = {
+        "pair": dict(_values(pair, ("name", "centre_distance", "axial_offset"), always=("name",))),
+        **{role.value: dict(_values(gear, FIELDS[role.value], always=("name", *_ALWAYS))) for role, gear in pair.gears.items()},
+        **{
+            table: dict(_values(getattr(design, table), FIELDS[table]))
+            for table in BESIDE
+            if getattr(design, table) is not None
+        },
+    }
+    blocks = ["\n".join(f"# {line}".rstrip() for line in comments)] if comments else []
+    for table, values in tables.items():
+        blocks.append("\n".join([f"[{table}]", *(f"{key} = {_toml(value)}" for key, value in values.items())]))
+    return "\n\n".join(blocks) + "\n"
+
+
+def _values(instance: Any, keys: Any, always: Sequence[str] = ()) -> Iterator[tuple[str, Any]]:
+    """The fields under flattened keys, without those that are derived, or that have their default."""
+    for key in keys:
+        *parts, name = key.split(".")
+        owner = reduce(getattr, parts, instance)
+        value = getattr(owner, name)
+        if is_dataclass(value) or value is None or not (isinstance(value, str | Enum | tuple) or is_given(value)):
+            continue
+        opposed = key == "double_helix.offset" and isinstance(instance, Gear) and instance.double_helix.present
+        if key in always or opposed or value != _default(owner, name):
+            yield key, value
+
+
+def _default(owner: Any, name: str) -> Any:
+    return type(owner).__dataclass_fields__[name].default
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, Enum):
+        value = value.value
+    if isinstance(value, tuple | list):
+        return f"[{', '.join(map(_toml, value))}]"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)  # texts of JSON are texts of TOML
+    # Python's own numbers are written with the fewest digits that give them back.
+    return repr(float(value) if isinstance(value, float) else int(value))
