@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Any, NamedTuple
 
@@ -67,6 +67,11 @@ class MeshLoad:
     driver: Role
     application_factor: float
     mesh_load_factor: MeshLoadFactor
+
+    @property
+    def even(self) -> Load:
+        """The load of a planet that carries its N-th part: with K_A, without K_gamma."""
+        return replace(self.load, application_factor=self.application_factor)
 
     @property
     def normal_force(self) -> float:

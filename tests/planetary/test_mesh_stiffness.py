@@ -13,7 +13,11 @@ from gearcad.errors import ParameterError
 from gearcad.load import Load
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.per_gear import Role
-from gearcad.planetary import Central, PlanetaryTrain, SetMesh
+from gearcad.planetary import Central, PlanetaryTrain, SetMesh, TrainLoad
+from gearcad.planetary.mesh_loads import mesh_loads
+from gearcad.planetary.phases import Drive, drive_of, mesh_phases
+from gearcad.planetary.poses import train_pose
+from gearcad.planetary.power import power_flow
 from gearcad.stiffness import StrainEnergy
 
 INTERPOLATED = 5e-5
@@ -88,14 +92,41 @@ def mean(places: np.ndarray, values: np.ndarray) -> float:
     return float(np.trapezoid(values, places))
 
 
-def test_what_drives_without_word_of_it() -> None:
-    assert roles(simple_set(20, 32)) == {"sun-planet": Role.PINION, "ring-planet": Role.PINION}
-    assert roles(simple_set(24, 21)) == {"sun-planet": Role.WHEEL, "ring-planet": Role.PINION}
-    assert roles(alm_set()) == {"ring_4-rim_3": Role.WHEEL, "ring_5-rim_3p": Role.PINION}
+@pytest.mark.parametrize("drive", [Drive(1, 1), Drive(-1, 1), Drive(1, -1)], ids=str)
+@pytest.mark.parametrize("train", [simple_set(24, 21, planets=2), alm_set(planets=1)], ids=lambda train: train.set_type.value)
+def test_phases_place_every_planet(train: PlanetaryTrain, drive: Drive) -> None:
+    """Contacts of the posed train, which has no backlash, cut with the line of action."""
+    pose, phases = train_pose(train, 11.0), mesh_phases(train, drive, carrier_angle=11.0)
+    first, second = train.meshes
+    turning = {first.name: drive.turning, second.name: drive.turning * (1 if train.basic_ratio > 0 else -1)}
+    for mesh in train.meshes:
+        own = phases[mesh.name]
+        stiffness = MeshStiffness(mesh=mesh, cycle=cycle(mesh), driver=own.driver)
+        angle = math.radians(pose.rotations[mesh.central.name])
+        for planet, ahead in zip(pose.planets, own.ahead, strict=True):
+            psi = math.radians(planet.angle)
+            found = contacts(mesh, angle=angle, psi=psi, driver=own.driver, turning=turning[mesh.name])
+            assert stiffness.stiffness_at(ahead) == pytest.approx(at(mesh, found), rel=INTERPOLATED)
 
 
-def roles(train: PlanetaryTrain) -> dict[str, Role]:
-    return {name: each.driver for name, each in train_stiffness(train, method="iso6336").items()}
+def test_what_drives() -> None:
+    """By the loads, as by the phases of the same load."""
+    for train in (simple_set(20, 32), simple_set(24, 21), alm_set()):
+        for load in (None, TrainLoad(torque=90), TrainLoad(torque=-90, speed=100), TrainLoad(torque=-90, speed=-100)):
+            loads = None if load is None else mesh_loads(train, power_flow(train, load))
+            phases = mesh_phases(train, drive_of(train, load))
+            found = train_stiffness(train, loads, method="iso6336")
+            assert {name: each.driver for name, each in found.items()} == {name: each.driver for name, each in phases.items()}
+            assert all(each.nominal is (load is None) for each in found.values())
+
+
+def test_an_even_share_without_k_gamma() -> None:
+    """The stiffness decides the shares, so it must not wait for them."""
+    train = alm_set()
+    load = TrainLoad(torque=1600, application_factor=1.25, mesh_load_factor=1.5)
+    loads = mesh_loads(train, power_flow(train, load))
+    found = train_stiffness(train, loads, method="iso6336")
+    assert found["ring_5-rim_3p"].cycle.force == pytest.approx(1.25 * 6063.69, rel=1e-6)
 
 
 def test_without_a_load_a_small_one_is_named() -> None:

@@ -152,7 +152,8 @@ def train_stiffness(
     material: Material | None = None,
     positions: int = 0,
 ) -> dict[str, MeshStiffness]:
-    """Of both meshes by their names, as `mesh_stiffness`; without `loads` as the input drives it.
+    """Of both meshes by their names, as `mesh_stiffness` under the even share of `loads` with K_A; without loads as the input
+    drives.
 
     `stiffness_at(MeshPhases.ahead[n])` is then that of planet n in the pose of the phases, if these are of the same drive.
     """
@@ -160,7 +161,7 @@ def train_stiffness(
     return {
         mesh.name: mesh_stiffness(
             mesh,
-            None if loads is None else loads[mesh.name].load,
+            None if loads is None else loads[mesh.name].even,
             driver=drivers[mesh.name],
             method=method,
             material=material,
