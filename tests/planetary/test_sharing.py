@@ -1,0 +1,210 @@
+"""Load sharing and twist against one dense matrix with a stage as a spring of its own; limits, and what is refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.dense_sharing import dense_sharing
+from support.loaded_trains import simple_set
+from support.mode_trains import TRAINS
+from support.sets import alm_train
+from support.sharing_trains import output_torque, sun_set
+
+from gearcad.dynamics.planetary.published import published_factors
+from gearcad.dynamics.planetary.sharing import share_load
+from gearcad.dynamics.planetary.statics import train_statics
+from gearcad.dynamics.planetary.torsion import TwistSource, torsional_stiffness
+from gearcad.errors import GeometryError, ParameterError, SolverError
+from gearcad.planetary import Carrier, PlanetaryTrain, TrainLoad
+from gearcad.planetary.forces import forces
+from gearcad.planetary.power import power_flow
+
+DENSE = 2e-4
+"""Of the mean force: what 1e7 N/µm in the place of rigid supports is off, and rounding of the one matrix."""
+
+STIFFNESS = {"sun-planet": 400.0, "ring-planet": 500.0}
+
+
+def springy(train: PlanetaryTrain, seed: int, *, errors: float = 10.0, rigid_pins: bool = False) -> PlanetaryTrain:
+    """With random errors, and bearings of which one floats."""
+    random = np.random.default_rng(seed)
+    supports = [float(each) for each in random.permutation([0.0, 30.0, 200.0])]
+    rims = tuple(replace(rim, tooth_errors=tuple(random.normal(0, errors, train.planets))) for rim in train.rims)
+    a, b = (replace(each, support_stiffness=k) for each, k in zip(train.centrals, supports, strict=False))
+    carrier = Carrier(
+        support_stiffness=supports[2],
+        pin_stiffness=None if rigid_pins else 250.0,
+        pin_errors=tuple(random.normal(0, errors, train.planets)),
+    )
+    return replace(train, centrals=(a, b), rims=rims, carrier=carrier)
+
+
+def by_name(train: PlanetaryTrain) -> dict[str, float]:
+    first, second = train.meshes
+    return {first.name: 400.0, second.name: 500.0}
+
+
+@pytest.mark.parametrize("torque", [800.0, -800.0])
+@pytest.mark.parametrize("kind", TRAINS)
+def test_forces_are_those_of_the_dense_matrix(kind: str, torque: float) -> None:
+    train = springy(TRAINS[kind], seed=sum(map(ord, kind)), rigid_pins=kind == "B")
+    load, stiffness = TrainLoad(torque=torque, speed=100.0), by_name(train)
+    found = share_load(train, load, stiffness)
+    expected, _ = dense_sharing(train, load, stiffness)
+    for mesh, force in zip(found.meshes.values(), expected, strict=True):
+        assert mesh.force == pytest.approx(force, abs=DENSE * force.mean())
+
+
+@pytest.mark.parametrize("torque", [400.0, 60.0])
+def test_planets_that_errors_part_from_their_teeth_carry_nothing(torque: float) -> None:
+    train = springy(simple_set(20, 28, planets=4), seed=3, errors=60.0)
+    load = TrainLoad(torque=torque)
+    found = share_load(train, load, STIFFNESS)
+    expected, _ = dense_sharing(train, load, STIFFNESS)
+    assert found.meshes["sun-planet"].force == pytest.approx(expected[0], abs=DENSE * expected[0].mean())
+    assert found.unloaded == tuple(np.flatnonzero(expected[0] == 0)) != ()
+    assert any("planets without contact" in text for text in found.warnings)
+
+
+@pytest.mark.parametrize("in_phase", [False, True])
+def test_twist_is_the_virtual_work_of_all_springs(in_phase: bool) -> None:
+    """And the one matrix, in which the stage is a spring to a pinion in space, has the same in the mean over a turn."""
+    stiffness = {"ring_4-rim_3": 314.5, "ring_5-rim_3p": 300.7, "pre_stage": 181.6}
+    train = springy(alm_train(in_phase=in_phase), seed=1, errors=0.0)
+    load = TrainLoad(torque=1600.0)
+    found = torsional_stiffness(train, load, stiffness)
+    turned = [dense_sharing(train, load, stiffness, carrier_angle=angle)[1] for angle in (0, 120, 240)]
+    # Pinned members turn at 1e12 N·m/rad.
+    assert found.twist == pytest.approx(np.mean(turned), rel=1e-5)
+    assert sum(each.share for each in found.contributions) == pytest.approx(1, abs=1e-12)
+    assert found.share(TwistSource.PIN) > 0.25 and found.share(TwistSource.SUPPORT) > 0.005
+
+
+def test_shaft_stiffness_adds_the_squares_of_torques() -> None:
+    train = simple_set()
+    sun, ring = train.centrals
+    shafts = {"sun": 2e5, "ring": 5e6, "carrier": 1e6}
+    centrals = (replace(sun, torsional_stiffness=shafts["sun"]), replace(ring, torsional_stiffness=shafts["ring"]))
+    soft = replace(train, centrals=centrals, carrier=Carrier(torsional_stiffness=shafts["carrier"]))
+    load = TrainLoad(torque=900.0)
+    more = torsional_stiffness(soft, load, STIFFNESS).twist - torsional_stiffness(train, load, STIFFNESS).twist
+    torques = power_flow(train, load).torques
+    by_hand = sum(torques[name] ** 2 / k for name, k in shafts.items()) / 900.0
+    assert np.radians(more) == pytest.approx(by_hand, rel=1e-9)
+
+
+@pytest.mark.parametrize("train", [simple_set(), TRAINS["C"], alm_train(stages=())], ids=["A", "C", "D"])
+def test_without_errors_pins_carry_what_the_balance_has(train: PlanetaryTrain) -> None:
+    load = TrainLoad(torque=500.0, speed=10.0)
+    pins, expected = share_load(train, load, by_name(train)).pins, forces(train, power_flow(train, load)).pin
+    assert pins.radial == pytest.approx(expected.radial, abs=1e-6)
+    assert pins.tangential == pytest.approx(expected.tangential, abs=1e-6)
+
+
+@pytest.mark.parametrize("floating", [(), ("sun",)])
+def test_run_out_is_taken_at_its_worst_angles(floating: tuple[str, ...]) -> None:
+    """All planets in contact, forces are linear: their greatest is F_0 + sum e |A - i B|, and the dense matrix agrees."""
+    train = sun_set(5, floating=floating, carrier=Carrier(pin_stiffness=300.0, pin_errors=(9.0, 0, 0, -4.0, 0)))
+    centrals = tuple(replace(each, run_out=e) for each, e in zip(train.centrals, (12.0, 20.0), strict=True))
+    train, load = replace(train, centrals=centrals), TrainLoad(torque=output_torque(train))
+    found = share_load(train, load, STIFFNESS)
+    still, _ = dense_sharing(train, load, STIFFNESS)
+    bare, waves = replace(train, carrier=replace(train.carrier, pin_errors=())), np.zeros((2, 5))
+    for central in train.centrals:
+        alone = replace(bare, centrals=tuple(replace(e, run_out=e.run_out * (e is central)) for e in train.centrals))
+        cos, sin = (
+            dense_sharing(alone, load, STIFFNESS, run_out_angles={central.name: angle})[0] - still.mean() for angle in (0, 90)
+        )
+        waves += np.hypot(cos, sin)
+    # `still` has the run-out at 0 deg too; without it:
+    steady, _ = dense_sharing(replace(train, centrals=sun_set(5, floating=floating).centrals), load, STIFFNESS)
+    for place, mesh in enumerate(found.meshes.values()):
+        assert mesh.greatest == pytest.approx(steady[place] + waves[place], rel=DENSE)
+        assert mesh.least == pytest.approx(steady[place] - waves[place], rel=2 * DENSE)
+    assert found.turning == ("run-out of sun", "run-out of ring")
+    assert found.mesh_load_factor > 1.03
+
+
+def test_where_contact_is_lost_the_worst_angle_is_no_less_than_any_other() -> None:
+    train = sun_set(4, carrier=Carrier(pin_stiffness=300.0, pin_errors=(30.0, -30.0, 0, 0), run_out=15.0))
+    train = replace(train, centrals=tuple(replace(each, run_out=40.0) for each in train.centrals))
+    load = TrainLoad(torque=output_torque(train, 15000.0))
+    found = share_load(train, load, STIFFNESS)
+    assert 0 in found.unloaded and found.mesh_load_factor > 1.5
+    statics = train_statics(train, load, STIFFNESS)
+    angles = np.random.default_rng(0).uniform(0, 2 * np.pi, (500, 3))
+    assert statics.state(angles).forces[:, statics.meshes[0]].max() <= found.meshes["sun-planet"].greatest.max() * (1 + 1e-9)
+
+
+def test_errors_of_a_plain_rim_do_the_same_in_either_mesh() -> None:
+    """The planet turns until both meshes share them: so they are counted once."""
+    train = sun_set(4, carrier=Carrier(pin_stiffness=300.0))
+    errors = (10.0, -5.0, 3.0, 0.0)
+    rimmed = replace(train, rims=(replace(train.rims[0], tooth_errors=errors),))
+    statics = train_statics(rimmed, TrainLoad(torque=output_torque(train)), STIFFNESS)
+    in_ring = statics.gap.copy()
+    in_ring[statics.meshes[1]], in_ring[statics.meshes[0]] = statics.gap[statics.meshes[0]], 0.0
+    for gap in (statics.gap, in_ring):
+        found, _ = statics.equilibrium.forces(statics.compliance[None], gap[None], statics.load[None])
+        assert found[0, statics.meshes] == pytest.approx(share_forces(rimmed), rel=1e-9)
+
+
+def share_forces(train: PlanetaryTrain) -> np.ndarray:
+    found = share_load(train, TrainLoad(torque=output_torque(train)), STIFFNESS)
+    return np.array([mesh.force for mesh in found.meshes.values()])
+
+
+def test_what_cannot_be_shared_is_refused() -> None:
+    train, load = simple_set(), TrainLoad(torque=500.0)
+    with pytest.raises(ParameterError, match=r"torque = 0 N·m: must not be 0"):
+        share_load(train, TrainLoad(torque=0.0), STIFFNESS)
+    wrong = replace(train, carrier=Carrier(pin_errors=(20.0,)))
+    with pytest.raises(ParameterError, match=r"carrier.pin_errors = 1: must be one for each of 3 planets"):
+        share_load(wrong, load, STIFFNESS)
+    alone = simple_set(planets=1)
+    sun, ring = alone.centrals
+    with pytest.raises(GeometryError, match=r"sun.support_stiffness = 0 N/µm: .*as sun floats"):
+        share_load(replace(alone, centrals=(replace(sun, support_stiffness=0.0), ring)), load, STIFFNESS)
+    assert share_load(alone, load, STIFFNESS).shares == pytest.approx(1)
+    pushed = alm_train(carrier=Carrier(support_stiffness=0.0))
+    fourth, fifth = pushed.centrals
+    pushed = replace(pushed, centrals=(fourth, replace(fifth, support_stiffness=0.0)))
+    with pytest.raises(GeometryError, match="as carrier and ring_5 float"):
+        share_load(pushed, load, {"ring_4-rim_3": 300.0, "ring_5-rim_3p": 300.0})
+
+
+def test_planets_that_would_have_to_pull_are_told() -> None:
+    """The sun floats between three planets that stand on one side of it."""
+    train = simple_set(20, 28, planet_angles=(0.0, 78.75, 157.5))
+    sun, ring = train.centrals
+    train = replace(train, centrals=(replace(sun, support_stiffness=0.0), ring))
+    with pytest.raises(SolverError, match="teeth would have to pull, as sun floats"):
+        share_load(train, TrainLoad(torque=500.0), STIFFNESS)
+
+
+def test_places_that_nothing_decides_are_told() -> None:
+    train = simple_set()
+    train = replace(train, centrals=tuple(replace(each, support_stiffness=0.0) for each in train.centrals))
+    found = share_load(train, TrainLoad(torque=500.0), STIFFNESS)
+    assert found.undetermined == ("sun", "ring")
+    assert found.shares == pytest.approx(1)
+    assert any("nothing decides where sun and ring float" in text for text in found.warnings)
+
+
+def test_published_factors_have_their_sources() -> None:
+    assert [published_factors(n)[0].factor for n in (1, 3, 4, 5, 6, 12)] == [1.0, 1.0, 1.2, 1.3, 1.4, 1.4]
+    assert [len(published_factors(n)) for n in (2, 3, 6, 7)] == [1, 2, 2, 1]
+    assert all(each.source and each.recalled is (each.source == "IEC 61400-4") for each in published_factors(4))
+
+
+def test_the_document_is_plain() -> None:
+    train = springy(simple_set(20, 28, planets=4), seed=3)
+    found = share_load(train, TrainLoad(torque=500.0), STIFFNESS).to_dict()
+    assert found["mesh_load_factor"] == max(found["greatest_shares"])
+    assert set(found["meshes"]) == set(STIFFNESS) and len(found["pins"]["greatest"]) == 4
+    stiff = torsional_stiffness(train, TrainLoad(torque=500.0), STIFFNESS)
+    assert stiff.to_dict()["stiffness"] == pytest.approx(500.0 / np.radians(stiff.twist))
+    with pytest.raises(ParameterError, match="must be below"):
+        stiff.implied_pin_stiffness(1e12)
