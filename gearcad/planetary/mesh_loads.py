@@ -16,7 +16,7 @@ from gearcad.planetary.power import PowerFlow
 from gearcad.planetary.speeds import speeds
 from gearcad.planetary.train_data import TrainData
 
-__all__ = ["FactorSource", "MeshLoad", "MeshLoadFactor", "mesh_load_factor", "mesh_loads"]
+__all__ = ["FactorSource", "MeshLoad", "MeshLoadFactor", "mesh_load_factor", "mesh_loads", "stage_loads"]
 
 
 class FactorSource(Enum):
@@ -129,6 +129,18 @@ def mesh_loads(train: TrainData, flow: PowerFlow, computed_factor: float | None 
             mesh_load_factor=found,
         )
         for mesh in train.meshes
+    }
+
+
+def stage_loads(train: TrainData, flow: PowerFlow) -> dict[str, Load]:
+    """Of the pairs before and behind the set by their names: torque (N·m) of what their wheels carry, on the pinion."""
+    return {
+        stage.name: Load(
+            torque=flow.stage_torques[stage.name].wheel / stage.pair.gear_ratio + 0.0,
+            speed=flow.speeds.members[stage.pinion],
+            application_factor=flow.load.application_factor,
+        )
+        for stage in train.stages
     }
 
 

@@ -56,12 +56,14 @@ class RunningFactors(NamedTuple):
 def reduced_mass(inertias: PerGear[float], base_radii: PerGear[float], width: float) -> float:
     """m_red (kg/mm) of a pair along the line of action: J1 J2/(J1 r_b2^2 + J2 r_b1^2), over the face width.
 
-    Moments of inertia J in kg·m², base radii and face width in mm.
+    Moments of inertia J in kg·m², base radii and face width in mm. Infinite inertia is that of a gear that is held.
     """
     j_1, j_2 = inertias
     r_1, r_2 = (radius / 1000 for radius in base_radii)
     for name, value in (("inertias", min(inertias)), ("base_radii", min(base_radii)), ("width", width)):
         require_number(name, float(value), above=0)
+    if math.inf in inertias:
+        return (j_1 / r_1**2 if math.isinf(j_2) else j_2 / r_2**2) / width
     return j_1 * j_2 / (j_1 * r_2**2 + j_2 * r_1**2) / width
 
 
