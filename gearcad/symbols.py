@@ -21,6 +21,7 @@ __all__ = [
     "MODIFY_FIGURES",
     "PAIR",
     "PER_GEAR",
+    "PLANETARY",
     "RACK",
     "RACK_PAIR",
     "RATING",
@@ -140,6 +141,13 @@ DRIVE = {
     "rack_speed": Symbol("v", "m/s", "", "speed of the rack"),
 }
 """What a load comes to on a rack."""
+
+PLANETARY = {
+    "set_type": Symbol("", "", "", "type of the set, A to D"),
+    "basic_ratio": Symbol("i_0", "", "", "basic ratio: with the carrier at rest"),
+    "positions": Symbol("q", "", "", "places round the axis where planets fit"),
+}
+"""What data.json has of a planetary train beside its inputs."""
 
 PER_GEAR = ("working_pitch_diameters", "active_root_diameters", "tip_clearances")
 """Keys of PAIR that pinion and wheel each have."""

@@ -7,15 +7,16 @@ from __future__ import annotations
 
 import csv
 import importlib.util
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import Any, Protocol
 
 from gearcad.batch.row import Record
 from gearcad.designs.cells import guarded_text
-from gearcad.designs.columns import column_symbol
+from gearcad.designs.columns import column_of_train, column_symbol
 from gearcad.designs.table import Row
 from gearcad.output import staged_files
 from gearcad.symbols import Symbol
@@ -71,7 +72,9 @@ def write_results(journal: Results, folder: Path, workspace: Path, decimal: Deci
     lines = ([_text(_cells(*pair).get(heading), decimal) for heading in columns] for pair in journal.results())
     with staged_files(folder, workspace) as staging:
         _write_csv(lines, columns, staging / RESULTS, decimal)
-        _write_csv(map(_explained, columns), _EXPLAINED, staging / COLUMNS, decimal)
+        of_trains = any(heading.startswith("planetary.") for heading in columns)
+        explained = map(partial(_explained, column_of_train if of_trains else column_symbol), columns)
+        _write_csv(explained, _EXPLAINED, staging / COLUMNS, decimal)
         if importlib.util.find_spec("pyarrow") is not None:
             _write_parquet(journal, columns, staging / PARQUET)
         return [folder / name for name in FILES if (staging / name).exists()]
@@ -122,11 +125,11 @@ def _common(one: type | None, other: type | None) -> type | None:
 _EXPLAINED = ("column", "symbol", "unit", "of", "words", "source")
 
 
-def _explained(heading: str) -> Sequence[str]:
+def _explained(symbol_of: Callable[[str], tuple[str, Symbol] | None], heading: str) -> Sequence[str]:
     """The line of columns.csv for a column."""
     if heading.startswith("files."):
         return heading, "", "", "", "path of a file, from the folder of this table", ""
-    owner, symbol = column_symbol(heading) or ("", Symbol("", "", "", ""))
+    owner, symbol = symbol_of(heading) or ("", Symbol("", "", "", ""))
     return heading, symbol.symbol, symbol.unit, owner, symbol.words, symbol.source
 
 

@@ -114,7 +114,7 @@ def _document(task: Task, folder: Path) -> dict[str, Any]:
     document = _read(folder, DATA)
     for job in task.stages:
         if job.verb != DATA and job.verb in job.parts:
-            document[job.verb] = job.figures(_read(folder, job.verb))
+            document[job.verb] = document.get(job.verb, {}) | job.figures(_read(folder, job.verb))
     return document
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from gearcad.designs.cells import CellReader, Layout
 from gearcad.designs.design import DesignKind
-from gearcad.designs.keys import COUNTS, KEYS, MAIN_TABLES, TEXTS, Cell, explain_unknown_column
+from gearcad.designs.keys import COUNTS, KEYS, MAIN_TABLES, PLANETARY, SPEEDS, TEXTS, Cell, explain_unknown_column
 from gearcad.errors import ParameterError, format_number
 
 if TYPE_CHECKING:
@@ -83,6 +83,8 @@ def read_variation(text: str, kind: DesignKind, *, sampled: bool) -> Choices | S
 def _full_key(text: str, name: str, kind: DesignKind) -> str:
     """The key with its table; one without belongs to [pair] or [gear]."""
     main = MAIN_TABLES[kind][0]
+    if kind is DesignKind.PLANETARY:
+        return _key_of_train(text, name)
     table, _, field = (main, "", name) if name in KEYS[main] else name.partition(".")
     if field not in KEYS.get(table, ()):
         raise ParameterError("vary", text, explain_unknown_column(name, main))
@@ -94,6 +96,18 @@ def _full_key(text: str, name: str, kind: DesignKind) -> str:
     if (table, field) == (main, "name"):
         raise ParameterError("vary", text, "the study numbers the names itself; vary another key")
     return f"{table}.{field}"
+
+
+def _key_of_train(text: str, name: str) -> str:
+    """The key of a planetary train; one without a table belongs to [planetary]."""
+    main = DesignKind.PLANETARY.value
+    key = name if name.partition(".")[0] in PLANETARY else f"{main}.{name}"
+    table, _, field = key.partition(".")
+    if field not in PLANETARY[table] and not (table == main and field.startswith(f"{SPEEDS}.")):
+        raise ParameterError("vary", text, explain_unknown_column(name, main))
+    if key == f"{main}.name":
+        raise ParameterError("vary", text, "the study numbers the names itself; vary another key")
+    return key
 
 
 def _value(key: str, text: str) -> Cell:

@@ -24,7 +24,9 @@ def new(kind: str | None, output: str | None, force: bool) -> None:
     from gearcad.designs.starters import starter_text, starters
 
     if kind is None:
-        click.echo("".join(f"{name:<14}{what}\n" for name, what in starters().items()), nl=False)
+        found = starters()
+        width = max(map(len, found)) + 2
+        click.echo("".join(f"{name:<{width}}{what}\n" for name, what in found.items()), nl=False)
         return
     name, text = starter_text(kind)
     if output == "-":

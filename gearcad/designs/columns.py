@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from gearcad import symbols
-from gearcad.designs.keys import FIELDS
+from gearcad.designs.keys import FIELDS, PLANETARY, Fields
 from gearcad.per_gear import Role
 from gearcad.symbols import Symbol
 
-__all__ = ["column_symbol"]
+__all__ = ["column_of_train", "column_symbol"]
 
 _STATES = {
     "name": Symbol("", "", "", "name of the design, and of its folder"),
@@ -17,7 +19,12 @@ _STATES = {
     "seconds": Symbol("", "s", "", "time to make the row"),
 }
 
-_INPUTS = {table: {key: field.symbol for key, field in fields.items()} for table, fields in FIELDS.items()}
+
+def _symbols(tables: Fields) -> dict[str, dict[str, Symbol]]:
+    return {table: {key: field.symbol for key, field in fields.items()} for table, fields in tables.items()}
+
+
+_INPUTS = _symbols(FIELDS)
 
 _COMPUTED = {
     "gear": symbols.GEAR,
@@ -45,10 +52,30 @@ _COMPUTED = {
 _TABLES = _COMPUTED | {table: inputs | _COMPUTED.get(table, {}) for table, inputs in _INPUTS.items()}
 """By the beginning of the heading."""
 
+_OF_TRAINS = _symbols(PLANETARY)
+_OF_TRAINS["planetary"] |= symbols.PLANETARY
+
 _NAMED = ("stiffness",)
 """Tables whose quantities stand under a name each: `stiffness.iso6336.mean`."""
 
 _OWNERS = tuple(role.value for role in Role)
+
+
+def column_of_train(heading: str) -> tuple[str, Symbol] | None:
+    """The same in a table of planetary trains: whose it is by the name of its gear, mesh or stage."""
+    table, _, field = heading.partition(".")
+    if table == "planetary" and field.partition(".")[0] in ("meshes", "stages"):
+        _, owner, field = field.split(".", 2)
+        return _found(owner, field, _COMPUTED["pair"] | _INPUTS["pair"])
+    if table in _OF_TRAINS and (found := _found("", field, _OF_TRAINS[table])):
+        return found
+    if table in _TABLES and table not in ("gear", "pinion", "wheel", "pair", "rack"):
+        return column_symbol(heading)
+    return _found(table, field, _TABLES["gear"])
+
+
+def _found(owner: str, field: str, known: Mapping[str, Symbol]) -> tuple[str, Symbol] | None:
+    return (owner, known[field]) if field in known else None
 
 
 def column_symbol(heading: str) -> tuple[str, Symbol] | None:

@@ -6,10 +6,12 @@ from collections.abc import Iterable, Sequence
 
 from gearcad.designs.cells import RawCell, plain_text
 from gearcad.designs.design import DesignKind
-from gearcad.designs.keys import COLUMNS, MAIN_TABLES, explain_unknown_column, nearest_table
+from gearcad.designs.keys import COLUMNS, MAIN_TABLES, OF_SETS, PLANETARY, SPEEDS, explain_unknown_column, nearest_table
 from gearcad.errors import SpecError, shown
 
 __all__ = ["column_letter", "kinds_of", "read_headings"]
+
+_MAIN = DesignKind.PLANETARY.value
 
 
 def column_letter(index: int) -> str:
@@ -25,12 +27,14 @@ def column_letter(index: int) -> str:
 def kinds_of(keys: Iterable[str]) -> set[DesignKind]:
     """What full keys can make; none of [material] and [load] makes anything. A pinion may have a wheel or a rack."""
     owners = {key.partition(".")[0] for key in keys}
+    planetary = {"planetary", *OF_SETS}
     paired = bool(owners & {"pair", "pinion"})
     makes = {
         DesignKind.GEAR: "gear" in owners,
         DesignKind.PAIR: "wheel" in owners or (paired and "rack" not in owners),
         DesignKind.RACK: "rack" in owners and not paired,
         DesignKind.RACK_PAIR: "rack" in owners and paired,
+        DesignKind.PLANETARY: bool(owners & planetary),
     }
     return {kind for kind, made in makes.items() if made}
 
@@ -68,8 +72,10 @@ def _key_of(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
     """The full key of a heading, and what is wrong with it."""
     if heading == "name":
         return heading, ""
-    if heading in ("pair.name", "gear.name", "rack.name"):
+    if heading in ("pair.name", "gear.name", "rack.name", "planetary.name"):
         return "", "is the name of the design; write name"
+    if DesignKind.PLANETARY in kinds:
+        return _key_of_train(heading, kinds)
     table, _, field = heading.partition(".")
     if table in COLUMNS and field in COLUMNS[table]:
         return heading, ""
@@ -83,3 +89,15 @@ def _key_of(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
     if heading in COLUMNS[main] and len(mains) < 2:
         return f"{main}.{heading}", ""
     return "", explain_unknown_column(heading, main)
+
+
+def _key_of_train(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
+    """The full key of a heading in a table of planetary trains, whose bare keys are those of [planetary]; and what is wrong."""
+    table, _, field = heading.partition(".")
+    if field in PLANETARY.get(table, ()) or (table == _MAIN and field.startswith(f"{SPEEDS}.")):
+        return heading, ""
+    if len(kinds) > 1 and (table in COLUMNS or heading in COLUMNS["gear"]):
+        return "", "cannot stand beside keys of planetary trains: a table holds these, or gears and pairs"
+    if heading in PLANETARY[_MAIN] or heading.startswith(f"{SPEEDS}."):
+        return f"{_MAIN}.{heading}", ""
+    return "", explain_unknown_column(heading, _MAIN)

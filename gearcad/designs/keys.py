@@ -37,12 +37,14 @@ __all__ = [
     "PLANETARY",
     "PRE_STAGE",
     "SHARED",
+    "SPEEDS",
     "TEXTS",
     "Cell",
     "Fields",
     "explain_unknown_column",
     "explain_unknown_key",
     "explain_unknown_table",
+    "explain_unknown_train_column",
     "nearest_key",
     "nearest_table",
 ]
@@ -61,8 +63,9 @@ MAIN_TABLES = {
     DesignKind.PAIR: ("pair", *(role.value for role in Role)),
     DesignKind.RACK: ("rack",),
     DesignKind.RACK_PAIR: ("pair", "pinion", "rack"),
+    DesignKind.PLANETARY: ("planetary",),
 }
-"""The tables without which a spec makes no gear, no rack, and no pair of them; the first one is what bare keys are of."""
+"""The tables without which a spec makes no gear, no rack, no pair of them, no train; the first is what bare keys are of."""
 
 BESIDE: dict[str, type[DataclassInstance]] = {
     "material": Material,
@@ -153,6 +156,9 @@ PRE_STAGE: dict[str, FieldSchema] = {
 }
 """The keys of a pair before or behind the set; `pinion.on` is the member that its pinion turns with."""
 
+SPEEDS = "speeds"
+"""The part of [planetary] whose keys are members."""
+
 PLANETARY: dict[str, dict[str, FieldSchema]] = {
     "planetary": {
         **_plain(PlanetaryTrain, "centrals", "rims", "stages"),
@@ -230,12 +236,29 @@ def _nearest(key: str, fields: Mapping[str, FieldSchema], known: tuple[str, ...]
 
 def nearest_table(name: str) -> str | None:
     """The table that was meant by `name`, if any."""
-    near = difflib.get_close_matches(name.lower(), KEYS, n=1, cutoff=0.75)
+    near = difflib.get_close_matches(name.lower(), (*KEYS, *OF_SETS, "planetary"), n=1, cutoff=0.75)
     return near[0] if near else None
+
+
+def explain_unknown_train_column(heading: str) -> str:
+    """The end of the message about a heading of a table of planetary trains that is no key."""
+    first, dot, rest = heading.partition(".")
+    near = difflib.get_close_matches(first.lower(), PLANETARY, n=1, cutoff=0.75) if dot else []
+    table, field = (near[0], rest) if near else ("planetary", heading)
+    if heading.lower() == "name":
+        return "unknown column; did you mean name?"
+    for meant in (field, nearest_key(field, PLANETARY[table])):
+        homes = [f"{owner}.{meant}" for owner in dict.fromkeys((table, *PLANETARY)) if meant in PLANETARY[owner]]
+        if homes:
+            found = homes[:1] if homes[0].startswith(f"{table}.") else homes
+            return f"unknown column; did you mean {' or '.join(found)}?"
+    return "unknown column; must be name, or a key of a spec with its table, such as planetary.planets or sun.teeth"
 
 
 def explain_unknown_column(heading: str, main: str) -> str:
     """The end of the message about a heading of a design table that is no key; bare keys are those of the table `main`."""
+    if main == "planetary":
+        return explain_unknown_train_column(heading)
     if heading.lower() == "name":
         return "unknown column; did you mean name?"
     if (moved := _MOVED.get(heading)) is not None:

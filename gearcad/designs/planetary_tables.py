@@ -12,17 +12,14 @@ from typing import Any, NamedTuple
 
 from gearcad.designs.design import DesignKind
 from gearcad.designs.files import Where, require_sane_tables
-from gearcad.designs.keys import OF_SETS, PLANETARY, PRE_STAGE, explain_unknown_table, nearest_key
+from gearcad.designs.keys import OF_SETS, PLANETARY, PRE_STAGE, SPEEDS, explain_unknown_table, nearest_key
 from gearcad.designs.spec import Given
 from gearcad.errors import SpecError, format_number, shown
 from gearcad.schema import FieldSchema
 
-__all__ = ["SPEEDS", "Tables", "place_tables"]
+__all__ = ["MAIN", "Tables", "place_tables"]
 
 MAIN = DesignKind.PLANETARY.value
-
-SPEEDS = "speeds"
-"""The part of [planetary] whose keys are members."""
 
 _SUNS, _RINGS, _RIMS = ("sun", "sun_2"), ("ring", "ring_2"), ("planet", "planet_2")
 _LISTED = ("central", "rim", "stage")

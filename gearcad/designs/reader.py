@@ -53,8 +53,10 @@ def spec_values(path: Path | str) -> tuple[DesignKind, str, dict[str, Cell]]:
     spec, main = made.spec(tables, where), MAIN_TABLES[made.kind][0]
     name = spec.name(main, Path(path).stem)
     values = {key: given.value for key, given in spec.values.items() if key != f"{main}.name"}
+    if listed := next((key for key in values if "[" in key), None):
+        raise SpecError(f"{where(listed)}: {listed}: no table holds lists of tables", listed)
     for key, value in values.items():
-        if key in LISTS and isinstance(value, list) and all(type(item) in (int, float) for item in value):
+        if key in LISTS and isinstance(value, list | tuple) and all(type(item) in (int, float) for item in value):
             values[key] = tuple(float(item) for item in value)
         elif isinstance(value, bool) or not isinstance(value, int | float | str):
             raise SpecError(f"{where(key)}: {key} = {format_number(value)}: must be a number or a text")

@@ -9,12 +9,16 @@ from gearcad.shipped import templates
 
 __all__ = ["starter_text", "starters"]
 
-_ALIASES = {"gear": "spur", "pair": "volvo-13-44", "ring": "ring-22-70"}
+_ALIASES = {"gear": "spur", "pair": "volvo-13-44", "ring": "ring-22-70", "planetary": "planetary-24-21-66"}
 """What a newcomer would ask for."""
 
 
 def _files() -> dict[str, Path]:
-    return {path.stem: path for path in sorted(templates().iterdir()) if path.suffix in (".toml", ".csv")}
+    return {
+        path.stem: path
+        for path in sorted(templates().iterdir(), key=lambda path: path.stem)
+        if path.suffix in (".toml", ".csv")
+    }
 
 
 def starters() -> dict[str, str]:

@@ -80,8 +80,10 @@ class Row:
                 self._require_name()
             except SpecError as error:
                 yield error
+        of_train = DesignKind.PLANETARY in kinds_of(self.columns)
         for key, value in self.values.items():
-            if not permitted_alone(key, value) and (fault := fault_alone(key, value, self.where)):
+            alone = permitted_alone(key, value, of_train=of_train)
+            if not alone and (fault := fault_alone(key, value, self.where, of_train=of_train)):
                 yield fault
         try:
             kind = self._kind()

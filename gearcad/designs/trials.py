@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import lru_cache
 
 from gearcad.designs.design import DesignKind
-from gearcad.designs.keys import FIELDS, MAIN_TABLES, SHARED, Cell
+from gearcad.designs.keys import FIELDS, MAIN_TABLES, OF_SETS, SHARED, Cell
 from gearcad.designs.reader import design_from_tables
 from gearcad.errors import GeometryError, SpecError
 from gearcad.geometry.diametral import MODULE_OR_PITCH
@@ -18,16 +18,38 @@ Where = Callable[[str], str]
 _REQUIRED: dict[str, Cell] = {"teeth": 20, "normal_module": 2.0, "face_width": 20.0, "height": 20.0}
 """What a gear or a rack cannot do without, as far as they have it, and values that fit each other."""
 
-_TOOTHED = {kind: tuple(table for table in tables if table != "pair") for kind, tables in MAIN_TABLES.items()}
+_TOOTHED = {
+    kind: tuple(table for table in tables if table in FIELDS and table != "pair") for kind, tables in MAIN_TABLES.items()
+}
 _SOUND = {
     kind: {f"{owner}.{field}": value for field, value in _REQUIRED.items() for owner in owners if field in FIELDS[owner]}
     for kind, owners in _TOOTHED.items()
 }
 
+_TEETH = {"sun": 24, "planet": 21, "planet_2": 18, "sun_2": 27, "ring": -66, "ring_2": -63}
+_SETS = {
+    "planet_2": ("sun", "planet", "planet_2", "ring"),
+    "sun_2": ("sun", "sun_2", "planet"),
+    "ring_2": ("ring", "ring_2", "planet"),
+}
+"""The gears of a set that has the second of a kind."""
+
 _RINGS: dict[str, dict[str, Cell]] = {
     owner: {f"{owner}.teeth": -70, f"{owner}.profile_shift": -0.3} for owner in ("gear", "wheel")
 }
 """What makes rings of these sound gears: diameters and centre distances are negative beside them."""
+
+
+def _sound_set(owner: str) -> dict[str, Cell]:
+    """Values of a set of planets among which those of a table are tried."""
+    gears = _SETS.get(owner, ("sun", "planet", "ring"))
+    train: dict[str, Cell] = {"planets": 3, "input": gears[0], "output": "carrier"}
+    made = {f"{DesignKind.PLANETARY.value}.{field}": value for field, value in train.items()}
+    for gear in gears:
+        made |= {f"{gear}.{field}": _REQUIRED[field] for field in ("normal_module", "face_width")} | {
+            f"{gear}.teeth": _TEETH[gear]
+        }
+    return made
 
 
 def nested(values: Mapping[str, Cell], kind: DesignKind) -> dict[str, dict[str, Cell]]:
@@ -39,12 +61,12 @@ def nested(values: Mapping[str, Cell], kind: DesignKind) -> dict[str, dict[str, 
     return tables
 
 
-def fault_alone(key: str, value: Cell, where: Where) -> SpecError | None:
+def fault_alone(key: str, value: Cell, where: Where, *, of_train: bool = False) -> SpecError | None:
     """What is wrong with a value whatever the others are; `where` locates a key for the message."""
     owner, _, field = key.partition(".")
-    kind = _home(key)
-    others = _SOUND[kind] | ({"load.torque": 1.0} if owner == "load" else {})
-    if owner == "pair":
+    kind = DesignKind.PLANETARY if of_train else _home(key)
+    others = (_sound_set(owner) if of_train else _SOUND[kind]) | ({"load.torque": 1.0} if owner == "load" else {})
+    if owner in ("pair", DesignKind.PLANETARY.value):
         # What the gears have of their own would win.
         others = {other: given for other, given in others.items() if not other.endswith(f".{field}")}
     if field in MODULE_OR_PITCH:
@@ -67,13 +89,16 @@ def _home(key: str) -> DesignKind:
 
 
 @lru_cache(maxsize=4096, typed=True)
-def permitted_alone(key: str, value: Cell) -> bool:
+def permitted_alone(key: str, value: Cell, *, of_train: bool = False) -> bool:
     """True if a value is not wrong by itself. The rows of a table share many of theirs."""
-    return fault_alone(key, value, where=str) is None
+    return fault_alone(key, value, where=str, of_train=of_train) is None
 
 
 def missing_faults(given: Collection[str], kind: DesignKind, where: Where) -> Iterator[SpecError]:
     """The faults of values that are not among the keys `given`; what both gears may share is missed once."""
+    if kind is DesignKind.PLANETARY:
+        yield from _missing_of_train(given, where)
+        return
     for field in _REQUIRED:
         fields = MODULE_OR_PITCH if field in MODULE_OR_PITCH else ("teeth", "length") if field == "teeth" else (field,)
         for owner in (each for each in _TOOTHED[kind] if f"{each}.{field}" in _SOUND[kind]):
@@ -83,6 +108,17 @@ def missing_faults(given: Collection[str], kind: DesignKind, where: Where) -> It
                     break
     if "load.torque" not in given and any(key.startswith("load.") for key in given):
         yield from _fault_without("load.torque", _SOUND[kind] | {"load.speed": 0.0}, kind, where)
+
+
+def _missing_of_train(given: Collection[str], where: Where) -> Iterator[SpecError]:
+    """Those of a planetary train; which gears its set lacks is said where it is read."""
+    kind, main = DesignKind.PLANETARY, DesignKind.PLANETARY.value
+    for table in OF_SETS:
+        if any(key.startswith(f"{table}.") for key in given) and f"{table}.teeth" not in given:
+            yield from _fault_without(f"{table}.teeth", _sound_set(table), kind, where)
+    for field in ("planets", "input", "output"):
+        if f"{main}.{field}" not in given:
+            yield from _fault_without(f"{main}.{field}", _sound_set(""), kind, where)
 
 
 def _fault_without(key: str, values: Mapping[str, Cell], kind: DesignKind, where: Where) -> Iterator[SpecError]:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearcad.notice import Notice
+from gearcad.geometry import GearPair
+from gearcad.notice import Notice, texts
 from gearcad.planetary.members import Carrier, Central, Rim
 from gearcad.planetary.train_data import TrainData
 from gearcad.schema import schema_of
@@ -21,6 +24,7 @@ _GIVEN = ("planets", "input", "output", "fixed", "tip_distance", "basic_ratio", 
 def train_document(train: TrainData) -> dict[str, Any]:
     """What a train is given and derives, its meshes among it, for JSON; the gears have documents of their own."""
     parts: list[Central | Rim | Carrier] = [*train.centrals, *train.rims, train.carrier]
+    notices = tuple(train_notices(train))
     return {
         "set_type": train.set_type.value,
         **{key: getattr(train, key) for key in _GIVEN},
@@ -29,16 +33,25 @@ def train_document(train: TrainData) -> dict[str, Any]:
         "members": {part.name: _fields(part) for part in parts},
         "meshes": {mesh.name: mesh.pair.to_dict() for mesh in train.meshes},
         "stages": {stage.name: _fields(stage) | stage.pair.to_dict() for stage in train.stages},
-        "notices": [notice.to_dict() for notice in train_notices(train)],
+        "warnings": list(texts(notices)),
+        "notices": [notice.to_dict() for notice in notices],
     }
 
 
 def train_notices(train: TrainData) -> Iterator[Notice]:
     """Those of the meshes of a set and of its stages; the gears have theirs."""
     for mesh in train.meshes:
-        yield from (notice.within(mesh.name) for notice in mesh.pair.notices)
+        yield from _named(mesh.name, mesh.pair)
     for stage in train.stages:
-        yield from (notice.within(stage.name) for notice in stage.pair.notices)
+        yield from _named(stage.name, stage.pair)
+
+
+def _named(name: str, pair: GearPair) -> Iterator[Notice]:
+    """The notices of a pair, whose gears are called by their names."""
+    names = {role.value: gear.name for role, gear in pair.gears.items()}
+    for notice in pair.notices:
+        text = re.sub(r"\b(?:the )?(pinion|wheel)\b", lambda found: names[found[1]], notice.text)
+        yield replace(notice, text=text).within(name)
 
 
 def _fields(part: DataclassInstance) -> dict[str, Any]:

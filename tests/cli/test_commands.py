@@ -15,9 +15,11 @@ from gearcad.designs import read_spec
 from gearcad.designs.starters import starters
 
 VOLVO = "volvo-13-44"
-STARTERS = ["alm-18-161", "double-23-81", "fzg-c", "rack", "reducer-21-43", "ring-22-70", "spur", "uhlir-19-23", VOLVO]
+PLANETARY = ["planetary-24-21-66", "planetary-alm", "planetary-alm-in-phase", "planetary-differential"]
+PAIRS = ["alm-18-161", "double-23-81", "fzg-c", "reducer-21-43", "ring-22-70", "uhlir-19-23", VOLVO]
+STARTERS = [*PAIRS, *PLANETARY, "rack", "spur"]
 TRAINS = ["train-1-stage", "train-2-stage"]
-TABLES = ["gears", "pairs", "rings"]
+TABLES = ["gears", "pairs", "planetary-sets", "rings"]
 
 RATIO = 1e-9
 """Absolute, for contact ratios of about 1: what the references promise."""
@@ -79,8 +81,8 @@ def test_new_refuses_to_overwrite_unless_forced() -> None:
 def test_new_refuses_what_it_does_not_have() -> None:
     result = run("new", "bevel", status=2)
     assert (
-        result.stderr
-        == f"Error: kind = 'bevel': must be one of {', '.join(sorted([*STARTERS, *TRAINS, *TABLES]))} (or gear, pair, ring)\n"
+        result.stderr == f"Error: kind = 'bevel': must be one of {', '.join(sorted([*STARTERS, *TRAINS, *TABLES]))}"
+        " (or gear, pair, ring, planetary)\n"
     )
 
 

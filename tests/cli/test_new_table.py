@@ -24,7 +24,7 @@ def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.parametrize("kind", ["pairs", "gears"])
+@pytest.mark.parametrize("kind", ["pairs", "gears", "planetary-sets"])
 def test_new_writes_a_table_and_names_the_next_command(kind: str) -> None:
     result = run("new", kind)
     assert (result.stdout, result.stderr) == (f"{kind}.csv\n", f"Next: gearcad batch {kind}.csv\n")
@@ -53,6 +53,11 @@ def test_new_lists_tables_beside_specs() -> None:
         "fzg-c",
         "gears",
         "pairs",
+        "planetary-24-21-66",
+        "planetary-alm",
+        "planetary-alm-in-phase",
+        "planetary-differential",
+        "planetary-sets",
         "rack",
         "reducer-21-43",
         "ring-22-70",
@@ -64,8 +69,8 @@ def test_new_lists_tables_beside_specs() -> None:
         "volvo-13-44",
     ]
     assert lines[3:5] == [
-        "gears         A design table of single gears: each row below the heading is one gear",
-        "pairs         A design table of gear pairs: each row below the heading is one pair",
+        "gears                   A design table of single gears: each row below the heading is one gear",
+        "pairs                   A design table of gear pairs: each row below the heading is one pair",
     ]
     assert list(starters()) == [line.split()[0] for line in lines]
 

@@ -6,8 +6,12 @@ from pathlib import Path
 import pytest
 from scipy.optimize import brentq
 
-from gearcad.designs import PlanetaryDesign, read_spec
-from gearcad.errors import SpecError
+from gearcad.batch.variations import read_variation
+from gearcad.designs import DesignKind, PlanetaryDesign, Row, open_table, read_spec
+from gearcad.designs.columns import column_of_train
+from gearcad.designs.keys import PLANETARY
+from gearcad.designs.reader import spec_values
+from gearcad.errors import ParameterError, SpecError
 
 PLAIN = """
 [planetary]
@@ -235,3 +239,77 @@ MISTAKES = [
 @pytest.mark.parametrize(("changes", "words"), MISTAKES, ids=[str(number) for number in range(len(MISTAKES))])
 def test_mistakes_are_led_back_to_what_was_written(changes: tuple[tuple[str, str], ...], words: str, tmp_path: Path) -> None:
     assert words in fault(tmp_path, PLAIN, *changes)
+
+
+HEADING = "name,planets,input,output,fixed,normal_module,face_width,sun.teeth,planet.teeth,ring.teeth,ring.profile_shift"
+ROW = "a,3,sun,carrier,ring,2,20,24,21,-66,auto"
+
+
+def table(folder: Path, *lines: str) -> list[Row]:
+    path = folder / "trains.csv"
+    path.write_text("\n".join(lines), encoding="utf-8")
+    return list(open_table(path).rows())
+
+
+def test_a_row_of_a_table_makes_what_a_spec_does(tmp_path: Path) -> None:
+    plain = (
+        PLAIN.replace("profile_shift = 0.2\n", "")
+        .replace("body.rim_diameter = 160.0\n", "")
+        .replace("[planetary]", '[planetary]\nname = "a"')
+    )
+    (row,) = table(tmp_path, HEADING, ROW)
+    assert row.design() == read(tmp_path, plain)
+    more = f"{HEADING},carrier.pin_errors,planetary.speeds.ring,pre_stage.pinion.teeth,load.mesh_efficiency"
+    (row,) = table(tmp_path, more.replace("fixed,", ""), ROW.replace("ring,", "") + ",20 0 0,-300,,")
+    design = row.design()
+    assert isinstance(design, PlanetaryDesign)
+    assert design.train.carrier.pin_errors == (20.0, 0.0, 0.0)
+    assert design.speeds == {"ring": -300.0}
+    assert design.load is None
+
+
+@pytest.mark.parametrize(
+    ("heading", "words"),
+    [
+        ("sun.teeht", "did you mean sun.teeth?"),
+        ("planetz", "did you mean planetary.planets?"),
+        ("carrier.pin_stifness", "did you mean planetary.carrier.pin_stiffness?"),
+        ("centre_distanc", "did you mean planetary.centre_distance?"),
+        ("wheel.teeth", "cannot stand beside keys of planetary trains: a table holds these, or gears and pairs"),
+        ("planetary.name", "is the name of the design; write name"),
+    ],
+)
+def test_headings_that_no_train_has(heading: str, words: str, tmp_path: Path) -> None:
+    with pytest.raises(SpecError, match=r"trains\.csv row 1 column L") as caught:
+        table(tmp_path, f"{HEADING},{heading}", f"{ROW},1")
+    assert words in str(caught.value)
+
+
+def test_a_row_tells_all_its_faults_at_once(tmp_path: Path) -> None:
+    wrong = ROW.replace("a,3,sun", "a,0,moon").replace("24,21", "2,21").replace("2,20,", "-2,20,", 1)
+    faults = [fault.partition("(a): ")[2] for row in table(tmp_path, HEADING, wrong) for fault in row.all_faults()]
+    assert faults == [
+        "planetary.planets = 0: must be a whole number from 1 to 24",
+        "planetary.input = 'moon': must be sun, ring, carrier",
+        "planetary.normal_module = -2 mm: must be a number at least 0.01 mm and at most 200 mm",
+        "sun.teeth = 2: must be a whole number from 3 to 2000",
+    ]
+
+
+def test_a_study_varies_keys_of_a_train(tmp_path: Path) -> None:
+    spec = tmp_path / "plain.toml"
+    spec.write_text(PLAIN, encoding="utf-8")
+    assert spec_values(spec)[0] is DesignKind.PLANETARY
+    for text, key in (("sun.profile_shift=0,0.2", "sun.profile_shift"), ("planets=3,5", "planetary.planets")):
+        assert read_variation(text, DesignKind.PLANETARY, sampled=False).key == key
+    with pytest.raises(ParameterError, match=r"did you mean planetary\.planets"):
+        read_variation("planetz=3,5", DesignKind.PLANETARY, sampled=False)
+
+
+def test_every_key_has_a_symbol_in_tables_of_results() -> None:
+    keys = {f"{table}.{key}" for table, fields in PLANETARY.items() for key in fields}
+    assert {key for key in keys if column_of_train(key) is None} == set()
+    found = column_of_train("planetary.meshes.ring_4-rim_3.transverse_contact_ratio")
+    assert found is not None and (found[0], found[1].symbol) == ("ring_4-rim_3", "ε_α")
+    found = column_of_train("ring_4.tip_diameter")
+    assert found is not None and (found[0], found[1].symbol) == ("ring_4", "d_a")

@@ -9,11 +9,11 @@ from typing import Any, ClassVar, Self
 from gearcad.check.options import CheckOptions
 from gearcad.designs.design import Described, DesignKind, require_plain_name
 from gearcad.designs.files import Where
-from gearcad.designs.keys import BESIDE
+from gearcad.designs.keys import BESIDE, SPEEDS
 from gearcad.designs.kinds.pair import PairSpec
 from gearcad.designs.kinds.toothed import ToothedDesign
 from gearcad.designs.planetary_spec import PlanetarySpec
-from gearcad.designs.planetary_tables import MAIN, SPEEDS
+from gearcad.designs.planetary_tables import MAIN
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.errors import InputError, ParameterError
 from gearcad.geometry import Gear
