@@ -15,7 +15,16 @@ from gearcad.notice import Notice, texts
 from gearcad.reprs import concise
 from gearcad.version import __version__
 
-__all__ = ["LONGEST_NAME", "LONGEST_NAME_IN_BYTES", "Described", "Design", "DesignKind", "not_accepted", "require_plain_name"]
+__all__ = [
+    "LONGEST_NAME",
+    "LONGEST_NAME_IN_BYTES",
+    "Accepted",
+    "Described",
+    "Design",
+    "DesignKind",
+    "not_accepted",
+    "require_plain_name",
+]
 
 LONGEST_NAME = 100
 """Most characters of a design's name: it becomes a folder, and file systems stop at 255 bytes."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from gearcad.geometry import Body, Gear
-from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
+from gearcad.geometry import Body, Gear, GearPair
+from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim
 
-__all__ = ["alm_set", "simple_set"]
+__all__ = ["alm_set", "pre_stage", "simple_set"]
 
 
 def alm_set(*, rim_diameter: float | None = 240.0, **changes: Any) -> PlanetaryTrain:
@@ -30,6 +30,14 @@ def alm_set(*, rim_diameter: float | None = 240.0, **changes: Any) -> PlanetaryT
         "centre_distance": 69.0,
     }
     return PlanetaryTrain(**given | changes)
+
+
+def pre_stage() -> PairStage:
+    """That of the Alm thesis, m 1.5 mm 18/161 at 135 mm, before the carrier."""
+    pinion = Gear(name="pinion_1", teeth=18, normal_module=1.5, profile_shift=0.3422, face_width=15)
+    wheel = Gear(name="gear_2", teeth=161, normal_module=1.5, profile_shift=0.1682, face_width=10)
+    pair = GearPair(pinion=pinion, wheel=wheel, centre_distance=135.0, name="pre_stage")
+    return PairStage(name="pre_stage", pair=pair, pinion="pinion_1", wheel="carrier", angle=30.0)
 
 
 def simple_set(
