@@ -1,22 +1,19 @@
-"""What documents say of a train, and what an engineer should know of it."""
+"""What documents say of a train."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearcad.geometry import GearPair
-from gearcad.notice import Notice, texts
+from gearcad.notice import texts
 from gearcad.planetary.members import Carrier, Central, Rim
 from gearcad.planetary.train_data import TrainData
+from gearcad.planetary.train_notices import train_notices
 from gearcad.schema import schema_of
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
-__all__ = ["train_document", "train_notices"]
+__all__ = ["train_document"]
 
 _GIVEN = ("planets", "input", "output", "fixed", "tip_distance", "basic_ratio", "positions")
 
@@ -36,22 +33,6 @@ def train_document(train: TrainData) -> dict[str, Any]:
         "warnings": list(texts(notices)),
         "notices": [notice.to_dict() for notice in notices],
     }
-
-
-def train_notices(train: TrainData) -> Iterator[Notice]:
-    """Those of the meshes of a set and of its stages; the gears have theirs."""
-    for mesh in train.meshes:
-        yield from _named(mesh.name, mesh.pair)
-    for stage in train.stages:
-        yield from _named(stage.name, stage.pair)
-
-
-def _named(name: str, pair: GearPair) -> Iterator[Notice]:
-    """The notices of a pair, whose gears are called by their names."""
-    names = {role.value: gear.name for role, gear in pair.gears.items()}
-    for notice in pair.notices:
-        text = re.sub(r"\b(?:the )?(pinion|wheel)\b", lambda found: names[found[1]], notice.text)
-        yield replace(notice, text=text).within(name)
 
 
 def _fields(part: DataclassInstance) -> dict[str, Any]:

@@ -6,11 +6,13 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 
+from gearcad.errors import InputError
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.pair_data import PairData
 from gearcad.per_gear import Role
 from gearcad.planetary.members import Central, Rim
 
-__all__ = ["SetMesh", "SetType"]
+__all__ = ["SetMesh", "SetType", "base_radius", "mates_of"]
 
 
 class SetType(Enum):
@@ -74,12 +76,24 @@ class SetMesh:
 
     @classmethod
     def of(cls, central: Central, rim: Rim, centre_distance: float) -> SetMesh:
-        """The mesh at a centre distance (mm, a magnitude; NaN: the one without backlash). Raises GeometryError."""
-        ring = central.gear.internal
-        first = not ring and central.gear.teeth <= rim.gear.teeth
-        pinion, wheel = (central.gear, rim.gear) if first else (rim.gear, central.gear)
-        given = {} if math.isnan(centre_distance) else {"centre_distance": -centre_distance if ring else centre_distance}
-        return cls(central=central, rim=rim, pair=GearPair(pinion=pinion, wheel=wheel, name=central.mesh_name, **given))
+        """The mesh at a centre distance (mm, a magnitude; NaN: the one without backlash).
+
+        Raises InputError, whose parameter begins with the mesh's name.
+        """
+        mates, signed = mates_of(central, rim), -centre_distance if central.gear.internal else centre_distance
+        given = {} if math.isnan(signed) else {"centre_distance": signed}
+        try:
+            pair = GearPair(pinion=mates.pinion, wheel=mates.wheel, name=mates.name, **given)
+        except InputError as error:
+            raise error.within(mates.name) from None
+        return cls(central=central, rim=rim, pair=pair)
+
+
+def mates_of(central: Central, rim: Rim) -> PairData:
+    """A central and the rim it meshes with, not asked whether they fit: the smaller external gear is the pinion."""
+    first = not central.gear.internal and central.gear.teeth <= rim.gear.teeth
+    pinion, wheel = (central.gear, rim.gear) if first else (rim.gear, central.gear)
+    return PairData(pinion=pinion, wheel=wheel, name=central.mesh_name)
 
 
 def base_radius(gear: Gear) -> float:

@@ -7,15 +7,17 @@ from functools import cached_property
 from typing import Any
 
 from gearcad.errors import GeometryError, ParameterError, require_name
-from gearcad.geometry.derived import derive, is_given
 from gearcad.notice import Notice
-from gearcad.planetary.document import train_document, train_notices
+from gearcad.planetary.assembly import check_assembly, check_counts
+from gearcad.planetary.coaxial import settle_centre_distance
+from gearcad.planetary.document import train_document
 from gearcad.planetary.members import Carrier, Central, PairStage, Rim
 from gearcad.planetary.phases import MeshPhases, mesh_phases
 from gearcad.planetary.poses import TrainPose, train_pose
 from gearcad.planetary.shafts import check_shafts
 from gearcad.planetary.speeds import speeds
 from gearcad.planetary.train_data import TrainData
+from gearcad.planetary.train_notices import train_notices
 from gearcad.reprs import concise
 from gearcad.schema import require_fields
 
@@ -37,9 +39,9 @@ class PlanetaryTrain(TrainData):
         require_fields(self)
         self._check_names()
         check_shafts(self)
-        if not is_given(self.centre_distance):
-            derive(self, "centre_distance", abs(self.meshes[0].pair.centre_distance))
-            del self.__dict__["meshes"]  # both at the same distance
+        check_counts(self)
+        settle_centre_distance(self)
+        check_assembly(self)
 
     @property
     def ratio(self) -> float | None:
@@ -48,11 +50,6 @@ class PlanetaryTrain(TrainData):
             return None
         found = speeds(self, {self.input: 1.0}).members
         return found[self.input] / found[self.output]
-
-    @property
-    def notices(self) -> tuple[Notice, ...]:
-        """What an engineer should know about its meshes before making it."""
-        return tuple(train_notices(self))
 
     def to_dict(self) -> dict[str, Any]:
         """What is given and derived, for JSON (the gears have their own)."""
@@ -98,3 +95,8 @@ class PlanetaryTrain(TrainData):
     def phases(self) -> dict[str, MeshPhases]:
         """Of both meshes by name, at carrier angle 0, where the input turns counter-clockwise and drives (`mesh_phases`)."""
         return mesh_phases(self)
+
+    @cached_property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know before making it."""
+        return tuple(train_notices(self))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Annotated, Literal
@@ -102,6 +104,11 @@ class TrainData:
         first, *_ = given = [float(angle) for angle in self.planet_angles]
         exact = [first + round((angle - first) / step) * step for angle in given]
         return tuple(near if abs(near - angle) <= ANGLE_ROUNDING else angle for near, angle in zip(exact, given, strict=True))
+
+    @property
+    def unbalance(self) -> float:
+        """|sum exp(i psi)|: 0 where the planets balance each other, 1 of a planet alone."""
+        return abs(sum(cmath.exp(1j * math.radians(angle)) for angle in self.angles))
 
     @property
     def members(self) -> tuple[str, ...]:

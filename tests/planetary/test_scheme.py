@@ -70,7 +70,7 @@ SHAPES = {
     "one planet": simple_train((24, 21, -66), (0.3, 0.2, -0.7), 1),
     "many small planets": simple_train((159, 21, -201), (0.0, 0.0, 0.0), 20),
     "tiny sun": simple_train((14, 100, -214), (0.3, -0.3, 0.3), 2),
-    "teeth of other numbers": simple_train((24, 20, -66), (0.4, 0.6, -0.7), 3),
+    "teeth of other numbers": simple_train((24, 20, -66), (0.4, 0.6, -0.4843), 3),
 }
 
 

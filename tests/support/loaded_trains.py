@@ -43,14 +43,14 @@ def pre_stage() -> PairStage:
 def simple_set(
     sun: int = 24, planet: int = 21, *, helix_angle: float = 0.0, rim_diameter: float | None = None, **changes: Any
 ) -> PlanetaryTrain:
-    """Sun, planet and ring of m_n 2 mm, the ring without backlash: 24/21/-66 with x 0.3, 0.2 and -0.7."""
+    """Sun, three planets (or four, where only these fit) and ring of m_n 2 mm without backlash: x 0.3, 0.2 and -0.7."""
 
     def gear(name: str, teeth: int, shift: float, helix: float, body: Body) -> Gear:
         return Gear(name=name, teeth=teeth, normal_module=2, profile_shift=shift, face_width=20, helix_angle=helix, body=body)
 
     ring = gear("ring", -(sun + 2 * planet), -0.7, -helix_angle, Body(rim_diameter=rim_diameter))
     given: dict[str, Any] = {
-        "planets": 3,
+        "planets": 4 if 2 * (sun + planet) % 3 else 3,
         "centrals": (
             Central(name="sun", gear=gear("sun", sun, 0.3, helix_angle, Body()), meshes="planet"),
             Central(name="ring", gear=ring, meshes="planet"),

@@ -20,7 +20,7 @@ def _gear(teeth: int, module: float, shift: float, helix: float = 0.0) -> Gear:
 
 
 def _train(planets: int, a: Gear, rims: tuple[Gear, ...], b: Gear, **keys: object) -> PlanetaryTrain:
-    named = tuple(Rim(name=f"rim{i}", gear=gear) for i, gear in enumerate(rims, 1))
+    named = tuple(Rim(name=f"rim{i + 1}", gear=gear, axial_position=25.0 * i) for i, gear in enumerate(rims))
     return PlanetaryTrain(
         planets=planets,
         centrals=(Central(name="a", gear=a, meshes="rim1"), Central(name="b", gear=b, meshes=named[-1].name)),

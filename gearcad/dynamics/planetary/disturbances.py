@@ -9,12 +9,11 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.dynamics.planetary.springs import SpringKind, TrainSprings
 from gearcad.dynamics.planetary.stage_forces import stage_forces
-from gearcad.errors import ParameterError
 from gearcad.planetary import Carrier, Central, PlanetaryTrain
 from gearcad.planetary.power import PowerFlow
 from gearcad.planetary.shafts import shafts_of
 
-__all__ = ["Turning", "check_errors", "gaps", "set_members", "turning_and_standing"]
+__all__ = ["Turning", "gaps", "set_members", "turning_and_standing"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -33,15 +32,6 @@ class Turning:
 def set_members(train: PlanetaryTrain) -> tuple[Carrier | Central, ...]:
     """Carrier, then centrals, as springs have them."""
     return (train.carrier, *train.centrals)
-
-
-def check_errors(train: PlanetaryTrain) -> None:
-    """Raise ParameterError unless each planet has its error, or none has."""
-    given = {f"{train.carrier.name}.pin_errors": train.carrier.pin_errors}
-    given |= {f"{rim.name}.tooth_errors": rim.tooth_errors for rim in train.rims}
-    for name, errors in given.items():
-        if errors and len(errors) != train.planets:
-            raise ParameterError(name, len(errors), f"must be one for each of {train.planets} planets, or none")
 
 
 def gaps(train: PlanetaryTrain, springs: TrainSprings, sense: int) -> Floats:

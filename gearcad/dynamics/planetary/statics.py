@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
-from gearcad.dynamics.planetary.disturbances import Turning, check_errors, gaps, set_members, turning_and_standing
+from gearcad.dynamics.planetary.disturbances import Turning, gaps, set_members, turning_and_standing
 from gearcad.dynamics.planetary.equilibrium import Equilibrium
 from gearcad.dynamics.planetary.planar import PlanarMember, PlanarTrain, planar_train
 from gearcad.dynamics.planetary.springs import SpringKind, TrainSprings, springs_of
@@ -135,7 +135,6 @@ def train_statics(
     """
     if not load.torque:
         raise ParameterError("torque", load.torque, "must not be 0: without load no flanks are pressed together", "N·m")
-    check_errors(train)
     flow = power_flow(train, replace(load, mesh_efficiency=1.0), given_speeds)
     sense = 1 if flow.set_torques[train.centrals[0].name] > 0 else -1
     output = shafts_of(train)[train.output].member
