@@ -9,11 +9,12 @@ from support.cut_flanks import Contacts, contacts
 from support.loaded_trains import alm_set, simple_set
 
 from gearcad.dynamics.planetary.mesh_stiffness import NOMINAL_STRESS, MeshStiffness, mesh_stiffness, train_stiffness
-from gearcad.errors import ParameterError
+from gearcad.errors import GeometryError, ParameterError
+from gearcad.geometry import DoubleHelix, Gear
 from gearcad.load import Load
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.per_gear import Role
-from gearcad.planetary import Central, PlanetaryTrain, SetMesh, TrainLoad
+from gearcad.planetary import Central, PlanetaryTrain, Rim, SetMesh, TrainLoad
 from gearcad.planetary.mesh_loads import mesh_loads
 from gearcad.planetary.phases import Drive, drive_of, mesh_phases
 from gearcad.planetary.poses import train_pose
@@ -151,6 +152,26 @@ def test_helical_sets_have_no_jumps() -> None:
     for found in train_stiffness(simple_set(helix_angle=15.0)).values():
         assert found.jumps.size == 0
         assert found.ahead[-1] - found.ahead[0] == pytest.approx(1, abs=1e-12)
+
+
+def test_a_given_mean_needs_no_method() -> None:
+    """Of double helical teeth no method tells the stiffness."""
+    gears = [
+        Gear(name=name, teeth=teeth, normal_module=2, face_width=24, helix_angle=hand, double_helix=DoubleHelix(gap_width=4))
+        for name, teeth, hand in (("sun", 20, 20.0), ("planet", 32, -20.0))
+    ]
+    rim = Rim(name="planet", gear=gears[1])
+    none, given = (
+        SetMesh.of(Central(name="sun", gear=gears[0], meshes="planet", mesh_stiffness=mean), rim, math.nan)
+        for mean in (None, 300.0)
+    )
+    with pytest.raises(GeometryError, match="double_helix"):
+        mesh_stiffness(none)
+    found = mesh_stiffness(given)
+    assert found.secant == pytest.approx([300.0, 300.0])
+    assert found.stiffness_at(0.3, tangent=True) == pytest.approx(300.0)
+    assert found.transmission_error == pytest.approx(found.cycle.force / found.secant)
+    assert [notice.code for notice in found.notices] == ["course-unknown", "nominal-load"]
 
 
 def test_an_unknown_method_names_those_there_are() -> None:

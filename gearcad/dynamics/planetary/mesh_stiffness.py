@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
-from gearcad.errors import ParameterError
+from gearcad.errors import GeometryError, ParameterError
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
@@ -114,11 +114,9 @@ class MeshStiffness:
         if self.nominal:
             text = f"without a load, its stiffness is that at F_bt/(b m_n) = {NOMINAL_STRESS:g} MPa, {self.cycle.force:.4g} N"
             found.append(Notice("nominal-load", text))
-        if self.given:
-            text = (
-                f"its stiffness has the mean that was given, {self.mean:g} N/µm; by {self.cycle.method} {self.cycle.mean:.4g}"
-            )
-            found.append(Notice("stiffness-given", text))
+        if self.given and not self.cycle.mean_only:
+            own = f"by {self.cycle.method} it is {self.cycle.mean:.4g}"
+            found.append(Notice("stiffness-given", f"the mean of its stiffness is given, {self.mean:g} N/µm; {own}"))
         return tuple(notice.within(name) for notice in found)
 
 
@@ -134,14 +132,40 @@ def mesh_stiffness(
     """The stiffness of a mesh under what one planet carries: `load`, of which the torque (N·m) is that on the pair's pinion.
 
     Without a load, or a torque, it is that of a small nominal one. `method` is a name of `gearcad.stiffness.METHODS`; 0
-    `positions` are its own number. Raises ParameterError for an unknown method, and what methods raise.
+    `positions` are its own number. Raises ParameterError for an unknown method, and what methods raise - but GeometryError only
+    where no mean was given: one that was needs no course.
     """
     if method not in METHODS:
         raise ParameterError("method", method, f"must be one of {', '.join(METHODS)}")
     nominal = load is None or not load.torque
     carried = nominal_load(mesh) if load is None or nominal else load
-    found = METHODS[method](pair=mesh.pair, material=material or Material(), positions=positions)(carried)
+    try:
+        found = METHODS[method](pair=mesh.pair, material=material or Material(), positions=positions)(carried)
+    except GeometryError as error:
+        if (mean := mesh.central.mesh_stiffness) is None:
+            raise
+        found = _flat(mesh, carried, mean, str(error))
     return MeshStiffness(mesh=mesh, cycle=found, driver=driver, nominal=nominal)
+
+
+def _flat(mesh: SetMesh, load: Load, mean: float, why: str) -> MeshCycle:
+    """The cycle of a mean (N/µm) whose course no method tells, with the reason."""
+    pinion = mesh.pair.pinion
+    torque = abs(load.torque) * load.application_factor
+    force, half, constant = 2000 * torque / pinion.base_diameter, 180 / pinion.teeth, np.full(2, mean)
+    return MeshCycle(
+        method="given",
+        holds=(),
+        torque=torque,
+        force=force,
+        width=mesh.pair.common_width.width,
+        roll_angle=np.array([-half, half]),
+        mesh_stiffness=constant,
+        tangent_stiffness=constant.copy(),
+        transmission_error=force / constant,
+        mean_only=True,
+        notices=(Notice("course-unknown", f"its stiffness has no course over the mesh: {why}"),),
+    )
 
 
 def train_stiffness(
