@@ -19,6 +19,10 @@ from gearcad.planetary.train_data import TrainData
 __all__ = ["FactorSource", "MeshLoad", "MeshLoadFactor", "mesh_load_factor", "mesh_loads", "stage_loads"]
 
 
+_SLOWEST = 1e-6
+"""Least speed of a load (rpm): what differences of speeds leave below it is rounding."""
+
+
 class FactorSource(Enum):
     """Where K_gamma comes from."""
 
@@ -114,22 +118,28 @@ def mesh_loads(train: TrainData, flow: PowerFlow, computed_factor: float | None 
         first.name: first.central_role if central_drives else first.rim_role,
         second.name: second.rim_role if central_drives else second.central_role,
     }
+    return {mesh.name: _mesh_load(train, mesh, flow, found, drivers[mesh.name]) for mesh in train.meshes}
+
+
+def _mesh_load(train: TrainData, mesh: SetMesh, flow: PowerFlow, found: MeshLoadFactor, driver: Role) -> MeshLoad:
+    """That of one mesh; errors of its load say of which."""
     factor = flow.load.application_factor
-    return {
-        mesh.name: MeshLoad(
-            mesh=mesh,
-            planets=train.planets,
-            load=Load(
-                torque=_on_pinion(train, mesh, flow),
-                speed=_pinion_speed(train, mesh, flow),
-                application_factor=factor * found.value,
-            ),
-            driver=drivers[mesh.name],
-            application_factor=factor,
-            mesh_load_factor=found,
+    try:
+        load = Load(
+            torque=_on_pinion(train, mesh, flow),
+            speed=_pinion_speed(train, mesh, flow),
+            application_factor=factor * found.value,
         )
-        for mesh in train.meshes
-    }
+    except ParameterError as error:
+        raise error.within(mesh.name) from error
+    return MeshLoad(
+        mesh=mesh,
+        planets=train.planets,
+        load=load,
+        driver=driver,
+        application_factor=factor,
+        mesh_load_factor=found,
+    )
 
 
 def stage_loads(train: TrainData, flow: PowerFlow) -> dict[str, Load]:
@@ -151,11 +161,12 @@ def _on_pinion(train: TrainData, mesh: SetMesh, flow: PowerFlow) -> float:
 
 
 def _pinion_speed(train: TrainData, mesh: SetMesh, flow: PowerFlow) -> float:
-    """Of the pinion against the carrier (rpm)."""
-    if mesh.rim_role is Role.PINION:
-        # One body with the first rim, whatever the rim.
-        return flow.speeds.planet_relative
-    return flow.speeds.members[mesh.central.name] - flow.speeds.members[train.carrier.name]
+    """Of the pinion against the carrier (rpm); what is too slow to be a speed is 0."""
+    members = flow.speeds.members
+    central = members[mesh.central.name] - members[train.carrier.name]
+    # A planet is one body, whatever the rim.
+    relative = flow.speeds.planet_relative if mesh.rim_role is Role.PINION else central
+    return relative if abs(relative) >= _SLOWEST else 0.0
 
 
 def _rolling(train: TrainData, flow: PowerFlow) -> float:

@@ -102,3 +102,26 @@ def test_a_train_at_rest_goes_as_its_input_would() -> None:
     differential = simple_set(20, 32, fixed=None)
     flow = power_flow(differential, TrainLoad(torque=100.0), {"ring": 0.0})
     assert [own.driver for own in mesh_loads(differential, flow).values()] == [Role.PINION, Role.PINION]
+
+
+def test_a_set_that_turns_as_one_rolls_nowhere() -> None:
+    """Rounding of the carrier's speed is no speed."""
+    train = simple_set(24, 21, fixed=None)
+    flow = power_flow(train, TrainLoad(torque=100.0, speed=33.3), {"ring": 33.3 + 1e-9})
+    for own in mesh_loads(train, flow).values():
+        assert own.load.speed == 0
+        assert own.cycles_per_minute == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("planets", [1, 2, 5])
+def test_any_number_of_planets(planets: int) -> None:
+    found = loads(simple_set(24, 21, planets=planets), mesh_load_factor=float(planets))
+    assert found["sun-planet"].load.application_factor == planets
+    assert found["sun-planet"].contacts == PerGear(1, planets)
+    total = planets * found["sun-planet"].load.torque
+    assert total == pytest.approx(1600 * 24 / 90 * 21 / 24)
+
+
+def test_a_load_beyond_what_pairs_have_names_its_mesh() -> None:
+    with pytest.raises(ParameterError, match=r"sun-planet.application_factor = 180: must be"):
+        loads(simple_set(24, 21), application_factor=90.0, mesh_load_factor=2.0)

@@ -84,3 +84,11 @@ def test_jobs_of_pairs_name_the_specs() -> None:
     twice = replace(pairs["sun-planet"], load=Load(torque=2 * pairs["sun-planet"].load.torque))
     stress, more = (rate(each).root_stresses.pinion for each in (pairs["sun-planet"], twice))
     assert more == pytest.approx(2 * stress)
+
+
+def test_every_spec_has_a_file_of_its_own() -> None:
+    twice = replace(pre_stage(), name="ring_4-rim_3")
+    with pytest.raises(ParameterError, match=r"name = 'ring_4-rim_3': must be given once: every mesh and stage"):
+        design(alm_set(stages=(twice,), input="pinion_1"))
+    with pytest.raises(ParameterError, match="must be a plain file name"):
+        design(alm_set(stages=(replace(pre_stage(), name="pre/stage"),), input="pinion_1"))

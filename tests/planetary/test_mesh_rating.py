@@ -86,6 +86,9 @@ def test_what_is_not_known_is_said() -> None:
     resting = rated(simple_set(24, 21), torque=0.0)
     assert not resting.meshes
     assert resting.to_dict()["sun-planet"]["unrated"].startswith("torque = 0")
+    assert {notice.code for notice in resting.notices} == {"unrated"}
+    codes = [notice.code for notice in turning.notices if notice.where == "rating: ring-planet"]
+    assert codes.count("no-dynamic-factor") == codes.count("planets-to-verify") == 1
 
 
 def test_the_alm_train_and_its_stage() -> None:

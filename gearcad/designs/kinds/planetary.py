@@ -61,6 +61,11 @@ class PlanetaryDesign(ToothedDesign):
                 raise ParameterError("name", name, "must be another word: documents have a table of this name")
             if names.count(name) > 1:
                 raise ParameterError("name", name, "must be given once: every gear and the carrier have names of their own")
+        pairs = [*(mesh.name for mesh in self.train.meshes), *(stage.name for stage in self.train.stages)]
+        for name in pairs:
+            require_plain_name(name)
+            if pairs.count(name) > 1:
+                raise ParameterError("name", name, "must be given once: every mesh and stage has a spec of its own")
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:

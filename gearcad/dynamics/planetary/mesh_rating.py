@@ -12,6 +12,7 @@ from gearcad.errors import InputError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
+from gearcad.notice import Notice
 from gearcad.per_gear import PerGear
 from gearcad.planetary import PlanetaryTrain
 from gearcad.planetary.mesh_loads import MeshLoad
@@ -23,6 +24,13 @@ __all__ = ["ALTERNATING", "MeshRating", "TrainRating", "rate_train"]
 
 ALTERNATING = 0.7
 """Y_M of teeth that bend both ways in every turn, over that of teeth that bend one way: idlers and planets (recalled)."""
+
+_RECALLED = {
+    "K_v": "the inertias in K_v",
+    "pinion.Y_M": "Y_M of the pinion, the planet",
+    "wheel.Y_M": "Y_M of the wheel, the planet",
+}
+"""What each symbol stands for."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,11 +49,15 @@ class MeshRating:
     mean_stress_factor: PerGear[float]
 
     @property
+    def planets_verify(self) -> tuple[str, ...]:
+        """Symbols of what is peculiar to planets and rests on a text of the standard that was not at hand."""
+        idlers = (f"{role.value}.Y_M" for role, factor in self.mean_stress_factor.items() if factor != 1)
+        return (*(["K_v"] if self.dynamic_factor is not None else ()), *idlers)
+
+    @property
     def verify(self) -> tuple[str, ...]:
-        """Symbols of what rests on a text of the standard that was not at hand."""
-        planets = ("K_v",) if self.dynamic_factor is not None else ()
-        idlers = tuple(f"{role.value}.Y_M" for role, factor in self.mean_stress_factor.items() if factor != 1)
-        return (*self.rating.verify, *planets, *idlers)
+        """The same of all of the rating."""
+        return (*self.rating.verify, *self.planets_verify)
 
     def to_dict(self) -> dict[str, Any]:
         """As `rate.json` has it, K_gamma, K_v and Y_M beside the rest, and what the mesh carries."""
@@ -65,6 +77,20 @@ class TrainRating:
     meshes: Mapping[str, MeshRating]
     stages: Mapping[str, Rating]
     unrated: Mapping[str, str]
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What the ratings warn of, what of planets is to be verified, and what is not known."""
+        rated = {name: each.rating for name, each in self.meshes.items()} | dict(self.stages)
+        found = [notice.within(name) for name, rating in rated.items() for notice in rating.notices]
+        for name, each in self.meshes.items():
+            if recalled := [_RECALLED[symbol] for symbol in each.planets_verify]:
+                text = f"{', '.join(recalled)} as remembered of ISO 6336, whose text was not at hand: verify before it decides"
+                found.append(Notice("planets-to-verify", text, where=name))
+            if each.no_dynamic_factor:
+                found.append(Notice("no-dynamic-factor", f"K_v is not known: {each.no_dynamic_factor}", where=name))
+        found += [Notice("unrated", f"no rating: {why}", where=name) for name, why in self.unrated.items()]
+        return tuple(notice.within("rating") for notice in found)
 
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
