@@ -21,16 +21,18 @@ from gearcad.planetary import Carrier, PlanetaryTrain, TrainLoad
 from gearcad.planetary.forces import forces
 from gearcad.planetary.power import power_flow
 
-DENSE = 2e-4
-"""Of the mean force: what 1e7 N/µm in the place of rigid supports is off, and rounding of the one matrix."""
+DENSE = 1e-5
+"""Of the mean force: what open meshes of the one matrix still carry, and rigid pins that are 1e8 N/µm there."""
 
 STIFFNESS = {"sun-planet": 400.0, "ring-planet": 500.0}
 
 
-def springy(train: PlanetaryTrain, seed: int, *, errors: float = 10.0, rigid_pins: bool = False) -> PlanetaryTrain:
-    """With random errors, and bearings of which one floats."""
+def springy(
+    train: PlanetaryTrain, seed: int, *, errors: float = 10.0, rigid_pins: bool = False, softest: float = 0.0
+) -> PlanetaryTrain:
+    """With random errors, and bearings of which one floats or is the softest."""
     random = np.random.default_rng(seed)
-    supports = [float(each) for each in random.permutation([0.0, 30.0, 200.0])]
+    supports = [float(each) for each in random.permutation([softest, 30.0, 200.0])]
     rims = tuple(replace(rim, tooth_errors=tuple(random.normal(0, errors, train.planets))) for rim in train.rims)
     a, b = (replace(each, support_stiffness=k) for each, k in zip(train.centrals, supports, strict=False))
     carrier = Carrier(
@@ -59,7 +61,7 @@ def test_forces_are_those_of_the_dense_matrix(kind: str, torque: float) -> None:
 
 @pytest.mark.parametrize("torque", [400.0, 60.0])
 def test_planets_that_errors_part_from_their_teeth_carry_nothing(torque: float) -> None:
-    train = springy(simple_set(20, 28, planets=4), seed=3, errors=60.0)
+    train = springy(simple_set(20, 28, planets=4), seed=3, errors=60.0, softest=5.0)
     load = TrainLoad(torque=torque)
     found = share_load(train, load, STIFFNESS)
     expected, _ = dense_sharing(train, load, STIFFNESS)

@@ -37,7 +37,7 @@ def normal_forces(torque: float = TORQUE) -> Floats:
 def twist(torque: float) -> float:
     """By the power law (rad)."""
     acting = normal_forces(torque)
-    return math.radians(twist_of(COUNT * acting, 1000 * (acting / LAW) ** (1 / 1.5), torque))
+    return math.radians(float(twist_of(np.sum(COUNT * acting * 1000 * (acting / LAW) ** (1 / 1.5)), torque)))
 
 
 def test_the_power_law_of_the_thesis() -> None:

@@ -1,60 +1,37 @@
-"""A planetary train as one stiffness matrix, what is held on very stiff springs: nothing of the force method."""
+"""A planetary train as one stiffness matrix, in which stages are springs, too: nothing of the force method."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from gearcad.arrays import Floats
+from gearcad.arrays import Bools, Floats
 from gearcad.dynamics.planetary.springs import SpringKind, TrainSprings, train_springs
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.planetary.power import power_flow
 
 __all__ = ["dense_sharing"]
 
-_HARD = 1e7
-"""N/µm of what is held."""
+_HARD = 1e8
+"""N/µm of pins that are rigid, so that they can have errors."""
 
-
-def _hard(stiffness: float | None) -> float:
-    return _HARD if stiffness is None else stiffness
-
-
-def _on_springs(train: PlanetaryTrain, output: str) -> PlanetaryTrain:
-    """The same with hard springs for what is held; only the output can turn, and what a stage holds."""
-    staged = {end for stage in train.stages for end in (stage.pinion, stage.wheel)}
-
-    def turning(name: str, stiffness: float | None) -> float | None:
-        return None if name == output or name in staged else stiffness or 1e12
-
-    centrals = tuple(
-        replace(
-            each,
-            support_stiffness=_hard(each.support_stiffness),
-            torsional_stiffness=turning(each.name, each.torsional_stiffness),
-        )
-        for each in train.centrals
-    )
-    carrier = replace(
-        train.carrier,
-        support_stiffness=_hard(train.carrier.support_stiffness),
-        torsional_stiffness=turning(train.carrier.name, train.carrier.torsional_stiffness),
-        pin_stiffness=_hard(train.carrier.pin_stiffness),
-    )
-    return replace(train, centrals=centrals, carrier=carrier)
+_OPEN = 1e-8
+"""Part of its stiffness that a mesh has left where it is open: nothing is loose."""
 
 
 def dense_sharing(
     train: PlanetaryTrain,
     load: TrainLoad,
-    stiffness: dict[str, float],
+    stiffness: Mapping[str, ArrayLike],
     *,
     carrier_angle: float = 0.0,
     run_out_angles: dict[str, float] | None = None,
 ) -> tuple[Floats, float]:
-    """Forces (2, N) of the meshes (N) and the output's twist (deg) against the load; springs that pull are dropped one by one.
+    """Forces (2, N) of the meshes (N) and the output's twist (deg) against the load.
 
     A stage, if any, is one before the set, its wheel on the carrier: here it is a spring of the matrix, from the wheel to a
     pinion that stands in space, which the carrier sees turned back by `carrier_angle` (deg).
@@ -62,27 +39,45 @@ def dense_sharing(
     flow = power_flow(train, replace(load, mesh_efficiency=1.0))
     output = train.output
     sense = 1 if flow.set_torques[train.centrals[0].name] > 0 else -1
-    pairs = tuple(stiffness[mesh.name] for mesh in train.meshes)
-    springs = train_springs(_on_springs(train, output), (pairs[0], pairs[1]), held=(), sense=sense)
+    staged = {end for stage in train.stages for end in (stage.pinion, stage.wheel)}
+    held = [name for name in train.members if name != output and name not in staged]
+    pinned = replace(train, carrier=replace(train.carrier, pin_stiffness=train.carrier.pin_stiffness or _HARD))
+    first, second = (stiffness[mesh.name] for mesh in train.meshes)
+    springs = train_springs(pinned, (first, second), held=held, sense=sense)
     k, v, gap = springs.stiffness, springs.vectors, _gaps(train, springs, sense, run_out_angles or {})
     for stage in train.stages:
         row = _stage_row(train, springs, math.radians(carrier_angle), flow.set_torques[train.carrier.name])
-        k, v, gap = np.r_[k, 1e6 * stiffness[stage.name]], np.vstack([v, row]), np.r_[gap, 0.0]
+        k, v, gap = np.r_[k, 1e6 * np.asarray(stiffness[stage.name])], np.vstack([v, row]), np.r_[gap, 0.0]
     force = springs.turning(output) * flow.set_torques[output]
     meshes = np.array([springs.select(SpringKind.MESH, mesh.name) for mesh in train.meshes])
-    on = np.ones(len(k), bool)
-    for _ in range(100):
-        active = v[on]
-        q, *_ = np.linalg.lstsq((active.T * k[on]) @ active, force + active.T @ (k[on] * gap[on]), rcond=1e-15)
-        forces = k * (v @ q - gap)
-        wrong = np.zeros(len(k), bool)
-        wrong[meshes] = (on == (forces <= 0))[meshes]
-        if not wrong.any():
-            break
-        worst = np.argmax(np.abs(np.where(wrong, forces, 0)))
-        on[worst] = not on[worst]
+    press = np.zeros(len(k), bool)
+    press[meshes] = True
+    q = _least_energy(k, v, gap, force, press)
+    forces = k * (v @ q - gap)
     twist = float(np.degrees(springs.turning(output) @ q)) * np.sign(flow.set_torques[output])
-    return np.where(on, forces, 0.0)[meshes], twist
+    return np.maximum(forces[meshes], 0.0), twist
+
+
+def _least_energy(k: Floats, v: Floats, gap: Floats, force: Floats, press: Bools) -> Floats:
+    """q of the least of the convex energy of springs of which some are soft when open: Newton's steps, halved as needed."""
+
+    def stiffness(q: Floats) -> Floats:
+        return np.where(press & (v @ q < gap), _OPEN * k, k)
+
+    def energy(q: Floats) -> float:
+        return float(stiffness(q) @ (v @ q - gap) ** 2 / 2 - force @ q)
+
+    q = np.zeros(v.shape[1])
+    for _ in range(200):
+        now = stiffness(q)
+        full = np.linalg.solve((v.T * now) @ v, force + v.T @ (now * gap))
+        step = 1.0
+        while step > 1e-9 and energy(q + step * (full - q)) > energy(q):
+            step /= 2
+        q = q + step * (full - q)
+        if (stiffness(q) == now).all():
+            return q
+    raise AssertionError("the energy has not settled")
 
 
 def _gaps(train: PlanetaryTrain, springs: TrainSprings, sense: int, angles: dict[str, float]) -> Floats:

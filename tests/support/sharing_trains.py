@@ -12,7 +12,7 @@ from gearcad.arrays import Floats
 from gearcad.geometry import BasicRack, Gear
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
 
-__all__ = ["SUN_FORCE", "Trapezoid", "output_torque", "sun_set"]
+__all__ = ["SUN_FORCE", "Square", "Trapezoid", "output_torque", "sun_set"]
 
 SUN_FORCE = 60000.0
 """N: sum of what the planets press the sun with."""
@@ -73,3 +73,21 @@ class Trapezoid:
         rising, falling = np.clip(place / self.ramp, 0, 1), np.clip((place - self.duty) / self.ramp, 0, 1)
         found: Floats = self.least + (self.most - self.least) * np.where(place < self.duty, rising, 1 - falling)
         return found
+
+
+@dataclass(frozen=True)
+class Square:
+    """Stiffness (N/µm) of two pairs from 0 for `duty` of a base pitch, of one for the rest."""
+
+    least: float
+    most: float
+    duty: float
+
+    @property
+    def jumps(self) -> Floats:
+        """Where the second pair comes and goes."""
+        return np.array([0.0, self.duty])
+
+    def stiffness_at(self, ahead: ArrayLike) -> Floats:
+        """At places in base pitches."""
+        return np.where(np.mod(np.asarray(ahead, float), 1.0) < self.duty, self.most, self.least)

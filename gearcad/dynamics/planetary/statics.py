@@ -85,6 +85,12 @@ class TrainStatics:
         """On the output (N·m), a magnitude."""
         return abs(self.flow.torques[self.train.output])
 
+    @property
+    def output_work(self) -> float:
+        """T²/K of the shaft that the output drives through its member (N·µm), 0 where it is rigid."""
+        stiffness = next(each.torsional_stiffness for each in set_members(self.train) if each.name == self.output)
+        return 0.0 if stiffness is None else 1e6 * self.flow.set_torques[self.output] ** 2 / stiffness
+
     def state(self, angles: Floats | None = None, compliance: Floats | None = None) -> State:
         """The train with what turns at angles (s, t) in rad, or without it, and compliances (s, m) in µm/N or its own.
 

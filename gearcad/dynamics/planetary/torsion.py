@@ -119,9 +119,9 @@ class TorsionalStiffness:
         }
 
 
-def twist_of(forces: ArrayLike, deflections: ArrayLike, torque: float) -> float:
-    """theta = sum F delta/T in degrees, of forces (N) and what springs yield under them (µm), linear or not."""
-    return float(np.degrees(np.sum(np.multiply(forces, deflections)) / (1e6 * torque)))
+def twist_of(work: ArrayLike, torque: float) -> Floats:
+    """theta = sum F delta/T in degrees, of the sums of forces times what springs yield under them (N·µm), linear or not."""
+    return np.degrees(np.asarray(work, float) / (1e6 * torque))
 
 
 def torsional_stiffness(train: PlanetaryTrain, load: TrainLoad, stiffness: Mapping[str, ArrayLike]) -> TorsionalStiffness:
@@ -176,11 +176,9 @@ def _name(spring: Spring) -> str:
 
 def _of_shafts(statics: TrainStatics) -> Iterator[Contribution]:
     """Of what the output drives through its member."""
-    output = statics.output
-    for member in set_members(statics.train):
-        if member.name == output and member.torsional_stiffness is not None:
-            square = statics.flow.set_torques[output] ** 2
-            yield _contribution(output, TwistSource.SHAFT, square, 1e6 * square / member.torsional_stiffness, statics.torque)
+    if statics.output_work:
+        square = statics.flow.set_torques[statics.output] ** 2
+        yield _contribution(statics.output, TwistSource.SHAFT, square, statics.output_work, statics.torque)
 
 
 def _of_stages(statics: TrainStatics, stiffness: Mapping[str, ArrayLike]) -> Iterator[Contribution]:
@@ -193,7 +191,7 @@ def _of_stages(statics: TrainStatics, stiffness: Mapping[str, ArrayLike]) -> Ite
 
 def _contribution(name: str, source: TwistSource, square: float, work: float, torque: float) -> Contribution:
     """From F delta in N·µm."""
-    return Contribution(name=name, source=source, square_force=square, twist=twist_of(1.0, work, torque), share=0.0)
+    return Contribution(name=name, source=source, square_force=square, twist=float(twist_of(work, torque)), share=0.0)
 
 
 def _rigid(train: PlanetaryTrain) -> Iterator[str]:

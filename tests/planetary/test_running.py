@@ -1,0 +1,164 @@
+"""Running trains against the dense matrix at single instants, against closed forms, and in more and fewer steps."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from support.dense_sharing import dense_sharing
+from support.loaded_trains import simple_set
+from support.sets import alm_train
+from support.sharing_trains import Square, Trapezoid
+
+from gearcad.dynamics.planetary.mesh_stiffness import train_stiffness
+from gearcad.dynamics.planetary.rolling import CycleCourse
+from gearcad.dynamics.planetary.running import run_train
+from gearcad.dynamics.planetary.torsion import torsional_stiffness, twist_of
+from gearcad.errors import ParameterError
+from gearcad.load import Load
+from gearcad.planetary import Carrier, PlanetaryTrain, TrainLoad
+from gearcad.planetary.mesh_loads import mesh_loads
+from gearcad.planetary.phases import drive_of, mesh_phases
+from gearcad.planetary.power import power_flow
+from gearcad.stiffness.methods import METHODS
+
+DENSE = 1e-5
+"""Of the mean share: what open meshes of the one matrix still carry."""
+
+COURSES = {"ring_4-rim_3": Trapezoid(212.2, 354.2, 0.72), "ring_5-rim_3p": Trapezoid(208.2, 356.9, 0.62)}
+STAGE = Trapezoid(121.1, 214.7, 0.57)
+
+
+def floating(train: PlanetaryTrain, *names: str, **carrier: Any) -> PlanetaryTrain:
+    centrals = tuple(replace(each, support_stiffness=0.0 if each.name in names else None) for each in train.centrals)
+    support = 0.0 if "carrier" in names else carrier.pop("support_stiffness", None)
+    return replace(train, centrals=centrals, carrier=Carrier(support_stiffness=support, **carrier))
+
+
+@pytest.mark.parametrize("speed", [955.0, -955.0])
+@pytest.mark.parametrize("torque", [1600.0, 40.0])
+def test_every_instant_is_that_of_the_dense_matrix(speed: float, torque: float) -> None:
+    """With errors, run-out of a ring and the force of the stage, which the carrier sees turn back; at little load parted."""
+    train = floating(alm_train(), support_stiffness=80.0, pin_stiffness=300.0, pin_errors=(9.0, -4.0, 2.0))
+    fourth, fifth = train.centrals
+    train = replace(train, centrals=(fourth, replace(fifth, run_out=15.0, support_stiffness=60.0)))
+    load, courses = TrainLoad(torque=torque, speed=speed), {**COURSES, "pre_stage": STAGE}
+    found = run_train(train, load, courses)
+    phases, flow = mesh_phases(train, drive_of(train, load)), power_flow(train, load)
+    speeds = flow.speeds.members
+    assert found.turning == ("forces of stages", "run-out of ring_5")
+    assert abs(found.carrier_angle[-1]) >= 360 - 1e-9
+    for place in (0, 777, len(found.rolled) // 2, len(found.rolled) - 40):
+        rolled = found.rolled[place]
+        carrier = 360 * rolled / 70 * np.sign(speeds["carrier"])  # against ring 4, which stands
+        ring = carrier * (speeds["ring_5"] / speeds["carrier"] - 1)
+        stiffness: dict[str, Any] = {
+            "ring_4-rim_3": COURSES["ring_4-rim_3"].stiffness_at(rolled + np.array(phases["ring_4-rim_3"].ahead)),
+            "ring_5-rim_3p": COURSES["ring_5-rim_3p"].stiffness_at(rolled * 21 / 22 + np.array(phases["ring_5-rim_3p"].ahead)),
+            "pre_stage": STAGE.stiffness_at(rolled * 161 / 70),
+        }
+        forces, twist = dense_sharing(train, load, stiffness, carrier_angle=carrier, run_out_angles={"ring_5": ring})
+        assert found.shares[:, place] == pytest.approx(forces[1] / forces[1].mean(), abs=DENSE)
+        assert found.twist[place] == pytest.approx(twist, rel=1e-4)
+        assert found.carrier_angle[place] == pytest.approx(carrier)
+    assert (found.shares == 0).any() is np.bool_(torque < 1000)
+
+
+def test_where_three_planets_float_no_mesh_shows_in_their_shares() -> None:
+    train = floating(alm_train(), "carrier")
+    courses = {**COURSES, "pre_stage": STAGE}
+    found = run_train(train, TrainLoad(torque=1600.0, speed=955.0), courses)
+    assert found.mesh_share_ripple < 1e-9
+    held = run_train(floating(alm_train()), TrainLoad(torque=1600.0, speed=955.0), courses)
+    assert held.mesh_share_ripple > 0.2 and np.ptp(held.slow_shares) < 1e-9
+
+
+def test_the_ripple_of_jumps_is_seen_in_full() -> None:
+    """Planets in phase, all alike: theta = N sum F²/k/T, whose jumps are seen from both sides with few steps, too."""
+    train, load = simple_set(), TrainLoad(torque=900.0, speed=100.0)
+    courses = {"sun-planet": Square(200.0, 300.0, 0.37), "ring-planet": Square(250.0, 280.0, 0.51)}
+    force = power_flow(train, load).set_torques["sun"] / 3 / (train.meshes[0].central_base_radius / 1e3)
+    lead = mesh_phases(train, drive_of(train, load))
+    places = np.linspace(0, 1, 20001)
+    work = sum(3 * force**2 / courses[name].stiffness_at(places + lead[name].ahead[0]) for name in courses)
+    found = run_train(train, load, courses, steps=4)
+    assert found.twist_ripple == pytest.approx(np.ptp(twist_of(work, 900.0)), rel=1e-9)
+    assert found.rolled[-1] == 1 and found.ripple.period == 1
+
+
+@pytest.mark.parametrize(("sun", "planet", "kept"), [(24, 21, 1), (25, 20, 3)])
+def test_planets_out_of_phase_leave_every_third_harmonic(sun: int, planet: int, kept: int) -> None:
+    """Harmonic m is seen by the torque where m z is a multiple of N; the others cancel."""
+    train = floating(simple_set(sun, planet), "sun")
+    courses = {"sun-planet": Trapezoid(200.0, 300.0, 0.6, 0.1), "ring-planet": Trapezoid(250.0, 330.0, 0.7, 0.1)}
+    amplitude = run_train(train, TrainLoad(torque=900.0, speed=100.0), courses, steps=300).ripple.amplitude["sun-planet"]
+    seen = amplitude > 1e-3 * amplitude.max()
+    assert seen[:3].tolist() == [order % kept == 0 for order in (1, 2, 3)]
+
+
+def test_ripple_converges_with_steps() -> None:
+    train, load = floating(alm_train()), TrainLoad(torque=1600.0, speed=955.0)
+    courses = {**COURSES, "pre_stage": STAGE}
+    coarse, usual, fine = (run_train(train, load, courses, steps=steps) for steps in (16, 32, 128))
+    for name in ("mesh_ripple", "mesh_share_ripple", "mesh_load_factor"):
+        assert getattr(usual, name) == pytest.approx(getattr(fine, name), rel=2e-3)
+        assert getattr(coarse, name) == pytest.approx(getattr(fine, name), rel=1e-2)
+    assert usual.ripple.period == 22 and usual.ripple.speed == pytest.approx(0.873, rel=2e-3)
+
+
+def test_the_mean_twist_is_that_of_the_torsional_stiffness() -> None:
+    """Forces that balance decides alone: the mean compliance makes the mean twist."""
+    train = floating(alm_train(stages=()), "carrier", pin_stiffness=400.0)
+    load = TrainLoad(torque=1600.0, speed=955.0)
+    mean = {
+        name: 1 / np.mean(1 / each.stiffness_at(np.linspace(0, 1, 100000, endpoint=False))) for name, each in COURSES.items()
+    }
+    found = run_train(train, load, COURSES, steps=400)
+    assert found.rolled[-1] == 22
+    twist = np.trapezoid(found.twist, found.rolled) / found.rolled[-1]
+    assert twist == pytest.approx(torsional_stiffness(train, load, mean).twist, rel=1e-6)
+    assert found.to_dict()["mean_twist"] == pytest.approx(twist)
+
+
+def test_courses_of_real_meshes_run() -> None:
+    """Cycles of meshes, with their jumps; the document and the arrays are plain."""
+    train, load = floating(alm_train(), pin_stiffness=400.0), TrainLoad(torque=1600.0, speed=955.0)
+    meshes = train_stiffness(train, mesh_loads(train, power_flow(train, load)), positions=12)
+    found = run_train(train, load, meshes)
+    assert 1.0 < found.mesh_load_factor < 1.3
+    assert found.rigid == ("pre_stage",) and "taken for rigid" in found.warnings[-1]
+    assert found.time is not None and found.time[-1] == pytest.approx(60 / (955 * 18 / 161))
+    document = found.to_dict()
+    assert document["mesh_ripple_arcsec"] == pytest.approx(document["mesh_ripple_urad"] * 0.2062648, rel=1e-6)
+    assert {len(each.T) for each in found.arrays().values()} == {len(found.rolled)}
+    assert found.warnings[0].startswith("running: run over 70 base pitches of ring_4-rim_3, in which the carrier turns 360 deg")
+
+
+def test_a_reversed_cycle_is_seen_backwards() -> None:
+    cycle = METHODS["strain-energy"](pair=simple_set().meshes[0].pair, positions=12)(Load(torque=50.0))
+    ahead = np.random.default_rng(0).uniform(0, 3, 50)
+    forward, back = CycleCourse(cycle=cycle), CycleCourse(cycle=cycle, reverse=True)
+    assert forward.stiffness_at(ahead) == pytest.approx(cycle.stiffness_at(cycle.pitch_angle * ahead))
+    assert back.stiffness_at(-ahead) == pytest.approx(forward.stiffness_at(ahead), rel=1e-9)
+    assert len(forward.jumps) and np.sort(np.mod(-back.jumps, 1)) == pytest.approx(np.sort(forward.jumps), abs=1e-12)
+    beside = forward.jumps[:, None] + [-1e-9, 1e-9]
+    assert (np.abs(np.diff(forward.stiffness_at(beside), axis=1)) > 1).all()
+
+
+def test_limits() -> None:
+    train, courses = simple_set(), {"sun-planet": Square(200.0, 300.0, 0.4), "ring-planet": Square(250.0, 280.0, 0.5)}
+    rest = run_train(train, TrainLoad(torque=900.0), courses)
+    assert rest.time is None and rest.rate == 0 and rest.ripple.speed is not None
+    back = run_train(train, TrainLoad(torque=-900.0, speed=-50.0), courses)
+    assert back.twist_ripple == pytest.approx(rest.twist_ripple, rel=0.5)
+    one = run_train(simple_set(planets=1), TrainLoad(torque=900.0), courses)
+    assert one.shares == pytest.approx(1)
+    differential = simple_set(fixed=None)
+    with pytest.raises(ParameterError, match="the set turns as one"):
+        run_train(differential, TrainLoad(torque=900.0, speed=10.0), courses, given_speeds={"ring": 10.0})
+    with pytest.raises(ParameterError, match="steps"):
+        run_train(train, TrainLoad(torque=900.0), courses, steps=1)
+    star = simple_set(input="sun", output="ring", fixed="carrier")
+    assert run_train(star, TrainLoad(torque=900.0, speed=100.0), courses).rolled[-1] == 1
