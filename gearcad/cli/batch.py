@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from gearcad.cli.build import format_option
+from gearcad.cli.build import files_options, format_option
 from gearcad.cli.group import debug_option, job_commands, parse_choices
 from gearcad.cli.progress import row_progress
 from gearcad.errors import ParameterError, as_choice
@@ -28,9 +28,7 @@ __all__ = ["batch"]
 @click.option("-j", "--jobs", type=int, metavar="N", help="Processes at work.  [default: the cores]")
 @click.option("--do", "steps", default="build", show_default=True, help=f"Comma-separated list of {', '.join(job_commands())}.")
 @format_option
-@click.option("--chord-error", default=0.005, show_default=True, metavar="MM", help="Largest error of the facets, in mm.")
-@click.option("--bracket", is_flag=True, help="Put the assemblies on two shafts with a bracket (STEP).")
-@click.option("--circles", is_flag=True, help="Draw the tip, reference, base and root circles too (DXF).")
+@files_options
 @click.option("--time-limit", default=600.0, show_default=True, metavar="S", help="Longest time for one row, in seconds.")
 @click.option("--fresh", is_flag=True, help="Make everything again, also what is there and unchanged.")
 @click.option("--keep-going", is_flag=True, help="Make the good rows of a table that has faults.")
@@ -47,9 +45,7 @@ def batch(
     jobs: int | None,
     steps: str,
     formats: str,
-    chord_error: float,
-    bracket: bool,
-    circles: bool,
+    options: FileOptions,
     time_limit: float,
     fresh: bool,
     keep_going: bool,
@@ -67,7 +63,6 @@ def batch(
     from gearcad.batch import Decimal, run_table
     from gearcad.jobs.build import Build
 
-    options = FileOptions(chord_error=chord_error, bracket=bracket, circles=circles)
     build = Build(formats=parse_choices("format", formats, Format), options=options)
     wanted = [build if verb == build.verb else job_of(verb)() for verb in _verbs(steps)]
     chosen = as_choice("decimal", decimal.lower(), Decimal)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+from functools import wraps
 from pathlib import Path
+from typing import Any, cast
 
 import click
 
@@ -11,7 +14,7 @@ from gearcad.cli.job import Command, echo_warnings, folder_of, output_option
 from gearcad.cli.progress import file_progress
 from gearcad.solids import FileOptions, Format
 
-__all__ = ["build", "format_option"]
+__all__ = ["build", "files_options", "format_option"]
 
 _HELP = """Write the solids of SPEC: pinion.step, wheel.stl, assembly.step ... and data.json.
 
@@ -25,31 +28,44 @@ def format_option(command: Command) -> Command:
     return click.option("--format", "formats", default="step,stl", show_default=True, help=help_text)(command)
 
 
+def files_options(command: Command) -> Command:
+    """The options of files, which the command gets as `options`, a FileOptions."""
+    names = [each.name for each in fields(FileOptions)]
+
+    @wraps(command)
+    def with_options(*arguments: Any, **given: Any) -> Any:
+        return command(*arguments, options=FileOptions(**{name: given.pop(name) for name in names}), **given)
+
+    for option in reversed(_OPTIONS):
+        with_options = option(with_options)
+    return cast("Command", with_options)
+
+
+_OPTIONS = (
+    click.option("--chord-error", default=0.005, show_default=True, metavar="MM", help="Largest error of the facets, in mm."),
+    click.option("--bracket", is_flag=True, help="Put the assembly on two shafts with a bracket (STEP)."),
+    click.option(
+        "--circles", is_flag=True, help="Draw the tip, reference, base and root circles too, of a rack the lines (DXF)."
+    ),
+    click.option("--carrier", is_flag=True, help="Make a carrier too: plates, and pins in the planets' bores (trains)."),
+    click.option("--exploded", is_flag=True, help="Move the members of the assembly apart along the axis (trains)."),
+    click.option("--turning", is_flag=True, help="Let the assembly turn, as an animation (trains, GLB)."),
+)
+
+
 @click.command(short_help="Write the solids of SPEC as STEP, STL and other files.", help=_HELP)
 @spec_argument
 @output_option
 @format_option
-@click.option("--chord-error", default=0.005, show_default=True, metavar="MM", help="Largest error of the facets, in mm.")
-@click.option("--bracket", is_flag=True, help="Put the assembly on two shafts with a bracket (STEP).")
-@click.option("--circles", is_flag=True, help="Draw the tip, reference, base and root circles too, of a rack the lines (DXF).")
+@files_options
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document: the files and the warnings.")
 @click.option("--quiet", is_flag=True, help="No progress and no warnings on the screen.")
 @debug_option
-def build(
-    spec: Path,
-    output: Path | None,
-    formats: str,
-    chord_error: float,
-    bracket: bool,
-    circles: bool,
-    as_json: bool,
-    quiet: bool,
-) -> None:
+def build(spec: Path, output: Path | None, formats: str, options: FileOptions, as_json: bool, quiet: bool) -> None:
     from gearcad.designs import read_spec
     from gearcad.jobs.build import Build
     from gearcad.output import json_text
 
-    options = FileOptions(chord_error=chord_error, bracket=bracket, circles=circles)
     job = Build(formats=parse_choices("format", formats, Format), options=options)
     design = job.run(read_spec(spec))
     folder = folder_of(output, design.name)

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from gearcad.designs import Design, GearDesign, PairDesign, RackDesign, RackPairDesign, ToothedDesign
+from gearcad.designs import Design, GearDesign, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, ToothedDesign
 from gearcad.errors import GeometryError, ParameterError, as_choice
 from gearcad.geometry import Gear
 from gearcad.jobs.data import Data
@@ -20,29 +20,41 @@ from gearcad.solids import FileOptions, Format
 from gearcad.solids.files.formats import formats_minding
 from gearcad.solids.files.products import GearProduct, PairProduct
 from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
+from gearcad.solids.files.train_products import TrainProduct
 from gearcad.solids.rim import require_rim
 from gearcad.version import __version__
 
 __all__ = ["Build", "build"]
 
 PartProduct = GearProduct | RackProduct
+AssemblyProduct = PairProduct | RackPairProduct | TrainProduct
 
 _DEFAULT = (Format.STEP, Format.STL)
 
-_WHERE = {"bracket": "the bracket is part of assembly.step", "circles": "the circles are drawn there"}
+_WHERE = {
+    "bracket": "the bracket is part of assembly.step",
+    "circles": "the circles are drawn there",
+    "carrier": "the carrier is part of the assembly",
+    "exploded": "the assembly is there",
+    "turning": "it is an animation of assembly.glb",
+}
 """Where options show that no file but those of a few formats can show."""
+
+_OF_TRAINS = ("carrier", "exploded", "turning")
+"""Options of planetary trains only."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Build(Job[ToothedDesign, ToothedDesign]):
     """The files of a design in some formats. Its result is the design itself: solids are made as they are written.
 
-    Per part `pinion.step`, `wheel.step`, `rack.step` or `gear.step` and so on; a pair also gets `assembly.*`, posed in mesh, in
-    the formats that have assemblies. Raises ParameterError without a format.
+    Per part `pinion.step`, `wheel.step`, `rack.step` or `gear.step` and so on, of a planetary train by the names of its gears;
+    a pair, or a train, also gets `assembly.*`, posed in mesh, in the formats that have assemblies. Raises ParameterError
+    without a format.
     """
 
     verb = "build"
-    accepts = (GearDesign, PairDesign, RackDesign, RackPairDesign)
+    accepts = (GearDesign, PairDesign, RackDesign, RackPairDesign, PlanetaryDesign)
     why = "there are no teeth"
     solves = False
 
@@ -58,6 +70,9 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         if self.options.bracket and not isinstance(design, PairDesign):
             alone = "a single gear has no assembly" if design.assembly is None else "it stands on the shafts of both"
             raise GeometryError("bracket", True, f"needs a pair of gears: {alone}")
+        for option in _OF_TRAINS:
+            if getattr(self.options, option) and not isinstance(design, PlanetaryDesign):
+                raise GeometryError(option, True, "needs a planetary train")
         for option, where in _WHERE.items():
             needed = formats_minding(option)
             if getattr(self.options, option) and not set(self.formats).intersection(needed):
@@ -65,6 +80,8 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         if any(kind.entry.of_bodies for kind in self.formats):
             for name, gear in design.gears.items():
                 _require_body(name, gear)
+            if isinstance(design, PlanetaryDesign):
+                TrainProduct(design.train, self.options).require_room()
         return design
 
     def document(self, result: ToothedDesign) -> dict[str, Any]:
@@ -77,13 +94,13 @@ class Build(Job[ToothedDesign, ToothedDesign]):
     def files(self, result: ToothedDesign) -> dict[str, Writer]:
         """Every file of the design, quickest first."""
         found = Data().files(result)
-        parts, pair = _products(result, self.options)
+        parts, assembly = _products(result, self.options)
         for kind in reversed(Format):
             if kind not in self.formats:
                 continue
             found |= {f"{name}.{kind.value}": partial(kind.entry.write, product) for name, product in parts.items()}
-            if pair is not None and kind.entry.write_pair is not None:
-                found[f"assembly.{kind.value}"] = partial(kind.entry.write_pair, pair)
+            if (write := _assembly_writer(kind, assembly)) is not None:
+                found[f"assembly.{kind.value}"] = write
         return found
 
     @property
@@ -96,12 +113,14 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         return Data().part_of(file) or file.rpartition(".")[2]
 
     def for_row(self, design: Design, parts: Collection[str]) -> Job[Any, Any]:
-        """These formats only, with the options that matter to them; a gear has no bracket."""
+        """These formats only, with the options that matter to them; a gear has no bracket, and a pair no carrier."""
         formats = tuple(kind for kind in self.formats if kind.value in parts)
         if not formats:
             return Data()
         options = FileOptions(**{name: value for kind in formats for name, value in kind.minded(self.options).items()})
-        return Build(formats=formats, options=options if isinstance(design, PairDesign) else replace(options, bracket=False))
+        foreign = () if isinstance(design, PlanetaryDesign) else _OF_TRAINS
+        foreign = foreign if isinstance(design, PairDesign) else (*foreign, "bracket")
+        return Build(formats=formats, options=replace(options, **dict.fromkeys(foreign, False)))
 
 
 def _require_body(name: str, gear: Gear) -> None:
@@ -120,10 +139,20 @@ def _formats(given: object) -> tuple[Format, ...]:
     return tuple(as_choice("format", each, Format) for each in given)
 
 
-def _products(
-    design: ToothedDesign, options: FileOptions
-) -> tuple[Mapping[str, PartProduct], PairProduct | RackPairProduct | None]:
+def _assembly_writer(kind: Format, assembly: AssemblyProduct | None) -> Writer | None:
+    """What writes the assembly in a format that has some."""
+    if isinstance(assembly, TrainProduct):
+        return kind.entry.write_train and partial(kind.entry.write_train, assembly)
+    if assembly is None or kind.entry.write_pair is None:
+        return None
+    return partial(kind.entry.write_pair, assembly)
+
+
+def _products(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[str, PartProduct], AssemblyProduct | None]:
     """Gears and racks as files hold them, by the names of these files, and what they are in mesh."""
+    if isinstance(design, PlanetaryDesign):
+        train = TrainProduct(design.train, options)
+        return train.parts, train
     if isinstance(design, PairDesign):
         pair = PairProduct(design.pair, options)
         return pair.parts, pair
@@ -143,12 +172,16 @@ def build(
     chord_error: float = FileOptions.chord_error,
     bracket: bool = False,
     circles: bool = False,
+    carrier: bool = False,
+    exploded: bool = False,
+    turning: bool = False,
     progress: Progress | None = None,
 ) -> list[Path]:
-    """Write the files of a gear, a rack or a pair into `folder`, all or none, and return their paths as they were made.
+    """Write the files of gears, racks, pairs and trains into `folder`, all or none, and return their paths as they were made.
 
-    `formats` are of "step", "stl", "3mf", "glb", "dxf" and "csv". `chord_error` (mm) bounds the facets; `bracket` puts a pair
-    on two shafts with a bracket (STEP); `circles` draws the tip, reference, base and root circles (DXF), of a rack the lines.
+    `formats` are of "step", "stl", "3mf", "glb", "png", "dxf" and "csv". `chord_error` (mm) bounds the facets; `bracket` puts a
+    pair on two shafts with a bracket (STEP); `circles` draws the tip, reference, base and root circles (DXF), of a rack the
+    lines. Of a planetary train, `carrier` adds pins and plates, `exploded` moves members apart, `turning` animates (GLB).
 
     >>> import tempfile
     >>> from gearcad import Gear
@@ -159,5 +192,8 @@ def build(
     Raises ParameterError or GeometryError for wrong input, a folder that cannot be written too, SolverError where the CAD
     kernel fails.
     """
-    job = Build(formats=_formats(formats), options=FileOptions(chord_error=chord_error, bracket=bracket, circles=circles))
+    options = FileOptions(
+        chord_error=chord_error, bracket=bracket, circles=circles, carrier=carrier, exploded=exploded, turning=turning
+    )
+    job = Build(formats=_formats(formats), options=options)
     return job.write(job.run(as_design(subject)), folder, progress)

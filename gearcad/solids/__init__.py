@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from gearcad.solids.exact.rack_assembly import rack_assembly
     from gearcad.solids.exact.rack_solid import rack_solid
     from gearcad.solids.exact.solid import gear_solid
+    from gearcad.solids.exact.train_assembly import train_assembly
     from gearcad.solids.facets.rack_facets import tessellate_rack
     from gearcad.solids.facets.tessellation import Facets, tessellate
     from gearcad.solids.files.dxf import write_dxf
@@ -41,6 +42,7 @@ __all__ = [
     "rack_solid",
     "tessellate",
     "tessellate_rack",
+    "train_assembly",
     "write_3mf",
     "write_dxf",
     "write_glb",
@@ -79,5 +81,6 @@ if not TYPE_CHECKING:
             "exact.rack_solid",
             "exact.assembly",
             "exact.rack_assembly",
+            "exact.train_assembly",
         ),
     )

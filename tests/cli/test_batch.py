@@ -135,7 +135,10 @@ def test_each_kind_of_wrong_row_has_its_message() -> None:
     [
         (["nowhere.csv"], "nowhere.csv: cannot be read (No such file or directory)"),
         (["table.csv", "--do", "data,draw"], "do = 'draw': must be one of 'data', 'build'"),
-        (["table.csv", "--format", "step,iges"], "format = 'iges': must be one of 'step', 'stl', '3mf', 'glb', 'dxf', 'csv'"),
+        (
+            ["table.csv", "--format", "step,iges"],
+            "format = 'iges': must be one of 'step', 'stl', '3mf', 'glb', 'png', 'dxf', 'csv'",
+        ),
         (["table.csv", "--chord-error", "0"], "chord_error = 0 mm: must be a number above 0 mm"),
         (["table.csv", "-j", "0"], "jobs = 0: must be a whole number from 1 to 1024"),
         (["table.csv", "--time-limit", "-1"], "time_limit = -1 s: must be a number above 0 s"),

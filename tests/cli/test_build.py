@@ -55,6 +55,7 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         "stl.write_stl",
         "three_mf.write_3mf",
         "glb.write_glb",
+        "picture.write_picture",
         "dxf.write_dxf",
         "points.write_points",
     ):
@@ -162,7 +163,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_every_file_of_the_reference_pair_is_there(built: Path) -> None:
-    meshes = {f"{part}.{suffix}" for part in [*PAIR, "assembly"] for suffix in ("step", "3mf", "glb")}
+    meshes = {f"{part}.{suffix}" for part in [*PAIR, "assembly"] for suffix in ("step", "3mf", "glb", "png")}
     assert names(built) == {"data.json", *meshes, *(f"{part}.{suffix}" for part in PAIR for suffix in ("stl", "dxf", "csv"))}
 
 

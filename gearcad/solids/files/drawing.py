@@ -58,6 +58,8 @@ def _document(layers: Layers) -> Drawing:
 
 
 def add_layers(document: Drawing, layers: Layers) -> None:
-    """Add layers to a document."""
+    """Add layers to a document that does not have them."""
     for name, (colour, linetype) in layers.items():
+        if name in document.layers:
+            continue
         document.layers.add(name, color=colour, linetype=linetype)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ezdxf.document import Drawing
     from ezdxf.layouts import Modelspace
 
-__all__ = ["write_dxf"]
+__all__ = ["draw_circles", "draw_section", "write_dxf"]
 
 _LAYERS = {"PROFILE": CUT, "BORE": CUT}
 _RING_LAYERS = {"PROFILE": CUT, "RIM": CUT, "BOLTS": CUT}
@@ -38,19 +38,24 @@ def write_dxf(gear: Gear, path: Path | str, *, accuracy: float = 0.0005, circles
     contour = gear_contour(gear, accuracy)
     with drawing(path, _RING_LAYERS if gear.internal else _LAYERS) as document:
         space = document.modelspace()
-        space.add_lwpolyline(contour.tolist(), format="xyb", close=True, dxfattribs={"layer": "PROFILE"})
-        (_draw_rim if gear.internal else _draw_bore)(space, gear.body)
+        draw_section(space, gear, contour)
         low, high = extent_of(contour)
         if circles:
-            low, high = _draw_circles(document, gear)
+            low, high = draw_circles(document, gear)
         if gear.body.rim_diameter is not None:
             high = np.full(2, gear.body.rim_diameter / 2)
             low = -high
         space.reset_extents((*low, 0.0), (*high, 0.0))
 
 
-def _draw_circles(document: Drawing, gear: Gear) -> tuple[Floats, Floats]:
-    """The circles of reference; how far they reach."""
+def draw_section(space: Modelspace, gear: Gear, contour: Floats) -> None:
+    """The contour of the teeth, and what else of a gear is cut, about the origin."""
+    space.add_lwpolyline(contour.tolist(), format="xyb", close=True, dxfattribs={"layer": "PROFILE"})
+    (_draw_rim if gear.internal else _draw_bore)(space, gear.body)
+
+
+def draw_circles(document: Drawing, gear: Gear) -> tuple[Floats, Floats]:
+    """The circles of reference about the origin; how far they reach."""
     add_layers(document, _CIRCLES)
     profile = gear.profile
     for diameter in (profile.tip_diameter, profile.reference_diameter, profile.base_diameter, profile.root_diameter):

@@ -12,9 +12,10 @@ if TYPE_CHECKING:
     from gearcad.solids.files.options import FileOptions
     from gearcad.solids.files.products import GearProduct, PairProduct
     from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
+    from gearcad.solids.files.train_products import TrainProduct
 
     PartProduct = GearProduct | RackProduct
-    AssemblyProduct = PairProduct | RackPairProduct
+    AssemblyProduct = PairProduct | RackPairProduct | TrainProduct
 
 __all__ = ["Format", "formats_minding"]
 
@@ -26,6 +27,7 @@ class Format(Enum):
     STL = "stl"
     THREE_MF = "3mf"
     GLB = "glb"
+    PNG = "png"
     DXF = "dxf"
     CSV = "csv"
 
@@ -41,8 +43,9 @@ class Format(Enum):
 
 @dataclass(frozen=True)
 class Entry:
-    """One format: what it holds, in words; what writes a gear or a rack, and a pair in mesh (None: it has no assemblies); which
-    fields of FileOptions matter to it; whether it holds bodies, so that a ring needs its rim.
+    """One format: what it holds, in words; what writes a gear or a rack, and what stands in mesh (None: it has no assemblies);
+    which fields of FileOptions matter to it; whether it holds bodies, so that a ring needs its rim; what writes a planetary
+    train, where that is more than of a pair.
     """
 
     words: str
@@ -50,6 +53,7 @@ class Entry:
     write_pair: Callable[[AssemblyProduct, Path], None] | None = None
     options: tuple[str, ...] = ()
     of_bodies: bool = True
+    write_train: Callable[[TrainProduct, Path], None] | None = None
 
 
 def formats_minding(option: str) -> list[Format]:
@@ -81,7 +85,25 @@ def _glb(product: PartProduct | AssemblyProduct, path: Path) -> None:
     write_glb(product.scene(), path)
 
 
-def _dxf(product: PartProduct, path: Path) -> None:
+def _turning_glb(product: TrainProduct, path: Path) -> None:
+    from gearcad.solids.files.glb import write_glb
+
+    write_glb(product.scene(), path, product.turning())
+
+
+def _png(product: PartProduct | AssemblyProduct, path: Path) -> None:
+    from gearcad.solids.files.picture import write_picture
+
+    write_picture(product.scene(), path)
+
+
+def _train_png(product: TrainProduct, path: Path) -> None:
+    from gearcad.solids.files.picture import write_picture
+
+    write_picture(product.scene(), path, product.apart())
+
+
+def _dxf(product: PartProduct | TrainProduct, path: Path) -> None:
     product.write_dxf(path)
 
 
@@ -90,12 +112,14 @@ def _csv(product: PartProduct, path: Path) -> None:
 
 
 _FACETED = ("chord_error",)
+_PLACED = ("carrier", "exploded")
 
 _ENTRIES = {
-    Format.STEP: Entry("the exact solid", _step, _step, ("bracket",)),
+    Format.STEP: Entry("the exact solid", _step, _step, ("bracket", *_PLACED), write_train=_step),
     Format.STL: Entry("facets within --chord-error", _stl, None, _FACETED),
-    Format.THREE_MF: Entry("facets, for printing", _3mf, _3mf, _FACETED),
-    Format.GLB: Entry("facets, for viewers", _glb, _glb, _FACETED),
-    Format.DXF: Entry("exact section, for cutting", _dxf, None, ("circles",), of_bodies=False),
+    Format.THREE_MF: Entry("facets, for printing", _3mf, _3mf, (*_FACETED, *_PLACED), write_train=_3mf),
+    Format.GLB: Entry("facets, for viewers", _glb, _glb, (*_FACETED, *_PLACED, "turning"), write_train=_turning_glb),
+    Format.PNG: Entry("a picture from three sides", _png, _png, (*_FACETED, *_PLACED), write_train=_train_png),
+    Format.DXF: Entry("exact section, for cutting", _dxf, None, ("circles",), of_bodies=False, write_train=_dxf),
     Format.CSV: Entry("points of flank and fillet", _csv, of_bodies=False),
 }

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.solids.axle import Axle
 from gearcad.solids.colours import STEEL, Colour
 from gearcad.solids.facets.tessellation import Facets
 
@@ -18,7 +19,8 @@ __all__ = ["Part"]
 class Part:
     """One body of a scene: turned by `rotation` (degrees, about its own z axis), then moved by `offset` (mm).
 
-    `colour` is red, green and blue as seen on a screen (sRGB), 0 ... 1.
+    `colour` is red, green and blue as seen on a screen (sRGB), 0 ... 1. Parts with the same facets, the very object, are one
+    `product` in several places. `axle` is what it turns about in scenes that turn; a part called as its axle is turns with it.
     """
 
     name: str
@@ -26,6 +28,8 @@ class Part:
     colour: Colour = STEEL
     rotation: float = 0.0
     offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    product: str = ""
+    axle: Axle | None = None
 
     @property
     def pose(self) -> Floats:
@@ -35,3 +39,8 @@ class Part:
         matrix[:2, :2] = [[cosine, -sine], [sine, cosine]]
         matrix[:3, 3] = self.offset
         return matrix
+
+    @property
+    def made_as(self) -> str:
+        """What it is called as a product: its own name, where there is only one of it."""
+        return self.product or self.name

@@ -9,11 +9,11 @@ from io import BytesIO
 from itertools import count
 from pathlib import Path
 from threading import RLock
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gearcad.errors import SolverError
-from gearcad.solids.colours import STEEL
 from gearcad.solids.files import part21
+from gearcad.solids.files.xcaf import assembly_document, part_document
 
 if TYPE_CHECKING:
     import cadquery
@@ -63,7 +63,7 @@ def write_step(model: cadquery.Assembly | cadquery.Solid, path: Path | str, *, n
         writer.SetColorMode(True)
         writer.SetNameMode(True)
         assembled = isinstance(model, cadquery.Assembly)
-        document = _assembly_document(model, names) if assembled else _part_document(model, names.token(name))
+        document = assembly_document(model, names.token) if assembled else part_document(model, names.token(name))
         transferred = writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs)
         stream = BytesIO()  # the kernel is silent about a disk that is full, Python is not
         written = transferred and writer.WriteStream(stream) == IFSelect_RetDone
@@ -120,60 +120,6 @@ def _set(numbers: dict[str, int], texts: dict[str, str]) -> None:
         Interface_Static.SetIVal_s(setting, value)
     for setting, text in texts.items():
         Interface_Static.SetCVal_s(setting, text)
-
-
-def _name(label: Any, name: str) -> None:
-    from OCP.TCollection import TCollection_ExtendedString
-    from OCP.TDataStd import TDataStd_Name
-
-    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name))
-
-
-def _assembly_document(assembly: cadquery.Assembly, names: _Names) -> Any:
-    """An XCAF document of the assembly, with tokens for the names of all its parts and their places."""
-    from cadquery.occ_impl.assembly import toCAF
-    from OCP.TDataStd import TDataStd_Name
-
-    top, document = toCAF(assembly, True)
-    _name(top, assembly.name)  # its name, and not that of its shape
-    for label in _labels(document):
-        if label.IsAttribute(TDataStd_Name.GetID_s()):
-            given = TDataStd_Name()
-            label.FindAttribute(TDataStd_Name.GetID_s(), given)
-            # CadQuery takes the bytes of a name, UTF-8, for characters of Latin-1.
-            name = given.Get().ToExtString().encode("latin-1").decode("utf-8")
-            _name(label, names.token(name))
-    return document
-
-
-def _labels(document: Any) -> Iterator[Any]:
-    """The labels of all shapes in a document, and of the places of those that are put together of others."""
-    from OCP.TDF import TDF_LabelSequence
-    from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
-
-    shapes, places = TDF_LabelSequence(), TDF_LabelSequence()
-    XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetShapes(shapes)
-    for shape in shapes:
-        XCAFDoc_ShapeTool.GetComponents_s(shape, places)
-    yield from shapes
-    yield from places
-
-
-def _part_document(solid: Any, name: str) -> Any:
-    """An XCAF document that holds one named, coloured part."""
-    from OCP.Quantity import Quantity_Color, Quantity_TOC_RGB
-    from OCP.TCollection import TCollection_ExtendedString
-    from OCP.TDocStd import TDocStd_Document
-    from OCP.XCAFApp import XCAFApp_Application
-    from OCP.XCAFDoc import XCAFDoc_ColorGen, XCAFDoc_DocumentTool
-
-    document = TDocStd_Document(TCollection_ExtendedString("XmlXCAF"))
-    XCAFApp_Application.GetApplication_s().InitDocument(document)
-    label = XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).AddShape(solid.wrapped, False)
-    _name(label, name)
-    colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
-    colours.SetColor(label, Quantity_Color(*STEEL, Quantity_TOC_RGB), XCAFDoc_ColorGen)
-    return document
 
 
 def _with_header(content: bytes, name: str) -> bytes:

@@ -1,0 +1,102 @@
+"""What files hold of a planetary train: its gears each by itself, and the train in mesh, moved apart, or turning."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gearcad.planetary import PlanetaryTrain
+from gearcad.solids.colours import TRAIN_COLOURS
+from gearcad.solids.exact.train_assembly import assembly_of
+from gearcad.solids.facets.tessellation import Facets
+from gearcad.solids.files.carrier_facets import carrier_facets
+from gearcad.solids.files.options import FileOptions
+from gearcad.solids.files.part import Part
+from gearcad.solids.files.products import GearProduct
+from gearcad.solids.files.train_dxf import write_train_dxf
+from gearcad.solids.files.train_turning import turning_of
+from gearcad.solids.files.turning import Turning
+from gearcad.solids.train_layout import TrainLayout
+from gearcad.solids.train_plan import TrainPlan
+
+if TYPE_CHECKING:
+    import cadquery
+
+__all__ = ["TrainProduct"]
+
+
+@dataclass(frozen=True)
+class TrainProduct:
+    """A planetary train, as the options ask for it. Raises GeometryError where it cannot be made: see `TrainPlan`."""
+
+    train: PlanetaryTrain
+    options: FileOptions
+
+    @property
+    def name(self) -> str:
+        return self.train.name
+
+    @cached_property
+    def plan(self) -> TrainPlan:
+        """What is made, and where it stands."""
+        return TrainPlan.of(self.train, carrier=self.options.carrier, exploded=self.options.exploded)
+
+    def require_room(self) -> None:
+        """Raise what making the plan raises."""
+        _ = self.plan
+
+    @cached_property
+    def parts(self) -> dict[str, GearProduct]:
+        """The gears by the names of their files."""
+        return {
+            key: GearProduct(gear=body.gear, name=body.name, options=self.options, colour=body.colour)
+            for key, body in TrainLayout(self.train, self.train.pose()).bodies.items()
+        }
+
+    def solid(self) -> cadquery.Assembly:
+        """All exact solids in their places: see `train_assembly`."""
+        return assembly_of(self.plan)
+
+    def scene(self) -> list[Part]:
+        """All bodies in their places, what is alike with the same facets."""
+        return list(self._scene(self.plan))
+
+    def apart(self) -> list[Part]:
+        """The same, moved apart."""
+        return list(self._scene(TrainPlan.of(self.train, carrier=self.options.carrier, exploded=True)))
+
+    def turning(self) -> Turning | None:
+        """How the train turns, if that is asked for."""
+        return turning_of(self.plan.layout) if self.options.turning else None
+
+    def write_dxf(self, path: Path) -> None:
+        """All sections in mesh: see `write_train_dxf`."""
+        write_train_dxf(TrainLayout(self.train, self.train.pose()), path, circles=self.options.circles)
+
+    def _scene(self, plan: TrainPlan) -> Iterator[Part]:
+        for standing in plan.layout.standing:
+            product = self.parts[standing.body.key]
+            yield Part(
+                name=standing.name,
+                facets=product.facets,
+                colour=product.colour,
+                rotation=standing.rotation,
+                offset=standing.offset,
+                product=product.name,
+                axle=standing.axle,
+            )
+        if plan.carrier is not None:
+            axle, height = plan.layout.carrier, plan.carrier.plates[0][0]
+            product_name = f"{self.name} {axle.name}"
+            colour = TRAIN_COLOURS["carrier"][0]
+            offset = (0.0, 0.0, height)
+            yield Part(name=axle.name, facets=self._carrier, colour=colour, offset=offset, product=product_name, axle=axle)
+
+    @cached_property
+    def _carrier(self) -> Facets:
+        plan = TrainPlan.of(self.train, carrier=True).carrier
+        assert plan is not None  # as it was asked for
+        return carrier_facets(plan.lifted(-plan.plates[0][0]), self.options.chord_error)
