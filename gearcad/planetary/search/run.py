@@ -1,0 +1,168 @@
+"""The search itself: every set within limits, condition by condition, ranked, and the best of them made."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from gearcad.errors import InputError
+from gearcad.planetary.mesh import SetType
+from gearcad.planetary.search.candidate import RIMS, Candidate
+from gearcad.planetary.search.conditions import CONDITIONS, ManySets, ratios
+from gearcad.planetary.search.grid import TeethGrid, grids
+from gearcad.planetary.search.task import MEMBERS, SearchTask
+
+__all__ = ["SearchResult", "search"]
+
+MOST_TRIALS = 5
+"""Sets that are made for each that is asked for, before the search gives up on those that cannot be made."""
+
+WIDER = 4.0
+"""By how much the tolerance is widened to say what is nearest, where nothing is found."""
+
+WIDEST = 300.0
+"""Percent of deviation up to which it is."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SearchResult:
+    """What a search has found, best first.
+
+    `considered` are all sets with their numbers of planets, `removed` how many each condition took of those that the ones
+    before it had left, `unmade` what those say that could not be made, `left` how many more would follow.
+    `nearest` are ratios that sets outside the tolerance reach, below and above, if none is inside.
+    """
+
+    task: SearchTask
+    found: tuple[Candidate, ...]
+    considered: int
+    removed: dict[str, int]
+    unmade: tuple[str, ...]
+    left: int
+    nearest: tuple[float, ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "kind": "planetary search",
+            "ratio": self.task.ratio,
+            "found": [candidate.to_dict() for candidate in self.found],
+            "considered": self.considered,
+            "removed": self.removed,
+            "unmade": list(self.unmade),
+            "left": self.left,
+            "nearest": list(self.nearest),
+        }
+
+
+def search(task: SearchTask, count: int = 20) -> SearchResult:
+    """The best sets for a ratio: by its deviation, then diameter, planets out of phase, hunting teeth, efficiency."""
+    result = _search(task, count)
+    if result.found or result.left:
+        return result
+    wider = task.tolerance or 1.0
+    while wider < WIDEST:
+        wider *= WIDER
+        near = _search(replace(task, tolerance=min(wider, WIDEST)), count)
+        if near.found:
+            reached = sorted({each.ratio for each in near.found}, key=lambda ratio: abs(ratio - task.ratio))
+            below = [ratio for ratio in reached if ratio < task.ratio][:1]
+            above = [ratio for ratio in reached if ratio > task.ratio][:1]
+            return replace(result, nearest=(*below, *above))
+    return result
+
+
+def _search(task: SearchTask, count: int) -> SearchResult:
+    considered, removed = 0, dict.fromkeys(("ratio", *CONDITIONS), 0)
+    kept: list[ManySets] = []
+    for kind in task.types:
+        sets, seen = _near_ratio(task, kind)
+        considered += seen
+        removed["ratio"] += seen - len(sets.planets)
+        for name, met in CONDITIONS.items():
+            mask = met(sets)
+            removed[name] += int(np.count_nonzero(~mask))
+            sets = sets.picked(mask)
+        kept.append(sets)
+    found: list[Candidate] = []
+    unmade: list[str] = []
+    tried = 0
+    for candidate in _ranked(kept):
+        if len(found) == count or tried == MOST_TRIALS * count:
+            break
+        tried += 1
+        try:
+            candidate.train()
+        except InputError as error:
+            unmade.append(f"{candidate.name}: {error}")
+            continue
+        found.append(candidate)
+    left = sum(len(sets.planets) for sets in kept) - tried
+    return SearchResult(task=task, found=tuple(found), considered=considered, removed=removed, unmade=tuple(unmade), left=left)
+
+
+def _near_ratio(task: SearchTask, kind: SetType) -> tuple[ManySets, int]:
+    """Sets whose ratio is within the tolerance, with every number of planets, and how many there were."""
+    numbers = np.arange(task.planets[0], task.planets[1] + 1)
+    near, seen = [], 0
+    for grid in grids(task, kind):
+        seen += len(grid.a) * len(numbers)
+        deviation = np.abs(ratios(task, kind, grid) / task.ratio - 1)
+        near.append(grid.picked(deviation <= task.tolerance / 100 + ROUNDING))
+    teeth = TeethGrid(*(np.repeat(np.concatenate(parts), len(numbers)) for parts in zip(*near, strict=True)))
+    return ManySets(task, kind, teeth, np.tile(numbers, len(teeth.a) // len(numbers))), seen
+
+
+ROUNDING = 1e-12
+"""Of a ratio, relative to it."""
+
+
+def _ranked(kept: list[ManySets]) -> Iterator[Candidate]:
+    """The sets of all types, best first."""
+    keys = [np.concatenate(parts) for parts in zip(*(_keys(sets) for sets in kept), strict=True)]
+    starts = np.cumsum([0, *(len(sets.planets) for sets in kept)])
+    for place in np.lexsort(keys[::-1]):
+        which = int(np.searchsorted(starts, place, side="right")) - 1
+        yield _candidate(kept[which], int(place - starts[which]))
+
+
+def _keys(sets: ManySets) -> tuple[np.ndarray[Any, Any], ...]:
+    """What sets are ranked by, from the first to the last, ties by planets and teeth; rounded, so that equal ones are equal."""
+    deviation = np.round(np.abs(sets.ratio / sets.task.ratio - 1), 12)
+    diameter = np.round(sets.sizes.diameter, 6)
+    last = (sets.planets, *(np.abs(teeth) for teeth in sets.teeth))
+    return deviation, diameter, sets.in_phase, sets.common, -np.round(sets.efficiency, 9), *last
+
+
+def _candidate(sets: ManySets, place: int) -> Candidate:
+    """One of them."""
+    one = sets.picked(np.array([place]))
+    kind, sizes, stepped = sets.kind, one.sizes, sets.kind is not SetType.A
+    a, rim_a, rim_b, b = (int(teeth[0]) for teeth in one.teeth)
+    first, second = MEMBERS[kind][:2]
+    names = (first, RIMS[0], RIMS[1], second) if stepped else (first, RIMS[0], RIMS[0], second)
+    rims, centrals, planets = sizes.rim_shifts, sizes.central_shifts, int(one.planets[0])
+    shifts = (centrals[0], rims[0], rims[1], centrals[1])
+    tips, own = sizes.tip_alterations, sizes.central_alterations
+    alterations = (own[0], tips[0], tips[1], own[1])
+    common = (np.gcd(a, rim_a), np.gcd(b, rim_b))
+    return Candidate(
+        task=sets.task,
+        kind=kind,
+        planets=planets,
+        teeth=dict(zip(names, (a, rim_a, rim_b, b), strict=True)),
+        centre_distance=float(sizes.distance[0]),
+        profile_shifts={name: float(shift[0]) for name, shift in zip(names, shifts, strict=True)},
+        tip_alterations={name: float(k[0]) for name, k in zip(names, alterations, strict=True)}
+        | ({} if stepped else {RIMS[0]: float(min(tips[0][0], tips[1][0]))}),
+        ratio=float(one.ratio[0]),
+        deviation=float((one.ratio[0] / sets.task.ratio - 1) * 100),
+        diameter=float(sizes.diameter[0]),
+        positions=int(one.teeth.positions[0]),
+        phases=(a % planets, b % planets),
+        common=(int(common[0]), int(common[1])),
+        efficiency=float(one.efficiency[0]),
+    )
