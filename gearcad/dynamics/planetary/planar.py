@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from gearcad.arrays import Floats
 from gearcad.errors import ParameterError
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, SetMesh
+from gearcad.planetary.shafts import shafts_of
 
 __all__ = ["MeshLine", "PlanarMember", "PlanarTrain", "held_members", "planar_train"]
 
@@ -107,14 +108,7 @@ def planar_train(
 
 def held_members(train: PlanetaryTrain) -> tuple[str, ...]:
     """What the fixed shaft holds: the member itself, or that which it is geared to by stages."""
-    name = train.fixed
-    if name is None:
-        return ()
-    for _ in train.stages:
-        for stage in train.stages:
-            if name not in train.members and name in (stage.pinion, stage.wheel):
-                name = stage.wheel if name == stage.pinion else stage.pinion
-    return (name,)
+    return () if train.fixed is None else (shafts_of(train)[train.fixed].member,)
 
 
 def _member(member: Carrier | Central, radius: float, held: Collection[str]) -> PlanarMember:

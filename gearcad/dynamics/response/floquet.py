@@ -17,6 +17,9 @@ UNSTABLE = 1 + 1e-5
 _STEPS, _MOST_STEPS = 128, 4096
 """Fewest and most steps over the period of the stiffness where only growth matters."""
 
+_MOST_AGAIN = 65_536
+"""Steps at most of what seems to grow in fewer steps than it asks for: too long ones grow by themselves."""
+
 _LONGEST_STEP = 0.5
 """Greatest turn (rad) of the fastest mode in such a step: longer ones would meet resonances of their own."""
 
@@ -38,18 +41,20 @@ def growth(system: System, excitation: Excitation, frequencies: Floats, slopes: 
     periods = 2 * np.pi / (excitation.fundamental * frequencies * order)
     squares, damping, mesh = _driven_modes(system)
     wanted = np.sqrt(squares.max()) * periods / _LONGEST_STEP
-    steps = 2 ** np.ceil(np.log2(np.clip(wanted, _STEPS if slopes is None else slopes.shape[1], _MOST_STEPS))).astype(int)
-    result = np.zeros(len(frequencies))
-    block = max(1, _BLOCK // (2 * len(squares)) ** 2)
-    for count in np.unique(steps):
-        alike = np.flatnonzero(steps == count)
-        for of in np.array_split(alike, -(-len(alike) // block)):
-            if slopes is None:
-                theta = 2 * np.pi / order * (np.arange(count) + 0.5) / count
-                course = (system.stiffness * excitation.ratios(theta))[None]
-            else:
-                course = np.repeat(slopes[of], max(1, count // slopes.shape[1]), axis=1)
-            result[of] = _growth(squares, damping, mesh, course - system.stiffness, periods[of])
+    result, least = np.zeros(len(frequencies)), _STEPS if slopes is None else slopes.shape[1]
+    block, which = max(1, _BLOCK // (2 * len(squares)) ** 2), np.arange(len(frequencies))
+    for most in (_MOST_STEPS, _MOST_AGAIN):
+        steps = 2 ** np.ceil(np.log2(np.clip(wanted, least, most))).astype(int)
+        for count in np.unique(steps[which]):
+            alike = which[steps[which] == count]
+            for of in np.array_split(alike, -(-len(alike) // block)):
+                if slopes is None:
+                    theta = 2 * np.pi / order * (np.arange(count) + 0.5) / count
+                    course = (system.stiffness * excitation.ratios(theta))[None]
+                else:
+                    course = np.repeat(slopes[of], max(1, count // slopes.shape[1]), axis=1)
+                result[of] = _growth(squares, damping, mesh, course - system.stiffness, periods[of])
+        which = np.flatnonzero((result > UNSTABLE) & (wanted > most))
     return result
 
 

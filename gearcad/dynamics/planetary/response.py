@@ -1,0 +1,227 @@
+"""The response of a planetary train to stiffness and transmission errors of its meshes, over speed.
+
+Flanks stay in contact or, where both meshes have one tooth frequency, part; speeds are as close as every maximum needs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from gearcad.arrays import Floats
+from gearcad.dynamics.charts.chart import KvChart
+from gearcad.dynamics.charts.over_speed import OverSpeed, over_speed
+from gearcad.dynamics.excitation.meshes import Excitation
+from gearcad.dynamics.options import DynamicsOptions
+from gearcad.dynamics.planetary.campbell import PlanetaryCampbell, planetary_campbell, speeds_per_input
+from gearcad.dynamics.planetary.driven import planetary_excitation, planetary_system
+from gearcad.dynamics.planetary.masses import TrainMasses
+from gearcad.dynamics.planetary.mesh_stiffness import MeshStiffness
+from gearcad.dynamics.planetary.modes import PlanetaryModes, planetary_modes
+from gearcad.dynamics.planetary.planar import held_members
+from gearcad.dynamics.planetary.springs import SpringKind, train_springs
+from gearcad.dynamics.response.periodic import PeriodicResponse
+from gearcad.dynamics.trains.system import System
+from gearcad.errors import require_number
+from gearcad.notice import Notice, texts
+from gearcad.planetary import PlanetaryTrain, TrainLoad
+from gearcad.planetary.phases import drive_of, mesh_phases
+from gearcad.planetary.power import power_flow
+
+__all__ = ["PlanetaryResponse", "planetary_response"]
+
+_BEYOND = 1.5
+"""How far beyond the last resonance a chart goes on."""
+
+_SHARE = 0.02
+"""Of a mode's potential energy that the meshes must hold for the mode to be a resonance of theirs."""
+
+_SLOWEST_STEPPED = 1 / 200
+"""Of the highest speed, where that of a chart of stepped planets begins: their meshes come again after many teeth only."""
+
+_FAST = 0.05
+"""Twice the speed of the carrier over the lowest natural frequency from which on turning axes are to be minded."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PlanetaryResponse:
+    """Loads over `speeds` (s,) of the input (rpm) running up and, where that differs, down.
+
+    The mesh of every planet is one of the charts' meshes: those of the first central, then those of the second, by planets.
+    `tooth_frequency` (Hz) is that of the first central's meshes at 1 rpm of the input, in the charts in 1/s.
+    """
+
+    train: PlanetaryTrain
+    load: TrainLoad
+    modes: PlanetaryModes
+    system: System
+    excitation: Excitation
+    over: OverSpeed
+    tooth_frequency: float
+    campbell: PlanetaryCampbell
+    found: tuple[Notice, ...]
+
+    @property
+    def up(self) -> KvChart:
+        """Running up."""
+        return self.over.up
+
+    @property
+    def down(self) -> KvChart | None:
+        """Running down, where flanks part."""
+        return self.over.down
+
+    @property
+    def speeds(self) -> Floats:
+        """Of the input (s,), in rpm."""
+        return self.up.frequencies / (2 * np.pi * self.tooth_frequency)
+
+    @cached_property
+    def factors(self) -> dict[str, Floats]:
+        """Dynamic load factors (s, N) of each planet's mesh by the names of the meshes: greatest force over that at rest."""
+        a, b = self.train.meshes
+        count = self.train.planets
+        return {a.name: self.up.factors[:, :count], b.name: self.up.factors[:, count:]}
+
+    @property
+    def greatest(self) -> tuple[float, str, float]:
+        """The greatest factor, of which mesh of which planet, and at which speed of the input (rpm)."""
+        row, mesh = np.unravel_index(int(self.up.factors.argmax()), self.up.factors.shape)
+        return float(self.up.factors.max()), self.up.mesh_names[mesh], float(self.speeds[row])
+
+    @cached_property
+    def damping_ratios(self) -> Floats:
+        """(n,): what the damping of meshes, pins and supports comes to in each mode; nan of those without a frequency."""
+        squares, modes = np.linalg.eigh(self.system.stiffness_matrix())
+        damping = np.einsum("nr,nk,kr->r", modes, self.system.damping_matrix(), modes)
+        result = np.full(len(squares), np.nan)
+        elastic = slice(self.modes.rigid, None)
+        result[elastic] = damping[elastic] / (2 * np.sqrt(squares[elastic]))
+        return result
+
+    def at(self, speed: float) -> PeriodicResponse:
+        """The steady vibration at any one speed of the input (rpm). Raises ParameterError unless it turns."""
+        require_number("speed", abs(speed), "rpm", above=0)
+        return self.over.response(2 * np.pi * self.tooth_frequency * abs(speed))
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know before trusting it."""
+        return (*self.found, *self.over.notices, *self.up.notices)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain lists: rpm, N, Hz."""
+        factor, mesh, speed = self.greatest
+        return {
+            "speed": self.speeds.tolist(),
+            "tooth_frequency_per_rpm": self.tooth_frequency,
+            "load_factor": {name: values.T.tolist() for name, values in self.factors.items()},
+            "greatest": {"factor": factor, "mesh": mesh, "speed": speed},
+            "static_force": dict(zip(self.up.mesh_names, self.up.static_forces.tolist(), strict=True)),
+            "campbell": self.campbell.to_dict(),
+            "notices": [notice.to_dict() for notice in self.notices],
+            "notes": list(texts(self.notices)),
+        }
+
+
+def planetary_response(
+    train: PlanetaryTrain,
+    load: TrainLoad,
+    stiffness: Mapping[str, MeshStiffness],
+    masses: TrainMasses,
+    options: DynamicsOptions | None = None,
+    *,
+    given_speeds: Mapping[str, float] | None = None,
+) -> PlanetaryResponse:
+    """Loads over the speeds of the `options`, at the torque of the load with K_A, without losses.
+
+    `stiffness` of each mesh is that of an even share of the load. A differential needs the second speed (rpm) that it has at
+    the load's: both rise alike. Raises ParameterError, GeometryError and SolverError.
+    """
+    options = options or DynamicsOptions()
+    drive = drive_of(train, load)
+    springs = train_springs(train, _means(train, stiffness), sense=drive.sense)
+    modes = planetary_modes(springs, masses)
+    torques = _torques(train, load, given_speeds)
+    driven = tuple(set(train.members) - set(held_members(train)))
+    system = planetary_system(springs, masses, torques, driven=driven, damping_ratio=options.damping_ratio)
+    phases = mesh_phases(train, drive)
+    single = len(train.rims) == 1
+    excitation = planetary_excitation(train, stiffness, phases, _forces(train, torques), parting=single)
+    turns = speeds_per_input(train, {**(given_speeds or {}), train.input: load.speed})
+    tooth_frequency = abs(train.meshes[0].rim.gear.teeth * turns["planet"]) / 60
+    charted = _speeds(train, options, modes, tooth_frequency, load)
+    over = over_speed(system, excitation, 2 * np.pi * tooth_frequency * charted, harmonics=options.harmonics)
+    return PlanetaryResponse(
+        train=train,
+        load=load,
+        modes=modes,
+        system=system,
+        excitation=excitation,
+        over=over,
+        tooth_frequency=tooth_frequency,
+        campbell=planetary_campbell(train, modes, phases, float(charted[-1]), given_speeds=given_speeds),
+        found=(*_turning_axes(modes, turns[train.carrier.name], float(charted[-1])), *_stages(train), *modes.notices),
+    )
+
+
+def _means(train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness]) -> tuple[float, float]:
+    a, b = train.meshes
+    return stiffness[a.name].tangent_mean, stiffness[b.name].tangent_mean
+
+
+def _torques(train: PlanetaryTrain, load: TrainLoad, given_speeds: Mapping[str, float] | None) -> Mapping[str, float]:
+    """On the members of the set (N·m), with K_A, which balance as those with losses would not."""
+    lossless = replace(load, torque=load.torque * load.application_factor, mesh_efficiency=1.0)
+    return power_flow(train, lossless, given_speeds).set_torques
+
+
+def _forces(train: PlanetaryTrain, torques: Mapping[str, float]) -> dict[str, float]:
+    """What each planet's share presses each mesh with (N)."""
+    return {
+        mesh.name: abs(torques[mesh.central.name]) * 1000 / (train.planets * mesh.central_base_radius) for mesh in train.meshes
+    }
+
+
+def _speeds(
+    train: PlanetaryTrain, options: DynamicsOptions, modes: PlanetaryModes, tooth_frequency: float, load: TrainLoad
+) -> Floats:
+    """Of the chart (rpm of the input), with that of the load if it lies within."""
+    last = options.speed_to
+    if last is None:
+        meshes = modes.springs.select(SpringKind.MESH)
+        felt = modes.potential[:, meshes].sum(axis=1) > _SHARE
+        last = _BEYOND * float(modes.frequency[felt].max(initial=0.0) or modes.frequency.max()) / tooth_frequency
+    first = options.speed_from or last * max(options.slowest, _SLOWEST_STEPPED if train.stepped else 0.0)
+    charted, asked = np.linspace(first, last, options.chart_speeds), abs(load.speed)
+    return np.union1d(charted, asked) if first <= asked <= last else charted
+
+
+# ---------------------------------------------------------------------- what to know
+
+
+def _turning_axes(modes: PlanetaryModes, carrier: float, highest_speed: float) -> tuple[Notice, ...]:
+    """Where axes that turn with the carrier would show; `carrier` is its speed over that of the input."""
+    elastic = modes.circular[modes.rigid :]
+    rpm = abs(carrier * highest_speed)
+    ratio = 2 * rpm * math.pi / 30 / float(elastic.min(initial=math.inf))
+    if ratio < _FAST:
+        return ()
+    text = (
+        f"the carrier turns at up to {rpm:.4g} rpm, of which twice the angular speed is {ratio:.2g} of the lowest natural"
+        " frequency: gyroscopic and centrifugal terms, which this model leaves out, would shift it there"
+    )
+    return (Notice("turning-axes", text),)
+
+
+def _stages(train: PlanetaryTrain) -> tuple[Notice, ...]:
+    """That stages vibrate by themselves here."""
+    if not train.stages:
+        return ()
+    names = " and ".join(stage.name for stage in train.stages)
+    return (Notice("stages-left-out", f"inertias and meshes of {names} are no part of the vibrating model", "stages"),)
