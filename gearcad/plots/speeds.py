@@ -22,10 +22,12 @@ if TYPE_CHECKING:
 
 __all__ = [
     "course_inches",
+    "mark_parting",
     "plot_course",
     "plot_cycle",
     "plot_factors",
     "plot_shaft_overload",
+    "shade_unstable",
 ]
 
 
@@ -65,8 +67,8 @@ def plot_factors(study: TrainStudy, ax: Axes | None = None) -> Axes:
         _draw_jumps(axes, study, mesh)
     axes.set_xlim(float(study.speeds[0]), float(study.speeds[-1]))
     _set_height(axes, [chart for chart in (up, down) if chart is not None])
-    _shade_unstable(axes, study)
-    _mark_parting(axes, study)
+    shade_unstable(axes, study.speeds, study.up)
+    mark_parting(axes, study.speeds, study.up, parting=study.excitation.parting)
     _mark_modes(axes, _mode_lines(study))
     if study.speeds[0] <= abs(study.train.speed) <= study.speeds[-1]:
         axes.plot(abs(study.train.speed), 0, "^", color=DARK, transform=axes.get_xaxis_transform(), label="speed asked for")
@@ -114,18 +116,18 @@ def _draw_jumps(axes: Axes, study: TrainStudy, mesh: int) -> None:
             axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": DARK, "linewidth": 1.0})
 
 
-def _shade_unstable(axes: Axes, study: TrainStudy) -> None:
+def shade_unstable(axes: Axes, speeds: Floats, chart: KvChart) -> None:
     """Ranges in which no periodic motion lasts."""
     label = "unstable"
-    for start, end in _ranges(study.speeds, ~study.up.stable):
+    for start, end in _ranges(speeds, ~chart.stable):
         axes.axvspan(start, end, color=PALE, alpha=0.45, linewidth=0, label=label, zorder=0)
         label = ""
 
 
-def _mark_parting(axes: Axes, study: TrainStudy) -> None:
+def mark_parting(axes: Axes, speeds: Floats, chart: KvChart, *, parting: bool) -> None:
     """A bar along the axis where flanks part, or would if they could."""
-    label = "flanks part" if study.excitation.parting else "flanks would part"
-    for start, end in _ranges(study.speeds, study.up.apart):
+    label = "flanks part" if parting else "flanks would part"
+    for start, end in _ranges(speeds, chart.apart):
         axes.plot([start, end], [0.012, 0.012], color=DARK, linewidth=3, transform=axes.get_xaxis_transform(), label=label)
         label = ""
 
