@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from gearcad.designs.kinds.pair import PairDesign
@@ -66,8 +66,16 @@ class MeshPairs:
 
     def _design(self, name: str, pair: GearPair, load: Load | None) -> PairDesign:
         own = self.design
+        # By the train's name, too: results of the suns of two trains have folders of their own.
+        full = own.pair_name(name)
         return PairDesign(
-            name=name, pair=pair, load=load, material=own.material, rating=own.rating, check=own.check, mesh=own.mesh
+            name=full,
+            pair=replace(pair, name=full),
+            load=load,
+            material=own.material,
+            rating=own.rating,
+            check=own.check,
+            mesh=own.mesh,
         )
 
     def _comments(self, name: str) -> Iterator[str]:
@@ -75,7 +83,7 @@ class MeshPairs:
         train = self.design.train
         mesh = next((mesh for mesh in train.meshes if mesh.name == name), None)
         yield f"{'Mesh' if mesh else 'Stage'} {name} of the planetary train {self.design.name}, written by `gearcad planetary`:"
-        yield "a pair for `gearcad check`, `gearcad stiffness` and every other command of pairs."
+        yield "a pair for `gearcad check`, `gearcad stiffness` and every other command of pairs; other meshes are left out."
         if mesh is None:
             return
         if (load := self.loads.get(name)) is None:

@@ -42,7 +42,9 @@ def test_specs_give_the_pairs_to_the_last_digit(train: PlanetaryTrain) -> None:
         assert read(text) == pairs.designs[name]
         assert read(text).pair.to_dict() == pairs.designs[name].pair.to_dict()
     for mesh in train.meshes:
-        assert pairs.designs[mesh.name].pair == mesh.pair
+        own = pairs.designs[mesh.name]
+        assert own.name == own.pair.name == f"train-{mesh.name}"
+        assert replace(own.pair, name=mesh.name) == mesh.pair
 
 
 def test_loads_of_the_alm_thesis() -> None:

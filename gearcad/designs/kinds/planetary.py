@@ -63,7 +63,7 @@ class PlanetaryDesign(ToothedDesign):
                 raise ParameterError("name", name, "must be given once: every gear and the carrier have names of their own")
         pairs = [*(mesh.name for mesh in self.train.meshes), *(stage.name for stage in self.train.stages)]
         for name in pairs:
-            require_plain_name(name)
+            require_plain_name(self.pair_name(name))
             if pairs.count(name) > 1:
                 raise ParameterError("name", name, "must be given once: every mesh and stage has a spec of its own")
 
@@ -95,6 +95,10 @@ class PlanetaryDesign(ToothedDesign):
     def described(self) -> Mapping[str, Described]:
         """The gears, and the train that they make."""
         return {**self.gears, MAIN: self.train}
+
+    def pair_name(self, name: str) -> str:
+        """What the design of a mesh or stage is called."""
+        return f"{self.name}-{name}"
 
     def accepted(self, *kinds: type[Accepted], why: str) -> Accepted:
         """The design, if it is of one of these kinds. Raises ParameterError: jobs of pairs take the specs of its meshes."""
