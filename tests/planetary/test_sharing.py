@@ -17,7 +17,8 @@ from gearcad.dynamics.planetary.sharing import share_load
 from gearcad.dynamics.planetary.statics import train_statics
 from gearcad.dynamics.planetary.torsion import TwistSource, torsional_stiffness
 from gearcad.errors import GeometryError, ParameterError, SolverError
-from gearcad.planetary import Carrier, PlanetaryTrain, TrainLoad
+from gearcad.geometry import Gear, GearPair
+from gearcad.planetary import Carrier, PairStage, PlanetaryTrain, TrainLoad
 from gearcad.planetary.forces import forces
 from gearcad.planetary.power import power_flow
 
@@ -156,6 +157,61 @@ def test_errors_of_a_plain_rim_do_the_same_in_either_mesh() -> None:
 def share_forces(train: PlanetaryTrain) -> np.ndarray:
     found = share_load(train, TrainLoad(torque=output_torque(train)), STIFFNESS)
     return np.array([mesh.force for mesh in found.meshes.values()])
+
+
+RANDOM = [*TRAINS.values(), sun_set(6), sun_set(4), simple_set(26, 18, planets=5, planet_angles="permitted")]
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_any_state_is_in_balance_fits_and_presses(seed: int) -> None:
+    """The conditions of the one least energy: whatever fulfils them is the answer, however it was found."""
+    random = np.random.default_rng(seed)
+    train = springy(RANDOM[seed % len(RANDOM)], seed, errors=float(random.choice([3.0, 300.0])), rigid_pins=seed % 2 == 0)
+    uneven = {mesh.name: random.uniform(50, 600, train.planets) for mesh in train.meshes}
+    load = TrainLoad(torque=float(random.choice([-1, 1]) * 10 ** random.uniform(1, 4)), speed=50.0)
+    statics = train_statics(train, load, uneven)
+    state, springs, meshes = statics.state(), statics.equilibrium, statics.meshes.ravel()
+    forces, stretch = state.forces[0], (state.yielding + state.gap - state.opening)[0]
+    assert forces @ springs.vectors == pytest.approx(statics.load, abs=1e-9 * forces.max())
+    moved = springs.displacement(stretch[None])[0]
+    assert springs.vectors @ moved == pytest.approx(stretch, abs=1e-9 * np.abs(stretch).max())
+    assert forces[meshes].min() >= 0 and state.opening.min() >= 0
+    assert not (forces[meshes] * state.opening[0, meshes]).max() > 1e-9 * forces.max() * np.abs(stretch).max()
+    assert not np.delete(state.opening[0], meshes).any()
+
+
+def test_an_eccentric_carrier_is_both_centrals_the_other_way() -> None:
+    train = sun_set(4, carrier=Carrier(pin_stiffness=300.0, run_out=10.0))
+    load, turned = TrainLoad(torque=output_torque(train)), np.array([[0.3], [2.0], [4.1]])
+    alone = train_statics(train, load, STIFFNESS).state(turned).forces
+    centrals = tuple(replace(each, run_out=10.0) for each in train.centrals)
+    both = train_statics(replace(train, centrals=centrals, carrier=replace(train.carrier, run_out=0.0)), load, STIFFNESS)
+    opposite = both.state(np.hstack([turned, turned]) + np.pi).forces
+    meshes = both.meshes.ravel()
+    assert np.ptp(alone[:, meshes]) > 1000
+    assert alone[:, meshes] == pytest.approx(opposite[:, meshes], rel=1e-9)
+
+
+def test_a_stage_behind_the_set_twists_as_a_train_of_its_own() -> None:
+    gear = Gear(teeth=30, normal_module=2, face_width=10)
+    pair = GearPair(pinion=gear, wheel=replace(gear, teeth=60))
+    behind = PairStage(name="behind", pair=pair, pinion="carrier", wheel="out")
+    staged = simple_set(stages=(behind,), output="out")
+    found = torsional_stiffness(staged, TrainLoad(torque=2000.0, speed=10.0), STIFFNESS | {"behind": 200.0})
+    before = torsional_stiffness(simple_set(), TrainLoad(torque=1000.0, speed=10.0), STIFFNESS)
+    force = 2000 / (pair.wheel.base_diameter / 2000)
+    assert found.twist == pytest.approx(before.twist / 2 + np.degrees(force**2 / 200e6 / 2000), rel=1e-9)
+
+
+def test_what_tilts_planets_is_told_to_be_left_out() -> None:
+    for train, words in (
+        (TRAINS["A helical"], "axial forces"),
+        (alm_train(), "meshes in different planes"),
+        (simple_set(), ""),
+    ):
+        found = share_load(train, TrainLoad(torque=500.0, speed=10.0), by_name(train))
+        told = [notice.text for notice in found.notices if notice.code == "planets-parallel"]
+        assert told == ([f"planets stand parallel: what {words} tilt them is left out"] if words else [])
 
 
 def test_what_cannot_be_shared_is_refused() -> None:

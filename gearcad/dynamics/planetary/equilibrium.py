@@ -40,6 +40,13 @@ class _Balance(NamedTuple):
     free: Floats
 
 
+class _Measure(NamedTuple):
+    """What energy makes of self-stresses: `moved` (m, r), of which each adds the same, and the compliance of the softest."""
+
+    moved: Floats
+    softest: float
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Equilibrium:
     """m springs of elongations V q - e between n coordinates: `vectors` V (m, n); those that can only `press` (m,) have F >= 0.
@@ -82,9 +89,11 @@ class Equilibrium:
         forces = self.two_sided(compliance, gap, load)
         opening = np.zeros_like(forces)
         pulling = forces[:, self.press] < -_PULL * np.abs(forces).max(axis=1, keepdims=True)
+        measure = None
         for case in np.flatnonzero(pulling.any(axis=1)):
-            c = compliance[case if len(compliance) > 1 else 0]
-            forces[case], opening[case] = self._pressed(c, forces[case])
+            if measure is None or len(compliance) > 1:
+                measure = self._measured(compliance[case if len(compliance) > 1 else 0])
+            forces[case], opening[case] = self._pressed(measure, forces[case])
         forces[:, self.press] = np.maximum(forces[:, self.press], 0.0)
         return forces, opening
 
@@ -106,23 +115,28 @@ class Equilibrium:
         found: Floats = elongation @ self._balance.inverse.T
         return found
 
-    def _pressed(self, compliance: Floats, forces: Floats) -> tuple[Floats, Floats]:
+    def _measured(self, compliance: Floats) -> _Measure:
+        """Of compliances (m,): L L' = Z' C Z over the softest spring."""
+        redundant, softest = self._balance.redundant, compliance.max()
+        root = np.linalg.cholesky((redundant.T * (compliance / softest)) @ redundant)
+        moved: Floats = np.linalg.solve(root, redundant.T).T
+        return _Measure(moved, float(softest))
+
+    def _pressed(self, measure: _Measure, forces: Floats) -> tuple[Floats, Floats]:
         """From the forces (m,) of a case as if springs could pull: forces (m,) where they cannot, and openings (m,).
 
-        Of L' (y - y_0), with L L' = Z' C Z, the least is sought that keeps all F >= 0 (Lawson and Hanson, chapter 23).
+        Of L' (y - y_0) the least is sought that keeps all F >= 0 (Lawson and Hanson, chapter 23).
         """
         from scipy.optimize import nnls
 
-        redundant, scale = self._balance.redundant, np.abs(forces).max()
-        softest = compliance.max()
-        root = np.linalg.cholesky((redundant.T * (compliance / softest)) @ redundant)
-        moved = np.linalg.solve(root, redundant.T).T
-        rows, target = np.vstack([moved[self.press].T, -forces[self.press] / scale]), np.r_[np.zeros(self.redundancy), 1.0]
+        scale = np.abs(forces).max()
+        rows = np.vstack([measure.moved[self.press].T, -forces[self.press] / scale])
+        target = np.r_[np.zeros(self.redundancy), 1.0]
         weights, rest = nnls(rows, target)
         if rest < _NONE:
             raise SolverError("no forces that only press are in balance with the load")
         left = rows @ weights - target
         opening = np.zeros_like(forces)
-        opening[self.press] = -weights / left[-1] * scale * softest
-        found: Floats = forces - scale * (moved @ left[:-1]) / left[-1]
+        opening[self.press] = -weights / left[-1] * scale * measure.softest
+        found: Floats = forces - scale * (measure.moved @ left[:-1]) / left[-1]
         return found, opening

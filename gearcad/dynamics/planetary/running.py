@@ -12,7 +12,7 @@ import numpy as np
 from gearcad.arrays import Complexes, Floats
 from gearcad.dynamics.planetary.rolling import LONGEST, Rolling, StiffnessCourse, rolling_of
 from gearcad.dynamics.planetary.stage_forces import mesh_force
-from gearcad.dynamics.planetary.statics import State, TrainStatics, train_statics
+from gearcad.dynamics.planetary.statics import State, TrainStatics, planar_notices, train_statics
 from gearcad.dynamics.planetary.torsion import twist_of
 from gearcad.errors import require_whole
 from gearcad.notice import Notice, texts
@@ -113,6 +113,7 @@ class Running:
         span = f"{self.rolled[-1]:.6g} base pitches of {self.train.meshes[0].name}"
         turn = f"the carrier turns {abs(self.carrier_angle[-1]):.4g} deg"
         found = [Notice("span", f"run over {span}, in which {turn}, at {len(self.rolled)} places; without masses and friction")]
+        found.extend(planar_notices(self.train))
         if self.rolled[-1] >= LONGEST:
             found.append(Notice("span-cut", f"it ends there, before all has come round: {', '.join(self.turning)}"))
         if (self.shares <= 0).any():

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from gearcad.arrays import Floats
 from gearcad.dynamics.planetary.over_turns import SMALLEST_STEP, greatest, grid_points
 from gearcad.dynamics.planetary.published import PublishedFactor, published_factors
-from gearcad.dynamics.planetary.statics import TrainStatics, train_statics
+from gearcad.dynamics.planetary.statics import TrainStatics, planar_notices, train_statics
 from gearcad.notice import Notice, texts
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 
@@ -91,7 +91,7 @@ class LoadSharing:
     @property
     def notices(self) -> tuple[Notice, ...]:
         """What to know before trusting it."""
-        found = []
+        found = [*planar_notices(self.train)]
         if self.unloaded:
             planets = ", ".join(str(planet + 1) for planet in self.unloaded)
             at = "" if (self.shares[list(self.unloaded)] <= _UNLOADED).all() else " at some angles of what turns"

@@ -19,11 +19,12 @@ from gearcad.dynamics.planetary.equilibrium import Equilibrium
 from gearcad.dynamics.planetary.planar import PlanarMember, PlanarTrain, planar_train
 from gearcad.dynamics.planetary.springs import SpringKind, TrainSprings, springs_of
 from gearcad.errors import GeometryError, ParameterError, SolverError
+from gearcad.notice import Notice
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.planetary.power import PowerFlow, power_flow
 from gearcad.planetary.shafts import shafts_of
 
-__all__ = ["State", "TrainStatics", "train_statics"]
+__all__ = ["State", "TrainStatics", "planar_notices", "train_statics"]
 
 _MICRO = 1e6
 """µm in a m."""
@@ -144,7 +145,7 @@ def train_statics(
     flow = power_flow(train, replace(load, mesh_efficiency=1.0), given_speeds)
     sense = 1 if flow.set_torques[train.centrals[0].name] > 0 else -1
     output = shafts_of(train)[train.output].member
-    a, b = (stiffness[mesh.name] for mesh in train.meshes)
+    a, b = (_given(stiffness, mesh.name) for mesh in train.meshes)
     held = [name for name in train.members if name != output]
     planar = planar_train(train, (a, b), held=held, sense=sense)
     springs, compliance = _with_rigid(planar, output)
@@ -161,6 +162,22 @@ def train_statics(
     )
     _check_carried(found)
     return found
+
+
+def _given(stiffness: Mapping[str, ArrayLike], name: str) -> ArrayLike:
+    if name not in stiffness:
+        raise ParameterError("stiffness", sorted(stiffness), f"must have that of {name}")
+    return stiffness[name]
+
+
+def planar_notices(train: PlanetaryTrain) -> tuple[Notice, ...]:
+    """That planets which their forces tilt stand parallel here."""
+    middles = {rim.axial_position + rim.gear.face_width / 2 for rim in train.rims}
+    helical = any(rim.gear.helix_angle and rim.gear.double_helix is None for rim in train.rims)
+    if len(middles) == 1 and not helical:
+        return ()
+    because = " and ".join(["meshes in different planes"] * (len(middles) > 1) + ["axial forces"] * helical)
+    return (Notice("planets-parallel", f"planets stand parallel: what {because} tilt them is left out"),)
 
 
 def _with_rigid(planar: PlanarTrain, output: str) -> tuple[TrainSprings, Floats]:

@@ -14,7 +14,7 @@ from gearcad.arrays import Floats
 from gearcad.dynamics.planetary.disturbances import set_members
 from gearcad.dynamics.planetary.springs import Spring, SpringKind
 from gearcad.dynamics.planetary.stage_forces import mesh_force
-from gearcad.dynamics.planetary.statics import TrainStatics, train_statics
+from gearcad.dynamics.planetary.statics import TrainStatics, planar_notices, train_statics
 from gearcad.errors import ParameterError
 from gearcad.notice import Notice, texts
 from gearcad.planetary import PlanetaryTrain, TrainLoad
@@ -61,12 +61,13 @@ class Contribution:
 
 @dataclass(frozen=True, kw_only=True)
 class TorsionalStiffness:
-    """Twist (degrees) of the output under `torque` (N·m) on it, with all that is not the output held, and what adds to it.
+    """Twist (degrees) of the output of a train under `torque` (N·m) on it, with all else held, and what adds to it.
 
     Without errors, with mean mesh stiffnesses and in the mean over a turn of what stages push across the axis. `rigid` names
     what was given no stiffness.
     """
 
+    train: PlanetaryTrain
     torque: float
     twist: float
     contributions: tuple[Contribution, ...]
@@ -97,10 +98,11 @@ class TorsionalStiffness:
     @property
     def notices(self) -> tuple[Notice, ...]:
         """What is taken for rigid."""
-        if not self.rigid:
-            return ()
-        text = f"taken for rigid, without a stiffness: {', '.join(self.rigid)}; the train is softer"
-        return (Notice("taken-for-rigid", text, where="torsional stiffness"),)
+        found = [*planar_notices(self.train)]
+        if self.rigid:
+            text = f"taken for rigid, without a stiffness: {', '.join(self.rigid)}; the train is softer"
+            found.append(Notice("taken-for-rigid", text))
+        return tuple(notice.within("torsional stiffness") for notice in found)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -134,6 +136,7 @@ def torsional_stiffness(train: PlanetaryTrain, load: TrainLoad, stiffness: Mappi
     found = [*_of_set(statics, squares), *_of_shafts(statics), *_of_stages(statics, stiffness)]
     whole = sum(each.twist for each in found)
     return TorsionalStiffness(
+        train=train,
         torque=statics.torque,
         twist=whole,
         contributions=tuple(replace(each, share=each.twist / whole) for each in found),
