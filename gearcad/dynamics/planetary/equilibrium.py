@@ -119,8 +119,7 @@ class Equilibrium:
         """Of compliances (m,): L L' = Z' C Z over the softest spring."""
         redundant, softest = self._balance.redundant, compliance.max()
         root = np.linalg.cholesky((redundant.T * (compliance / softest)) @ redundant)
-        moved: Floats = np.linalg.solve(root, redundant.T).T
-        return _Measure(moved, float(softest))
+        return _Measure(np.asarray(np.linalg.solve(root, redundant.T).T, float), float(softest))
 
     def _pressed(self, measure: _Measure, forces: Floats) -> tuple[Floats, Floats]:
         """From the forces (m,) of a case as if springs could pull: forces (m,) where they cannot, and openings (m,).

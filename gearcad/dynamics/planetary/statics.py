@@ -173,7 +173,7 @@ def _given(stiffness: Mapping[str, ArrayLike], name: str) -> ArrayLike:
 def planar_notices(train: PlanetaryTrain) -> tuple[Notice, ...]:
     """That planets which their forces tilt stand parallel here."""
     middles = {rim.axial_position + rim.gear.face_width / 2 for rim in train.rims}
-    helical = any(rim.gear.helix_angle and rim.gear.double_helix is None for rim in train.rims)
+    helical = any(mesh.rim.gear.helix_angle and not mesh.pair.double_helical for mesh in train.meshes)
     if len(middles) == 1 and not helical:
         return ()
     because = " and ".join(["meshes in different planes"] * (len(middles) > 1) + ["axial forces"] * helical)
