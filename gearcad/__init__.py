@@ -34,6 +34,7 @@ gearcad.errors.ParameterError: load = 60: must be a Load
     rate(pair, load)               ISO 6336 or DIN 3990, Method B
     stiffness(pair, load)          mesh stiffness by every method
     dynamics(pair, load)           natural frequencies, K_v over speed; of trains too
+    planetary(train, load)         speeds, torques, assembly, load sharing, stiffness and modes of a planetary train
     modify(pair, load)             tip relief and crowning for the load
 
 A class for each in `gearcad.jobs` writes the files of a result: `gearcad.jobs.check.Check().write(result, folder)`.
@@ -72,6 +73,7 @@ if TYPE_CHECKING:
     from gearcad.mounting import Mounting
     from gearcad.notice import Notice
     from gearcad.per_gear import PerGear
+    from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad
 
 __all__ = [
     "ISO53_A",
@@ -80,6 +82,8 @@ __all__ = [
     "ISO53_D",
     "BasicRack",
     "Body",
+    "Carrier",
+    "Central",
     "DoubleHelix",
     "FlankModification",
     "Gear",
@@ -91,21 +95,25 @@ __all__ = [
     "Material",
     "Mounting",
     "Notice",
+    "PairStage",
     "ParameterError",
     "PerGear",
+    "PlanetaryTrain",
     "Rack",
     "RackPair",
     "ReliefShape",
+    "Rim",
     "ShaperCutter",
     "ShiftSplit",
     "SolverError",
     "SpecError",
     "ToothProfile",
+    "TrainLoad",
     "__version__",
     "read",
 ]
 
-_ROOMS = ("batch", "check", "contact", "designs", "dynamics", "jobs", "meshing", "rating", "solids", "stiffness")
+_ROOMS = ("batch", "check", "contact", "designs", "dynamics", "jobs", "meshing", "planetary", "rating", "solids", "stiffness")
 
 if not TYPE_CHECKING:
     import sys
@@ -117,7 +125,7 @@ if not TYPE_CHECKING:
     __getattr__ = lazily(
         __name__,
         __all__,
-        ("errors", "notice", "per_gear", "geometry", "load", "material", "mounting"),
+        ("errors", "notice", "per_gear", "geometry", "load", "material", "mounting", "planetary"),
         _ROOMS,
         {"read": "designs.read_spec", **{verb: f"jobs.{verb}.{verb}" for verb in VERBS}},
     )

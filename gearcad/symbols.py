@@ -22,6 +22,7 @@ __all__ = [
     "PAIR",
     "PER_GEAR",
     "PLANETARY",
+    "PLANETARY_MEMBER",
     "RACK",
     "RACK_PAIR",
     "RATING",
@@ -146,8 +147,24 @@ PLANETARY = {
     "set_type": Symbol("", "", "", "type of the set, A to D"),
     "basic_ratio": Symbol("i_0", "", "", "basic ratio: with the carrier at rest"),
     "positions": Symbol("q", "", "", "places round the axis where planets fit"),
+    "ratio": Symbol("i", "", "", "speed of the input over that of the output"),
+    "efficiency": Symbol("η", "", "", "efficiency from input to output"),
+    "efficiency_back": Symbol("η", "", "", "efficiency from output to input"),
+    "planet_speed_relative": Symbol("", "rpm", "", "speed of a planet on its pin"),
+    "mesh_load_factor": Symbol("K_γ", "", "ISO 6336-1", "greatest share of a planet, 1 where all carry alike"),
+    "torsional_stiffness": Symbol("", "N·m/rad", "", "torsional stiffness at the output"),
+    "frequency_1": Symbol("f_1", "Hz", "", "first natural frequency"),
+    "frequency_2": Symbol("f_2", "Hz", "", "second natural frequency"),
+    "frequency_3": Symbol("f_3", "Hz", "", "third natural frequency"),
 }
-"""What data.json has of a planetary train beside its inputs."""
+"""What data.json and planetary.json have of a planetary train beside its inputs, as tables of results have it."""
+
+PLANETARY_MEMBER = {
+    "meshes": Symbol("", "", "", "rim that it meshes with"),
+    "speed": Symbol("n", "rpm", "", "speed"),
+    "torque": Symbol("T", "N·m", "", "torque from outside"),
+}
+"""Of each member and shaft, likewise."""
 
 PER_GEAR = ("working_pitch_diameters", "active_root_diameters", "tip_clearances")
 """Keys of PAIR that pinion and wheel each have."""

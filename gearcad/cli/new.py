@@ -35,8 +35,15 @@ def new(kind: str | None, output: str | None, force: bool) -> None:
     path = Path(output or name)
     _write_new(path, text, force)
     click.echo(path)
-    command = "batch" if name.endswith(".csv") else "dynamics" if "\n[train]\n" in text else "data"
-    click.echo(f"Next: gearcad {command} {path}", err=True)
+    click.echo(f"Next: gearcad {_next(name, text)} {path}", err=True)
+
+
+def _next(name: str, text: str) -> str:
+    """The command that shows most of what a starter is."""
+    if name.endswith(".csv"):
+        return "batch"
+    commands = {"train": "dynamics", "planetary": "planetary"}
+    return next((command for table, command in commands.items() if f"\n[{table}]\n" in text), "data")
 
 
 def _write_new(path: Path, text: str, force: bool) -> None:

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from gearcad import symbols
 from gearcad.designs.keys import FIELDS, PLANETARY, Fields
 from gearcad.per_gear import Role
+from gearcad.planetary import Carrier, Central, PairStage, Rim
+from gearcad.schema import schema_of
 from gearcad.symbols import Symbol
 
 __all__ = ["column_of_train", "column_symbol"]
@@ -55,6 +57,15 @@ _TABLES = _COMPUTED | {table: inputs | _COMPUTED.get(table, {}) for table, input
 _OF_TRAINS = _symbols(PLANETARY)
 _OF_TRAINS["planetary"] |= symbols.PLANETARY
 
+_MEMBER = {key: field.symbol for kind in (Central, Rim, Carrier) for key, field in schema_of(kind).items()}
+_STAGE = {key: field.symbol for key, field in schema_of(PairStage).items()}
+_NAMED_OF_TRAINS = {
+    "meshes": _COMPUTED["pair"] | _INPUTS["pair"],
+    "stages": _COMPUTED["pair"] | _INPUTS["pair"] | _STAGE,
+    "members": _MEMBER | symbols.PLANETARY_MEMBER,
+}
+"""What stands under the name of a mesh, stage or member."""
+
 _NAMED = ("stiffness",)
 """Tables whose quantities stand under a name each: `stiffness.iso6336.mean`."""
 
@@ -64,9 +75,12 @@ _OWNERS = tuple(role.value for role in Role)
 def column_of_train(heading: str) -> tuple[str, Symbol] | None:
     """The same in a table of planetary trains: whose it is by the name of its gear, mesh or stage."""
     table, _, field = heading.partition(".")
-    if table == "planetary" and field.partition(".")[0] in ("meshes", "stages"):
-        _, owner, field = field.split(".", 2)
-        return _found(owner, field, _COMPUTED["pair"] | _INPUTS["pair"])
+    kind, _, named = field.partition(".")
+    if table == "planetary" and kind in _NAMED_OF_TRAINS:
+        owner, _, of = named.rpartition(".") if kind == "members" else named.partition(".")
+        return _found(owner, of, _NAMED_OF_TRAINS[kind])
+    if table == "planetary" and kind == "mesh_stiffness":
+        return named, symbols.STIFFNESS["mean"]
     if table in _OF_TRAINS and (found := _found("", field, _OF_TRAINS[table])):
         return found
     if table in _TABLES and table not in ("gear", "pinion", "wheel", "pair", "rack"):

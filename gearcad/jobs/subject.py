@@ -5,20 +5,21 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, Unpack
 
-from gearcad.designs import Design, GearDesign, Inputs, PairDesign, RackDesign, RackPairDesign
+from gearcad.designs import Design, GearDesign, Inputs, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign
 from gearcad.designs.keys import BESIDE
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.load import Load
+from gearcad.planetary import PlanetaryTrain, TrainLoad
 
 __all__ = ["Subject", "as_design"]
 
-Subject = Design | GearPair | Gear | RackPair | Rack
+Subject = Design | GearPair | Gear | RackPair | Rack | PlanetaryTrain
 """What Python may give to a job."""
 
 
-def as_design(subject: Subject, load: Load | None = None, **inputs: Unpack[Inputs]) -> Design:
-    """A design as it is, or that of a gear, a rack or a pair, with what is given in place of its own. Raises ParameterError."""
+def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: Unpack[Inputs]) -> Design:
+    """A design as it is, or that of what else may be given, with `inputs` in place of its own. Raises ParameterError."""
     if isinstance(subject, Gear):
         subject = GearDesign(name=subject.name, gear=subject)
     elif isinstance(subject, GearPair):
@@ -27,14 +28,17 @@ def as_design(subject: Subject, load: Load | None = None, **inputs: Unpack[Input
         subject = RackDesign(name=subject.name, rack=subject)
     elif isinstance(subject, RackPair):
         subject = RackPairDesign(name=subject.name, pair=subject)
+    elif isinstance(subject, PlanetaryTrain):
+        subject = PlanetaryDesign(name=subject.name, train=subject)
     if not isinstance(subject, Design):
-        permitted = "must be a GearPair, a Gear, a RackPair, a Rack, or a design such as gearcad.read gives"
+        permitted = "must be a GearPair, a Gear, a RackPair, a Rack, a PlanetaryTrain, or a design such as gearcad.read gives"
         raise ParameterError("subject", subject, permitted)
+    kinds = BESIDE | ({"load": TrainLoad} if isinstance(subject, PlanetaryDesign) else {})
     given: dict[str, Any] = {**inputs, "load": load} if load is not None else {**inputs}
     for name, value in given.items():
         if not hasattr(subject, name):
             known = ", ".join(each for each in BESIDE if hasattr(subject, each))
             raise ParameterError(name, value, f"is nothing that a {subject.kind.words} has; it has {known}")
-        if value is not None and not isinstance(value, BESIDE[name]):
-            raise ParameterError(name, value, f"must be a {BESIDE[name].__name__}")
+        if value is not None and not isinstance(value, kinds[name]):
+            raise ParameterError(name, value, f"must be a {kinds[name].__name__}")
     return replace(subject, **given)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Annotated, Literal
 
+from gearcad.geometry import Gear
 from gearcad.geometry.derived import NOT_GIVEN
 from gearcad.planetary.fitting import SetTeeth, permitted_steps
 from gearcad.planetary.members import Carrier, Central, PairStage, Rim
@@ -62,6 +63,12 @@ class TrainData:
     def rim_of(self, central: Central) -> Rim:
         """The rim that a central meshes with."""
         return next(rim for rim in self.rims if rim.name == central.meshes)
+
+    @property
+    def gears(self) -> dict[str, Gear]:
+        """Those of the set by the names of their members and rims, then those of the stages by their own."""
+        of_set = {central.name: central.gear for central in self.centrals} | {rim.name: rim.gear for rim in self.rims}
+        return of_set | {gear.name: gear for stage in self.stages for gear in stage.pair.gears}
 
     @property
     def stepped(self) -> bool:

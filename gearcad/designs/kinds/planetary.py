@@ -86,10 +86,8 @@ class PlanetaryDesign(ToothedDesign):
 
     @property
     def gears(self) -> dict[str, Gear]:
-        """Those of the set by the names of their members and rims, then those of the stages."""
-        train = self.train
-        of_set = {central.name: central.gear for central in train.centrals} | {rim.name: rim.gear for rim in train.rims}
-        return of_set | {gear.name: gear for stage in train.stages for gear in stage.pair.gears}
+        """Those of the train."""
+        return self.train.gears
 
     @property
     def described(self) -> Mapping[str, Described]:

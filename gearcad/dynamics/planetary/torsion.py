@@ -126,12 +126,17 @@ def twist_of(work: ArrayLike, torque: float) -> Floats:
     return np.degrees(np.asarray(work, float) / (1e6 * torque))
 
 
-def torsional_stiffness(train: PlanetaryTrain, load: TrainLoad, stiffness: Mapping[str, ArrayLike]) -> TorsionalStiffness:
+def torsional_stiffness(
+    train: PlanetaryTrain,
+    load: TrainLoad,
+    stiffness: Mapping[str, ArrayLike],
+    given_speeds: Mapping[str, float] | None = None,
+) -> TorsionalStiffness:
     """That of a train with `stiffness` (N/µm) of each mesh and stage by its name; a stage without one is rigid.
 
     Raises what `train_statics` does.
     """
-    statics = train_statics(_flawless(train), load, stiffness)
+    statics = train_statics(_flawless(train), load, stiffness, given_speeds)
     squares = _mean_squares(statics)
     found = [*_of_set(statics, squares), *_of_shafts(statics), *_of_stages(statics, stiffness)]
     whole = sum(each.twist for each in found)

@@ -1,0 +1,124 @@
+"""A planetary train at its load: planetary."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from gearcad.cli.group import debug_option
+from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
+
+if TYPE_CHECKING:
+    from gearcad.dynamics.planetary.study import PlanetaryStudy
+    from gearcad.jobs.planetary import Studied
+
+__all__ = ["planetary"]
+
+_MOST_FREQUENCIES = 6
+
+
+@click.command(short_help="Speeds, torques, load sharing, stiffness and modes of SPEC's planetary train.")
+@click.argument("spec", type=click.Path(path_type=Path), required=False)
+@output_option
+@json_option
+@quiet_option
+@debug_option
+def planetary(spec: Path | None, output: Path | None, as_json: bool, quiet: bool) -> None:
+    """What comes of the planetary train of SPEC under its [load]: speeds and torques of its members, with losses; forces on
+    teeth and pins; phases of the meshes; how planets share the load with the errors that are given; torsional stiffness of
+    the output; natural frequencies and modes.
+
+    Writes planetary.json, data.json, and a spec for each mesh, such as sun-planet.toml, which every command of pairs takes:
+    `gearcad check`, `gearcad stiffness` and the others. What cannot be had without a load, a speed, a stiffness or a mass is
+    left out, with its reason.
+    """
+    from gearcad.errors import ParameterError
+    from gearcad.jobs.planetary import Planetary
+
+    if spec is None:
+        raise ParameterError("spec", None, "must be given: a file that `gearcad new planetary` begins")
+    perform(Planetary(), spec, output, _show, as_json=as_json, quiet=quiet)
+
+
+def _show(_name: str, found: Studied) -> None:
+    click.echo("\n".join(_lines(found.study)))
+    echo_warnings(found.study.notices)
+
+
+def _lines(study: PlanetaryStudy) -> Iterator[str]:
+    """What was found out, in a few lines."""
+    train = study.train
+    teeth = " / ".join(str(gear.teeth) for gear in train.gears.values())
+    ratio = "no fixed member" if train.ratio is None else f"i = {train.ratio:.7g}"
+    yield f"{'set':<22}type {train.set_type.value}, {train.planets} planets, z = {teeth}, {ratio}"
+    yield from _member_lines(study)
+    if study.flow is not None:
+        yield f"{'efficiency':<22}{_efficiency(study)}; {study.flow.circulation}"
+    yield f"{'planets at':<22}{', '.join(f'{angle:.6g}' for angle in train.angles)} deg of {train.positions} places"
+    for name, phases in study.phases.items():
+        yield f"{f'phases {name}':<22}{', '.join(f'{each:.4f}' for each in phases.relative)} base pitches"
+    yield from _force_lines(study)
+    yield from _stiffness_lines(study)
+    yield from _frequency_lines(study)
+
+
+def _member_lines(study: PlanetaryStudy) -> Iterator[str]:
+    train = study.train
+    if study.speeds is None:
+        return
+    roles = {train.input: "input", train.output: "output", train.fixed: "fixed"}
+    torques = {} if study.flow is None else study.flow.torques
+    yield f"{'member':<22}{'rpm':>12}{'N·m':>12}"
+    for name, speed in study.speeds.members.items():
+        torque = f"{torques[name]:>12.5g}" if name in torques else f"{'-':>12}"
+        yield f"{name:<22}{speed:>12.6g}{torque}  {roles.get(name, '')}".rstrip()
+    yield f"{'planet':<22}{study.speeds.planet:>12.6g}{'':>12}  {study.speeds.planet_relative:.6g} rpm on its pin"
+
+
+def _efficiency(study: PlanetaryStudy) -> str:
+    flow = study.flow
+    if flow is None or flow.efficiency is None:
+        return "-"
+    forth = f"{100 * flow.efficiency:.4g} %"
+    if flow.efficiency_back is None:
+        return forth
+    return forth + (", locks itself backwards" if flow.self_locking else f", {100 * flow.efficiency_back:.4g} % backwards")
+
+
+def _force_lines(study: PlanetaryStudy) -> Iterator[str]:
+    if study.forces is None:
+        return
+    for name, force in study.forces.meshes.items():
+        yield f"{f'force {name}':<22}{force.normal:.5g} N along the line of action, of each planet"
+    pin = study.forces.pin
+    away = pin.radial + (pin.centrifugal or 0.0)
+    yield f"{'force on a pin':<22}{pin.size:.5g} N: {away:.5g} outwards, {pin.tangential:.5g} along the rotation"
+
+
+def _stiffness_lines(study: PlanetaryStudy) -> Iterator[str]:
+    if study.stiffness is not None:
+        means = ", ".join(f"{name} {mesh.mean:.5g}" for name, mesh in study.stiffness.items())
+        method = next(iter(study.stiffness.values())).cycle.method
+        yield f"{'mesh stiffness':<22}{means} N/µm mean secant ({method})"
+    if study.sharing is not None:
+        shares = ", ".join(f"{share:.4f}" for share in study.sharing.greatest_shares)
+        published = ", ".join(f"{each.factor:g} {each.source}" for each in study.sharing.published)
+        yield f"{'load sharing':<22}K_gamma {study.sharing.mesh_load_factor:.4f}, greatest shares {shares} ({published})"
+    if (torsion := study.torsion) is not None:
+        parts = sorted(torsion.contributions, key=lambda each: -each.share)
+        shares = ", ".join(f"{100 * each.share:.3g} % {each.name}" for each in parts if each.share >= 0.01)
+        yield f"{'torsional stiffness':<22}{torsion.stiffness:.5g} N·m/rad at {study.train.output}: {shares}"
+
+
+def _frequency_lines(study: PlanetaryStudy) -> Iterator[str]:
+    if study.modes is None:
+        return
+    above = [family for family in study.modes.families if family.frequency > 0]
+    listed = ", ".join(
+        f"{family.frequency:.5g} {family.kind.value}{f' ({family.multiplicity})' if family.multiplicity > 1 else ''}"
+        for family in above[:_MOST_FREQUENCIES]
+    )
+    yield f"{'natural frequencies':<22}{listed} Hz"

@@ -1,0 +1,90 @@
+"""What planetary.json holds of a study."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from gearcad.dynamics.planetary.study import PlanetaryStudy
+from gearcad.planetary import PlanetaryTrain
+from gearcad.planetary.harmonics import train_harmonics
+from gearcad.planetary.poses import TrainPose
+
+__all__ = ["study_document"]
+
+
+def study_document(study: PlanetaryStudy) -> dict[str, Any]:
+    """Everything but what data.json has of pairs: rpm, N·m, N, µm, Hz; None for what could not be had, `why_not` says why."""
+    train, flow = study.train, study.flow
+    harmonics = train_harmonics(train, dict(study.phases))
+    return {
+        "set_type": train.set_type.value,
+        "ratio": train.ratio,
+        "basic_ratio": train.basic_ratio,
+        "efficiency": None if flow is None else flow.efficiency,
+        "efficiency_back": None if flow is None else flow.efficiency_back,
+        "members": _members(study),
+        "planet_speed": None if study.speeds is None else study.speeds.planet,
+        "planet_speed_relative": None if study.speeds is None else study.speeds.planet_relative,
+        "power": _document(flow),
+        "planet_angles": list(train.angles),
+        "pose": _pose(study.pose),
+        "phases": {name: phases.to_dict() for name, phases in study.phases.items()},
+        "harmonics": {name: [each._asdict() for each in sums] for name, sums in harmonics.items()},
+        "forces": _document(study.forces),
+        "loads": _documents(study.loads),
+        "mesh_stiffness": {
+            name: {"mean": mesh.mean, "tangent_mean": mesh.tangent_mean} for name, mesh in _items(study.stiffness)
+        },
+        "stage_stiffness": {name: cycle.mean for name, cycle in study.stage_cycles.items()},
+        "load_sharing": _document(study.sharing),
+        "torsional_stiffness": _document(study.torsion),
+        "running": _document(study.running),
+        "masses": study.masses.to_dict(),
+        "frequencies": None if study.modes is None else [family.to_dict() for family in study.modes.families],
+        "modes": _document(study.modes),
+        "rating": _document(study.rating),
+        "gears": {name: gear.to_dict() for name, gear in train.gears.items()},
+        "why_not": dict(study.why_not),
+        "warnings": list(study.warnings),
+        "notices": [notice.to_dict() for notice in study.notices],
+    }
+
+
+def _document(part: Any) -> dict[str, Any] | None:
+    """That of a part, if it is there."""
+    found: dict[str, Any] | None = None if part is None else part.to_dict()
+    return found
+
+
+def _documents(parts: Mapping[str, Any] | None) -> dict[str, Any] | None:
+    return None if parts is None else {name: part.to_dict() for name, part in parts.items()}
+
+
+def _items(parts: Mapping[str, Any] | None) -> Any:
+    return (parts or {}).items()
+
+
+def _members(study: PlanetaryStudy) -> dict[str, dict[str, Any]]:
+    """Speed (rpm) and torque from outside (N·m) of every member and shaft, and what it is to the train."""
+    speeds = {} if study.speeds is None else study.speeds.members
+    torques = {} if study.flow is None else study.flow.torques
+    names = dict.fromkeys((*study.train.members, *speeds, *torques))
+    return {name: {"speed": speeds.get(name), "torque": torques.get(name), "role": _role(study.train, name)} for name in names}
+
+
+def _role(train: PlanetaryTrain, name: str) -> str:
+    roles = {train.input: "input", train.output: "output", train.fixed: "fixed"}
+    return roles.get(name, "")
+
+
+def _pose(pose: TrainPose) -> dict[str, Any]:
+    return {
+        "carrier_angle": pose.carrier_angle,
+        "rotations": dict(pose.rotations),
+        "planets": [
+            {"angle": each.angle, "x": each.x, "y": each.y, "rotations": dict(each.rotations)} for each in pose.planets
+        ],
+        "heights": dict(pose.heights),
+        "stages": {stage.name: {role.value: place._asdict() for role, place in stage.gears.items()} for stage in pose.stages},
+    }

@@ -1,0 +1,298 @@
+"""PlanetaryStudy: all that is found out of a planetary train, and why a part is not; `study_planetary` asks for each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import TypeVar
+
+from gearcad.dynamics.options import AUTO, DynamicsOptions
+from gearcad.dynamics.planetary.masses import TrainMasses, train_masses
+from gearcad.dynamics.planetary.mesh_rating import TrainRating, rate_train
+from gearcad.dynamics.planetary.mesh_stiffness import QUICK, MeshStiffness, train_stiffness
+from gearcad.dynamics.planetary.modes import PlanetaryModes, planetary_modes
+from gearcad.dynamics.planetary.rolling import CycleCourse, StiffnessCourse
+from gearcad.dynamics.planetary.running import Running, run_train
+from gearcad.dynamics.planetary.sharing import LoadSharing, share_load
+from gearcad.dynamics.planetary.springs import train_springs
+from gearcad.dynamics.planetary.torsion import TorsionalStiffness, torsional_stiffness
+from gearcad.errors import InputError, ParameterError, SolverError
+from gearcad.load import Load
+from gearcad.material import Material
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.notice import Notice, texts
+from gearcad.planetary import PlanetaryTrain, TrainLoad
+from gearcad.planetary.forces import TrainForces, forces
+from gearcad.planetary.mesh_loads import MeshLoad, mesh_loads, stage_loads
+from gearcad.planetary.phases import Drive, MeshPhases, drive_of, mesh_phases
+from gearcad.planetary.poses import TrainPose
+from gearcad.planetary.power import PowerFlow, power_flow
+from gearcad.planetary.speeds import Speeds, speeds
+from gearcad.progress import Agenda, Progress
+from gearcad.rating.options import RatingOptions
+from gearcad.stiffness.methods import METHODS
+
+__all__ = ["PARTS", "PlanetaryStudy", "study_planetary"]
+
+PARTS = {
+    "speeds": "speeds",
+    "power": "torques and efficiency",
+    "forces": "forces",
+    "loads": "loads of the meshes",
+    "stiffness": "stiffness of the meshes",
+    "sharing": "load sharing",
+    "torsion": "torsional stiffness",
+    "running": "running",
+    "modes": "natural frequencies",
+    "rating": "rating",
+}
+"""The parts of a study that may be missing, and what they are called."""
+
+Part = TypeVar("Part")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PlanetaryStudy:
+    """A planetary train at its load: geometry in mesh, speeds, torques, forces, sharing, stiffness, natural modes, rating.
+
+    A part is None where something that it needs is not given or cannot be had; `why_not` {part: reason} says which.
+    `stiffness` is of both meshes by their names, `stage_cycles` the stiffness of the stages that carry something.
+    """
+
+    train: PlanetaryTrain
+    load: TrainLoad | None
+    given_speeds: Mapping[str, float]
+    pose: TrainPose
+    phases: Mapping[str, MeshPhases]
+    speeds: Speeds | None
+    flow: PowerFlow | None
+    forces: TrainForces | None
+    loads: Mapping[str, MeshLoad] | None
+    stage_loads: Mapping[str, Load]
+    stiffness: Mapping[str, MeshStiffness] | None
+    stage_cycles: Mapping[str, MeshCycle]
+    sharing: LoadSharing | None
+    torsion: TorsionalStiffness | None
+    running: Running | None
+    masses: TrainMasses
+    modes: PlanetaryModes | None
+    rating: TrainRating | None
+    why_not: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """That of the train."""
+        return self.train.name
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know before trusting it: of the meshes, of its parts, and what could not be had."""
+        found = [*self.train.notices]
+        for mesh in (self.stiffness or {}).values():
+            found += mesh.notices
+        for part in (self.sharing, self.torsion, self.running, self.modes):
+            found += part.notices if part is not None else ()
+        if self.flow is not None and self.flow.self_locking:
+            found.append(Notice("self-locking", f"{self.train.output} cannot drive {self.train.input}: the train locks itself"))
+        return tuple(dict.fromkeys((*found, *self._missing())))
+
+    def _missing(self) -> Iterator[Notice]:
+        """The parts that could not be had, together where the reason is the same."""
+        for why in dict.fromkeys(self.why_not.values()):
+            parts = [PARTS[part] for part, reason in self.why_not.items() if reason == why]
+            yield Notice("not-computed", why, where=f"no {', '.join(parts)}")
+
+
+class _Findings:
+    """Parts of a study as they are found, and why one is missing."""
+
+    def __init__(self) -> None:
+        self.why_not: dict[str, str] = {}
+
+    def part(self, name: str, needs: tuple[str, ...], make: Callable[[], Part]) -> Part | None:
+        """What `make` gives; None where what it needs is missing, or input or solvers do not let it be."""
+        for need in needs:
+            if need in self.why_not:
+                self.why_not[name] = self.why_not[need]
+                return None
+        try:
+            return make()
+        except (InputError, SolverError) as error:
+            self.why_not[name] = str(error)
+            return None
+
+
+def study_planetary(
+    train: PlanetaryTrain,
+    load: TrainLoad | None = None,
+    given_speeds: Mapping[str, float] | None = None,
+    *,
+    material: Material | None = None,
+    dynamics: DynamicsOptions | None = None,
+    rating: RatingOptions | None = None,
+    progress: Progress | None = None,
+) -> PlanetaryStudy:
+    """Find out all that can be found out of a train.
+
+    `given_speeds` (rpm) are of members, beside that of the input in `load`. The method of the mesh stiffness is that of
+    `dynamics`. Raises ParameterError for speeds that contradict each other and an unknown method; what else keeps a part from
+    being found is in `why_not`.
+    """
+    tell = Agenda(
+        progress, {"mesh stiffness": 3.0, "load sharing": 1.0, "running": 1.0, "masses": 2.0, "modes": 1.0, "rating": 1.0}
+    )
+    found, method = _Findings(), (dynamics or DynamicsOptions()).stiffness
+    method = QUICK if method == AUTO else method
+    turning, load, others = _speeds(train, load, given_speeds or {}, found)
+    flow = found.part("power", ("speeds",), lambda: power_flow(train, _loaded(train, load), others))
+    drive = drive_of(train, load) if flow is None else _drive(train, flow)
+    loads = found.part("loads", ("power",), lambda: mesh_loads(train, _there(flow)))
+    tell("mesh stiffness")
+    stiffness = found.part(
+        "stiffness", (), lambda: train_stiffness(train, loads if _carries(load) else None, method=method, material=material)
+    )
+    on_stages = stage_loads(train, flow) if flow is not None else {}
+    cycles = {} if flow is None else _stage_cycles(train, on_stages, method, material)
+    secant = {name: each.mean for name, each in (stiffness or {}).items()}
+    of_stages = {name: cycle.mean for name, cycle in cycles.items()}
+    tell("load sharing")
+    sharing = found.part("sharing", ("power", "stiffness"), lambda: share_load(train, _loaded(train, load), secant, others))
+    torsion = found.part(
+        "torsion", ("stiffness",), lambda: torsional_stiffness(train, _loaded(train, load), secant | of_stages, others)
+    )
+    tell("running")
+    running = found.part(
+        "running",
+        ("power", "stiffness"),
+        lambda: run_train(
+            train, _loaded(train, load), _courses(train, _there(stiffness), cycles, _there(flow)), given_speeds=others
+        ),
+    )
+    tell("masses")
+    masses = train_masses(train, material)
+    tell("modes")
+    modes = found.part("modes", ("stiffness",), lambda: _modes(train, _there(stiffness), masses, drive))
+    tell("rating")
+    shared = None if sharing is None else sharing.mesh_load_factor
+    loads = None if flow is None else found.part("loads", (), lambda: mesh_loads(train, _there(flow), shared))
+    return PlanetaryStudy(
+        train=train,
+        load=load,
+        given_speeds=others,
+        pose=train.pose(),
+        phases=mesh_phases(train, drive),
+        speeds=turning,
+        flow=flow,
+        forces=found.part("forces", ("power",), lambda: forces(_weighed(train, masses), _there(flow))),
+        loads=loads,
+        stage_loads=on_stages,
+        stiffness=stiffness,
+        stage_cycles=cycles,
+        sharing=sharing,
+        torsion=torsion,
+        running=running,
+        masses=masses,
+        modes=modes,
+        rating=found.part("rating", ("loads",), lambda: rate_train(train, _there(loads), on_stages, masses, material, rating)),
+        why_not=found.why_not,
+    )
+
+
+def _there(part: Part | None) -> Part:
+    """A part that is not missing, as `needs` has made sure."""
+    if part is None:
+        raise RuntimeError("a part that is needed is missing")
+    return part
+
+
+def _loaded(train: PlanetaryTrain, load: TrainLoad | None) -> TrainLoad:
+    if load is None:
+        raise ParameterError("load.torque", None, f"must be given, in N·m on {train.output}")
+    return load
+
+
+def _carries(load: TrainLoad | None) -> bool:
+    return load is not None and bool(load.torque)
+
+
+def _speeds(
+    train: PlanetaryTrain, load: TrainLoad | None, given: Mapping[str, float], found: _Findings
+) -> tuple[Speeds | None, TrainLoad | None, dict[str, float]]:
+    """All speeds, the load with that of the input, and what is given of others, one of a differential.
+
+    Raises ParameterError where more is given than is free.
+    """
+    needed, known = 1 if train.fixed else 2, dict(given)
+    if load is not None and load.speed and train.input in known:
+        permitted = f"must not be given too: load.speed is that of {train.input}"
+        raise ParameterError(f"speeds.{train.input}", known[train.input], permitted, "rpm")
+    if load is not None and train.input not in known and (load.speed or len(known) < needed):
+        known[train.input] = load.speed
+    if len(known) < needed:
+        found.why_not["speeds"] = _what_is_missing(train, known)
+        return None, load, known
+    turning = speeds(train, known)
+    if load is not None:
+        load = replace(load, speed=turning.members[train.input])
+    others = {name: speed for name, speed in known.items() if name != train.input}
+    return turning, load, dict(list(others.items())[: needed - 1])
+
+
+def _what_is_missing(train: PlanetaryTrain, known: Mapping[str, float]) -> str:
+    free = [name for name in train.members if name not in known]
+    if train.fixed:
+        return f"no speed is given: that of {train.input} stands in [load], others in [planetary.speeds]"
+    count = "a second speed is" if known else "two speeds are"
+    return f"{count} needed, as no member is fixed: of {', '.join(free)}, in [load] or [planetary.speeds]"
+
+
+def _drive(train: PlanetaryTrain, flow: PowerFlow) -> Drive:
+    """How the first central is pushed and turns against the carrier."""
+    first, carrier = train.centrals[0].name, train.carrier.name
+    relative = flow.speeds.members[first] - flow.speeds.members[carrier]
+    torque = flow.set_torques[first]
+    if not relative or not torque:
+        return drive_of(train, flow.load)
+    return Drive(1 if torque > 0 else -1, 1 if relative > 0 else -1)
+
+
+def _stage_cycles(
+    train: PlanetaryTrain, loads: Mapping[str, Load], method: str, material: Material | None
+) -> dict[str, MeshCycle]:
+    """Those of the stages under their loads."""
+    kind, made_of = METHODS[method], material or Material()
+    return {
+        stage.name: kind(pair=stage.pair, material=made_of)(loads[stage.name])
+        for stage in train.stages
+        if loads[stage.name].torque
+    }
+
+
+def _courses(
+    train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness], cycles: Mapping[str, MeshCycle], flow: PowerFlow
+) -> dict[str, StiffnessCourse]:
+    """Of meshes and stages over how far contact is past the pitch point."""
+    found: dict[str, StiffnessCourse] = {**stiffness}
+    for stage in train.stages:
+        if stage.name in cycles:
+            entering = flow.stage_torques[stage.name].pinion * flow.speeds.members[stage.pinion]
+            found[stage.name] = CycleCourse(cycle=cycles[stage.name], reverse=entering < 0)
+    return found
+
+
+def _modes(train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness], masses: TrainMasses, drive: Drive) -> PlanetaryModes:
+    """At the mean tangent stiffness of the meshes."""
+    first, second = (stiffness[mesh.name].tangent_mean for mesh in train.meshes)
+    return planetary_modes(train_springs(train, (first, second), sense=drive.sense), masses)
+
+
+def _weighed(train: PlanetaryTrain, masses: TrainMasses) -> PlanetaryTrain:
+    """With the mass of its planets, which press their pins outwards."""
+    if masses.planet.mass is None:
+        return train
+    return replace(train, carrier=replace(train.carrier, planet_mass=masses.planet.mass))

@@ -1,0 +1,121 @@
+"""Planetary: what comes of a planetary train at its load."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple, Unpack
+
+from gearcad.designs import Design, Inputs, PlanetaryDesign
+from gearcad.designs.mesh_pairs import MeshPairs
+from gearcad.dynamics.planetary.document import study_document
+from gearcad.dynamics.planetary.study import PlanetaryStudy, study_planetary
+from gearcad.jobs.job import Job, Writer
+from gearcad.jobs.subject import as_design
+from gearcad.notice import Notice
+from gearcad.output import json_text
+from gearcad.planetary import PlanetaryTrain, TrainLoad
+from gearcad.progress import Progress
+from gearcad.version import __version__
+
+__all__ = ["Planetary", "Studied", "planetary"]
+
+_FIGURES = "ratio efficiency efficiency_back planet_speed_relative".split()
+"""What a line of a table takes from the document as it is."""
+
+_MOST_FREQUENCIES = 3
+"""Natural frequencies above 0 that a line of a table has."""
+
+
+class Studied(NamedTuple):
+    """A design, and what was found out of its train."""
+
+    design: PlanetaryDesign
+    study: PlanetaryStudy
+
+
+@dataclass(frozen=True, kw_only=True)
+class Planetary(Job[PlanetaryDesign, Studied]):
+    """The study of a planetary train, with the specs of its meshes for all that takes pairs."""
+
+    verb = "planetary"
+    accepts = (PlanetaryDesign,)
+    why = "only planets go round"
+
+    def _run(self, design: PlanetaryDesign, progress: Progress | None) -> Studied:
+        study = study_planetary(
+            design.train,
+            design.load,
+            design.speeds,
+            material=design.material,
+            dynamics=design.dynamics,
+            rating=design.rating,
+            progress=progress,
+        )
+        return Studied(replace(design, load=study.load, speeds=study.given_speeds), study)
+
+    def document(self, result: Studied) -> dict[str, Any]:
+        """What planetary.json holds."""
+        return {"kind": self.verb, "name": result.design.name, "gearcad": __version__, **study_document(result.study)}
+
+    def notices(self, result: Studied) -> Sequence[Notice]:
+        return result.study.notices
+
+    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+        """What a line can hold: ratio, efficiencies, speeds and torques, K_gamma, torsional stiffness, first frequencies."""
+        found = {name: document[name] for name in _FIGURES}
+        for name, member in document["members"].items():
+            found |= {f"members.{name}.{key}": member[key] for key in ("speed", "torque")}
+        found |= {f"mesh_stiffness.{name}": mesh["mean"] for name, mesh in document["mesh_stiffness"].items()}
+        if (sharing := document["load_sharing"]) is not None:
+            found["mesh_load_factor"] = sharing["mesh_load_factor"]
+        if (torsion := document["torsional_stiffness"]) is not None:
+            found["torsional_stiffness"] = torsion["stiffness"]
+        above = [each["frequency"] for each in document["frequencies"] or () if each["frequency"] > 0]
+        found |= {f"frequency_{number}": each for number, each in enumerate(above[:_MOST_FREQUENCIES], 1)}
+        return found | {"warnings": document["warnings"]}
+
+    def files(self, result: Studied) -> dict[str, Writer]:
+        """Both documents, and the specs of the meshes."""
+        return {
+            "data.json": partial(_write_text, json_text(result.design.to_dict())),
+            "planetary.json": partial(self.write_document, result),
+            **dict(_specs(result)),
+        }
+
+
+def _specs(result: Studied) -> Iterator[tuple[str, Writer]]:
+    """Those of the meshes and stages under what they carry."""
+    sharing, flow = result.study.sharing, result.study.flow
+    design = result.design if flow is not None else replace(result.design, load=None)
+    pairs = MeshPairs(design=design, computed_factor=None if sharing is None else sharing.mesh_load_factor)
+    for name, text in pairs.texts.items():
+        yield name, partial(_write_text, text)
+
+
+def _write_text(text: str, path: Path) -> None:
+    path.write_text(text, encoding="utf-8")
+
+
+def planetary(
+    subject: Design | PlanetaryTrain,
+    load: TrainLoad | None = None,
+    *,
+    speeds: Mapping[str, float] | None = None,
+    progress: Progress | None = None,
+    **inputs: Unpack[Inputs],
+) -> PlanetaryStudy:
+    """Speeds, torques, efficiency, phases, forces, load sharing, stiffness and natural modes of a planetary train at its load.
+
+    `speeds` {member: rpm}: of a differential, the second speed beside that of the input in `load` (TrainLoad). `material`,
+    `dynamics` (DynamicsOptions: the method of the mesh stiffness) and `rating`, as load and speeds, stand in place of those of
+    a design. What cannot be had without a load, a speed or a mass is None, and `why_not` of the result says why.
+
+    Raises ParameterError for what is no planetary train, and for speeds that contradict each other.
+    """
+    design = as_design(subject, load, **inputs)
+    if speeds is not None and isinstance(design, PlanetaryDesign):
+        design = replace(design, speeds=dict(speeds))
+    return Planetary().run(design, progress).study

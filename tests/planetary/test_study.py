@@ -1,0 +1,203 @@
+"""The study of a planetary train: from a spec to its numbers, and what is said where one cannot be had."""
+
+import csv
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from support.batches import read_results
+from support.loaded_trains import simple_set
+
+import gearcad
+from gearcad.cli import main
+from gearcad.designs import PlanetaryDesign, read_spec
+from gearcad.dynamics.planetary.mesh_stiffness import QUICK
+from gearcad.dynamics.planetary.study import PARTS, PlanetaryStudy
+from gearcad.errors import ParameterError
+from gearcad.jobs.planetary import Planetary, Studied
+from gearcad.planetary import TrainLoad
+from gearcad.rating.options import RatingOptions
+from gearcad.stiffness.methods import METHODS
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+
+
+def run(*arguments: str, status: int = 0) -> Result:
+    result = CliRunner().invoke(main, list(arguments), prog_name="gearcad")
+    assert result.exit_code == status, result.stderr
+    return result
+
+
+def starter(name: str) -> PlanetaryDesign:
+    design = read_spec(TEMPLATES / f"planetary-{name}.toml")
+    assert isinstance(design, PlanetaryDesign)
+    return design
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Mean mesh stiffnesses in place of computed courses."""
+    monkeypatch.setitem(METHODS, QUICK, METHODS["iso6336"])
+
+
+@pytest.fixture(scope="module")
+def alm() -> Studied:
+    """The thesis's train, its two meshes 0.99 together as in the reference."""
+    design = starter("alm")
+    load = replace(design.load, mesh_efficiency=0.99**0.5)
+    return Planetary().run(replace(design, load=load))
+
+
+def test_the_train_of_the_alm_thesis(alm: Studied) -> None:
+    """Own reference: i = -124.2807, i_0 = 1.0775510, 0.886 of the set; the pre-stage loses as one mesh."""
+    study = alm.study
+    assert study.why_not == {}
+    assert study.train.ratio == pytest.approx(-124.2807, abs=5e-5)
+    flow, forces = study.flow, study.forces
+    assert flow is not None and flow.efficiency is not None and forces is not None
+    assert flow.efficiency == pytest.approx(0.886 * 0.99**0.5, abs=5e-4)
+    assert forces.meshes["ring_5-rim_3p"].normal == pytest.approx(6063.69, abs=5e-3)
+    assert study.phases["ring_5-rim_3p"].relative == pytest.approx((0, 0, 0), abs=1e-9)
+    assert sorted(study.phases["ring_4-rim_3"].relative) == pytest.approx((0, 1 / 3, 2 / 3), abs=1e-9)
+
+
+def test_the_document_has_what_the_design_promises(alm: Studied, tmp_path: Path) -> None:
+    job = Planetary()
+    files = job.write(alm, tmp_path)
+    names = ["data.json", "planetary.json", "ring_4-rim_3.toml", "ring_5-rim_3p.toml", "pre_stage.toml"]
+    assert [file.name for file in files] == names
+
+    def refuse(constant: str) -> None:
+        raise AssertionError(constant)
+
+    document = json.loads((tmp_path / "planetary.json").read_text(encoding="utf-8"), parse_constant=refuse)
+    wanted = "kind ratio efficiency members planet_angles phases forces torsional_stiffness load_sharing frequencies gears"
+    assert set(wanted.split()) <= set(document)
+    assert document["members"]["ring_5"] == {
+        "speed": pytest.approx(954.93 / -124.2807, rel=1e-6),
+        "torque": 1600.0,
+        "role": "output",
+    }
+    assert set(document["frequencies"][0]) == {"frequency", "kind", "multiplicity"}
+    data = json.loads((tmp_path / "data.json").read_text(encoding="utf-8"), parse_constant=refuse)
+    assert document["gears"] == {name: data[name] for name in alm.design.gears}
+    assert data["planetary"]["basic_ratio"] == pytest.approx(1.0775510, abs=5e-8)
+    assert list(data["planetary"]["meshes"]) == ["ring_4-rim_3", "ring_5-rim_3p"]
+
+
+def test_specs_of_the_meshes_are_those_of_the_train_at_its_load(alm: Studied, tmp_path: Path) -> None:
+    Planetary().write(alm, tmp_path)
+    pair = read_spec(tmp_path / "ring_5-rim_3p.toml")
+    loads, sharing = alm.study.loads, alm.study.sharing
+    assert loads is not None and sharing is not None
+    assert pair.pair == replace(alm.study.train.meshes[1].pair, name=pair.name)
+    assert pair.load == loads["ring_5-rim_3p"].load
+    assert pair.load.application_factor == pytest.approx(sharing.mesh_load_factor)
+
+
+@pytest.mark.usefixtures("quick")
+def test_what_is_not_given_is_named_and_the_rest_is_there() -> None:
+    study = gearcad.planetary(simple_set())
+    assert isinstance(study, PlanetaryStudy)
+    assert study.train.ratio == 3.75
+    speed = "no speed is given: that of sun stands in [load], others in [planetary.speeds]"
+    assert {part: why for part, why in study.why_not.items() if why == speed}.keys() == {
+        "speeds", "power", "loads", "sharing", "forces", "rating", "running"
+    }  # fmt: skip
+    assert "load.torque" in study.why_not["torsion"]
+    assert study.stiffness is not None and all(mesh.nominal for mesh in study.stiffness.values())
+    assert set(study.why_not) <= set(PARTS)
+    told = {notice.text: notice.where for notice in study.notices if notice.code == "not-computed"}
+    assert list(told) == list(dict.fromkeys(study.why_not.values()))
+    assert told[speed].startswith("no speeds, torques and efficiency, ")
+    weighed = gearcad.planetary(simple_set(rim_diameter=160.0), TrainLoad(torque=100, speed=1000))
+    assert weighed.why_not == {"modes": "carrier.inertia = None: must be given in kg·m²: without it there are no dynamics"}
+    assert weighed.sharing is not None
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_differential_needs_a_second_speed() -> None:
+    train, load = simple_set(30, 18, planets=4, fixed=None), TrainLoad(torque=300, speed=1500)
+    alone = gearcad.planetary(train, load)
+    assert alone.speeds is None and alone.flow is None
+    assert alone.why_not["speeds"] == (
+        "a second speed is needed, as no member is fixed: of ring, carrier, in [load] or [planetary.speeds]"
+    )
+    study = gearcad.planetary(train, load, speeds={"ring": -300})
+    assert study.speeds is not None
+    turning = study.speeds.members  # 96 n_c = 30 n_s + 66 n_r
+    assert 96 * turning["carrier"] == pytest.approx(30 * turning["sun"] + 66 * turning["ring"])
+    both = gearcad.planetary(train, TrainLoad(torque=300), speeds={"carrier": turning["carrier"], "ring": -300})
+    assert both.speeds is not None and both.speeds.members == pytest.approx(turning)
+    assert both.flow is not None and study.flow is not None
+    assert both.flow.torques == pytest.approx(study.flow.torques)
+    assert both.flow.torques["sun"] == pytest.approx(300 / (1 + 66 / 30))  # without losses
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"sun": 10.0}, "speeds.sun = 10 rpm: must not be given too: load.speed is that of sun"),
+        ({"carrier": 10.0}, "must not be given too"),
+        ({"moon": 10.0}, "moon"),
+    ],
+)
+def test_speeds_that_contradict_each_other_are_refused(given: dict[str, float], words: str) -> None:
+    with pytest.raises(ParameterError) as caught:
+        gearcad.planetary(simple_set(), TrainLoad(torque=100, speed=1000), speeds=given)
+    assert words in str(caught.value)
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_speed_of_any_member_will_do() -> None:
+    study = gearcad.planetary(simple_set(), TrainLoad(torque=100), speeds={"carrier": 400.0})
+    assert study.load is not None and study.load.speed == pytest.approx(1500.0)
+
+
+@pytest.mark.usefixtures("quick")
+def test_what_is_given_in_place_of_the_designs_own() -> None:
+    design = starter("24-21-66")
+    rated = gearcad.planetary(design, rating=RatingOptions(accuracy_grade=9)).rating
+    assert rated is not None and list(rated.meshes) == ["sun-planet", "ring-planet"]
+    with pytest.raises(ParameterError, match=r"^load = .*: must be a TrainLoad$"):
+        gearcad.planetary(design, gearcad.Load(torque=3))  # type: ignore[arg-type]
+    with pytest.raises(ParameterError, match="must be a planetary train: only planets go round"):
+        gearcad.planetary(read_spec(TEMPLATES / "volvo-13-44.toml"))
+
+
+def test_the_command_shows_the_figures_and_writes_the_files(tmp_path: Path) -> None:
+    spec = TEMPLATES / "planetary-24-21-66.toml"
+    result = run("planetary", str(spec), "-o", str(tmp_path), "--quiet")
+    lines = {line[:22].strip(): line[22:].split() for line in result.stdout.splitlines()}
+    assert lines["set"][:2] == ["type", "A,"] and lines["set"][-3:] == ["i", "=", "3.75"]
+    assert lines["sun"] == ["1500", "54.123", "input"]
+    assert lines["carrier"] == ["400", "-200", "output"]
+    assert lines["efficiency"][0] == "98.54"
+    assert (tmp_path / "sun-planet.toml").exists()
+    assert run("planetary", status=2).stderr.startswith("Error: spec = None: must be given")
+    assert json.loads(run("planetary", str(spec), "-o", str(tmp_path), "--json", "--quiet").stdout)["ratio"] == 3.75
+
+
+@pytest.mark.usefixtures("quick")
+def test_rows_of_a_table_have_the_figures(tmp_path: Path) -> None:
+    lines = (TEMPLATES / "planetary-sets.csv").read_text(encoding="utf-8").splitlines()
+    heading = next(number for number, line in enumerate(lines) if line.startswith("name,"))
+    table = tmp_path / "sets.csv"
+    table.write_text("\n".join([lines[heading], lines[heading + 1], lines[heading + 4]]), encoding="utf-8")
+    run("batch", str(table), "-o", str(tmp_path / "out"), "--do", "planetary", "-j", "1", "--quiet")
+    plain, stepped = read_results(tmp_path / "out")
+    assert float(plain["planetary.ratio"]) == 3.75
+    assert float(stepped["planetary.ratio"]) == pytest.approx(13.894737, abs=1e-6)
+    assert float(plain["planetary.members.carrier.torque"]) == -200.0
+    assert float(plain["planetary.meshes.sun-planet.transverse_contact_ratio"]) > 1.2
+    document = json.loads((tmp_path / "out" / plain["name"] / "planetary.json").read_text(encoding="utf-8"))
+    assert float(plain["planetary.torsional_stiffness"]) == document["torsional_stiffness"]["stiffness"]
+    with (tmp_path / "out" / "columns.csv").open(encoding="utf-8", newline="") as file:
+        told = {row["column"]: (row["symbol"], row["unit"], row["of"]) for row in csv.DictReader(file)}
+    assert told["planetary.members.carrier.torque"] == ("T", "N·m", "carrier")
+    assert told["load.torque"] == ("T", "N·m", "")
+    assert told["planetary.frequency_1"] == ("f_1", "Hz", "") if "planetary.frequency_1" in told else True
+    unknown = [name for name, (symbol, unit, _) in told.items() if name.startswith("planetary.") and not (symbol or unit)]
+    assert "planetary.ratio" not in unknown and "planetary.mesh_load_factor" not in unknown
