@@ -44,7 +44,7 @@ def most_planets(train: TrainData) -> int:
 
 def with_room(train: TrainData) -> list[int]:
     """The numbers of planets, from 1 on, whose teeth fit at equal angles and that have room."""
-    return [number for number in range(1, most_planets(train) + 1) if train.positions % number == 0]
+    return [number for number in range(1, most_planets(train) + 1) if train.adjusted or train.positions % number == 0]
 
 
 def check_neighbours(train: TrainData) -> None:

@@ -34,11 +34,17 @@ class SetTeeth(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """How planets stand: rotation (rad) of central a, of rim 2 of each planet, and how many pitches mesh a is off at each."""
+    """How planets stand: rotations (rad) of central a and of both rims of each planet; how many pitches mesh a is off there."""
 
     central_a: float
-    planets: tuple[float, ...]
+    rims_a: tuple[float, ...]
+    rims_b: tuple[float, ...]
     misfits: tuple[float, ...]
+
+    def adjusted(self, teeth: SetTeeth) -> Fit:
+        """The same with rim 2 of each planet turned against its rim 2' until it fits."""
+        turned = (rim + misfit * TURN / teeth.rim_a for rim, misfit in zip(self.rims_a, self.misfits, strict=True))
+        return self._replace(rims_a=tuple(turned), misfits=(0.0,) * len(self.misfits))
 
 
 def meshing_angle(teeth: int, towards: float, mate_teeth: int, mate_rotation: float, mate_towards: float) -> float:
@@ -58,16 +64,16 @@ def fit_planets(teeth: SetTeeth, angles: Sequence[float], *, central_b: float = 
     planet is turned on by the pitches of rim 2' that bring its rim 2 nearest to fitting; what is left is its misfit.
     """
     inside_a, inside_b = (math.pi * (central > 0) for central in (teeth.a, teeth.b))
-    rims = [meshing_angle(teeth.rim_b, psi + inside_b, teeth.b, central_b, psi) - clocking for psi in angles]
-    central_a = meshing_angle(teeth.a, angles[0], teeth.rim_a, rims[0], angles[0] + inside_a)
+    rims_b = [meshing_angle(teeth.rim_b, psi + inside_b, teeth.b, central_b, psi) for psi in angles]
+    central_a = meshing_angle(teeth.a, angles[0], teeth.rim_a, rims_b[0] - clocking, angles[0] + inside_a)
     own, pitches = teeth.rim_a // teeth.common, teeth.rim_b // teeth.common
-    planets, misfits = [], []
-    for psi, rim in zip(angles, rims, strict=True):
-        off = (teeth.a * (psi - central_a) + teeth.rim_a * (psi + inside_a - rim) - math.pi) / TURN
+    turned, misfits = [], []
+    for psi, rim in zip(angles, rims_b, strict=True):
+        off = (teeth.a * (psi - central_a) + teeth.rim_a * (psi + inside_a - rim + clocking) - math.pi) / TURN
         steps = round(off * pitches)  # a pitch of rim 2' moves rim 2 by own/pitches of its pitches
-        planets.append(rim + steps * pow(own, -1, pitches) % pitches * TURN / teeth.rim_b)
+        turned.append(rim + steps * pow(own, -1, pitches) % pitches * TURN / teeth.rim_b)
         misfits.append(off - steps / pitches)
-    return Fit(central_a, tuple(planets), tuple(misfits))
+    return Fit(central_a, tuple(rim - clocking for rim in turned), tuple(turned), tuple(misfits))
 
 
 def permitted_steps(positions: int, planets: int) -> tuple[int, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Literal
 
 from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.geometry import Gear, GearPair
@@ -33,14 +33,15 @@ class _Member:
 class Rim(_Member):
     """The teeth of one rim of every planet: `gear`, whose teeth begin `axial_position` (mm) above those of the first rim.
 
-    `clocking` (degrees) turns its tooth 0 against that of the first rim, counter-clockwise seen from +z, alike on all planets.
+    `clocking` (degrees) turns its tooth 0 against that of the first rim, counter-clockwise seen from +z, alike on all planets;
+    "adjusted" turns that of each planet by itself until it fits where the planet stands, however many there are.
     `tooth_errors` in µm, one a planet (none: 0): how far its driven flanks stand proud, along the line of action.
     Raises ParameterError, GeometryError.
     """
 
     name: str
     gear: Gear
-    clocking: Annotated[float, _ANGLE, Words("clocking against the first rim", "κ")] = 0.0
+    clocking: Annotated[float | Literal["adjusted"], _ANGLE, Words("clocking against the first rim", "κ")] = 0.0
     axial_position: Annotated[float, OFFSET, Words("axial position of its teeth")] = 0.0
     tooth_errors: Annotated[tuple[float, ...], DEVIATION, Words("errors of the planets' teeth")] = ()
 

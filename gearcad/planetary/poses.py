@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -71,8 +71,11 @@ def heights(train: TrainData) -> dict[str, float]:
 def assembled(train: TrainData) -> Fit:
     """How the planets stand at carrier angle 0, with tooth 0 of the second central on +x: rotations (rad) at each bottom."""
     first, second = train.meshes
-    clocking = math.radians(second.rim.clocking - first.rim.clocking)
-    fit = fit_planets(train.teeth, [math.radians(angle) for angle in train.angles], central_b=_lead(second), clocking=clocking)
+    angles = [math.radians(angle) for angle in train.angles]
+    clocking = 0.0 if train.adjusted else math.radians(float(second.rim.clocking) - float(first.rim.clocking))
+    fit = fit_planets(train.teeth, angles, central_b=_lead(second), clocking=clocking)
+    if train.adjusted:
+        fit = fit.adjusted(train.teeth)
     return fit._replace(central_a=fit.central_a - _lead(first))
 
 
@@ -98,25 +101,24 @@ def train_pose(train: TrainData, carrier_angle: float = 0.0, central_turn: float
     planet_turn = carrier_angle + second.central.gear.teeth / second.rim.gear.teeth * relative
     fit = assembled(train)
     rotations = {first.central.name: _degrees(fit.central_a), second.central.name: 0.0}
-    starts = [_degrees(rotation) for rotation in fit.planets]
-    planets = (
-        _planet(train, angle + carrier_angle, start - first.rim.clocking + planet_turn)
-        for angle, start in zip(train.angles, starts, strict=True)
-    )
     return TrainPose(
         carrier_angle=carrier_angle,
         rotations={name: rotations[name] + turned[name] for name in rotations},
-        planets=tuple(planets),
+        planets=tuple(_planets(train, fit, carrier_angle, planet_turn)),
         heights=heights(train),
         stages=_stages(train, {**turned, train.carrier.name: carrier_angle}),
     )
 
 
-def _planet(train: TrainData, angle: float, rotation: float) -> PlanetPose:
-    """A planet at an angle, whose body is turned by `rotation` (degrees): each rim by its clocking more."""
-    psi, distance = math.radians(angle), float(train.centre_distance)
-    turned = {rim.name: rotation + rim.clocking for rim in train.rims}
-    return PlanetPose(angle, distance * math.cos(psi), distance * math.sin(psi), turned)
+def _planets(train: TrainData, fit: Fit, carrier_angle: float, turn: float) -> Iterator[PlanetPose]:
+    """The planets, turned on from where they fit, by degrees."""
+    distance = float(train.centre_distance)
+    names = [mesh.rim.name for mesh in train.meshes]
+    for own, *rims in zip(train.angles, fit.rims_a, fit.rims_b, strict=True):
+        angle, whole = own + carrier_angle, rims[0] // math.tau * math.tau
+        psi, rotations = math.radians(angle), [math.degrees(rim - whole) + turn for rim in rims]
+        place = distance * math.cos(psi), distance * math.sin(psi)
+        yield PlanetPose(angle, *place, dict(zip(names, rotations, strict=True)))
 
 
 def _degrees(rotation: float) -> float:

@@ -16,13 +16,16 @@ from gearcad.planetary.mesh import SetMesh, SetType
 from gearcad.ranges import Range, Whole
 from gearcad.schema import Words
 
-__all__ = ["EQUAL", "PERMITTED", "TrainData"]
+__all__ = ["ADJUSTED", "EQUAL", "PERMITTED", "TrainData"]
 
 EQUAL: Literal["equal"] = "equal"
 """Planets at equal angles."""
 
 PERMITTED: Literal["permitted"] = "permitted"
 """Planets where the teeth let them stand, as near to equal angles as can be."""
+
+ADJUSTED: Literal["adjusted"] = "adjusted"
+"""A clocking of each planet by itself."""
 
 ANGLE_ROUNDING = 1e-3
 """Degrees between an angle as it is given and where the teeth fit that come from printed digits."""
@@ -76,6 +79,11 @@ class TrainData:
         return len(self.rims) == 2
 
     @property
+    def adjusted(self) -> bool:
+        """Whether the rims of each planet are turned against each other by themselves until they fit."""
+        return any(rim.clocking == ADJUSTED for rim in self.rims)
+
+    @property
     def set_type(self) -> SetType:
         """A to D, by the rings among the centrals, and by whether the planets are stepped."""
         rings = sum(central.gear.internal for central in self.centrals)
@@ -109,6 +117,8 @@ class TrainData:
         if self.planet_angles == PERMITTED:
             return tuple(steps * step for steps in permitted_steps(self.positions, self.planets))
         first, *_ = given = [float(angle) for angle in self.planet_angles]
+        if self.adjusted:
+            return tuple(given)
         exact = [first + round((angle - first) / step) * step for angle in given]
         return tuple(near if abs(near - angle) <= ANGLE_ROUNDING else angle for near, angle in zip(exact, given, strict=True))
 

@@ -34,6 +34,9 @@ def train_notices(train: TrainData) -> Iterator[Notice]:
             yield Notice("no-hunting-tooth", text, where=mesh.name)
     for stage in train.stages:
         yield from (notice.within(stage.name) for notice in stage.pair.notices)
+    if train.adjusted:
+        text = "the rims of each planet are clocked by themselves: the planets are not alike, and each fits in its own place"
+        yield Notice("adjusted-planets", text)
     if train.unbalance > _BALANCED:
         alone = "a planet alone has nothing that balances it" if train.planets == 1 else "the planets do not balance each other"
         yield Notice("unbalanced", f"{alone}: they pull outwards as {train.unbalance:.4g} of one (|sum exp(i psi)|)")

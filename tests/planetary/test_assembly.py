@@ -127,7 +127,7 @@ def test_two_suns_want_two_rims() -> None:
         )
 
 
-@pytest.mark.parametrize("changed", [{"axial_position": 1.0}, {"clocking": 1.0}])
+@pytest.mark.parametrize("changed", [{"axial_position": 1.0}, {"clocking": 1.0}, {"clocking": "adjusted"}])
 def test_the_first_rim_is_what_the_other_is_counted_from(changed: dict[str, float]) -> None:
     first, second = thesis_train().rims
     assert "must be 0" in refused(rims=(replace(first, **changed), second))

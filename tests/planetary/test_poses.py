@@ -105,3 +105,17 @@ def test_stages_stand_in_mesh_on_whatever_member_and_either_way_round() -> None:
         assert math.dist(inner.pinion[1:3], behind.wheel[1:3]) == pytest.approx(-ring.centre_distance)
         assert behind.wheel.height == pytest.approx(40 + (12 - 20) / 2 + 1.5)
     assert before.wheel.rotation == pytest.approx(pose.rotations["sun"] - train.pose().rotations["sun"], abs=1e-9)
+
+
+@pytest.mark.parametrize("angles", ["equal", (0.0, 85.0, 171.3, 260.0)])
+def test_planets_clocked_by_themselves_stand_in_mesh_anywhere(angles: object) -> None:
+    train = thesis_train()
+    adjusted = (train.rims[0], replace(train.rims[1], clocking="adjusted"))
+    train = replace(train, planets=4, planet_angles=angles, rims=adjusted, tip_distance=1.0)
+    pose = train.pose(3.3)
+    assert train_clearance(train, pose) > 0.01
+    clockings = [planet.rotations["rim_3p"] - planet.rotations["rim_3"] for planet in pose.planets]
+    assert clockings[0] == pytest.approx(0, abs=1e-9)
+    assert max(map(abs, clockings)) <= 360 / (2 * 21 * 22) + 1e-9  # a turn by pitches of either rim leaves no more
+    assert any(abs(each) > 0.01 for each in clockings)
+    assert "adjusted-planets" in {notice.code for notice in train.notices}

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from gearcad.geometry import GearPair, ToothProfile
 
-__all__ = ["Placed", "least_gap", "turn_to_touch"]
+__all__ = ["turn_to_touch"]
 
 Floats = NDArray[np.float64]
 
@@ -61,7 +61,7 @@ def _gaps(points: Floats, turns: Floats, x: float, mate: Placed, side: int) -> F
     return gaps
 
 
-def least_gap(gear: Placed, mate: Placed, side: int) -> float:
+def _least_gap(gear: Placed, mate: Placed, side: int) -> float:
     """Least of `_gaps` over the flanks on `side` of the teeth that face the mate."""
     middle = round(((0.0 if mate.x > gear.x else math.pi) - gear.turn) / gear.pitch)
     count = min(NEIGHBOURS, (gear.profile.teeth - 1) // 2)
@@ -99,11 +99,11 @@ def turn_to_touch(pair: GearPair, pinion_rotation: float, side: int) -> float:
     def wheel(turn: float) -> Placed:
         return Placed(pair.wheel.profile, math.radians(pose.rotation) + side * turn, pose.x)
 
-    most = turn = least_gap(pinion, wheel(0.0), side)
+    most = turn = _least_gap(pinion, wheel(0.0), side)
     if not math.isfinite(most):
         return most
     for _ in range(60):
-        left = least_gap(wheel(turn), pinion, side)  # what the pinion could still turn towards the wheel's points
+        left = _least_gap(wheel(turn), pinion, side)  # what the pinion could still turn towards the wheel's points
         if turn == most and left >= 0:
             break
         step = left / pair.gear_ratio

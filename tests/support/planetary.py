@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from gearcad import Gear, GearPair
+from gearcad.arrays import Floats
 from gearcad.geometry.helix import twist
 from gearcad.per_gear import PerGear
-from gearcad.planetary import Central, GearPlace, PairStage, PlanetaryTrain, Rim, TrainPose
-from support.clearance import Placed, least_gap
-from support.ring_mesh import RingMesh
+from gearcad.planetary import Central, GearPlace, PairStage, PlanetaryTrain, Rim, SetMesh, TrainPose
+from gearcad.planetary.train_data import TrainData
+from support.ring_mesh import CHORD_ERROR, HalfTooth, RingMesh
 
-__all__ = ["clearance", "gear", "simple_train", "stage_clearance", "thesis_train", "train_clearance"]
+__all__ = ["MeshWitness", "clearance", "gear", "simple_train", "stage_clearance", "thesis_train", "train_clearance"]
+
+NEIGHBOURS = 4
+"""Teeth on each side of the line of centres that are looked at."""
 
 
 def gear(teeth: int, module: float, shift: float = 0.0, **given: float) -> Gear:
@@ -45,38 +50,99 @@ def simple_train(
     )
 
 
+@dataclass(frozen=True)
+class OuterMesh:
+    """Two external gears at a distance of their axes (mm): the second one's axis on +x of the first one's.
+
+    Do they overlap where they stand? Judged as a `RingMesh` does, on polygons.
+    """
+
+    first: Gear
+    second: Gear
+    distance: float
+
+    @cached_property
+    def _halves(self) -> tuple[HalfTooth, HalfTooth]:
+        chord = CHORD_ERROR * self.first.transverse_module
+        return HalfTooth.of(self.first.profile, chord), HalfTooth.of(self.second.profile, chord)
+
+    def standing(self, first: Floats, second: Floats) -> Floats:
+        """Least distance (n,) in mm along circles of gears turned by angles (n,) in rad; negative where they overlap."""
+        one, two = self._halves
+        towards = self._clear(self.first, first, one, self.second, second - np.pi, two)
+        return np.minimum(towards, self._clear(self.second, second - np.pi, two, self.first, first, one))
+
+    def _clear(self, own: Gear, turned: Floats, half: HalfTooth, mate: Gear, mate_turned: Floats, other: HalfTooth) -> Floats:
+        """Of the corners of a gear's teeth near the line of centres, which lies at angle 0 for it, and for its mate too."""
+        pitch, mate_pitch = 2 * math.pi / own.teeth, 2 * math.pi / mate.teeth
+        teeth = (np.arange(-NEIGHBOURS, NEIGHBOURS + 1) - np.round(turned / pitch)[:, None]) * pitch + turned[:, None]
+        angle = teeth[..., None] + np.r_[half.angle, -half.angle]
+        radius = np.r_[half.radius, half.radius]
+        across, along = self.distance - radius * np.cos(angle), -radius * np.sin(angle)  # seen from the mate, turned by pi
+        at = np.hypot(across, along)
+        off = np.abs(
+            np.mod(np.arctan2(along, across) - mate_turned[:, None, None] + mate_pitch / 2, mate_pitch) - mate_pitch / 2
+        )
+        clear = np.where(at > other.radius[-1], math.inf, (off - other.at(at)) * at)
+        result: Floats = np.where(at < other.radius[0], at - other.radius[0], clear).min(axis=(1, 2))
+        return result
+
+
+@dataclass(frozen=True)
+class MeshWitness:
+    """A central and a planet's rim, and how far their exact outlines are apart."""
+
+    mesh: SetMesh
+
+    @cached_property
+    def _pair(self) -> RingMesh | OuterMesh:
+        central, rim, distance = self.mesh.central.gear, self.mesh.rim.gear, abs(self.mesh.pair.centre_distance)
+        return RingMesh(rim, central, distance) if central.internal else OuterMesh(central, rim, distance)
+
+    def clearance(self, central: Floats, rim: Floats, psi: Floats) -> Floats:
+        """Least distance (n,) in mm along circles; negative where they overlap.
+
+        Sections of the central turned by `central`, of planets at `psi` turned by `rim` (n,) in rad.
+        """
+        if isinstance(self._pair, RingMesh):
+            return self._pair.standing(rim - psi, central - psi, np.zeros(len(psi)))
+        return self._pair.standing(central - psi, rim - psi)
+
+    @property
+    def working_radius(self) -> float:
+        """Of the central (mm)."""
+        return abs(self.mesh.pair.working_pitch_diameters.pick(self.mesh.central_role)) / 2
+
+    def in_pose(self, pose: TrainPose, turned: float = 0.0) -> Floats:
+        """The clearances in a pose with the central `turned` on (rad), of all planets; helical teeth at three heights."""
+        central, rim = self.mesh.central, self.mesh.rim
+        bottom = pose.heights[central.name], pose.heights[rim.name]
+        low, high = max(bottom), min(bottom[0] + central.gear.face_width, bottom[1] + rim.gear.face_width)
+        heights = np.array([low, (low + high) / 2, high] if central.gear.helix_angle else [low])
+        psi = np.array([math.radians(planet.angle) for planet in pose.planets])
+        own = np.array([math.radians(planet.rotations[rim.name]) for planet in pose.planets])
+        rims = own + twist(rim.gear) * (heights - bottom[1])[:, None]
+        at = math.radians(pose.rotations[central.name]) + turned + twist(central.gear) * (heights - bottom[0])[:, None]
+        at, psi = np.broadcast_arrays(at, psi, rims)[:2]
+        return self.clearance(at.ravel(), rims.ravel(), psi.ravel())
+
+
+def train_clearance(train: TrainData, pose: TrainPose) -> float:
+    """Least clearance (mm) of all meshes with the planets."""
+    return min(float(MeshWitness(mesh).in_pose(pose).min()) for mesh in train.meshes)
+
+
 def clearance(first: Gear, second: Gear, places: tuple[GearPlace, GearPlace], height: float) -> float:
-    """Least angle (rad of the other gear, or mm along circles in a ring) between two gears in the plane at `height` (mm)."""
+    """Least distance (mm along circles) of two gears in the plane at `height` (mm)."""
     turns = [math.radians(p.rotation) + twist(g, height - p.height) for g, p in zip((first, second), places, strict=True)]
     one, two = places
-    towards = math.atan2(two.y - one.y, two.x - one.x)
-    distance = math.hypot(two.y - one.y, two.x - one.x)
+    towards, distance = math.atan2(two.y - one.y, two.x - one.x), math.hypot(two.y - one.y, two.x - one.x)
     if second.internal:
         first, second, towards, turns = second, first, towards + math.pi, turns[::-1]
+    a, b = (np.array([turn - towards]) for turn in turns)
     if first.internal:
-        own, ring = (np.array([turn - towards]) for turn in turns[::-1])
-        return float(RingMesh(second, first, distance).standing(own, ring, np.zeros(1))[0])
-    a, b = Placed(first.profile, turns[0] - towards, 0.0), Placed(second.profile, turns[1] - towards, distance)
-    return min(least_gap(*both, side) for both in ((a, b), (b, a)) for side in (1, -1))
-
-
-def train_clearance(train: PlanetaryTrain, pose: TrainPose, turned: dict[str, float] | None = None) -> float:
-    """Least clearance of all meshes with the planets at both ends and the middle of their common widths.
-
-    `turned` (degrees) turns members on.
-    """
-    least = math.inf
-    for mesh in train.meshes:
-        central, rim = mesh.central, mesh.rim
-        bottom = pose.heights[central.name], pose.heights[rim.name]
-        extra = (turned or {}).get(central.name, 0.0)
-        own = GearPlace(pose.rotations[central.name] + extra, 0.0, 0.0, bottom[0])
-        low, high = max(bottom), min(bottom[0] + central.gear.face_width, bottom[1] + rim.gear.face_width)
-        heights = (low, (low + high) / 2, high) if central.gear.helix_angle else (low,)
-        for planet in pose.planets:
-            place = GearPlace(planet.rotations[rim.name], planet.x, planet.y, bottom[1])
-            least = min(least, *(clearance(central.gear, rim.gear, (own, place), z) for z in heights))
-    return least
+        return float(RingMesh(second, first, distance).standing(b, a, np.zeros(1))[0])
+    return float(OuterMesh(first, second, distance).standing(a, b)[0])
 
 
 def stage_clearance(stage: PairStage, places: PerGear[GearPlace]) -> float:
