@@ -19,6 +19,9 @@ from gearcad.planetary.train_data import TrainData
 __all__ = ["FactorSource", "MeshLoad", "MeshLoadFactor", "mesh_load_factor", "mesh_loads", "stage_loads"]
 
 
+_ROUNDING = 1e-9
+"""By how much a K_gamma that is computed may be off."""
+
 _SLOWEST = 1e-6
 """Least speed of a load (rpm): what differences of speeds leave below it is rounding."""
 
@@ -50,8 +53,8 @@ def mesh_load_factor(train: TrainData, load: TrainLoad, computed: float | None =
         require_number("load.mesh_load_factor", given, at_least=1, at_most=train.planets)
         return MeshLoadFactor(given, FactorSource.GIVEN)
     if computed is not None:
-        # The shares have the mean 1: less is rounding.
-        return MeshLoadFactor(max(float(computed), 1.0), FactorSource.COMPUTED)
+        # The shares have the mean 1: what is nearer to it than solvers are, or below it, is rounding.
+        return MeshLoadFactor(float(computed) if computed > 1 + _ROUNDING else 1.0, FactorSource.COMPUTED)
     return MeshLoadFactor(1.0, FactorSource.EQUAL)
 
 

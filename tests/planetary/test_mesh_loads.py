@@ -77,6 +77,7 @@ def test_the_k_gamma_that_is_given_wins() -> None:
         (1.3, 1.1, (1.3, FactorSource.GIVEN)),
         (None, 1.1, (1.1, FactorSource.COMPUTED)),
         (None, 1 - 1e-15, (1.0, FactorSource.COMPUTED)),
+        (None, 1 + 2e-15, (1.0, FactorSource.COMPUTED)),
         (None, None, (1.0, FactorSource.EQUAL)),
     ):
         load = TrainLoad(torque=1600.0, mesh_load_factor=given)

@@ -25,11 +25,7 @@ __all__ = ["ALTERNATING", "MeshRating", "TrainRating", "rate_train"]
 ALTERNATING = 0.7
 """Y_M of teeth that bend both ways in every turn, over that of teeth that bend one way: idlers and planets (recalled)."""
 
-_RECALLED = {
-    "K_v": "the inertias in K_v",
-    "pinion.Y_M": "Y_M of the pinion, the planet",
-    "wheel.Y_M": "Y_M of the wheel, the planet",
-}
+_RECALLED = {"K_v": "the inertias that count in K_v", "Y_M": f"Y_M = {ALTERNATING:g} of planets that bend both ways"}
 """What each symbol stands for."""
 
 
@@ -80,13 +76,14 @@ class TrainRating:
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What the ratings warn of, what of planets is to be verified, and what is not known."""
-        rated = {name: each.rating for name, each in self.meshes.items()} | dict(self.stages)
-        found = [notice.within(name) for name, rating in rated.items() for notice in rating.notices]
+        """What of planets is to be verified, and what is not known; what each rating warns of stands with it."""
+        symbols = {symbol.rpartition(".")[2] for each in self.meshes.values() for symbol in each.planets_verify}
+        found = []
+        if symbols:
+            words = " and ".join(_RECALLED[symbol] for symbol in sorted(symbols))
+            text = f"{words}: as remembered of ISO 6336, whose text was not at hand: verify them before they decide"
+            found.append(Notice("planets-to-verify", text))
         for name, each in self.meshes.items():
-            if recalled := [_RECALLED[symbol] for symbol in each.planets_verify]:
-                text = f"{', '.join(recalled)} as remembered of ISO 6336, whose text was not at hand: verify before it decides"
-                found.append(Notice("planets-to-verify", text, where=name))
             if each.no_dynamic_factor:
                 found.append(Notice("no-dynamic-factor", f"K_v is not known: {each.no_dynamic_factor}", where=name))
         found += [Notice("unrated", f"no rating: {why}", where=name) for name, why in self.unrated.items()]
