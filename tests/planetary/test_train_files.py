@@ -1,0 +1,179 @@
+"""Files of whole trains: scenes that turn as the train does, meshes written once, sections in place, pictures, and a table."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import replace
+from pathlib import Path
+from zipfile import ZipFile
+
+import ezdxf
+import numpy as np
+import pytest
+import trimesh
+from matplotlib.path import Path as Outline
+from PIL import Image
+from support.gltf import Glb
+from support.train_solids import alm_train, simple_set, small_train
+
+from gearcad.planetary import PlanetaryTrain
+from gearcad.solids import FileOptions, Format
+from gearcad.solids.files.train_products import TrainProduct
+from gearcad.solids.train_layout import TrainLayout
+
+COARSE = FileOptions(chord_error=0.05)
+
+
+def _write(train: PlanetaryTrain, kind: Format, path: Path, **options: bool) -> Path:
+    write = kind.entry.write_train
+    assert write is not None
+    file = path / f"assembly.{kind.value}"
+    write(TrainProduct(train, replace(COARSE, **options)), file)
+    return file
+
+
+# ---------------------------------------------------------------------- GLB
+
+TURNING = {
+    "carrier held": replace(simple_set(24, 20, -64, 4, 15.0), fixed="carrier", output="b"),
+    "differential": replace(simple_set(24, 21, -66, 3), fixed=None, output="b"),
+    "stepped, with a stage": small_train(),
+    "the thesis's": alm_train(),
+}
+
+
+@pytest.mark.parametrize("name", TURNING)
+def test_a_scene_turns_as_the_train_does(name: str, tmp_path: Path) -> None:
+    """At times on keyframes and between them, every part is where the train's pose puts it."""
+    train = TURNING[name]
+    glb = Glb(_write(train, Format.GLB, tmp_path, turning=True, carrier=True))
+    members = [central.name for central in train.centrals]
+    for share in (0.0, 0.013, 0.1234, 0.5, 0.87, 1.0):
+        time = share * glb.duration
+        places = glb.places(time)
+        # The pose is told by the carrier and by the central that is held, else by the second one.
+        held = train.fixed if train.fixed in members else members[1]
+        layout = TrainLayout(train, train.pose(glb.turned(train.carrier.name, time), glb.turned(held, time)))
+        assert train.fixed is None or glb.turned(train.fixed, time) == 0
+        for standing in layout.standing:
+            seen = places[standing.name]
+            angle = math.radians(standing.rotation)
+            assert seen[:3, 3] == pytest.approx(standing.offset, abs=2e-4), standing.name
+            assert (seen[0, 0], seen[1, 0]) == pytest.approx((math.cos(angle), math.sin(angle)), abs=5e-6), standing.name
+    assert abs(glb.turned(train.input, glb.duration)) > 359
+
+
+@pytest.mark.parametrize("turns", [1.0, -8.9444, 60.0])
+def test_keyframes_are_so_dense_that_nothing_takes_the_short_way(turns: float) -> None:
+    """Interpolated on the sphere or along the chord, as some viewers do, a wheel is never 0.01 degrees off."""
+    from gearcad.solids.files.turning import Turning, _quaternions
+
+    shares = Turning(duration=10.0, turns={"wheel": turns}).keyframes()
+    keys = _quaternions(2 * math.pi * turns * shares)
+    for between in (0.2, 0.5, 0.8):
+        chord = (1 - between) * keys[:-1] + between * keys[1:]
+        seen = 2 * np.arctan2(chord[:, 2], chord[:, 3])
+        meant = 2 * math.pi * turns * ((1 - between) * shares[:-1] + between * shares[1:])
+        off = np.degrees(np.abs(np.angle(np.exp(1j * (seen - meant)))))
+        assert off.max() < 0.01
+
+
+def test_planets_are_carried_and_share_their_mesh(tmp_path: Path) -> None:
+    glb = Glb(_write(small_train(), Format.GLB, tmp_path))
+    nodes = {node["name"]: node for node in glb.tree["nodes"]}
+
+    def beneath(name: str) -> list[str]:
+        return [glb.tree["nodes"][child]["name"] for child in nodes[name].get("children", ())]
+
+    assert beneath("carrier") == ["planet_1", "planet_2", "planet_3", "pre-wheel"]
+    assert beneath("planet_2") == ["planet_2 rim_a", "planet_2 rim_b"]
+    assert len(glb.tree["meshes"]) == len(glb.tree["materials"]) == 6
+    assert len({nodes[f"planet_{n} rim_a"]["mesh"] for n in (1, 2, 3)}) == 1
+    assert "animations" not in glb.tree
+    scene = trimesh.load_scene(tmp_path / "assembly.glb")
+    assert len(scene.graph.nodes_geometry) == 10
+
+
+# ---------------------------------------------------------------------- 3MF, DXF, PNG
+
+
+def test_3mf_holds_each_mesh_once_and_every_part_by_name(tmp_path: Path) -> None:
+    train = small_train()
+    path = _write(train, Format.THREE_MF, tmp_path, carrier=True)
+    with ZipFile(path) as archive:
+        model = archive.read("3D/3dmodel.model").decode()
+    assert (model.count("<mesh>"), model.count("<component "), model.count("<item ")) == (7, 6, 11)
+    assert re.findall(r'name="(planet_\d rim_\w)"', model) == [f"planet_{n} rim_{r}" for n in (1, 2, 3) for r in "ab"]
+    numbers = re.findall(r'<object id="(\d+)"', model)
+    assert len(set(numbers)) == len(numbers) == 13
+    parts = trimesh.load_scene(path).dump()
+    solids = TrainProduct(train, replace(COARSE, carrier=True)).scene()
+    volumes = [part.facets.volume for part in solids]
+    assert sorted(part.volume for part in parts) == pytest.approx(sorted(volumes), rel=1e-5)
+    assert all(part.is_watertight for part in parts)
+
+
+def test_a_carriers_facets_are_its_solid() -> None:
+    train = simple_set(24, 21, -66, 3)
+    from gearcad.solids import train_assembly
+
+    exact = train_assembly(train, carrier=True).objects["carrier"].obj.Volume()
+    for chord_error in (0.02, 0.005):
+        part = TrainProduct(train, FileOptions(carrier=True, chord_error=chord_error)).scene()[-1]
+        assert part.name == "carrier"
+        assert part.facets.volume == pytest.approx(exact, rel=chord_error / 5)
+
+
+@pytest.mark.parametrize("train", [small_train(), simple_set(18, 15, -48, 3, 15.0)], ids=["spur", "helical"])
+def test_sections_in_the_dxf_are_closed_and_in_mesh(train: PlanetaryTrain, tmp_path: Path) -> None:
+    """Contours of rims keep out of those of suns, and inside those of rings, whose contours are openings."""
+    document = ezdxf.readfile(_write(train, Format.DXF, tmp_path))
+    assert not document.audit().errors
+    space, outlines = document.modelspace(), {}
+    for line in space.query("LWPOLYLINE"):
+        assert line.closed
+        points = np.array([(point.x, point.y) for point in ezdxf.path.make_path(line).flattening(0.002)])
+        outlines.setdefault(line.dxf.layer, []).append(points)
+    counts = {layer: len(each) for layer, each in outlines.items()}
+    assert counts == {rim.name: train.planets for rim in train.rims} | dict.fromkeys(counts.keys() - {"rim_a", "rim_b"}, 1)
+    for mesh in train.meshes:
+        (central,), rims = outlines[mesh.central.name], outlines[mesh.rim.name]
+        for rim in rims:
+            assert set(Outline(central).contains_points(rim)) == {mesh.central.gear.internal}
+            assert not Outline(rim).contains_points(central).any()
+    if train.stages:
+        (pinion,), (wheel,) = outlines["pre-pinion"], outlines["pre-wheel"]
+        assert not Outline(pinion).contains_points(wheel).any() and not Outline(wheel).contains_points(pinion).any()
+    rim = train.centrals[1].gear.body.rim_diameter
+    assert (document.header["$EXTMIN"][0], document.header["$EXTMAX"][1]) == pytest.approx((-rim / 2, rim / 2))
+
+
+def test_a_picture_shows_every_part_in_its_colour_from_three_sides_and_apart(tmp_path: Path, capfd: object) -> None:
+    train = small_train()
+    path = _write(train, Format.PNG, tmp_path, carrier=True)
+    pixels = np.array(Image.open(path).convert("RGB")).astype(int)
+    height, width, _ = pixels.shape
+    hue = np.round(_hues(pixels[height // 2 :, width // 2 :].reshape(-1, 3)), 2)
+    for part in TrainProduct(train, replace(COARSE, carrier=True)).scene():
+        if np.ptp(part.colour) > 0.05:  # grey has no hue
+            own = _hues(np.array([part.colour]) * 255)[0]
+            assert (np.abs(hue - own) < 0.02).sum() > 300, part.name
+    for view in (pixels[: height // 2, : width // 2], pixels[: height // 2, width // 2 :], pixels[height // 2 :, : width // 2]):
+        painted = (view < 250).any(axis=2)
+        assert 0.1 < painted.mean() < 0.9
+        assert painted.any(axis=0).sum() > 0.85 * width / 2 or painted.any(axis=1).sum() > 0.85 * height / 2
+    assert capfd.readouterr().err == ""  # type: ignore[attr-defined]
+
+
+def _hues(colours: np.ndarray) -> np.ndarray:
+    """0 ... 1, NaN for greys."""
+    red, green, blue = colours.T
+    spread = np.ptp(colours, axis=1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        hue = np.where(
+            colours.argmax(axis=1) == 0,
+            (green - blue) / spread,
+            np.where(colours.argmax(axis=1) == 1, 2 + (blue - red) / spread, 4 + (red - green) / spread),
+        )
+    return np.where(spread > 8, hue / 6 % 1, np.nan)
