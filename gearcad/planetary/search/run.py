@@ -23,6 +23,9 @@ MOST_TRIALS = 5
 WIDER = 4.0
 """By how much the tolerance is widened to say what is nearest, where nothing is found."""
 
+NEAR = 6
+"""Sets that are made then, to find one on either side."""
+
 WIDEST = 300.0
 """Percent of deviation up to which it is."""
 
@@ -66,7 +69,7 @@ def search(task: SearchTask, count: int = 20) -> SearchResult:
     wider = task.tolerance or 1.0
     while wider < WIDEST:
         wider *= WIDER
-        near = _search(replace(task, tolerance=min(wider, WIDEST)), count)
+        near = _search(replace(task, tolerance=min(wider, WIDEST)), NEAR)
         if near.found:
             reached = sorted({each.ratio for each in near.found}, key=lambda ratio: abs(ratio - task.ratio))
             below = [ratio for ratio in reached if ratio < task.ratio][:1]
