@@ -1,15 +1,16 @@
-"""A planetary train at its load: planetary."""
+"""A planetary train at its load, or sets for a ratio: planetary."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from gearcad.cli.group import debug_option
 from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
+from gearcad.cli.planetary_search import require_no_search, search_options, search_sets
 
 if TYPE_CHECKING:
     from gearcad.dynamics.planetary.study import PlanetaryStudy
@@ -20,13 +21,14 @@ __all__ = ["planetary"]
 _MOST_FREQUENCIES = 6
 
 
-@click.command(short_help="Speeds, torques, load sharing, stiffness and modes of SPEC's planetary train.")
+@click.command(short_help="Speeds, torques, sharing, stiffness, modes of SPEC's planetary train; sets for a --ratio.")
 @click.argument("spec", type=click.Path(path_type=Path), required=False)
 @output_option
 @json_option
 @quiet_option
+@search_options
 @debug_option
-def planetary(spec: Path | None, output: Path | None, as_json: bool, quiet: bool) -> None:
+def planetary(spec: Path | None, output: Path | None, as_json: bool, quiet: bool, force: bool, **wanted: Any) -> None:
     """What comes of the planetary train of SPEC under its [load]: speeds and torques of its members, with losses; forces on
     teeth and pins; phases of the meshes; how planets share the load with the errors that are given; torsional stiffness of
     the output; natural frequencies and modes.
@@ -34,12 +36,26 @@ def planetary(spec: Path | None, output: Path | None, as_json: bool, quiet: bool
     Writes planetary.json, data.json, and a spec for each mesh, such as sun-planet.toml, which every command of pairs takes:
     `gearcad check`, `gearcad stiffness` and the others. What cannot be had without a load, a speed, a stiffness or a mass is
     left out, with its reason.
+
+    Without SPEC, and with --ratio and --module, it searches instead: tooth numbers of sets with that ratio that can be
+    assembled and mesh, best first: by deviation of the ratio, diameter, planets out of phase, hunting teeth, efficiency.
+    -o FILE.csv writes them as a design table.
+
+    \b
+    gearcad planetary --ratio 5.2 --module 2 --planets 3:5
+    gearcad planetary --ratio -30 --module 2 --type C,D --teeth 17:60 -o sets.csv
     """
     from gearcad.errors import ParameterError
     from gearcad.jobs.planetary import Planetary
 
+    if wanted["ratio"] is not None:
+        if spec is not None:
+            raise ParameterError("ratio", wanted["ratio"], f"searches without a spec: leave out {spec}")
+        search_sets(wanted, output, force=force, as_json=as_json, quiet=quiet)
+        return
+    require_no_search(wanted, force=force)
     if spec is None:
-        raise ParameterError("spec", None, "must be given: a file that `gearcad new planetary` begins")
+        raise ParameterError("spec", None, "must be given, a file that `gearcad new planetary` begins; or --ratio, to search")
     perform(Planetary(), spec, output, _show, as_json=as_json, quiet=quiet)
 
 

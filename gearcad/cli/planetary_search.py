@@ -15,7 +15,7 @@ from gearcad.reprs import grouped
 if TYPE_CHECKING:
     from gearcad.planetary.search import Candidate, SearchResult, SearchTask
 
-__all__ = ["search_options", "search_sets"]
+__all__ = ["require_no_search", "search_options", "search_sets"]
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -44,6 +44,7 @@ _NAMES = {"in": "input", "out": "output", "type": "types"}
 
 _RANGES = ("planets", "teeth", "ring_teeth")
 
+_COUNT = 20
 _MOST_COUNT = 1000
 
 
@@ -55,7 +56,14 @@ def search_options(command: Command) -> Command:
     return force(command)
 
 
-def search_sets(given: Mapping[str, Any], output: Path | None, *, force: bool, as_json: bool) -> None:
+def require_no_search(given: Mapping[str, Any], *, force: bool) -> None:
+    """Raise ParameterError for an option of a search where no ratio is wanted."""
+    for name, value in {**given, "force": force or None}.items():
+        if value is not None:
+            raise ParameterError(name, value, "is of a search: needs --ratio")
+
+
+def search_sets(given: Mapping[str, Any], output: Path | None, *, force: bool, as_json: bool, quiet: bool) -> None:
     """Search for what options ask for; show it, or print its document, and write the design table if there is a place.
 
     Ends the command with status 1 where nothing is found.
@@ -64,7 +72,7 @@ def search_sets(given: Mapping[str, Any], output: Path | None, *, force: bool, a
     from gearcad.output import json_text
     from gearcad.planetary.search import search
 
-    task, count = _task(given), given.get("count") or 20
+    task, count = _task(given), _COUNT if given["count"] is None else given["count"]
     if not 1 <= count <= _MOST_COUNT:
         raise ParameterError("count", count, f"must be a whole number from 1 to {_MOST_COUNT}")
     if output is not None:
@@ -81,7 +89,8 @@ def search_sets(given: Mapping[str, Any], output: Path | None, *, force: bool, a
     if not result.found:
         click.echo(_nothing(result), err=True)
         click.get_current_context().exit(1)
-    click.echo("\n".join(_remarks(result, output)), err=True)
+    if not quiet:
+        click.echo("\n".join(_remarks(result, output)), err=True)
     if output is not None and not as_json:
         click.echo(output)
 

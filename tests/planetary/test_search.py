@@ -297,7 +297,8 @@ def test_nothing_found_says_what_is_nearest() -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"ratio": 0.0}, "ratio = 0: must not be 0"),
+        ({"ratio": 0.0}, "ratio = 0: must be at least 0.0001 in size"),
+        ({"ratio": math.nan}, "ratio = nan: must be a number"),
         ({"module": -1.0}, "module = -1 mm"),
         ({"planets": (5, 3)}, "planets = (5, 3): must have the least first"),
         ({"planets": (3, 25)}, "planets = 25: must be a whole number from 1 to 24"),

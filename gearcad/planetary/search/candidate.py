@@ -113,6 +113,7 @@ class Candidate:
             "diameter": self.diameter,
             "centre_distance": self.centre_distance,
             "profile_shifts": self.profile_shifts,
+            "tip_alterations": self.tip_alterations,
             "positions": self.positions,
             "phases": list(self.phases),
             "common": list(self.common),

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import asdict, dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,9 +22,6 @@ MOST_TRIALS = 5
 
 WIDER = 4.0
 """By how much the tolerance is widened to say what is nearest, where nothing is found."""
-
-NEAR = 6
-"""Sets that are made then, to find one on either side."""
 
 WIDEST = 300.0
 """Percent of deviation up to which it is."""
@@ -51,7 +48,7 @@ class SearchResult:
         """For JSON."""
         return {
             "kind": "planetary search",
-            "ratio": self.task.ratio,
+            "task": asdict(self.task) | {"types": [kind.value for kind in self.task.types]},
             "found": [candidate.to_dict() for candidate in self.found],
             "considered": self.considered,
             "removed": self.removed,
@@ -63,22 +60,29 @@ class SearchResult:
 
 def search(task: SearchTask, count: int = 20) -> SearchResult:
     """The best sets for a ratio: by its deviation, then diameter, planets out of phase, hunting teeth, efficiency."""
-    result = _search(task, count)
-    if result.found or result.left:
-        return result
-    wider = task.tolerance or 1.0
-    while wider < WIDEST:
-        wider *= WIDER
-        near = _search(replace(task, tolerance=min(wider, WIDEST)), NEAR)
-        if near.found:
-            reached = sorted({each.ratio for each in near.found}, key=lambda ratio: abs(ratio - task.ratio))
-            below = [ratio for ratio in reached if ratio < task.ratio][:1]
-            above = [ratio for ratio in reached if ratio > task.ratio][:1]
-            return replace(result, nearest=(*below, *above))
-    return result
+    met = _meeting(task)
+    found, unmade, left = _made(met.kept, count)
+    nearest = () if found or left else _nearest(task)
+    return SearchResult(
+        task=task,
+        found=tuple(found),
+        considered=met.considered,
+        removed=met.removed,
+        unmade=tuple(unmade),
+        left=left,
+        nearest=nearest,
+    )
 
 
-def _search(task: SearchTask, count: int) -> SearchResult:
+class _Meeting(NamedTuple):
+    """The sets of each type that meet all conditions, how many there were, and what took the others."""
+
+    kept: list[ManySets]
+    considered: int
+    removed: dict[str, int]
+
+
+def _meeting(task: SearchTask) -> _Meeting:
     considered, removed = 0, dict.fromkeys(("ratio", *CONDITIONS), 0)
     kept: list[ManySets] = []
     for kind in task.types:
@@ -90,21 +94,35 @@ def _search(task: SearchTask, count: int) -> SearchResult:
             removed[name] += int(np.count_nonzero(~mask))
             sets = sets.picked(mask)
         kept.append(sets)
+    return _Meeting(kept, considered, removed)
+
+
+def _made(kept: list[ManySets], count: int) -> tuple[list[Candidate], list[str], int]:
+    """The best that can be made, what those say that cannot, and how many are left."""
     found: list[Candidate] = []
     unmade: list[str] = []
-    tried = 0
     for candidate in _ranked(kept):
-        if len(found) == count or tried == MOST_TRIALS * count:
+        if len(found) == count or len(found) + len(unmade) == MOST_TRIALS * count:
             break
-        tried += 1
         try:
             candidate.train()
         except InputError as error:
             unmade.append(f"{candidate.name}: {error}")
             continue
         found.append(candidate)
-    left = sum(len(sets.planets) for sets in kept) - tried
-    return SearchResult(task=task, found=tuple(found), considered=considered, removed=removed, unmade=tuple(unmade), left=left)
+    return found, unmade, sum(len(sets.planets) for sets in kept) - len(found) - len(unmade)
+
+
+def _nearest(task: SearchTask) -> tuple[float, ...]:
+    """The nearest ratios below and above that sets reach; none where all are farther off than WIDEST."""
+    tolerance = task.tolerance or 1.0
+    while tolerance < WIDEST:
+        tolerance = min(tolerance * WIDER, WIDEST)
+        kept = _meeting(replace(task, tolerance=tolerance)).kept
+        sides = [[sets.picked(side * (sets.ratio - task.ratio) > 0) for sets in kept] for side in (-1, 1)]
+        if reached := [each.ratio for side in sides for each in _made(side, 1)[0]]:
+            return tuple(reached)
+    return ()
 
 
 def _near_ratio(task: SearchTask, kind: SetType) -> tuple[ManySets, int]:

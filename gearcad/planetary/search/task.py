@@ -24,7 +24,8 @@ MEMBERS = {
 }
 """Names of the members of each type: central a, central b, carrier."""
 
-_RATIO = Range("", 1e-4, 1e4, signed=True)
+_RATIO = Range("", -1e4, 1e4)
+_LEAST_RATIO = 1e-4
 _TOLERANCE = Range("%", 0.0, 1000.0)
 _TEETH = Whole(5, 500)
 _LENGTH = Range("mm", 0.0, None, ends="(]")
@@ -79,8 +80,8 @@ class SearchTask:
 
     def __post_init__(self) -> None:
         require_fields(self)
-        if not self.ratio:
-            raise ParameterError("ratio", self.ratio, "must not be 0")
+        if abs(self.ratio) < _LEAST_RATIO:
+            raise ParameterError("ratio", self.ratio, f"must be at least {_LEAST_RATIO:g} in size")
         if not self.types:
             raise ParameterError("types", self.types, "must have one of A, B, C, D")
         for name, kind in (("planets", Whole(1, 24)), ("teeth", _TEETH), ("ring_teeth", _TEETH)):
