@@ -36,7 +36,7 @@ def designs(table: Path) -> list[PlanetaryDesign]:
 def test_what_is_found_is_a_design_table(tmp_path: Path, kind: str, helix: int) -> None:
     ratio, more = KINDS[kind]
     path = tmp_path / "found.csv"
-    words = ("--ratio", ratio, "--module", 2, "--type", kind, "--helix-angle", helix, "--count", 3, *more)
+    words = ("--ratio", ratio, "--module", 2, "--type", kind, "--helix-angle", helix, "--count", 2, *more)
     shown = run(*words, "-o", path)
     assert shown.exit_code == 0, shown.stderr
     assert shown.stderr.endswith(f"Next: gearcad batch {path}\n")
@@ -59,7 +59,7 @@ def test_what_is_found_is_a_design_table(tmp_path: Path, kind: str, helix: int) 
 
 def test_several_types_share_a_table(tmp_path: Path) -> None:
     path = tmp_path / "found.csv"
-    assert run("--ratio", 5, "--module", 1.5, "--type", "A,b,C,D", "--count", 12, "-o", path).exit_code == 0
+    assert run("--ratio", 5, "--module", 1.5, "--type", "A,b,C,D", "--count", 5, "-o", path).exit_code == 0
     assert {design.train.set_type.value for design in designs(path)} == {"B", "C", "D"}  # of A, larger ones follow
     rows = [line for line in csv.reader(path.open(encoding="utf-8")) if not line[0].startswith("#")]
     assert rows[0][0] == "name"

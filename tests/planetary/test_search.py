@@ -182,7 +182,7 @@ def efficiency_of(task: SearchTask, kind: SetType, teeth: SetTeeth) -> float:
 TASKS = {
     "A": SearchTask(ratio=4.1, module=2.0, teeth=(15, 20), ring_teeth=(40, 70), tolerance=3.0, planets=(2, 7)),
     "A helical": SearchTask(ratio=5.0, module=1.5, teeth=(18, 30), ring_teeth=(60, 98), tolerance=3.9, helix_angle=18.0),
-    "A, diameter": SearchTask(ratio=3.7, module=0.5, teeth=(17, 22), ring_teeth=(40, 70), tolerance=4.0, diameter=33.0),
+    "A, diameter": SearchTask(ratio=3.7, module=0.5, teeth=(17, 22), ring_teeth=(40, 66), tolerance=3.0, diameter=33.0),
     "B": SearchTask(ratio=6.4, module=2.0, module_2=1.75, teeth=(17, 25), ring_teeth=(55, 70), tolerance=8.0, types=(B,)),
     "C": SearchTask(ratio=-19.0, module=2.0, teeth=(17, 28), tolerance=8.0, types=(C,)),
     "C, modules far apart": SearchTask(ratio=3.0, module=3.0, module_2=2.25, teeth=(17, 30), tolerance=3.0, types=(C,)),

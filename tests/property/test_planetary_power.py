@@ -140,8 +140,8 @@ def judge(train: TrainData, bodies: Bodies, load: TrainLoad) -> bool:
 
 
 def test_torques_and_speeds_of_random_sets_are_those_of_bodies_in_balance() -> None:
-    agreed, locked = compare(seed=17, count=300)
-    assert agreed == 300
+    agreed, locked = compare(seed=17, count=200)
+    assert agreed == 200
     assert locked > 0
 
 
