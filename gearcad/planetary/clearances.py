@@ -10,10 +10,9 @@ from typing import NamedTuple
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.planetary.members import Central, Rim
-from gearcad.planetary.mesh import SetMesh
 from gearcad.planetary.train_data import EQUAL, TrainData
 
-__all__ = ["check_heights", "check_neighbours", "least_gap", "most_planets", "with_room"]
+__all__ = ["Span", "check_heights", "check_neighbours", "least_gap", "most_planets", "teeth_spans", "with_room"]
 
 _APART = 1e-9
 """Overlap of face widths (mm) that is rounding."""
@@ -76,13 +75,14 @@ def _wanted(train: TrainData, rim: Rim) -> float:
 # ---------------------------------------------------------------------- heights
 
 
-class _Span(NamedTuple):
-    """Heights (mm) over which the teeth of a part stand."""
+class Span(NamedTuple):
+    """From `low` to `high` (mm)."""
 
     low: float
     high: float
 
-    def meets(self, other: _Span) -> bool:
+    def meets(self, other: Span) -> bool:
+        """Whether more than rounding is in both."""
         return min(self.high, other.high) - max(self.low, other.low) > _APART
 
 
@@ -102,12 +102,18 @@ def check_heights(train: TrainData) -> None:
     raise GeometryError(f"{train.rims[1].name}.axial_position", train.rims[1].axial_position, permitted, "mm")
 
 
+def teeth_spans(train: TrainData) -> dict[str, Span]:
+    """Heights over which the teeth of rims and centrals stand, by names."""
+    spans = {rim.name: Span(rim.axial_position, rim.axial_position + rim.gear.face_width) for rim in train.rims}
+    for mesh in train.meshes:
+        low = mesh.rim.axial_position + (mesh.rim.gear.face_width - mesh.central.gear.face_width) / 2
+        spans[mesh.central.name] = Span(low, low + mesh.central.gear.face_width)
+    return spans
+
+
 def _fouled(train: TrainData) -> Iterator[str]:
     """What stands in the way of what, in words."""
-    spans = {rim.name: _Span(rim.axial_position, rim.axial_position + rim.gear.face_width) for rim in train.rims}
-    for mesh in train.meshes:
-        low = _middle(mesh) - mesh.central.gear.face_width / 2
-        spans[mesh.central.name] = _Span(low, low + mesh.central.gear.face_width)
+    spans = teeth_spans(train)
     for one, other in pairwise(train.rims):
         if spans[one.name].meets(spans[other.name]):
             yield f"the rims of a planet, {one.name} and {other.name}, stand at the same height"
@@ -119,10 +125,6 @@ def _fouled(train: TrainData) -> Iterator[str]:
             if rim.name != central.meshes and spans[rim.name].meets(spans[central.name]):
                 if (depth := _reach(train, central, rim)) >= 0:
                     yield f"{rim.name} stands at the height of {central.name} and reaches {at_most(depth)} mm into it"
-
-
-def _middle(mesh: SetMesh) -> float:
-    return mesh.rim.axial_position + mesh.rim.gear.face_width / 2
 
 
 def _centrals_overlap(a: Central, b: Central) -> bool:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["train_document"]
 
-_GIVEN = ("planets", "input", "output", "fixed", "tip_distance", "basic_ratio", "positions")
+_GIVEN = ("planets", "input", "output", "fixed", "tip_distance", "basic_ratio", "positions", "unbalance")
 
 
 def train_document(train: TrainData) -> dict[str, Any]:

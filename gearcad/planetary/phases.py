@@ -131,11 +131,22 @@ def _ahead(mesh: SetMesh, planet: PlanetPose, *, side: int, turning: int) -> flo
     theta +- psi_w is where the flank of tooth 0 on its left (1) or right `side` cuts the working circle.
     """
     rim = mesh.rim.gear
-    middle = twist(rim, rim.half_width / 2)
+    middle = twist(rim, _middle_of_hand(mesh))
     half = math.radians(rim.base_half_angle) - involute(mesh.pair.working_transverse_pressure_angle)
     flank = math.radians(planet.rotations[mesh.rim.name]) + middle + side * half
     towards = math.radians(planet.angle) + math.pi * mesh.external
     return turning * rim.teeth * (flank - towards) / (2 * math.pi)
+
+
+def _middle_of_hand(mesh: SetMesh) -> float:
+    """Height (mm) above the bottom of the rim's teeth of the middle of the common width, of double helical teeth of the lower
+    half's.
+    """
+    middle = mesh.rim.gear.face_width / 2
+    if not mesh.pair.double_helical:
+        return middle
+    gap = max(gear.double_helix.gap_width or 0.0 for gear in mesh.pair.gears)
+    return middle - gap / 2 - mesh.pair.common_width.width / 4
 
 
 def _fraction(pitches: float) -> float:

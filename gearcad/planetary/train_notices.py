@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from gearcad.notice import Notice
 from gearcad.planetary.mesh import SetMesh
+from gearcad.planetary.stage_room import stage_notices
 from gearcad.planetary.train_data import TrainData
 
 __all__ = ["train_notices"]
@@ -21,7 +22,7 @@ _BALANCED = 1e-9
 
 
 def train_notices(train: TrainData) -> Iterator[Notice]:
-    """Those of the pairs, backlash, teeth that meet again too often, planets that do not balance each other."""
+    """Those of the pairs, backlash, teeth that meet too often, stages in the way, planets that do not balance each other."""
     for mesh in train.meshes:
         yield from _named(mesh)
         module, backlash = mesh.pair.pinion.normal_module, mesh.pair.circumferential_backlash
@@ -34,6 +35,7 @@ def train_notices(train: TrainData) -> Iterator[Notice]:
             yield Notice("no-hunting-tooth", text, where=mesh.name)
     for stage in train.stages:
         yield from (notice.within(stage.name) for notice in stage.pair.notices)
+    yield from stage_notices(train)
     if train.adjusted:
         text = "the rims of each planet are clocked by themselves: the planets are not alike, and each fits in its own place"
         yield Notice("adjusted-planets", text)

@@ -206,3 +206,17 @@ def test_the_basic_ratio_of_one_is_refused() -> None:
     rims = train.rims[0], replace(train.rims[1], gear=train.rims[0].gear)
     with pytest.raises(GeometryError, match="ratio than 1"):
         replace(train, centrals=(train.centrals[0], ring), rims=rims)
+
+
+def test_stages_that_stand_in_the_way_are_told() -> None:
+    def told(position: float) -> list[str]:
+        train = thesis_train()
+        stage = replace(train.stages[0], axial_position=position)
+        return [notice.text for notice in replace(train, stages=(stage,)).notices if notice.code == "stage-in-the-way"]
+
+    assert told(60.0) == told(50.0) == told(-20.0) == []
+    assert [text.partition(":")[0] for text in told(49.0)] == [
+        "its pinion stands at the height of ring_5",
+        "its wheel stands at the height of rim_3p, ring_5",
+    ]
+    assert "rim_3, ring_4" in told(-19.0)[1]

@@ -6,11 +6,13 @@ import math
 from dataclasses import replace
 
 import pytest
-from support.planetary import gear, simple_train, stage_clearance, thesis_train, train_clearance
+from support.planetary import clearance, gear, simple_train, stage_clearance, thesis_train, train_clearance
 from support.ring_mesh import CHORD_ERROR
 
-from gearcad import GearPair
-from gearcad.planetary import PairStage, PlanetaryTrain
+from gearcad import Gear, GearPair
+from gearcad.geometry import DoubleHelix
+from gearcad.geometry.halves import halves
+from gearcad.planetary import Central, GearPlace, PairStage, PlanetaryTrain, Rim
 
 POLYGONS = 8 * CHORD_ERROR
 """What chords of a ring's polygons may seem to overlap (mm, module 2), where there is no backlash."""
@@ -119,3 +121,35 @@ def test_planets_clocked_by_themselves_stand_in_mesh_anywhere(angles: object) ->
     assert max(map(abs, clockings)) <= 360 / (2 * 21 * 22) + 1e-9  # a turn by pitches of either rim leaves no more
     assert any(abs(each) > 0.01 for each in clockings)
     assert "adjusted-planets" in {notice.code for notice in train.notices}
+
+
+def test_double_helical_teeth_mesh_in_both_halves() -> None:
+    """The halves of each gear, each with its own hand, in the place that it has in the pose."""
+
+    def double(teeth: int, shift: float, helix: float, width: float, gap: float) -> Gear:
+        halved = DoubleHelix(gap_width=gap, offset=math.copysign(0.2, helix))
+        return gear(teeth, 2.0, shift, helix_angle=helix, face_width=width, tooth_thinning=0.03, double_helix=halved)
+
+    suns = double(30, 0.2, 25.0, 44.0, 4.0), double(31, 0.0, -25.0, 38.0, 5.0)
+    planets = double(24, 0.1, -25.0, 40.0, 6.0), double(23, 0.3, 25.0, 42.0, 4.0)
+    train = PlanetaryTrain(
+        planets=3,
+        centrals=tuple(Central(name=name, gear=sun, meshes=f"rim_{name}") for name, sun in zip("ab", suns, strict=True)),
+        rims=(Rim(name="rim_a", gear=planets[0]), Rim(name="rim_b", gear=planets[1], clocking=3.0, axial_position=60.0)),
+        input="a",
+        output="carrier",
+        fixed="b",
+    )
+    pose = train.pose(8.0)
+    for mesh in train.meshes:
+        central, rim = mesh.central, mesh.rim
+        for half in (0, 1):
+            lower, upper = halves(central.gear)[half], halves(rim.gear)[half]
+            placed = pose.planets[1]
+            places = (
+                GearPlace(pose.rotations[central.name] + lower.rotation, 0.0, 0.0, pose.heights[central.name] + lower.z),
+                GearPlace(placed.rotations[rim.name] + upper.rotation, placed.x, placed.y, pose.heights[rim.name] + upper.z),
+            )
+            bottom = max(place.height for place in places)
+            for height in (bottom, bottom + 10.0):
+                assert clearance(lower.gear, upper.gear, places, height) > 1e-4
