@@ -33,9 +33,9 @@ def planetary(spec: Path | None, output: Path | None, as_json: bool, quiet: bool
     teeth and pins; phases of the meshes; how planets share the load with the errors that are given; torsional stiffness of
     the output; natural frequencies and modes.
 
-    Writes planetary.json, data.json, and a spec for each mesh, such as sun-planet.toml, which every command of pairs takes:
-    `gearcad check`, `gearcad stiffness` and the others. What cannot be had without a load, a speed, a stiffness or a mass is
-    left out, with its reason.
+    Writes planetary.html with the scheme and pictures of all, planetary.json, data.json, and a spec for each mesh, such as
+    sun-planet.toml, which every command of pairs takes: `gearcad check`, `gearcad stiffness` and the others. What cannot be
+    had without a load, a speed, a stiffness or a mass is left out, with its reason.
 
     Without SPEC, and with --ratio and --module, it searches instead: tooth numbers of sets with that ratio that can be
     assembled and mesh, best first: by deviation of the ratio, diameter, planets out of phase, hunting teeth, efficiency.

@@ -78,12 +78,19 @@ class Planetary(Job[PlanetaryDesign, Studied]):
         return found | {"warnings": document["warnings"]}
 
     def files(self, result: Studied) -> dict[str, Writer]:
-        """Both documents, and the specs of the meshes."""
+        """The report, both documents, and the specs of the meshes."""
         return {
+            "planetary.html": partial(_write_report, result),
             "data.json": partial(_write_text, json_text(result.design.to_dict())),
             "planetary.json": partial(self.write_document, result),
             **dict(_specs(result)),
         }
+
+
+def _write_report(result: Studied, path: Path) -> None:
+    from gearcad.report import write_planetary_report
+
+    write_planetary_report(result.study, result.design.name, path)
 
 
 def _specs(result: Studied) -> Iterator[tuple[str, Writer]]:

@@ -66,7 +66,8 @@ def test_the_train_of_the_alm_thesis(alm: Studied) -> None:
 def test_the_document_has_what_the_design_promises(alm: Studied, tmp_path: Path) -> None:
     job = Planetary()
     files = job.write(alm, tmp_path)
-    names = ["data.json", "planetary.json", "ring_4-rim_3.toml", "ring_5-rim_3p.toml", "pre_stage.toml"]
+    specs = ["ring_4-rim_3.toml", "ring_5-rim_3p.toml", "pre_stage.toml"]
+    names = ["planetary.html", "data.json", "planetary.json", *specs]
     assert [file.name for file in files] == names
 
     def refuse(constant: str) -> None:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["front_inches", "plot_front"]
 
-_ONE = (5.2, 5.4)
+_ONE = (FIGURE_INCHES[0], 5.0)
 """Inches of a picture of a set whose planets have one rim."""
 
 _CHORD = 1 / 2500

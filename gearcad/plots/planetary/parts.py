@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from gearcad.geometry import Gear
+from gearcad.per_gear import Role
 from gearcad.planetary import PairStage, PlanetaryTrain, Rim
 from gearcad.plots.paper import DARK, SERIES
 
-__all__ = ["PLANETS", "colour_of", "placed_stages", "rim_words", "role_of", "signed"]
+__all__ = ["PLANETS", "colour_of", "placed_stages", "rim_words", "role_of", "signed", "stage_gear"]
 
 PLANETS = SERIES[3]
 """Colour of the planets."""
@@ -32,6 +33,12 @@ def rim_words(train: PlanetaryTrain, rim: Rim) -> str:
 def signed(gear: Gear) -> str:
     """Its number of teeth as formulas have it, with a minus for a ring."""
     return f"z = {gear.teeth}".replace("-", "−")
+
+
+def stage_gear(stage: PairStage, role: Role) -> str:
+    """Name of a gear of a stage, or what it is of the stage where both gears are called alike."""
+    names = stage.pair.gears.map(lambda gear: gear.name)
+    return names.pick(role) if names.pinion != names.wheel else f"{stage.name}, {role.value}"
 
 
 def placed_stages(train: PlanetaryTrain) -> list[tuple[PairStage, str, str]]:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from gearcad.per_gear import Role
 from gearcad.planetary import PlanetaryTrain
 from gearcad.plots.labels import plain
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, new_figure
 from gearcad.plots.planetary.callouts import LINE, lines_of, spread
-from gearcad.plots.planetary.parts import colour_of, placed_stages, rim_words, role_of, signed
+from gearcad.plots.planetary.parts import colour_of, rim_words, role_of, signed, stage_gear
 from gearcad.plots.planetary.skeleton import Callout, Ground, Plan, Weight, plan_of
 
 if TYPE_CHECKING:
@@ -97,11 +98,11 @@ def _words(train: PlanetaryTrain, part: str) -> list[str]:
     floating = [each.name for each in train.centrals if each.support_stiffness == 0]
     floating += [train.carrier.name] * (train.carrier.support_stiffness == 0)
     role = ", ".join(each for each in (role, "floating" if part in floating else "") if each)
-    for stage, inner, outer in placed_stages(train):
-        for shaft in (inner, outer):
+    for stage in train.stages:
+        for gear_role, shaft in ((Role.PINION, stage.pinion), (Role.WHEEL, stage.wheel)):
             if shaft == part:
-                gear = stage.pair.pinion if stage.pinion == shaft else stage.pair.wheel
-                texts.append(f"{stage.name}: {signed(gear)}")
+                name, teeth = stage_gear(stage, gear_role), signed(stage.pair.gears.pick(gear_role))
+                texts.append(teeth if name == part else f"{name}: {teeth}")
     return lines_of(*texts, *([role] if role else []))
 
 
