@@ -168,6 +168,7 @@ def test_given_angles_are_where_teeth_fit_or_refused() -> None:
     assert train.angles == pytest.approx((0, 28 * step, 57 * step, 86 * step), abs=1e-12)
     rounded = replace(train, planet_angles=tuple(round(angle + 7.0, 3) for angle in train.angles))
     assert rounded.angles == pytest.approx([angle + 7.0 for angle in train.angles], abs=1e-9)
+    assert "planet 2 at 120.002 deg" in refused(planet_angles=(0.0, 120.002, 240.0))
     message = refused(planets=4, planet_angles=(0.0, 90.0, 180.0, 270.0))
     assert "planet 2 at 90 deg" in message and message.endswith("all multiples of 360/114 deg do")
 

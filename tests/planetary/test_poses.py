@@ -6,10 +6,11 @@ import math
 from dataclasses import replace
 
 import pytest
+from support.mode_trains import TRAINS
 from support.planetary import clearance, gear, simple_train, stage_clearance, thesis_train, train_clearance
 from support.ring_mesh import CHORD_ERROR
 
-from gearcad import Gear, GearPair
+from gearcad import BasicRack, Gear, GearPair
 from gearcad.geometry import DoubleHelix
 from gearcad.geometry.halves import halves
 from gearcad.planetary import Central, GearPlace, PairStage, PlanetaryTrain, Rim
@@ -153,3 +154,12 @@ def test_double_helical_teeth_mesh_in_both_halves() -> None:
             bottom = max(place.height for place in places)
             for height in (bottom, bottom + 10.0):
                 assert clearance(lower.gear, upper.gear, places, height) > 1e-4
+
+
+@pytest.mark.parametrize(("name", "planets"), [("B", 4), ("B", 2), ("C", 3), ("C", 2), ("C", 6), ("A helical", 4), ("D", 3)])
+def test_stepped_planets_are_turned_on_by_pitches_until_both_rims_fit(name: str, planets: int) -> None:
+    train = replace(TRAINS[name], planets=planets)
+    if any(notice.code == "fillet-interference" for notice in train.notices):
+        ring = replace(train.centrals[1], gear=replace(train.centrals[1].gear, rack=BasicRack(addendum=0.8)))
+        train = replace(train, centrals=(train.centrals[0], ring))
+    assert train_clearance(train, train.pose(5.0)) > -2 * POLYGONS

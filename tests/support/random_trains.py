@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from random import Random
 from typing import Any
 
 from hypothesis import strategies as st
@@ -20,31 +21,39 @@ POSITION = 70.0
 """Height (mm) of the second rim: clear of all widths that are drawn."""
 
 
-@st.composite
-def train_inputs(draw: st.DrawFn) -> dict[str, Any]:
-    """Numbers of a set; the second mesh's module and shift follow from the first one's centre distance."""
-    kind = draw(st.sampled_from("ABCD"))
-    rims = draw(st.integers(14, 34)), draw(st.integers(14, 34))
-    helix = st.one_of(st.just(0.0), st.floats(1, 28), st.floats(-28, -1))
-    width = st.floats(10, 30)
+def train_inputs() -> st.SearchStrategy[dict[str, Any]]:
+    """Numbers of a set; the second mesh's module and shift follow from the first one's centre distance.
+
+    Drawn evenly from a seed: least and equal numbers, which hypothesis prefers, make sets that are too simple.
+    """
+    return st.integers(0, 2**48).map(_inputs)
+
+
+def _inputs(seed: int) -> dict[str, Any]:
+    random = Random(seed)
+
+    def helix() -> float:
+        return random.choice([0.0, 1.0, -1.0]) * random.uniform(1, 28)
+
     return {
-        "kind": kind,
-        "rims": rims,
-        "suns": (draw(st.integers(14, 45)), draw(st.integers(14, 45))),
-        "more": (draw(st.integers(24, 70)), draw(st.integers(24, 70))),
-        "changed": draw(st.sampled_from([0, 0, 0, 1, -1])),
-        "module": draw(st.sampled_from([1.0, 2.0, 3.0])),
-        "helix": (draw(helix), draw(helix)),
-        "shifts": (draw(st.floats(0.0, 0.45)), draw(st.floats(0.05, 0.5)), draw(st.floats(0.05, 0.5))),
-        "wider": draw(st.floats(-0.25, 0.35)),
-        "thinning": tuple(draw(st.sampled_from([0.0, 0.01, 0.03, 0.05])) for _ in range(4)),
-        "widths": tuple(draw(width) for _ in range(4)),
-        "clocking": draw(st.one_of(st.just(0.0), st.floats(-20, 20), st.just("adjusted"))),
-        "head": draw(st.sampled_from([1.0, 0.85, 0.7])),
-        "crowd": draw(st.sampled_from([0, 0, 0, 0, 1])),
-        "share": draw(st.floats(0, 1)),
-        "angles": draw(st.sampled_from(["equal", "equal", "permitted"])),
-        "carrier_angle": draw(st.floats(0, 360)),
+        "seed": seed,
+        "kind": random.choice("ABCD"),
+        "rims": (random.randint(14, 34), random.randint(14, 34)),
+        "suns": (random.randint(14, 45), random.randint(14, 45)),
+        "more": (random.randint(24, 70), random.randint(24, 70)),
+        "changed": random.choice([0, 0, 0, 1, -1]),
+        "module": random.choice([1.0, 2.0, 3.0]),
+        "helix": (helix(), helix()),
+        "shifts": (random.uniform(0.0, 0.45), random.uniform(0.05, 0.5), random.uniform(0.05, 0.5)),
+        "wider": random.uniform(-0.25, 0.35),
+        "thinning": tuple(random.choice([0.0, 0.01, 0.03, 0.05]) for _ in range(4)),
+        "widths": tuple(random.uniform(10, 30) for _ in range(4)),
+        "clocking": random.choice([0.0, random.uniform(-20, 20), random.uniform(-20, 20), "adjusted"]),
+        "head": random.choice([1.0, 0.85, 0.7]),
+        "crowd": random.choice([0, 0, 0, 0, 0, 0, 0, 1]),
+        "share": random.uniform(0, 1),
+        "angles": random.choice(["equal", "permitted"]),
+        "carrier_angle": random.uniform(0, 360),
     }
 
 
