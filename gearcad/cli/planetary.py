@@ -13,7 +13,7 @@ from gearcad.cli.job import echo_warnings, json_option, output_option, perform, 
 from gearcad.cli.planetary_search import require_no_search, search_options, search_sets
 
 if TYPE_CHECKING:
-    from gearcad.dynamics.planetary.study import PlanetaryStudy
+    from gearcad.dynamics.planetary.result import PlanetaryStudy
     from gearcad.jobs.planetary import Studied
 
 __all__ = ["planetary"]
@@ -23,12 +23,15 @@ _MOST_FREQUENCIES = 6
 
 @click.command(short_help="Speeds, torques, sharing, stiffness, modes of SPEC's planetary train; sets for a --ratio.")
 @click.argument("spec", type=click.Path(path_type=Path), required=False)
+@click.option("--response", is_flag=True, help="The loads of the meshes over speed, too: may take minutes.")
 @output_option
 @json_option
 @quiet_option
 @search_options
 @debug_option
-def planetary(spec: Path | None, output: Path | None, as_json: bool, quiet: bool, force: bool, **wanted: Any) -> None:
+def planetary(
+    spec: Path | None, response: bool, output: Path | None, as_json: bool, quiet: bool, force: bool, **wanted: Any
+) -> None:
     """What comes of the planetary train of SPEC under its [load]: speeds and torques of its members, with losses; forces on
     teeth and pins; phases of the meshes; how planets share the load with the errors that are given; torsional stiffness of
     the output; natural frequencies and modes.
@@ -56,7 +59,7 @@ def planetary(spec: Path | None, output: Path | None, as_json: bool, quiet: bool
     require_no_search(wanted, force=force)
     if spec is None:
         raise ParameterError("spec", None, "must be given, a file that `gearcad new planetary` begins; or --ratio, to search")
-    perform(Planetary(), spec, output, _show, as_json=as_json, quiet=quiet)
+    perform(Planetary(response=response), spec, output, _show, as_json=as_json, quiet=quiet)
 
 
 def _show(_name: str, found: Studied) -> None:
@@ -138,3 +141,10 @@ def _frequency_lines(study: PlanetaryStudy) -> Iterator[str]:
         for family in above[:_MOST_FREQUENCIES]
     )
     yield f"{'natural frequencies':<22}{listed} Hz"
+    if study.campbell is not None:
+        speeds = dict.fromkeys(f"{each.speed:.5g}" for each in study.campbell.excited)
+        met = ", ".join(list(speeds)[:_MOST_FREQUENCIES])
+        yield f"{'resonances':<22}{met or 'none'} rpm of {study.train.input}, up to {study.campbell.highest_speed:.6g}"
+    if study.response is not None:
+        factor, mesh, speed = study.response.greatest
+        yield f"{'dynamic load factor':<22}at most {factor:.4g}, of {mesh} at {speed:.5g} rpm of {study.train.input}"

@@ -11,7 +11,8 @@ from typing import Any, NamedTuple, Unpack
 from gearcad.designs import Design, Inputs, PlanetaryDesign
 from gearcad.designs.mesh_pairs import MeshPairs
 from gearcad.dynamics.planetary.document import study_document
-from gearcad.dynamics.planetary.study import PlanetaryStudy, study_planetary
+from gearcad.dynamics.planetary.result import PlanetaryStudy
+from gearcad.dynamics.planetary.study import study_planetary
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
 from gearcad.notice import Notice
@@ -38,11 +39,13 @@ class Studied(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Planetary(Job[PlanetaryDesign, Studied]):
-    """The study of a planetary train, with the specs of its meshes for all that takes pairs."""
+    """The study of a planetary train, with the specs of its meshes for all that takes pairs; its `response` if asked for."""
 
     verb = "planetary"
     accepts = (PlanetaryDesign,)
     why = "only planets go round"
+
+    response: bool = False
 
     def _run(self, design: PlanetaryDesign, progress: Progress | None) -> Studied:
         study = study_planetary(
@@ -52,6 +55,7 @@ class Planetary(Job[PlanetaryDesign, Studied]):
             material=design.material,
             dynamics=design.dynamics,
             rating=design.rating,
+            response=self.response,
             progress=progress,
         )
         return Studied(replace(design, load=study.load, speeds=study.given_speeds), study)
@@ -111,6 +115,7 @@ def planetary(
     load: TrainLoad | None = None,
     *,
     speeds: Mapping[str, float] | None = None,
+    response: bool = False,
     progress: Progress | None = None,
     **inputs: Unpack[Inputs],
 ) -> PlanetaryStudy:
@@ -118,11 +123,12 @@ def planetary(
 
     `speeds` {member: rpm}: of a differential, the second speed beside that of the input in `load` (TrainLoad). `material`,
     `dynamics` (DynamicsOptions: the method of the mesh stiffness) and `rating`, as load and speeds, stand in place of those of
-    a design. What cannot be had without a load, a speed or a mass is None, and `why_not` of the result says why.
+    a design. With `response` the loads of the meshes over speed are there too, which may take minutes. What cannot be had
+    without a load, a speed or a mass is None, and `why_not` of the result says why.
 
     Raises ParameterError for what is no planetary train, and for speeds that contradict each other.
     """
     design = as_design(subject, load, **inputs)
     if speeds is not None and isinstance(design, PlanetaryDesign):
         design = replace(design, speeds=dict(speeds))
-    return Planetary().run(design, progress).study
+    return Planetary(response=response).run(design, progress).study

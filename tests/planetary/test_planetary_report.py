@@ -15,7 +15,8 @@ from support.planetary import simple_train
 
 from gearcad.designs import PlanetaryDesign, read_spec
 from gearcad.dynamics.planetary.mesh_stiffness import QUICK
-from gearcad.dynamics.planetary.study import PlanetaryStudy, study_planetary
+from gearcad.dynamics.planetary.result import PlanetaryStudy
+from gearcad.dynamics.planetary.study import study_planetary
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.plots.paper import short
 from gearcad.report import planetary_html, write_planetary_report

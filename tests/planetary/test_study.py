@@ -14,7 +14,7 @@ import gearcad
 from gearcad.cli import main
 from gearcad.designs import PlanetaryDesign, read_spec
 from gearcad.dynamics.planetary.mesh_stiffness import QUICK
-from gearcad.dynamics.planetary.study import PARTS, PlanetaryStudy
+from gearcad.dynamics.planetary.result import PARTS, PlanetaryStudy
 from gearcad.errors import ParameterError
 from gearcad.jobs.planetary import Planetary, Studied
 from gearcad.planetary import TrainLoad
@@ -63,6 +63,26 @@ def test_the_train_of_the_alm_thesis(alm: Studied) -> None:
     assert sorted(study.phases["ring_4-rim_3"].relative) == pytest.approx((0, 1 / 3, 2 / 3), abs=1e-9)
 
 
+def test_resonances_are_where_harmonics_meet_modes(alm: Studied) -> None:
+    campbell, modes = alm.study.campbell, alm.study.modes
+    assert campbell is not None and modes is not None and alm.study.response is None
+    assert campbell.highest_speed == pytest.approx(2 * 954.93)
+    pinion_to_ring = 954.93 / 60 * 18 / 161 * 70  # Hz of the mesh of ring 4, which stands, at the speed of the load
+    lines = {(line.source, line.harmonic): line.per_rpm for line in campbell.lines}
+    assert lines["ring_4-rim_3", 1] * 954.93 == pytest.approx(pinion_to_ring)
+    lowest = min(each.speed for each in campbell.excited)
+    assert lowest * lines["ring_4-rim_3", 6] <= modes.frequency.max()
+
+
+@pytest.mark.long
+def test_the_response_is_there_if_it_is_asked_for() -> None:
+    """Some 10 s."""
+    study = gearcad.planetary(starter("differential"), response=True)
+    assert study.response is not None
+    factor, _, speed = study.response.greatest
+    assert 1 < factor < 2 and speed > 0
+
+
 def test_the_document_has_what_the_design_promises(alm: Studied, tmp_path: Path) -> None:
     job = Planetary()
     files = job.write(alm, tmp_path)
@@ -105,7 +125,7 @@ def test_what_is_not_given_is_named_and_the_rest_is_there() -> None:
     assert study.train.ratio == 3.75
     speed = "no speed is given: that of sun stands in [load], others in [planetary.speeds]"
     assert {part: why for part, why in study.why_not.items() if why == speed}.keys() == {
-        "speeds", "power", "loads", "sharing", "forces", "rating", "running"
+        "speeds", "power", "loads", "sharing", "forces", "rating", "running", "campbell"
     }  # fmt: skip
     assert "load.torque" in study.why_not["torsion"]
     assert study.stiffness is not None and all(mesh.nominal for mesh in study.stiffness.values())
@@ -114,7 +134,8 @@ def test_what_is_not_given_is_named_and_the_rest_is_there() -> None:
     assert list(told) == list(dict.fromkeys(study.why_not.values()))
     assert told[speed].startswith("no speeds, torques and efficiency, ")
     weighed = gearcad.planetary(simple_set(rim_diameter=160.0), TrainLoad(torque=100, speed=1000))
-    assert weighed.why_not == {"modes": "carrier.inertia = None: must be given in kg·m²: without it there are no dynamics"}
+    inertia = "carrier.inertia = None: must be given in kg·m²: without it there are no dynamics"
+    assert weighed.why_not == {"modes": inertia, "campbell": inertia}
     assert weighed.sharing is not None
 
 

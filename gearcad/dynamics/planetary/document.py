@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from gearcad.dynamics.planetary.study import PlanetaryStudy
+from gearcad.dynamics.planetary.result import PlanetaryStudy
 from gearcad.planetary import PlanetaryTrain
 from gearcad.planetary.harmonics import train_harmonics
 from gearcad.planetary.poses import TrainPose
@@ -43,6 +43,8 @@ def study_document(study: PlanetaryStudy) -> dict[str, Any]:
         "masses": study.masses.to_dict(),
         "frequencies": None if study.modes is None else [family.to_dict() for family in study.modes.families],
         "modes": _document(study.modes),
+        "campbell": _document(study.campbell),
+        "response": _document(study.response),
         "rating": _document(study.rating),
         "gears": {name: gear.to_dict() for name, gear in train.gears.items()},
         "why_not": dict(study.why_not),

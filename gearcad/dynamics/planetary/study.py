@@ -1,111 +1,44 @@
-"""PlanetaryStudy: all that is found out of a planetary train, and why a part is not; `study_planetary` asks for each."""
+"""All that can be found out of a planetary train at its load, part by part."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import TypeVar
 
 from gearcad.dynamics.options import AUTO, DynamicsOptions
+from gearcad.dynamics.planetary.campbell import PlanetaryCampbell, planetary_campbell
 from gearcad.dynamics.planetary.masses import TrainMasses, train_masses
-from gearcad.dynamics.planetary.mesh_rating import TrainRating, rate_train
+from gearcad.dynamics.planetary.mesh_rating import rate_train
 from gearcad.dynamics.planetary.mesh_stiffness import QUICK, MeshStiffness, train_stiffness
 from gearcad.dynamics.planetary.modes import PlanetaryModes, planetary_modes
+from gearcad.dynamics.planetary.response import planetary_response
+from gearcad.dynamics.planetary.result import PlanetaryStudy
 from gearcad.dynamics.planetary.rolling import CycleCourse, StiffnessCourse
-from gearcad.dynamics.planetary.running import Running, run_train
-from gearcad.dynamics.planetary.sharing import LoadSharing, share_load
+from gearcad.dynamics.planetary.running import run_train
+from gearcad.dynamics.planetary.sharing import share_load
 from gearcad.dynamics.planetary.springs import train_springs
-from gearcad.dynamics.planetary.torsion import TorsionalStiffness, torsional_stiffness
+from gearcad.dynamics.planetary.torsion import torsional_stiffness
 from gearcad.errors import InputError, ParameterError, SolverError
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
-from gearcad.notice import Notice, texts
 from gearcad.planetary import PlanetaryTrain, TrainLoad
-from gearcad.planetary.forces import TrainForces, forces
-from gearcad.planetary.mesh_loads import MeshLoad, mesh_loads, stage_loads
+from gearcad.planetary.forces import forces
+from gearcad.planetary.mesh_loads import mesh_loads, stage_loads
 from gearcad.planetary.phases import Drive, MeshPhases, drive_of, mesh_phases
-from gearcad.planetary.poses import TrainPose
 from gearcad.planetary.power import PowerFlow, power_flow
 from gearcad.planetary.speeds import Speeds, speeds
 from gearcad.progress import Agenda, Progress
 from gearcad.rating.options import RatingOptions
 from gearcad.stiffness.methods import METHODS
 
-__all__ = ["PARTS", "PlanetaryStudy", "study_planetary"]
+__all__ = ["study_planetary"]
 
-PARTS = {
-    "speeds": "speeds",
-    "power": "torques and efficiency",
-    "forces": "forces",
-    "loads": "loads of the meshes",
-    "stiffness": "stiffness of the meshes",
-    "sharing": "load sharing",
-    "torsion": "torsional stiffness",
-    "running": "running",
-    "modes": "natural frequencies",
-    "rating": "rating",
-}
-"""The parts of a study that may be missing, and what they are called."""
+_BEYOND = 2.0
+"""Times the speed of the load up to which a Campbell diagram goes, if nothing is said of it."""
 
 Part = TypeVar("Part")
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PlanetaryStudy:
-    """A planetary train at its load: geometry in mesh, speeds, torques, forces, sharing, stiffness, natural modes, rating.
-
-    A part is None where something that it needs is not given or cannot be had; `why_not` {part: reason} says which.
-    `stiffness` is of both meshes by their names, `stage_cycles` the stiffness of the stages that carry something.
-    """
-
-    train: PlanetaryTrain
-    load: TrainLoad | None
-    given_speeds: Mapping[str, float]
-    pose: TrainPose
-    phases: Mapping[str, MeshPhases]
-    speeds: Speeds | None
-    flow: PowerFlow | None
-    forces: TrainForces | None
-    loads: Mapping[str, MeshLoad] | None
-    stage_loads: Mapping[str, Load]
-    stiffness: Mapping[str, MeshStiffness] | None
-    stage_cycles: Mapping[str, MeshCycle]
-    sharing: LoadSharing | None
-    torsion: TorsionalStiffness | None
-    running: Running | None
-    masses: TrainMasses
-    modes: PlanetaryModes | None
-    rating: TrainRating | None
-    why_not: Mapping[str, str] = field(default_factory=dict)
-
-    @property
-    def name(self) -> str:
-        """That of the train."""
-        return self.train.name
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """The notices in words."""
-        return texts(self.notices)
-
-    @property
-    def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it: of the meshes, of its parts, and what could not be had."""
-        found = [*self.train.notices]
-        for mesh in (self.stiffness or {}).values():
-            found += mesh.notices
-        for part in (self.sharing, self.torsion, self.running, self.modes, self.rating):
-            found += part.notices if part is not None else ()
-        if self.flow is not None and self.flow.self_locking:
-            found.append(Notice("self-locking", f"{self.train.output} cannot drive {self.train.input}: the train locks itself"))
-        return tuple(dict.fromkeys((*found, *self._missing())))
-
-    def _missing(self) -> Iterator[Notice]:
-        """The parts that could not be had, together where the reason is the same."""
-        for why in dict.fromkeys(self.why_not.values()):
-            parts = [PARTS[part] for part, reason in self.why_not.items() if reason == why]
-            yield Notice("not-computed", why, where=f"no {', '.join(parts)}")
 
 
 class _Findings:
@@ -135,16 +68,27 @@ def study_planetary(
     material: Material | None = None,
     dynamics: DynamicsOptions | None = None,
     rating: RatingOptions | None = None,
+    response: bool = False,
     progress: Progress | None = None,
 ) -> PlanetaryStudy:
     """Find out all that can be found out of a train.
 
     `given_speeds` (rpm) are of members, beside that of the input in `load`. The method of the mesh stiffness is that of
-    `dynamics`. Raises ParameterError for speeds that contradict each other and an unknown method; what else keeps a part from
+    `dynamics`; so is the highest speed, of a Campbell diagram otherwise twice that of the load, of a `response` beyond the last
+    resonance. Raises ParameterError for speeds that contradict each other and an unknown method; what else keeps a part from
     being found is in `why_not`.
     """
     tell = Agenda(
-        progress, {"mesh stiffness": 3.0, "load sharing": 1.0, "running": 1.0, "masses": 2.0, "modes": 1.0, "rating": 1.0}
+        progress,
+        {
+            "mesh stiffness": 3.0,
+            "load sharing": 1.0,
+            "running": 1.0,
+            "masses": 2.0,
+            "modes": 1.0,
+            "response": 100.0 * response,
+            "rating": 1.0,
+        },
     )
     found, method = _Findings(), (dynamics or DynamicsOptions()).stiffness
     method = QUICK if method == AUTO else method
@@ -177,6 +121,18 @@ def study_planetary(
     masses = train_masses(train, material)
     tell("modes")
     modes = found.part("modes", ("stiffness",), lambda: _modes(train, _there(stiffness), masses, drive))
+    phases = mesh_phases(train, drive)
+    campbell = found.part(
+        "campbell", ("speeds", "modes"), lambda: _campbell(train, load, others, _there(modes), phases, dynamics)
+    )
+    answer = None
+    if response:
+        tell("response")
+        answer = found.part(
+            "response",
+            ("power", "stiffness", "modes"),
+            lambda: planetary_response(train, _loaded(train, load), _there(stiffness), masses, dynamics, given_speeds=others),
+        )
     tell("rating")
     shared = None if sharing is None else sharing.mesh_load_factor
     loads = None if flow is None else found.part("loads", (), lambda: mesh_loads(train, _there(flow), shared))
@@ -185,7 +141,7 @@ def study_planetary(
         load=load,
         given_speeds=others,
         pose=train.pose(),
-        phases=mesh_phases(train, drive),
+        phases=phases,
         speeds=turning,
         flow=flow,
         forces=found.part("forces", ("power",), lambda: forces(_weighed(train, masses), _there(flow))),
@@ -198,6 +154,8 @@ def study_planetary(
         running=running,
         masses=masses,
         modes=modes,
+        campbell=campbell,
+        response=answer,
         rating=found.part("rating", ("loads",), lambda: rate_train(train, _there(loads), on_stages, masses, material, rating)),
         why_not=found.why_not,
     )
@@ -289,6 +247,24 @@ def _modes(train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness], masses
     """At the mean tangent stiffness of the meshes."""
     first, second = (stiffness[mesh.name].tangent_mean for mesh in train.meshes)
     return planetary_modes(train_springs(train, (first, second), sense=drive.sense), masses)
+
+
+def _campbell(
+    train: PlanetaryTrain,
+    load: TrainLoad | None,
+    others: Mapping[str, float],
+    modes: PlanetaryModes,
+    phases: Mapping[str, MeshPhases],
+    options: DynamicsOptions | None,
+) -> PlanetaryCampbell:
+    """Up to the speed of the options, or _BEYOND times that of the load."""
+    speed = 0.0 if load is None else abs(load.speed)
+    highest = None if options is None else options.speed_to
+    if highest is None and not speed:
+        raise ParameterError("load.speed", 0.0, f"must be given, in rpm of {train.input}, or dynamics.speed_to", "rpm")
+    highest = _BEYOND * speed if highest is None else highest
+    given = {name: each * highest / speed if speed else each for name, each in others.items()}
+    return planetary_campbell(train, modes, phases, highest, given_speeds=given)
 
 
 def _weighed(train: PlanetaryTrain, masses: TrainMasses) -> PlanetaryTrain:

@@ -14,7 +14,7 @@ from gearcad.report.planetary.sections import said, sections_of_build, sections_
 from gearcad.report.planetary.vibration import sections_of_vibration
 
 if TYPE_CHECKING:
-    from gearcad.dynamics.planetary.study import PlanetaryStudy
+    from gearcad.dynamics.planetary.result import PlanetaryStudy
 
 __all__ = ["planetary_html", "write_planetary_report"]
 

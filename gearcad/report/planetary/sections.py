@@ -20,7 +20,7 @@ from gearcad.report.sentences import sentences
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from gearcad.dynamics.planetary.study import PlanetaryStudy
+    from gearcad.dynamics.planetary.result import PlanetaryStudy
 
 __all__ = ["Section", "Table", "figure", "said", "sections_of_build", "sections_of_load"]
 

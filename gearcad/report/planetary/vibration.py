@@ -19,7 +19,7 @@ from gearcad.report.dynamics.tables import WordTable
 from gearcad.report.planetary.sections import Section, Table, figure, said
 
 if TYPE_CHECKING:
-    from gearcad.dynamics.planetary.study import PlanetaryStudy
+    from gearcad.dynamics.planetary.result import PlanetaryStudy
 
 __all__ = ["sections_of_vibration"]
 
