@@ -104,6 +104,8 @@ def _efficiency(study: PlanetaryStudy) -> str:
     forth = f"{100 * flow.efficiency:.4g} %"
     if flow.efficiency_back is None:
         return forth
+    if flow.efficiency <= 0:
+        forth = "locks itself"
     return forth + (", locks itself backwards" if flow.self_locking else f", {100 * flow.efficiency_back:.4g} % backwards")
 
 

@@ -20,6 +20,7 @@ from gearcad.planetary.fitting import SetTeeth, fit_planets
 from gearcad.planetary.mesh import SetType
 from gearcad.planetary.power import efficiency
 from gearcad.planetary.search import SearchTask, search
+from gearcad.planetary.search.grid import grids
 
 A, B, C, D = SetType
 
@@ -228,6 +229,24 @@ def set_teeth(teeth: dict[str, int]) -> SetTeeth:
     return SetTeeth(first, rim, *rest) if len(rest) == 2 else SetTeeth(first, rim, rim, rest[0])
 
 
+@pytest.mark.parametrize("kind", SetType)
+@pytest.mark.parametrize("module_2", [0.7, 1.0, 3.0])
+def test_grids_keep_within_limits_and_to_their_type(kind: SetType, module_2: float) -> None:
+    task = SearchTask(ratio=1.0, module=1.0, types=(B,), module_2=module_2, teeth=(11, 60), ring_teeth=(25, 90))
+    for grid in grids(task, kind):
+        for teeth, ring in ((grid.a, kind is D), (grid.b, kind is not C), (grid.rim_a, False), (grid.rim_b, False)):
+            size = -teeth if ring else teeth
+            low, high = task.ring_teeth if ring else task.teeth
+            assert ((low <= size) & (size <= high)).all()
+        assert (grid.row[2] != 0).all()
+
+
+def test_wide_limits_and_tolerances_are_searched() -> None:
+    result = search(SearchTask(ratio=5.0, module=2.0, types=(C,), teeth=(9, 40), tolerance=300.0, planets=(1, 2)), count=1)
+    assert result.considered > 1e5
+    assert len(result.found) == 1
+
+
 # ---------------------------------------------------------------------- candidates
 
 
@@ -307,6 +326,7 @@ def test_nothing_found_says_what_is_nearest() -> None:
         ({"fixed": "ring_2"}, "fixed = 'ring_2': must be sun, ring, carrier in a set of type A"),
         ({"fixed": "sun", "input": "sun"}, "fixed = 'sun': must be another member"),
         ({"types": ()}, "types = ()"),
+        ({"module_2": 2.0}, "module_2 = 2 mm: is of types B, C and D"),
         ({"mesh_efficiency": 0.0}, "mesh_efficiency = 0"),
         ({"ring_teeth": (10, 17)}, "ring_teeth = (10, 17): must reach above 17"),
     ],

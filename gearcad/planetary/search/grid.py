@@ -74,7 +74,7 @@ def _second(task: SearchTask, kind: SetType, total: Wholes, rim_b: Wholes, offse
 def _within(task: SearchTask, kind: SetType, grid: TeethGrid) -> Bools:
     """Where the second central is within its limits and outside its planets, and the set is of its type and has a ratio."""
     low, high = task.teeth if kind is SetType.C else task.ring_teeth
-    size = np.abs(grid.b)
+    size = grid.b if kind is SetType.C else -grid.b
     within: Bools = (low <= size) & (size <= high) & (grid.row[2] != 0)
     if kind is not SetType.C:
         within &= size > grid.rim_b

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gearcad.arrays import Wholes
 from gearcad.errors import InputError
 from gearcad.planetary.mesh import SetType
 from gearcad.planetary.search.candidate import RIMS, Candidate
@@ -19,6 +20,9 @@ __all__ = ["SearchResult", "search"]
 
 MOST_TRIALS = 5
 """Sets that are made for each that is asked for, before the search gives up on those that cannot be made."""
+
+BATCH = 100_000
+"""Sets near the ratio that are looked at together, without the number of their planets: memory stays small."""
 
 WIDER = 4.0
 """By how much the tolerance is widened to say what is nearest, where nothing is found."""
@@ -85,15 +89,15 @@ class _Meeting(NamedTuple):
 def _meeting(task: SearchTask) -> _Meeting:
     considered, removed = 0, dict.fromkeys(("ratio", *CONDITIONS), 0)
     kept: list[ManySets] = []
-    for kind in task.types:
-        sets, seen = _near_ratio(task, kind)
+    for sets, seen in (batch for kind in task.types for batch in _near_ratio(task, kind)):
         considered += seen
         removed["ratio"] += seen - len(sets.planets)
+        left = sets
         for name, met in CONDITIONS.items():
-            mask = met(sets)
+            mask = met(left)
             removed[name] += int(np.count_nonzero(~mask))
-            sets = sets.picked(mask)
-        kept.append(sets)
+            left = left.picked(mask)
+        kept.append(left)
     return _Meeting(kept, considered, removed)
 
 
@@ -125,16 +129,27 @@ def _nearest(task: SearchTask) -> tuple[float, ...]:
     return ()
 
 
-def _near_ratio(task: SearchTask, kind: SetType) -> tuple[ManySets, int]:
-    """Sets whose ratio is within the tolerance, with every number of planets, and how many there were."""
+def _near_ratio(task: SearchTask, kind: SetType) -> Iterator[tuple[ManySets, int]]:
+    """Sets whose ratio is within the tolerance, with every number of planets, and how many were looked at; some at a time."""
     numbers = np.arange(task.planets[0], task.planets[1] + 1)
-    near, seen = [], 0
+    near: list[TeethGrid] = []
+    waiting = seen = 0
     for grid in grids(task, kind):
         seen += len(grid.a) * len(numbers)
         deviation = np.abs(ratios(task, kind, grid) / task.ratio - 1)
         near.append(grid.picked(deviation <= task.tolerance / 100 + ROUNDING))
+        waiting += len(near[-1].a)
+        if waiting > BATCH:
+            yield _with_planets(task, kind, near, numbers), seen
+            near, waiting, seen = [], 0, 0
+    if near:
+        yield _with_planets(task, kind, near, numbers), seen
+
+
+def _with_planets(task: SearchTask, kind: SetType, near: list[TeethGrid], numbers: Wholes) -> ManySets:
+    """Every set with every number of planets."""
     teeth = TeethGrid(*(np.repeat(np.concatenate(parts), len(numbers)) for parts in zip(*near, strict=True)))
-    return ManySets(task, kind, teeth, np.tile(numbers, len(teeth.a) // len(numbers))), seen
+    return ManySets(task, kind, teeth, np.tile(numbers, len(teeth.a) // len(numbers)))
 
 
 ROUNDING = 1e-12

@@ -88,6 +88,8 @@ class SearchTask:
             self._check_ends(name, kind)
         if self.ring_teeth[1] <= self.teeth[0] and set(self.types) != {SetType.C}:
             raise ParameterError("ring_teeth", self.ring_teeth, f"must reach above {self.teeth[0]}, the least of the planets")
+        if self.module_2 is not None and set(self.types) == {SetType.A}:
+            raise ParameterError("module_2", self.module_2, "is of types B, C and D: planets of type A have one rim", "mm")
         for each in self.types:
             self.roles(each)
 
