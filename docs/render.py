@@ -28,8 +28,11 @@ from gearcad.batch import run_table
 from gearcad.batch.study import plan_study, write_study
 from gearcad.designs import read_spec
 from gearcad.jobs.data import Data
+from gearcad.planetary.speeds import speeds
 from gearcad.plots import plot_contours, save_plot
 from gearcad.plots.mesh import plot_body_mesh, plot_section_mesh
+from gearcad.plots.planetary.front import plot_front
+from gearcad.plots.planetary.scheme import plot_scheme
 from gearcad.plots.table_data import read_points
 from gearcad.solids import tessellate
 from gearcad.solids.files.options import FileOptions
@@ -167,6 +170,20 @@ def render_kinds(path: Path) -> None:
     Image.fromarray(np.hstack(pictures)).quantize(96).save(path, optimize=True)
 
 
+def plot_train(path: Path) -> None:
+    """The train of the Alm thesis: its scheme, and both rings with the planets in mesh."""
+    from matplotlib.figure import Figure
+
+    train = read_spec(SPEC.with_name("planetary-alm.toml")).train
+    figure = Figure(figsize=(14, 4.5), layout="constrained")
+    left, right = figure.subfigures(1, 2, width_ratios=(1, 1.35))
+    plot_scheme(train, left.subplots())
+    turning = speeds(train, {train.input: 1.0})
+    plot_front(train, train.pose(), {**turning.members, "planet": turning.planet}, right)
+    figure.savefig(path, dpi=110)
+    Image.open(path).convert("RGB").quantize(64).save(path, optimize=True)
+
+
 def main() -> None:
     pair = read_spec(SPEC).pair
     assert pair is not None  # the starter is one
@@ -177,6 +194,7 @@ def main() -> None:
     plot_study(FOLDER / "study.png")
     plot_elements(FOLDER / "elements.png")
     render_kinds(FOLDER / "kinds.png")
+    plot_train(FOLDER / "train.png")
 
 
 if __name__ == "__main__":

@@ -114,7 +114,9 @@ def test_it_holds_the_speeds_torques_and_shares_of_the_study(alm: PlanetaryStudy
 
 
 def test_what_is_missing_is_named_with_its_reason(alm: PlanetaryStudy) -> None:
-    study = study_planetary(TRAINS["A"])
+    weighed = _weighed(TRAINS["A"])
+    study = study_planetary(replace(weighed, carrier=replace(weighed.carrier, inertia=None)))
+    assert "carrier.inertia" in study.why_not["modes"]
     text = planetary_html(study, "bare")
     found = titles(text)
     assert not set(LOADED) & set(found) and set(ALWAYS) <= set(found)

@@ -11,15 +11,20 @@ from matplotlib.patches import Circle
 from support.mode_trains import MASSES, TRAINS, on_springs
 from support.planetary import simple_train
 
+from gearcad.dynamics.options import DynamicsOptions
+from gearcad.dynamics.planetary.campbell import planetary_campbell
 from gearcad.dynamics.planetary.mesh_stiffness import MeshStiffness, train_stiffness
 from gearcad.dynamics.planetary.modes import ModeKind, planetary_modes
+from gearcad.dynamics.planetary.response import planetary_response
 from gearcad.dynamics.planetary.running import run_train
 from gearcad.dynamics.planetary.sharing import share_load
 from gearcad.dynamics.planetary.springs import train_springs
 from gearcad.dynamics.planetary.torsion import torsional_stiffness
 from gearcad.planetary import PlanetaryTrain, TrainLoad
+from gearcad.plots.planetary.campbell import KIND_COLOURS, plot_train_campbell
 from gearcad.plots.planetary.modes import plot_modes, shown_families
 from gearcad.plots.planetary.phases import plot_phases
+from gearcad.plots.planetary.response import plot_response
 from gearcad.plots.planetary.running import plot_running, shown_pitches
 from gearcad.plots.planetary.sharing import plot_sharing, plot_torsion
 
@@ -124,7 +129,42 @@ def test_a_run_is_drawn_whole_and_close_by(stiffness: dict[str, MeshStiffness]) 
 
 def test_level_shares_have_a_range_that_is_no_rounding(stiffness: dict[str, MeshStiffness]) -> None:
     train = simple_train((24, 21, -66), (0.3, 0.2, -0.7), 3)
-    running = run_train(train, TrainLoad(torque=800.0, speed=1000.0), train_stiffness(train, positions=16))
+    running = run_train(train, TrainLoad(torque=800.0, speed=1000.0), train_stiffness(train, method="iso6336"))
     assert running.shares == pytest.approx(1.0)
     low, high = plot_running(running).axes[0].get_ylim()
     assert low == pytest.approx(0.995) and high == pytest.approx(1.005)
+
+
+def test_the_diagram_marks_what_the_phases_let_be_excited() -> None:
+    train = on_springs(TRAINS["A helical"], **FLEXIBLE)
+    modes = planetary_modes(train_springs(train, MEANS), MASSES)
+    campbell = planetary_campbell(train, modes, train.phases, 9000.0)
+    axes = plot_train_campbell(train, campbell)
+    marks = {marker: [line for line in axes.lines if line.get_marker() == marker and len(line.get_xdata())] for marker in "ox"}
+    assert len(marks["o"]) == len(campbell.excited) > 0
+    assert len(marks["x"]) == sum(met.excited is False for met in campbell.resonances) > 0
+    for line, met in zip(marks["o"], campbell.excited, strict=True):
+        (speed,), (frequency,) = line.get_data()
+        # On a line of the diagram and on a natural frequency.
+        assert frequency == pytest.approx(campbell.lines[met.line].per_rpm * speed)
+        assert frequency == campbell.families[met.family].frequency
+    # All planets are in phase: only rotational modes are excited, and only these have dots.
+    kinds = {campbell.families[met.family].kind for met in campbell.excited}
+    assert kinds == {ModeKind.ROTATIONAL} == {
+        kind for kind, colour in KIND_COLOURS.items() if any(line.get_color() == colour for line in marks["o"])
+    }  # fmt: skip
+
+
+def test_loads_over_speed_are_those_of_the_planet_that_carries_most() -> None:
+    train = on_springs(TRAINS["A"], **FLEXIBLE)
+    response = planetary_response(
+        train,
+        TrainLoad(torque=300.0, speed=2000.0),
+        train_stiffness(train, positions=12),
+        MASSES,
+        DynamicsOptions(speeds=10, speed_from=1500.0, speed_to=2500.0, harmonics=3),
+    )
+    drawn = {str(line.get_label()): np.asarray(line.get_ydata(), float) for line in plot_response(response).lines}
+    for name, factors in response.factors.items():
+        assert drawn[name].tolist() == factors.max(axis=1).tolist()
+    assert "speed of the load" in drawn

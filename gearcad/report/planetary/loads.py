@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from gearcad.planetary import MeshPhases, PlanetaryTrain
 from gearcad.planetary.forces import TrainForces
+from gearcad.planetary.harmonics import Excited, train_harmonics
 from gearcad.planetary.power import PowerFlow
 from gearcad.planetary.speeds import Speeds
 from gearcad.plots.paper import short
@@ -13,7 +14,7 @@ from gearcad.plots.planetary.parts import role_of
 from gearcad.report.check.tables import Row
 from gearcad.report.dynamics.tables import WordTable
 
-__all__ = ["force_table", "phase_table", "pin_rows", "power_rows", "speed_table"]
+__all__ = ["force_table", "harmonic_table", "phase_table", "pin_rows", "power_rows", "speed_table"]
 
 _NONE = "–"  # an en dash where there is no value
 
@@ -72,6 +73,21 @@ def phase_table(train: PlanetaryTrain, phases: Mapping[str, MeshPhases]) -> Word
         for planet, (angle, ahead, relative) in enumerate(zip(train.angles, each.ahead, each.relative, strict=True), 1)
     ]
     return WordTable(("mesh", "planet", "at, °", "ahead, base pitches", "against planet 1"), rows)
+
+
+def harmonic_table(train: PlanetaryTrain, phases: Mapping[str, MeshPhases]) -> WordTable:
+    """What the first harmonics of each mesh do: the sums of the planets' forces over those in phase."""
+    rows = [
+        (name, str(each.harmonic), f"{each.torque:.3f}", f"{each.force:.3f}", _excites(each.excited))
+        for name, sums in train_harmonics(train, dict(phases)).items()
+        for each in sums
+    ]
+    return WordTable(("mesh", "harmonic", "torque", "force", "modes that it can excite"), rows, 1)
+
+
+def _excites(excited: Excited) -> str:
+    kinds = [kind for kind, shaken in zip(("rotational", "translational"), excited, strict=True) if shaken]
+    return " and ".join(kinds) or "only those in which members rest"
 
 
 def force_table(forces: TrainForces) -> WordTable:

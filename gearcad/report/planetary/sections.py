@@ -14,7 +14,7 @@ from gearcad.report.check.figures import Picture, figure_address
 from gearcad.report.check.tables import Row
 from gearcad.report.dynamics.tables import WordTable
 from gearcad.report.planetary.build import assembly_rows, gear_table, mesh_table
-from gearcad.report.planetary.loads import force_table, phase_table, pin_rows, power_rows, speed_table
+from gearcad.report.planetary.loads import force_table, harmonic_table, phase_table, pin_rows, power_rows, speed_table
 from gearcad.report.sentences import sentences
 
 if TYPE_CHECKING:
@@ -118,4 +118,5 @@ def _phases(study: PlanetaryStudy) -> Section:
         said("phases", train, stiffness),
     )
     table = Table("", grid=phase_table(train, phases), note=said("phase_note"))
-    return Section("Phases of the meshes", tuple(filter(None, words)), (table,), (picture,))
+    sums = Table("What their harmonics do", grid=harmonic_table(train, phases), note=said("harmonic_sum_note"))
+    return Section("Phases of the meshes", tuple(filter(None, words)), (table, sums), (picture,))
