@@ -69,6 +69,7 @@ class Build(Job[ToothedDesign, ToothedDesign]):
     def _run(self, design: ToothedDesign, _progress: Progress | None) -> ToothedDesign:
         if self.options.bracket and not isinstance(design, PairDesign):
             alone = "a single gear has no assembly" if design.assembly is None else "it stands on the shafts of both"
+            alone = "a planetary train has a carrier" if isinstance(design, PlanetaryDesign) else alone
             raise GeometryError("bracket", True, f"needs a pair of gears: {alone}")
         for option in _OF_TRAINS:
             if getattr(self.options, option) and not isinstance(design, PlanetaryDesign):

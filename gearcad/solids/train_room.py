@@ -38,9 +38,8 @@ class Sweep:
 
     def about_the_train(self) -> _Extent:
         """The radii between which it is, seen from the axis of the train (mm)."""
-        if self.distance < _TOUCHING:
-            return self.radii
-        return max(self.distance - self.radii[1], 0.0), self.distance + self.radii[1]
+        inner, outer = self.radii
+        return max(self.distance - outer, inner - self.distance, 0.0), self.distance + outer
 
 
 def require_bodies(layout: TrainLayout) -> None:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
 import re
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 from zipfile import ZipFile
@@ -62,6 +65,37 @@ def test_a_scene_turns_as_the_train_does(name: str, tmp_path: Path) -> None:
             assert seen[:3, 3] == pytest.approx(standing.offset, abs=2e-4), standing.name
             assert (seen[0, 0], seen[1, 0]) == pytest.approx((math.cos(angle), math.sin(angle)), abs=5e-6), standing.name
     assert abs(glb.turned(train.input, glb.duration)) > 359
+
+
+def test_another_reader_plays_the_animation_alike(tmp_path: Path) -> None:
+    """VTK's, which knows nothing of ours: as many bodies, at the same places."""
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 - registers the renderer
+    from vtkmodules.vtkIOImport import vtkGLTFImporter
+    from vtkmodules.vtkRenderingCore import vtkRenderWindow
+
+    path = _write(small_train(), Format.GLB, tmp_path, turning=True, carrier=True)
+    glb, reader, window = Glb(path), vtkGLTFImporter(), vtkRenderWindow()
+    bodies = [node["name"] for node in glb.tree["nodes"] if "mesh" in node]
+    root = np.array([[1e-3, 0, 0, 0], [0, 0, 1e-3, 0], [0, -1e-3, 0, 0], [0, 0, 0, 1]])  # metres, y up
+    window.SetOffScreenRendering(1)
+    reader.SetFileName(str(path))
+    reader.SetRenderWindow(window)
+    reader.Update()
+    assert reader.GetNumberOfAnimations() == 1
+    reader.EnableAnimation(0)
+    for time in (0.0, 1.37, 6.2):
+        reader.UpdateAtTimeValue(time)
+        places = glb.places(time)
+        ours = np.array([root @ places[name] for name in bodies])
+        actors = window.GetRenderers().GetFirstRenderer().GetActors()
+        actors.InitTraversal()
+        theirs = []
+        while (actor := actors.GetNextActor()) is not None:
+            matrix = actor.GetUserMatrix()
+            theirs.append([[matrix.GetElement(row, column) for column in range(4)] for row in range(4)])
+        assert len(theirs) == len(ours) == 11
+        apart = np.abs(ours[:, None] - np.array(theirs)).max(axis=(2, 3))
+        assert apart.min(axis=0).max() < 1e-7 and apart.min(axis=1).max() < 1e-7  # m
 
 
 @pytest.mark.parametrize("turns", [1.0, -8.9444, 60.0])
@@ -164,6 +198,33 @@ def test_a_picture_shows_every_part_in_its_colour_from_three_sides_and_apart(tmp
         assert 0.1 < painted.mean() < 0.9
         assert painted.any(axis=0).sum() > 0.85 * width / 2 or painted.any(axis=1).sum() > 0.85 * height / 2
     assert capfd.readouterr().err == ""  # type: ignore[attr-defined]
+
+
+# ---------------------------------------------------------------------- bytes
+
+_AGAIN = """
+import sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+from planetary.test_train_files import write_some
+write_some(Path(sys.argv[2]))
+"""
+
+
+def write_some(folder: Path) -> None:
+    """What the kernel and sets of Python might order by chance."""
+    for kind in (Format.STEP, Format.GLB, Format.DXF):
+        _write(small_train(), kind, folder, carrier=True, turning=True)
+
+
+def test_equal_input_gives_equal_bytes_in_every_process(tmp_path: Path) -> None:
+    here, there = tmp_path / "here", tmp_path / "there"
+    for folder in (here, there):
+        folder.mkdir()
+    write_some(here)
+    command = [sys.executable, "-c", _AGAIN, str(Path(__file__).parents[1]), str(there)]
+    subprocess.run(command, check=True, env={**os.environ, "PYTHONHASHSEED": "7"})
+    assert [file.name for file in here.iterdir() if file.read_bytes() != (there / file.name).read_bytes()] == []
 
 
 def _hues(colours: np.ndarray) -> np.ndarray:
