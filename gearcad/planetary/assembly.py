@@ -38,18 +38,30 @@ def check_counts(train: TrainData) -> None:
 def check_assembly(train: TrainData) -> None:
     """Nothing is in the way of anything, and the teeth fit. Raises ParameterError, GeometryError with what would do."""
     check_heights(train)
-    check_neighbours(train)
+    try:
+        check_neighbours(train)
+    except GeometryError as error:
+        if misfit := first_misfit(train):
+            raise GeometryError(error.parameter, error.value, f"{error.permitted}; and {misfit[1]}", error.unit) from error
+        raise
     check_teeth(train)
 
 
 def check_teeth(train: TrainData) -> None:
     """The teeth fit where the planets stand. Raises GeometryError with where they would, and which sets near by can."""
+    if misfit := first_misfit(train):
+        angle, off = misfit
+        near = " or ".join(f"{each:.7g}" for each in _fitting_beside(train, angle))
+        permitted = f"must let the teeth fit: {off}, it fits at {near} deg; {_what_can(train)}"
+        raise GeometryError("planet_angles", train.planet_angles, permitted)
+
+
+def first_misfit(train: TrainData) -> tuple[float, str] | None:
+    """Angle (degrees) of the first planet whose teeth miss their spaces, and in words by how much; None if all fit."""
     for number, (angle, misfit) in enumerate(zip(train.angles, assembled(train).misfits, strict=True), start=1):
         if abs(misfit) > MISFIT:
-            near = " or ".join(f"{each:.7g}" for each in _fitting_beside(train, angle))
-            off = f"planet {number} at {angle:.7g} deg is {abs(misfit):.4g} pitches off in {train.meshes[0].name}"
-            permitted = f"must let the teeth fit: {off}, it fits at {near} deg; {_what_can(train)}"
-            raise GeometryError("planet_angles", train.planet_angles, permitted)
+            return angle, f"planet {number} at {angle:.7g} deg is {abs(misfit):.4g} pitches off in {train.meshes[0].name}"
+    return None
 
 
 def _fitting_beside(train: TrainData, angle: float) -> tuple[float, float]:

@@ -82,6 +82,11 @@ def test_neighbours_keep_their_tips_apart() -> None:
     assert "planet_angles" in message and "planets 1 and 2" in message and "rim_3 reach 70" in message
 
 
+def test_both_are_told_where_neither_room_nor_teeth_let_the_planets_stand() -> None:
+    with pytest.raises(GeometryError, match=r"planets = 5: must be at most 4: .* 61.2 mm; and planet 2 at 72 deg is 0.2 pitches"):
+        simple_train((20, 28, -76), (0.3, 0.3, -0.9), 5)
+
+
 def test_one_planet_has_no_neighbours() -> None:
     assert thesis_train(planets=1, tip_distance=1000.0).unbalance == 1.0
 
