@@ -83,7 +83,7 @@ def test_neighbours_keep_their_tips_apart() -> None:
 
 
 def test_both_are_told_where_neither_room_nor_teeth_let_the_planets_stand() -> None:
-    with pytest.raises(GeometryError, match=r"planets = 5: must be at most 4: .* 61.2 mm; and planet 2 at 72 deg is 0.2 pitches"):
+    with pytest.raises(GeometryError, match=r"at most 4: .* 61.2 mm; and planet 2 at 72 deg is 0.2 pitches"):
         simple_train((20, 28, -76), (0.3, 0.3, -0.9), 5)
 
 
