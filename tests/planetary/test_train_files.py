@@ -217,6 +217,7 @@ def write_some(folder: Path) -> None:
         _write(small_train(), kind, folder, carrier=True, turning=True)
 
 
+@pytest.mark.long
 def test_equal_input_gives_equal_bytes_in_every_process(tmp_path: Path) -> None:
     here, there = tmp_path / "here", tmp_path / "there"
     for folder in (here, there):

@@ -91,9 +91,8 @@ def _check(solids: TrainSolids, carrier_angle: float, *, sides: bool) -> None:
         assert distance == pytest.approx(stage.pair.normal_backlash / 2, abs=TOUCH)
 
 
-@pytest.mark.parametrize("name", ["A 3", "C 2"])
-def test_backlash_of_solids_is_that_of_the_pairs(name: str) -> None:
-    _check(TrainSolids(sets()[name]), -41.3, sides=True)
+def test_backlash_of_solids_is_that_of_the_pairs() -> None:
+    _check(TrainSolids(sets()["C 2"]), -41.3, sides=True)
 
 
 @pytest.mark.long

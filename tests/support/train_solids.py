@@ -57,14 +57,21 @@ def stepped_set(
     return _train((first, second), planets, clocking)
 
 
-def alm_train(**given: object) -> PlanetaryTrain:
+def alm_train() -> PlanetaryTrain:
     """The train of the Alm thesis with its pre-stage below, the profile shift of ring 5 as its 69 mm ask for."""
     first = _gear(-70, 2.8, -1.2025, width=8.0), _gear(22, 2.8, 0.5)
     second = _gear(-72, 2.6, -1.6794, width=8.0), _gear(21, 2.6, 0.5)
     pair = GearPair(pinion=_gear(18, 1.5, 0.3422, width=12.0), wheel=_gear(161, 1.5, 0.1682, width=8.0), centre_distance=135.0)
     stage = PairStage(name="pre", pair=pair, pinion="shaft", wheel="carrier", angle=25.0, axial_position=-26.0)
-    defaults = {"fixed": "a", "input": "shaft", "output": "b", "stages": (stage,), "name": "alm"}
-    return _train((first, second), 3, distance=69.0, **{**defaults, **given})
+    given = {"fixed": "a", "input": "shaft", "output": "b", "stages": (stage,), "name": "alm"}
+    return _train((first, second), 3, distance=69.0, **given)
+
+
+def adjusted_train() -> PlanetaryTrain:
+    """That of the thesis with four planets, which fit because each is clocked by itself."""
+    train = alm_train()
+    rims = (train.rims[0], replace(train.rims[1], clocking="adjusted"))
+    return replace(train, planets=4, rims=rims)
 
 
 def small_train() -> PlanetaryTrain:
@@ -88,6 +95,7 @@ def sets() -> dict[str, PlanetaryTrain]:
         "C 3 helical": stepped_set(30, 18, 22, 26, 3, 20.0),
         "D 3 helical": stepped_set(-70, 22, 21, -69, 3, 12.0),
         "D 3 Alm": alm_train(),
+        "D 4 adjusted": adjusted_train(),
         "D 3 in phase": _train(
             ((_gear(-75, 2.7, -0.156), _gear(24, 2.7)), (_gear(-72, 2.6, -1.6794), _gear(21, 2.6, 0.5))), 3, distance=69.0
         ),
