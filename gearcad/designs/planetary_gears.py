@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
@@ -21,8 +22,13 @@ from gearcad.designs.khk import khk_reminder
 from gearcad.designs.planetary_tables import MAIN
 from gearcad.designs.spec import Given, Spec
 from gearcad.errors import GeometryError, InputError, as_choice, format_number, require_number
-from gearcad.geometry import Gear, GearPair, ShiftSplit
+from gearcad.geometry import Gear, ShiftSplit
+from gearcad.geometry.derived import NOT_GIVEN
 from gearcad.per_gear import PerGear, Role
+from gearcad.planetary.coaxial import settle_centre_distance
+from gearcad.planetary.members import Central, Rim
+from gearcad.planetary.mesh import SetMesh
+from gearcad.planetary.train_data import TrainData
 
 __all__ = ["TableMesh", "TrainGears"]
 
@@ -89,10 +95,44 @@ class TrainGears:
             roles = mesh.roles(inputs)
             with self._of_mesh(mesh, roles):
                 pair = make_gears(roles.map(inputs.__getitem__), roles.map(automatic.__getitem__), mesh.signed(distance))
-                made = dict(zip(roles, pair, strict=True)) | gears
-                gears = made | {mesh.central: self._fitted(mesh, made, roles, distance)}
+            gears = dict(zip(roles, pair, strict=True)) | gears
         follows = given is not None or any("profile_shift" in names for names in automatic.values())
-        return gears, distance if follows else None
+        found = distance if follows else None
+        for mesh, fitted in zip(self.meshes, self._fitted(gears, inputs, found), strict=True):
+            gears |= {mesh.central: self._cleared(mesh, fitted)}
+        return gears, found
+
+    def _fitted(self, gears: Mapping[str, Gear], inputs: Inputs, distance: float | None) -> tuple[SetMesh, ...]:
+        """The meshes of the gears at one centre distance, given or not. Raises InputError."""
+        names = {table: str(inputs[table]["name"]) for table in gears}
+        train = TrainData(
+            planets=1,
+            centrals=tuple(
+                Central(name=names[mesh.central], gear=gears[mesh.central], meshes=names[mesh.rim]) for mesh in self.meshes
+            ),
+            rims=tuple(Rim(name=names[rim], gear=gears[rim]) for rim in dict.fromkeys(mesh.rim for mesh in self.meshes)),
+            input="",
+            output="",
+            centre_distance=NOT_GIVEN if distance is None else distance,
+        )
+        try:
+            settle_centre_distance(train)
+        except InputError as error:
+            raise self._of_tables(error, names, inputs) from error
+        return train.meshes
+
+    def _of_tables(self, error: InputError, names: Mapping[str, str], inputs: Inputs) -> InputError:
+        """An error of a train, whose parameter begins with the name of a gear, or of a mesh and a role, as one of the table."""
+        parameter, permitted = error.parameter, error.permitted
+        owner = next((table for table, name in names.items() if parameter.startswith(f"{name}.")), None)
+        if owner is not None:
+            parameter = parameter.replace(names[owner], owner, 1)
+        for mesh in self.meshes:
+            led = f"{names[mesh.central]}-{names[mesh.rim]}."
+            if parameter.startswith(led):
+                roles = mesh.roles(inputs)
+                parameter, permitted = _called(parameter.removeprefix(led), roles), _called(permitted, roles)
+        return type(error)(parameter, error.value, permitted, error.unit)
 
     # ------------------------------------------------------------------ centre distance
 
@@ -174,18 +214,27 @@ class TrainGears:
         ring["tip_alteration"] = tip
         self._note(mesh.central, "tip_alteration", tip, CLEAR)
 
-    def _fitted(self, mesh: TableMesh, gears: Mapping[str, Gear], roles: PerGear[str], distance: float) -> Gear:
+    def _cleared(self, mesh: TableMesh, fitted: SetMesh) -> Gear:
         """The central; a ring that is to be clear is drawn in further if the edge of its tip still cuts the rim's fillet."""
-        pair = GearPair(**roles.map(gears.__getitem__)._asdict(), centre_distance=mesh.signed(distance))
-        central = gears[mesh.central]
+        central = fitted.central.gear
         given = self.spec.values.get(f"{mesh.central}.tip_alteration")
-        if given is None or given.note != CLEAR or (clear := pair.clear_tip_diameter) is None:
+        if given is None or given.note != CLEAR or (clear := fitted.pair.clear_tip_diameter) is None:
             return central
         change = (clear - central.tip_diameter) / (2 * central.normal_module)
         if change >= -_ROUNDING:
             return central
         self._note(mesh.central, "tip_alteration", given.value + change, CLEAR)
         return replace(central, tip_alteration=given.value + change)
+
+    def _usual_teeth(self, mesh: TableMesh) -> str:
+        """A hint at the number of teeth of a ring about simple planets that asks for no shift: |z_r| = z_s + 2 z_p."""
+        sun = next((other.central for other in self.meshes if not other.ring and other.rim == mesh.rim), None)
+        teeth = [self.spec.values.get(f"{table}.teeth") for table in (sun, mesh.rim, mesh.central)]
+        if not mesh.ring or any(each is None or not isinstance(each.value, int) for each in teeth):
+            return ""
+        of_sun, of_planet, of_ring = (each.value for each in teeth if each is not None)
+        usual = -(of_sun + 2 * of_planet)
+        return "" if usual == of_ring else f"; a ring of {usual} teeth takes {of_sun} and {of_planet} without it"
 
     def _note(self, table: str, key: str, value: float, note: str) -> None:
         """Keep what stands for a word among the values of the spec."""
@@ -201,12 +250,20 @@ class TrainGears:
             head, _, rest = error.parameter.partition(".")
             role = next((role for role in Role if role.value == head), None)
             if role is not None:
-                raise type(error)(f"{roles.pick(role)}.{rest}", error.value, error.permitted, error.unit) from error
+                permitted = _called(error.permitted, roles)
+                raise type(error)(f"{roles.pick(role)}.{rest}", error.value, permitted, error.unit) from error
             if error.parameter != "centre_distance" or not isinstance(error.value, float):
                 raise
             sign = f", where it counts as {format_number(error.value)} mm" if mesh.ring else ""
-            permitted = f"in the mesh of {mesh.central} and {mesh.rim}{sign}: {error.permitted}"
+            asked = _called(error.permitted, roles)
+            permitted = f"in the mesh of {mesh.central} and {mesh.rim}{sign}: {asked}{self._usual_teeth(mesh)}"
             raise type(error)(error.parameter, abs(error.value), permitted, error.unit) from error
+
+
+def _called(text: str, roles: PerGear[str]) -> str:
+    """A text about pinion and wheel with their tables in place of these."""
+    names = {role.value: table for role, table in roles.items()}
+    return re.sub(r"\b(?:the )?(pinion|wheel)\b", lambda found: names[found[1]], text)
 
 
 def _automatic(gear: Mapping[str, Any]) -> list[str]:

@@ -51,7 +51,12 @@ class PlanetarySpec(Spec):
         """An error is about a gear by its table, or by its name."""
         tables = {table: table for table in OF_SETS} | {self.name_of(table): table for table in self.tables}
         head, _, rest = parameter.partition(".")
-        return (tables[head], rest) if rest and head in tables else (owner, parameter)
+        if rest and head in tables:
+            return tables[head], rest
+        for stage in (f"{MAIN}.pre_stage", *self.stages):
+            if head == self.stage_name(stage) and f"{stage}.{rest}.on" in self.values:
+                return stage, f"{rest}.on"
+        return owner, parameter
 
     def _explained(self, error: InputError, owner: str) -> SpecError:
         """A name at fault is that of a part, if one has it."""
@@ -79,6 +84,13 @@ class PlanetarySpec(Spec):
         """What the user calls a gear."""
         given = self.values.get(f"{table}.name")
         return table if given is None else str(given.value)
+
+    def stage_name(self, stage: str) -> str:
+        """What the user calls a stage, by the beginning of its keys."""
+        given = self.values.get(f"{stage}.name")
+        if given is not None:
+            return str(given.value)
+        return f"stage_{self.stages.index(stage) + 1}" if stage in self.stages else stage.removeprefix(f"{MAIN}.")
 
     @property
     def _meshes(self) -> tuple[TableMesh, ...]:
@@ -122,9 +134,10 @@ class PlanetarySpec(Spec):
 
     def _share_values(self) -> None:
         """Give the gears what stands in [planetary] or on a mate, unless they have their own."""
-        for name in (*MODULE_OR_PITCH, *_OPPOSED):
+        for name in MODULE_OR_PITCH:
             self._spread(name)
-        self._spread_helix()
+        for name in _OPPOSED:
+            self._spread_helix(name)
         for table in self.tables:
             renamed = f"{table}.rack" in self.values
             sized = any(f"{table}.{name}" in self.values for name in MODULE_OR_PITCH)
@@ -146,21 +159,18 @@ class PlanetarySpec(Spec):
                 turned = key in _OPPOSED and not mesh.ring and isinstance(given.value, float)
                 self.values[f"{own}.{key}"] = given._replace(value=0.0 - given.value) if turned else given
 
-    def _spread_helix(self) -> None:
-        """A helix in [planetary] is that of the first central; a stepped planet's second mesh has to say its own."""
+    def _spread_helix(self, key: str) -> None:
+        """What stands in [planetary] is the first central's; a stepped planet's second mesh has to say its own."""
         first, second = self._meshes
-        for key in _OPPOSED:
-            given = self.values.get(f"{MAIN}.{key}")
-            if given is None:
-                continue
-            if f"{first.central}.{key}" not in self.values:
-                self.values[f"{first.central}.{key}"] = given
-                self._spread(key)
-            if f"{second.rim}.{key}" not in self.values and given.value:
-                written = self._written(second.rim, key)
-                permitted = f"is of {self.name_of(first.central)} and its mate only: give {written} too, 0 for spur teeth"
-                with self.blame(MAIN):
-                    raise GeometryError(key, given.value, permitted, "deg" if key == "helix_angle" else "")
+        given = self.values.get(f"{MAIN}.{key}")
+        if given is not None:
+            self.values.setdefault(f"{first.central}.{key}", given)
+        self._spread(key)
+        if given is not None and given.value and f"{second.rim}.{key}" not in self.values:
+            written = self._written(second.rim, key)
+            permitted = f"is of {self.name_of(first.central)} and its mate only: give {written} too, 0 for spur teeth"
+            with self.blame(MAIN):
+                raise GeometryError(key, given.value, permitted, "deg" if key == "helix_angle" else "")
 
     def _check_teeth(self, inputs: Mapping[str, dict[str, Any]]) -> None:
         """The numbers of teeth by themselves, and the words for tips."""

@@ -104,7 +104,11 @@ def _values(
         if spec is None and not (owner == MAIN and field.startswith(f"{SPEEDS}.")) and not (fields and field == "meshes"):
             raise SpecError(f"{where(key)}: {shown(key)}: {_unknown(owner, field, known)}", key)
         require_sane_tables(value, where, key)
-        yield key, Given(_plain(value, spec), key)
+        plain = _plain(value, spec)
+        if spec is not None and spec.several and not isinstance(plain, tuple) and plain not in spec.words:
+            words = "".join(f' or "{word}"' for word in spec.words)
+            raise SpecError(f"{where(key)}: {key} = {format_number(value)}: must be a list of numbers{words}", key)
+        yield key, Given(plain, key)
 
 
 def _flat(content: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
@@ -130,6 +134,8 @@ def _plain(value: Any, field: FieldSchema | None) -> Any:
 
 def _unknown(owner: str, field: str, known: Mapping[str, FieldSchema]) -> str:
     """The end of the message about a key that a table does not have."""
+    if field == SPEEDS or any(key.startswith(f"{field}.") for key in known):
+        return f"must be a table, headed [{owner}.{field}]"
     homes = [f"[{table}]" for table, keys in PLANETARY.items() if field in keys and table != owner]
     if homes:
         return f"unknown key here; it belongs in {' or '.join(homes)}"

@@ -108,7 +108,7 @@ class Spec:
         owner, field = self._place(error.parameter, owner)
         # The profile knows the chamfer, not whose it is.
         field = "body.tip_chamfer" if field == "tip_chamfer" and owner != "rack" else field
-        permitted = error.permitted
+        permitted = error.permitted.replace(f"[{self.main}]", f"[{self.names.get(self.main, self.main)}]")
         if field in ("profile_shift", "tip_alteration") and isinstance(error, ParameterError):
             words = self._words(owner)
             permitted += f', or "{AUTO}"' if AUTO in words else ""

@@ -236,6 +236,70 @@ MISTAKES = [
 ]
 
 
+MISTAKES_OF_ALM = [
+    (
+        (('profile_shift = "auto"\n\n[planet]', 'profile_shift = -1.2025\n\n[planet]'), ("centre_distance = 69.0\n", ""),
+         ('teeth = -72\nprofile_shift = "auto"', "teeth = -72\nprofile_shift = -1.1794")),
+        "line 41: ring_2.profile_shift = -1.1794: must be -1.6794 for one centre distance: the meshes run without backlash at"
+        " 69.000 mm (ring_4-rim_3) and 67.927 mm (ring_5-rim_3p); or give one that suits both",
+    ),
+    (
+        (('teeth = -72\nprofile_shift = "auto"', "teeth = -72\nprofile_shift = -1.1794"),),
+        "line 7: planetary.centre_distance = 69 mm: must suit both meshes, which run without backlash at 69.000 mm"
+        " (ring_4-rim_3) and 67.927 mm (ring_5-rim_3p)",
+    ),
+    (
+        (("centre_distance = 135.0\n", ""), ("pinion.profile_shift = 0.3422", 'pinion.profile_shift = "auto"')),
+        "line 15: planetary.pre_stage.pinion.profile_shift = 'auto': needs centre_distance in [planetary.pre_stage]",
+    ),
+    ((("wheel.teeth = 161", "wheel.teeht = 161"),), "line 17: planetary.pre_stage.wheel.teeht: unknown key; did you mean"),
+    (
+        (('wheel.name = "gear_2"', 'wheel.name = "ring_5"'),),
+        "line 40: ring_2.name = 'ring_5': must be given once: every gear and the carrier have names of their own",
+    ),
+    (
+        (('wheel.name = "gear_2"', 'wheel.on = "moon"'),),
+        "line 18: planetary.pre_stage.wheel.on = 'moon': must be one of ring_4, ring_5, carrier",
+    ),
+    ((("axial_position = 20.0", "axial_position = 2.0"),), "line 37: planet_2.axial_position = 2 mm: must be at least"),
+    ((("planets = 3", "planets = 4"),), "line 2: planetary.planet_angles = 'equal' (by default): must let the teeth fit"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("changes", "words"), MISTAKES_OF_ALM, ids=[str(number) for number in range(len(MISTAKES_OF_ALM))])
+def test_mistakes_in_stepped_sets_and_stages_are_led_back(
+    changes: tuple[tuple[str, str], ...], words: str, tmp_path: Path
+) -> None:
+    assert words in fault(tmp_path, ALM + SHORT, *changes)
+
+
+def test_mistakes_in_lists_are_led_back_to_their_tables(tmp_path: Path) -> None:
+    assert "line 38: planetary.central[1].teeht: unknown key; did you mean teeth?" in fault(
+        tmp_path, ALM + LISTS, ("teeth = -72", "teeth = -72\nteeht = 3")
+    )
+    assert "planetary.central[1].support_stiffness = -1 N/µm: must be" in fault(
+        tmp_path, ALM + LISTS, ("teeth = -72", "teeth = -72\nsupport_stiffness = -1")
+    )
+    assert "planetary.central[0].meshes = 'rim': must be 'rim_3p' or 'rim_3', a rim of the planets" in fault(
+        tmp_path, ALM + LISTS, ('meshes = "rim_3"', 'meshes = "rim"')
+    )
+    assert "planetary.central[1].meshes = 'rim_3': must be 'rim_3p': each rim meshes with one" in fault(
+        tmp_path, ALM + LISTS, ('meshes = "rim_3p"', 'meshes = "rim_3"')
+    )
+    assert "[sun] cannot stand beside [[planetary.central]]: write the set in one way" in fault(
+        tmp_path, ALM + LISTS, ("[planetary.pre_stage]", "[sun]\nteeth = 20\n[planetary.pre_stage]")
+    )
+
+
+def test_what_stands_in_planetary_and_on_a_gear_must_agree(tmp_path: Path) -> None:
+    helical = PLAIN.replace("planets = 3", "planets = 3\nhelix_angle = 15.0")
+    assert "planetary.helix_angle = 15 deg: must be -15 deg, opposite to planet" in fault(
+        tmp_path, helical, ("teeth = 21", "teeth = 21\nhelix_angle = 15.0")
+    )
+    stepped = ALM.replace("planets = 3", "planets = 3\nhelix_angle = 15.0") + SHORT
+    assert "is of ring_4 and its mate only: give planet_2.helix_angle too, 0 for spur teeth" in fault(tmp_path, stepped)
+
+
 @pytest.mark.parametrize(("changes", "words"), MISTAKES, ids=[str(number) for number in range(len(MISTAKES))])
 def test_mistakes_are_led_back_to_what_was_written(changes: tuple[tuple[str, str], ...], words: str, tmp_path: Path) -> None:
     assert words in fault(tmp_path, PLAIN, *changes)

@@ -138,7 +138,7 @@ def _carrier(spec: PlanetarySpec) -> Carrier:
 def _stage(spec: PlanetarySpec, owner: str, wheel_on: str) -> PairStage:
     """The pair of a table; of a pre-stage the wheel is on the carrier, unless it says otherwise."""
     given = {key: spec.values[f"{owner}.{key}"] for key in spec.fields_of(owner)}
-    name = given["name"].value if "name" in given else owner.removeprefix(f"{MAIN}.")
+    name = spec.stage_name(owner)
     of_stage = {key: given[key].value for key in ("angle", "axial_position") if key in given}
     on = {role: given[f"{role.value}.on"].value for role in Role if f"{role.value}.on" in given}
     of_pair = {
@@ -147,7 +147,7 @@ def _stage(spec: PlanetarySpec, owner: str, wheel_on: str) -> PairStage:
         if key not in ("name", *of_stage, *(f"{role.value}.on" for role in Role))
     }
     names = {"pair": owner} | {role.value: f"{owner}.{role.value}" for role in Role}
-    pair = PairSpec(of_pair, spec.where, names).pair(str(name))
+    pair = PairSpec(of_pair, spec.where, names).pair(name)
     shafts = {role.value: on.get(role, gear.name) for role, gear in pair.gears.items()}
     if wheel_on and not on:
         shafts[Role.WHEEL.value] = wheel_on
