@@ -14,6 +14,7 @@ from support.mode_trains import TRAINS
 from support.planetary import simple_train
 
 from gearcad.designs import PlanetaryDesign, read_spec
+from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.planetary.mesh_stiffness import QUICK
 from gearcad.dynamics.planetary.result import PlanetaryStudy
 from gearcad.dynamics.planetary.study import study_planetary
@@ -29,6 +30,7 @@ NASTY_NAME = 'a <b>"train"</b> & $more$'
 
 ALWAYS = ["Scheme", "Gears", "Assembly"]
 LOADED = ["Power", "Forces", "Load sharing", "Torsional stiffness", "Running", "Rating of the meshes"]
+VIBRATING = ["Natural frequencies and modes", "Campbell diagram"]
 
 
 def _drawn_only(draw: Callable[[Figure], object], _kind: str, inches: tuple[float, float]) -> str:
@@ -110,7 +112,9 @@ def test_it_holds_the_speeds_torques_and_shares_of_the_study(alm: PlanetaryStudy
     gears = {row[0]: row[2] for row in table(page, "gear")}
     assert gears == {"ring_4": "-70", "ring_5": "-72", "rim_3": "22", "rim_3p": "21", "pinion_1": "18", "gear_2": "161"}
     assert "The ratio is -124.2807" in page
-    assert set(ALWAYS + LOADED) <= set(titles(page)) and "What could not be computed" not in titles(page)
+    assert set(ALWAYS + LOADED + VIBRATING) <= set(titles(page)) and "Loads over speed" not in titles(page)
+    assert alm.campbell is not None and len(table(page, "line,mode")) == min(len(alm.campbell.excited), 24)
+    assert "What could not be computed" not in titles(page)
 
 
 def test_what_is_missing_is_named_with_its_reason(alm: PlanetaryStudy) -> None:
@@ -147,3 +151,14 @@ def test_a_differential_has_no_efficiency_from_end_to_end() -> None:
     assert "all power that goes out over all that goes in" in text
     locked = replace(study, why_not={})
     assert planetary_html(locked, "differential") == text
+
+
+def test_loads_over_speed_are_there_where_they_were_asked_for() -> None:
+    train = _weighed(TRAINS["A"])
+    options = DynamicsOptions(speeds=10, speed_from=1500.0, speed_to=2500.0, harmonics=3)
+    study = study_planetary(train, TrainLoad(torque=100.0, speed=2000.0), dynamics=options, response=True)
+    assert study.response is not None
+    text = planetary_html(study, "A")
+    assert "Loads over speed" in titles(text)
+    factor, mesh, _ = study.response.greatest
+    assert f"is {factor:.3f} times that at rest, in {mesh} at" in " ".join(text.split())

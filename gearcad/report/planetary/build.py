@@ -67,7 +67,7 @@ def _mesh(name: str, pair: GearPair) -> tuple[str, ...]:
         pair.working_transverse_pressure_angle,
         pair.transverse_contact_ratio,
         pair.overlap_ratio,
-        pair.circumferential_backlash,
+        _rounded(pair.circumferential_backlash),
     )
     return (name, f"{pair.pinion.teeth} / {pair.wheel.teeth}", *map(short, numbers))
 
@@ -117,4 +117,4 @@ def _balance(train: PlanetaryTrain) -> str:
 
 def _rounded(value: float) -> float:
     """Without what only rounding leaves."""
-    return value if value > 1e-9 else 0.0
+    return value if abs(value) > 1e-9 else 0.0

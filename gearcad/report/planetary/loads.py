@@ -78,11 +78,11 @@ def phase_table(train: PlanetaryTrain, phases: Mapping[str, MeshPhases]) -> Word
 def harmonic_table(train: PlanetaryTrain, phases: Mapping[str, MeshPhases]) -> WordTable:
     """What the first harmonics of each mesh do: the sums of the planets' forces over those in phase."""
     rows = [
-        (name, str(each.harmonic), f"{each.torque:.3f}", f"{each.force:.3f}", _excites(each.excited))
+        (f"{each.harmonic} × {name}", _excites(each.excited), f"{each.torque:.3f}", f"{each.force:.3f}")
         for name, sums in train_harmonics(train, dict(phases)).items()
         for each in sums
     ]
-    return WordTable(("mesh", "harmonic", "torque", "force", "modes that it can excite"), rows, 1)
+    return WordTable(("harmonic", "modes that it can excite", "torque", "force"), rows, 2)
 
 
 def _excites(excited: Excited) -> str:
