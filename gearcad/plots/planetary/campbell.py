@@ -15,7 +15,7 @@ from gearcad.plots.planetary.parts import colour_of
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["CAMPBELL_INCHES", "KIND_COLOURS", "plot_train_campbell"]
+__all__ = ["CAMPBELL_INCHES", "KIND_COLOURS", "highest_drawn", "plot_train_campbell"]
 
 CAMPBELL_INCHES = (FIGURE_INCHES[0], 5.4)
 
@@ -35,6 +35,9 @@ _LEAST, _MOST = 3.0, 6.5
 _ABOVE = 1.05
 """Of the highest natural frequency, up to where the picture goes."""
 
+_NEAR = 0.15
+"""Relative difference of slopes that leaves no room for a number at each line."""
+
 _ROW = 0.14
 """Inches between the numbers of natural frequencies beside the picture."""
 
@@ -47,15 +50,15 @@ def plot_train_campbell(train: PlanetaryTrain, campbell: PlanetaryCampbell, ax: 
     """
     empty = new_figure(CAMPBELL_INCHES).subplots() if ax is None else ax
     axes = prepared(empty, f"speed of {plain(train.input)} in rpm", "frequency in Hz")
-    families = [family for family in campbell.families if family.frequency > 0]
-    highest = _ABOVE * max((family.frequency for family in families), default=1.0)
+    highest = highest_drawn(campbell)
+    families = [family for family in campbell.families if 0 < family.frequency <= highest]
     axes.set_xlim(0, campbell.highest_speed)
     axes.set_ylim(0, highest)
     axes.grid(False)
     for family in families:
         axes.axhline(family.frequency, color=KIND_COLOURS[family.kind], linewidth=1.0, alpha=0.8)
     for line in campbell.lines:
-        _draw_line(axes, train, line, campbell.highest_speed, highest)
+        _draw_line(axes, train, line, campbell, highest)
     for met in campbell.resonances:
         colour = KIND_COLOURS[campbell.families[met.family].kind]
         if met.excited:
@@ -68,12 +71,26 @@ def plot_train_campbell(train: PlanetaryTrain, campbell: PlanetaryCampbell, ax: 
     return axes
 
 
-def _draw_line(axes: Axes, train: PlanetaryTrain, line: CampbellLine, fastest: float, highest: float) -> None:
+def highest_drawn(campbell: PlanetaryCampbell) -> float:
+    """Frequency (Hz) up to where the picture goes: the highest natural one, or what the lines reach if that is lower."""
+    natural = [family.frequency for family in campbell.families if family.frequency > 0]
+    reached = max((line.per_rpm for line in campbell.lines), default=0.0) * campbell.highest_speed
+    return _ABOVE * min(max(natural, default=1.0), max(reached, min(natural, default=1.0)))
+
+
+def _beside(train: PlanetaryTrain, line: CampbellLine, campbell: PlanetaryCampbell) -> bool:
+    """Whether a line of the second mesh is so near to that of the first that one number is for both."""
+    first = train.meshes[0].name
+    near = [each.per_rpm for each in campbell.lines if (each.source, each.harmonic) == (first, line.harmonic)]
+    return line.source != first and bool(near) and abs(line.per_rpm / near[0] - 1) < _NEAR
+
+
+def _draw_line(axes: Axes, train: PlanetaryTrain, line: CampbellLine, campbell: PlanetaryCampbell, highest: float) -> None:
     """A line from standstill to where it leaves the picture, its harmonic there."""
-    end = min(fastest, highest / line.per_rpm)
+    end = min(campbell.highest_speed, highest / line.per_rpm)
     colour, style, width = _style(train, line)
     axes.plot([0, end], [0, line.per_rpm * end], color=colour, linestyle=style, linewidth=width, zorder=2)
-    if line.kind is LineKind.MESH:
+    if line.kind is LineKind.MESH and not _beside(train, line, campbell):
         place = (end, line.per_rpm * end)
         axes.annotate(
             str(line.harmonic), place, (-2, -2), textcoords="offset points", ha="right", va="top", fontsize=7, color=DARK

@@ -15,7 +15,7 @@ from gearcad.dynamics.planetary.response import PlanetaryResponse
 from gearcad.dynamics.planetary.springs import Spring, SpringKind
 from gearcad.planetary import PlanetaryTrain
 from gearcad.plots.paper import short
-from gearcad.plots.planetary.campbell import CAMPBELL_INCHES, plot_train_campbell
+from gearcad.plots.planetary.campbell import CAMPBELL_INCHES, highest_drawn, plot_train_campbell
 from gearcad.plots.planetary.modes import MOST_MODES, modes_inches, plot_modes, shown_families
 from gearcad.plots.planetary.response import RESPONSE_INCHES, plot_response
 from gearcad.report.check.figures import Picture
@@ -99,7 +99,7 @@ def _campbell(train: PlanetaryTrain, campbell: PlanetaryCampbell) -> Section:
         "Campbell diagram",
         words=(said("campbell_words", train, campbell),),
         tables=(Table("Excited modes", grid=table, note=note),) if table.rows else (),
-        figures=(figure("Campbell diagram", draw, CAMPBELL_INCHES, said("campbell", campbell)),),
+        figures=(figure("Campbell diagram", draw, CAMPBELL_INCHES, said("campbell", campbell, highest_drawn(campbell))),),
     )
 
 
