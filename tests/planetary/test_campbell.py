@@ -15,6 +15,7 @@ from gearcad.dynamics.planetary.modes import ModeKind, planetary_modes
 from gearcad.dynamics.planetary.springs import train_springs
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.planetary import PlanetaryTrain
+from gearcad.planetary.harmonics import train_harmonics
 
 STIFFNESS = (400.0, 500.0)
 
@@ -117,6 +118,18 @@ def test_unequal_planets_are_excited_by_their_own_phases() -> None:
     assert not modal_shares(modes, "a-rim1", even, 1)[rotational].any()
     expected = abs(np.exp(2j * np.pi * uneven).sum()) / 3
     assert modal_shares(modes, "a-rim1", uneven, 1)[rotational] == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("kind", TRAINS)
+def test_sums_over_phases_say_the_same_as_the_modes(kind: str) -> None:
+    """Torque and force of a harmonic on the members, which know of no modes."""
+    train = on_springs(TRAINS[kind], support=60.0, pin=200.0)
+    modes = planetary_modes(train_springs(train, STIFFNESS), MASSES)
+    campbell = planetary_campbell(train, modes, train.phases, 1000.0)
+    for name, sums in train_harmonics(train).items():
+        for each in sums:
+            kinds = campbell.kinds_excited(name, each.harmonic)
+            assert each.excited == (ModeKind.ROTATIONAL in kinds, ModeKind.TRANSLATIONAL in kinds)
 
 
 def test_stages_and_stepped_planets_have_lines_of_their_own() -> None:

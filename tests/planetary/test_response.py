@@ -21,13 +21,14 @@ from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.planetary.driven import planetary_excitation, planetary_system
 from gearcad.dynamics.planetary.eigenspaces import mass_diagonal
+from gearcad.dynamics.planetary.folding import fold, planets_alike
 from gearcad.dynamics.planetary.mesh_stiffness import train_stiffness
-from gearcad.dynamics.planetary.modes import planetary_modes
+from gearcad.dynamics.planetary.modes import ModeKind, planetary_modes
 from gearcad.dynamics.planetary.response import PlanetaryResponse, planetary_response
 from gearcad.dynamics.planetary.springs import SpringKind, TrainSprings, train_springs
 from gearcad.dynamics.response.flexibility import static_state
 from gearcad.dynamics.response.linear import periodic_response
-from gearcad.errors import GeometryError
+from gearcad.errors import GeometryError, ParameterError
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.planetary.mesh_loads import mesh_loads
 from gearcad.planetary.phases import mesh_phases
@@ -280,19 +281,83 @@ def test_a_train_over_speed() -> None:
         "b-rim1": (len(found.speeds), 3),
     }
     share = 300 * 1.25 / (1 + 66 / 24) * 1000 / train.meshes[0].central_base_radius / 3
+    assert found.alike == 3
     assert found.up.static_forces == pytest.approx([share] * 6, rel=1e-9)
-    # Planets in phase carry alike.
-    assert np.ptp(found.up.factors[:, :3], axis=1).max() < 1e-6
     assert "turning-axes" in [notice.code for notice in found.notices]
     ratios = found.damping_ratios
     assert np.isnan(ratios[0]) and 0.03 < ratios[1:].min() <= ratios[1:].max() < 0.2
     one = found.at(9000.0)
-    force = (one.senses * one.spring_forces()).max(axis=1)[0] / found.up.static_forces
-    beside = [np.interp(9000.0, found.speeds, found.up.factors[:, mesh]) for mesh in (0, 3)]
-    assert force[[0, 3]] == pytest.approx(beside, rel=0.02)
+    force = (one.senses * one.spring_forces()).max(axis=1)[0] / (3 * share)
+    beside = [np.interp(9000.0, found.speeds, column) for column in found.up.factors.T[::3]]
+    assert force == pytest.approx(beside, rel=0.02)
     plain = found.to_dict()
     assert plain["greatest"]["factor"] == pytest.approx(found.up.factors.max())
     assert len(plain["load_factor"]["a-rim1"]) == 3
+
+
+# ---------------------------------------------------------------------- planets taken for one
+
+
+@pytest.mark.parametrize(
+    ("teeth", "planets", "alike"), [((24, 21, -66), 3, 3), ((22, 20, -62), 4, 2), ((22, 20, -62), 3, 1), ((20, 28, -76), 4, 4)]
+)
+def test_planets_in_phase_are_taken_for_one(teeth: tuple[int, int, int], planets: int, alike: int) -> None:
+    """With the result of all of them, one by one."""
+    shifts = {24: (0.3, 0.2, -0.7), 22: (0.4, 0.3, -1.0), 20: (0.3, 0.3, -0.9)}[teeth[0]]
+    train = on_springs(simple_train(teeth, shifts, planets), **ELASTIC)
+    springs, masses = (
+        train_springs(train, STIFFNESS),
+        masses_of((0.7, 3e-4), carrier=(3.2, 6e-3), sun=(0.5, 4e-4), ring=(2, 9e-3)),
+    )
+    assert planets_alike(springs.planar, train.phases) == alike
+    torques = dict(zip(("sun", "ring", "carrier"), _torques_of(train), strict=True))
+    speeds, found = np.linspace(5_000, 60_000, 23), []
+    for many in (1, alike):
+        system = planetary_system(fold(springs, many), masses, torques, damping_ratio=0.05, alike=many)
+        waves = [
+            MeshExcitation(stiffness=CosineStiffness(variation=0.2), phase=360 * ahead)
+            for mesh in train.meshes
+            for ahead in train.phases[mesh.name].ahead[: planets // many]
+        ]
+        response = periodic_response(system, Excitation(meshes=tuple(waves)), speeds, harmonics=5, stability=False)
+        kept = planets // many
+        found.append(response.approach_coefficients.reshape(len(speeds), -1, 2, kept))
+        found[-1] = np.tile(found[-1], many)
+    assert found[1] == pytest.approx(found[0], rel=1e-8, abs=1e-16)
+
+
+def test_planets_that_differ_are_not_taken_for_one() -> None:
+    train = TRAINS["A helical"]
+    phases = train.phases
+    assert planets_alike(train_springs(train, STIFFNESS).planar, phases) == 4
+    uneven = (np.array([400.0, 401.0, 400.0, 401.0]), 500.0)
+    assert planets_alike(train_springs(train, uneven).planar, phases) == 2
+    planar = train_springs(train, STIFFNESS).planar
+    assert planets_alike(replace(planar, angles=planar.angles + np.array([0, 0.1, 0, 0.1])), phases) == 2
+    assert planets_alike(replace(planar, angles=planar.angles + np.array([0, 0.1, 0, 0])), phases) == 1
+
+
+def test_modes_that_planets_in_phase_do_not_shake_can_grow() -> None:
+    """At twice the frequency of a planet mode, where its stiffness comes and goes as it swings: far from symmetric motions."""
+    train = on_springs(simple_train((60, 20, -100), (0.0, 0.0, 0.0), 5), **ELASTIC)
+    masses = masses_of((0.7, 3e-4), carrier=(3.2, 6e-3), sun=(0.5, 4e-4), ring=(2.1, 9e-3))
+    load = TrainLoad(torque=500.0, speed=1500.0)
+    stiffness = train_stiffness(train, mesh_loads(train, power_flow(train, load)), method="strain-energy", positions=24)
+    options = DynamicsOptions(speeds=33, speed_from=16_000.0, speed_to=21_000.0)
+    found = planetary_response(train, load, stiffness, masses, options)
+    assert found.alike == 5
+    twice = 2 * found.modes.frequency[found.modes.of_kind(ModeKind.PLANET)][2]
+    growing = found.up.frequencies[~found.up.stable] / (2 * np.pi)
+    assert 0.97 * twice < growing.min() < twice < growing.max() < 1.03 * twice
+    assert "planets-differ" in [notice.code for notice in found.notices]
+    assert found.factors["sun-planet"].shape == (len(found.speeds), 5)
+
+
+def test_a_mean_shakes_nothing() -> None:
+    train = on_springs(TRAINS["A"], **ELASTIC)
+    stiffness = train_stiffness(train, mesh_loads(train, power_flow(train, LOAD)), method="iso6336")
+    with pytest.raises(ParameterError, match=r"stiffness = 'iso6336': must know the course over the mesh"):
+        planetary_response(train, LOAD, stiffness, MASSES)
 
 
 def test_stepped_planets_are_stable_at_low_speeds() -> None:

@@ -33,8 +33,11 @@ def planetary_system(
     *,
     driven: tuple[str, ...] = (),
     damping_ratio: float = 0.0,
+    alike: int = 1,
 ) -> System:
     """The train in the modes that its pins, supports and masses have without the meshes.
+
+    With folded springs every planet stands for so many that are `alike`.
 
     `torques` (N·m) act on members from outside and balance, but for what is held; springs that hold the turning of `driven`
     members carry their torques at rest, whatever these are. `damping_ratio` is that of every mode of pins and supports, and of
@@ -58,7 +61,7 @@ def planetary_system(
         shaft_torques=np.zeros((len(squares), 0)),
         load=reduced.T @ load,
         stiffness=stiffness,
-        mesh_damping=2 * damping_ratio * np.sqrt(stiffness * _alone(springs, mass, meshes)),
+        mesh_damping=2 * damping_ratio * np.sqrt(stiffness * alike * _alone(springs, mass, meshes)),
         names=(
             tuple(springs.names[mesh] for mesh in meshes),
             (*members, *(f"planet {n + 1}" for n in range(springs.planar.planets))),
@@ -88,11 +91,12 @@ def planetary_excitation(
     forces: Mapping[str, float],
     *,
     parting: bool = False,
+    alike: int = 1,
 ) -> Excitation:
     """Tangent stiffness and transmission error of every mesh, those of the first central before those of the second.
 
     `forces` (N) are what each planet's share presses each mesh with at rest, where it lags by its transmission error. With
-    `parting` flanks part, and meet behind after the backlash.
+    `parting` flanks part, and meet behind after the backlash. The first of planets that are `alike` stand for all.
     """
     first, second = train.meshes
     ratios = Fraction(1), Fraction(second.rim.gear.teeth, first.rim.gear.teeth)
@@ -106,7 +110,7 @@ def planetary_excitation(
             MeshExcitation(
                 stiffness=shape, phase=360 * ahead, frequency_ratio=ratio, error=error, backlash=backlash if parting else None
             )
-            for ahead in phases[mesh.name].ahead
+            for ahead in phases[mesh.name].ahead[: train.planets // alike]
         ]
     return Excitation(meshes=tuple(meshes))
 

@@ -13,21 +13,24 @@ from typing import Any
 
 import numpy as np
 
-from gearcad.arrays import Floats
+from gearcad.arrays import Bools, Floats
 from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.charts.over_speed import OverSpeed, over_speed
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.planetary.campbell import PlanetaryCampbell, planetary_campbell, speeds_per_input
 from gearcad.dynamics.planetary.driven import planetary_excitation, planetary_system
+from gearcad.dynamics.planetary.folding import fold, planets_alike
 from gearcad.dynamics.planetary.masses import TrainMasses
 from gearcad.dynamics.planetary.mesh_stiffness import MeshStiffness
 from gearcad.dynamics.planetary.modes import PlanetaryModes, planetary_modes
 from gearcad.dynamics.planetary.planar import held_members
 from gearcad.dynamics.planetary.springs import SpringKind, train_springs
+from gearcad.dynamics.response.floquet import UNSTABLE, growth
+from gearcad.dynamics.response.notices import frequency_ranges
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.trains.system import System
-from gearcad.errors import require_number
+from gearcad.errors import ParameterError, require_number
 from gearcad.notice import Notice, texts
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.planetary.phases import drive_of, mesh_phases
@@ -52,18 +55,22 @@ _FAST = 0.05
 class PlanetaryResponse:
     """Loads over `speeds` (s,) of the input (rpm) running up and, where that differs, down.
 
-    The mesh of every planet is one of the charts' meshes: those of the first central, then those of the second, by planets.
-    `tooth_frequency` (Hz) is that of the first central's meshes at 1 rpm of the input, in the charts in 1/s.
+    The mesh of every planet is one of the charts' meshes: those of the first central, then those of the second, by planets. In
+    `system` and `excitation` planets that do the same at the same time, `alike` of each kind, are one.
+    `tooth_frequency` (Hz) is that of the first central's meshes at 1 rpm of the input, in the charts in 1/s. `whole` is the
+    system with every planet for itself: motions are stable that last against any disturbance of it.
     """
 
     train: PlanetaryTrain
     load: TrainLoad
     modes: PlanetaryModes
     system: System
+    whole: System
     excitation: Excitation
     over: OverSpeed
     tooth_frequency: float
     campbell: PlanetaryCampbell
+    alike: int
     found: tuple[Notice, ...]
 
     @property
@@ -97,8 +104,8 @@ class PlanetaryResponse:
     @cached_property
     def damping_ratios(self) -> Floats:
         """(n,): what the damping of meshes, pins and supports comes to in each mode; nan of those without a frequency."""
-        squares, modes = np.linalg.eigh(self.system.stiffness_matrix())
-        damping = np.einsum("nr,nk,kr->r", modes, self.system.damping_matrix(), modes)
+        squares, modes = np.linalg.eigh(self.whole.stiffness_matrix())
+        damping = np.einsum("nr,nk,kr->r", modes, self.whole.damping_matrix(), modes)
         result = np.full(len(squares), np.nan)
         elastic = slice(self.modes.rigid, None)
         result[elastic] = damping[elastic] / (2 * np.sqrt(squares[elastic]))
@@ -144,30 +151,53 @@ def planetary_response(
     the load's: both rise alike. Raises ParameterError, GeometryError and SolverError.
     """
     options = options or DynamicsOptions()
-    drive = drive_of(train, load)
-    springs = train_springs(train, _means(train, stiffness), sense=drive.sense)
-    modes = planetary_modes(springs, masses)
-    torques = _torques(train, load, given_speeds)
-    driven = tuple(set(train.members) - set(held_members(train)))
-    system = planetary_system(springs, masses, torques, driven=driven, damping_ratio=options.damping_ratio)
-    phases = mesh_phases(train, drive)
-    single = len(train.rims) == 1
-    excitation = planetary_excitation(train, stiffness, phases, _forces(train, torques), parting=single)
+    _require_course(stiffness)
     turns = speeds_per_input(train, {**(given_speeds or {}), train.input: load.speed})
     tooth_frequency = abs(train.meshes[0].rim.gear.teeth * turns["planet"]) / 60
+    drive = drive_of(train, load)
+    springs, phases = train_springs(train, _means(train, stiffness), sense=drive.sense), mesh_phases(train, drive)
+    modes = planetary_modes(springs, masses)
     charted = _speeds(train, options, modes, tooth_frequency, load)
+    alike = planets_alike(springs.planar, phases)
+    torques = _torques(train, load, given_speeds)
+    (whole, every), (system, excitation) = (
+        (
+            planetary_system(
+                fold(springs, many), masses, torques, driven=_driven(train), damping_ratio=options.damping_ratio, alike=many
+            ),
+            planetary_excitation(train, stiffness, phases, _forces(train, torques), parting=not train.stepped, alike=many),
+        )
+        for many in (1, alike)
+    )
     over = over_speed(system, excitation, 2 * np.pi * tooth_frequency * charted, harmonics=options.harmonics)
     return PlanetaryResponse(
         train=train,
         load=load,
         modes=modes,
         system=system,
+        whole=whole,
         excitation=excitation,
-        over=over,
+        over=over if alike == 1 else _of_each(over, alike, whole, every.bonded),
         tooth_frequency=tooth_frequency,
         campbell=planetary_campbell(train, modes, phases, float(charted[-1]), given_speeds=given_speeds),
+        alike=alike,
         found=(*_turning_axes(modes, turns[train.carrier.name], float(charted[-1])), *_stages(train), *modes.notices),
     )
+
+
+def _require_course(stiffness: Mapping[str, MeshStiffness]) -> None:
+    """Raise ParameterError where no mesh has a course of its stiffness: nothing would shake the train."""
+    if all(each.cycle.mean_only for each in stiffness.values()):
+        method = next(iter(stiffness.values())).cycle.method
+        raise ParameterError(
+            "stiffness", method, "must know the course over the mesh of one mesh at least: a mean shakes nothing"
+        )
+
+
+def _driven(train: PlanetaryTrain) -> tuple[str, ...]:
+    """Members that are not held."""
+    held = held_members(train)
+    return tuple(name for name in train.members if name not in held)
 
 
 def _means(train: PlanetaryTrain, stiffness: Mapping[str, MeshStiffness]) -> tuple[float, float]:
@@ -202,6 +232,27 @@ def _speeds(
     return np.union1d(charted, asked) if first <= asked <= last else charted
 
 
+def _of_each(over: OverSpeed, alike: int, whole: System, excitation: Excitation) -> OverSpeed:
+    """Charts of planets taken for one with the forces of each, and the stability of all, that with flanks in contact."""
+
+    def unfolded(chart: KvChart) -> KvChart:
+        lasting = growth(whole, excitation, chart.frequencies) <= UNSTABLE
+        return replace(
+            chart,
+            factors=chart.factors[:, columns],
+            least=chart.least[:, columns],
+            static_forces=chart.static_forces[columns] / alike,
+            mesh_names=whole.names[0],
+            stable=chart.stable & lasting,
+            notices=(*chart.notices, *_differing(chart.frequencies, chart.stable & ~lasting)),
+        )
+
+    kept = len(over.up.mesh_names) // 2
+    columns = np.concatenate([np.tile(np.arange(kept), alike), np.tile(np.arange(kept, 2 * kept), alike)])
+
+    return replace(over, up=unfolded(over.up), down=None if over.down is None else unfolded(over.down))
+
+
 # ---------------------------------------------------------------------- what to know
 
 
@@ -217,6 +268,17 @@ def _turning_axes(modes: PlanetaryModes, carrier: float, highest_speed: float) -
         " frequency: gyroscopic and centrifugal terms, which this model leaves out, would shift it there"
     )
     return (Notice("turning-axes", text),)
+
+
+def _differing(frequencies: Floats, growing: Bools) -> tuple[Notice, ...]:
+    """That planets do not go on doing the same at some of the tooth frequencies (s,) in 1/s."""
+    if not growing.any():
+        return ()
+    text = (
+        f"planets cease to do the same at tooth frequencies (1/s) {frequency_ranges(frequencies, growing)}: modes in which they"
+        " differ grow there while flanks stay in contact, so what is given does not last"
+    )
+    return (Notice("planets-differ", text),)
 
 
 def _stages(train: PlanetaryTrain) -> tuple[Notice, ...]:

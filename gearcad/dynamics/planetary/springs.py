@@ -18,7 +18,7 @@ from gearcad.arrays import Floats, Indices
 from gearcad.dynamics.planetary.planar import MeshLine, PlanarTrain, planar_train
 from gearcad.planetary import PlanetaryTrain
 
-__all__ = ["Spring", "SpringKind", "TrainSprings", "springs_of", "train_springs"]
+__all__ = ["Spring", "SpringKind", "TrainSprings", "all_coordinates", "springs_of", "train_springs"]
 
 
 class SpringKind(Enum):
@@ -109,7 +109,7 @@ def train_springs(
 
 def springs_of(planar: PlanarTrain) -> TrainSprings:
     """Lin and Parker's springs, of any set: K = sum k v v^T."""
-    names = _all_names(planar)
+    names = all_coordinates(planar)
     basis, free = _basis(planar)
     springs, vectors, stiffness = [], [], []
     for spring, k, vector in _all_springs(planar):
@@ -127,7 +127,8 @@ def springs_of(planar: PlanarTrain) -> TrainSprings:
     )
 
 
-def _all_names(planar: PlanarTrain) -> list[str]:
+def all_coordinates(planar: PlanarTrain) -> list[str]:
+    """Names of the 3 (N + 3) of carrier, centrals and planets."""
     members = [f"{member.name}.{each}" for member in planar.members for each in ("x", "y", "u")]
     return members + [f"planet {n + 1}.{each}" for n in range(planar.planets) for each in ("zeta", "eta", "u")]
 
