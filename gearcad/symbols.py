@@ -145,9 +145,9 @@ DRIVE = {
 
 PLANETARY = {
     "set_type": Symbol("", "", "", "type of the set, A to D"),
-    "basic_ratio": Symbol("i_0", "", "", "basic ratio: with the carrier at rest"),
-    "positions": Symbol("q", "", "", "places round the axis where planets fit"),
-    "ratio": Symbol("i", "", "", "speed of the input over that of the output"),
+    "basic_ratio": Symbol("i_0", "", "", "basic ratio, carrier at rest"),
+    "positions": Symbol("q", "", "", "places where planets fit"),
+    "ratio": Symbol("i", "", "", "ratio, speed of input over output"),
     "efficiency": Symbol("η", "", "", "efficiency from input to output"),
     "efficiency_back": Symbol("η", "", "", "efficiency from output to input"),
     "planet_speed_relative": Symbol("", "rpm", "", "speed of a planet on its pin"),

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gearcad import symbols
 from gearcad.designs.design import Design, DesignKind
 from gearcad.designs.keys import FIELDS, PLANETARY
+from gearcad.designs.kinds.planetary import PlanetaryDesign
 from gearcad.errors import format_number
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.geometry.derived import is_given
+from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
 from gearcad.schema import symbols_of
 
 if TYPE_CHECKING:
@@ -71,6 +73,12 @@ _PAIR_BLOCKS = {
     " interference_margins.wheel_fillet interference_margins.trochoid interference_margins.radial",
 }
 
+_TRAIN_KEYS = (
+    "set_type planets input output fixed ratio basic_ratio centre_distance planet_angles positions tip_distance".split()
+)
+_OF_TRAIN = symbols_of(PlanetaryTrain) | symbols.PLANETARY
+_OF_MEMBER = symbols_of(Central) | symbols_of(Rim) | symbols_of(Carrier) | symbols.PLANETARY_MEMBER
+
 _BELONGS_TO = {
     "cutter.profile_shift": "cutter.teeth",
     "double_helix.offset": "double_helix.gap_width",
@@ -87,6 +95,9 @@ _OF_SPUR_RINGS = {"span_measurement": "spur only", "between_pins": "spur only"}
 _ABSENT = "-"
 
 _NOTHING = symbols.Symbol("", "", "", "")
+
+_WIDTH = 12
+"""Of a column of values."""
 
 _WIDE = 96
 """Console width from which the column of sources fits."""
@@ -124,8 +135,9 @@ def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
         yield from _block(title, [row for row in rows if set(row[1]) != {_ABSENT}], with_source)
     if isinstance(rack := design.described.get("rack"), Rack):
         yield from _rack_lines(rack, with_source)
-    for title, keys in _PAIR_BLOCKS.items() if pair else ():
-        yield from _block(title, [(_OF_PAIR[key], [_value(pair[key])]) for key in keys.split() if key in pair], with_source)
+    yield from _pair_lines({"": pair} if pair else {}, with_source)
+    if isinstance(design, PlanetaryDesign):
+        yield from _train_lines(design.to_dict()["planetary"], with_source)
     fields = PLANETARY if design.kind is DesignKind.PLANETARY else FIELDS
     for block in ("material", "load", "mounting", "rating"):
         absent = (None, 0) if block == "mounting" else (None,)
@@ -133,6 +145,32 @@ def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
         rows = [(fields[block][key].symbol, [_given(value)]) for key, value in given.items()]
         yield from _block(block.capitalize(), rows, with_source)
     yield from _warnings(design)
+
+
+def _pair_lines(pairs: Mapping[str, dict[str, Any]], with_source: bool, width: int = _WIDTH) -> Iterator[_Line]:
+    """The blocks of pairs, a column each."""
+    for title, keys in _PAIR_BLOCKS.items() if pairs else ():
+        known = [key for key in keys.split() if any(key in pair for pair in pairs.values())]
+        rows = [(_OF_PAIR[key], [_value(pair.get(key)) for pair in pairs.values()]) for key in known]
+        yield from _block(title, rows, with_source, width)
+
+
+def _train_lines(train: Mapping[str, Any], with_source: bool) -> Iterator[_Line]:
+    """The blocks of a planetary train: what it is, its members, and a column for each mesh and stage."""
+    rows = [(_OF_TRAIN[key], [_train_value(train[key])]) for key in _TRAIN_KEYS if train.get(key) is not None]
+    yield from _block("Planetary train", rows, with_source)
+    for name, member in train["members"].items():
+        given = {key: value for key, value in member.items() if value not in (None, [], 0) or key == "support_stiffness"}
+        rows = [(_OF_MEMBER[key], [_train_value(value)]) for key, value in given.items() if value is not None]
+        yield from _block(name, [row for row in rows if row[0].words], with_source)
+    pairs = {name: _flat(pair) for name, pair in (*train["meshes"].items(), *train["stages"].items())}
+    width = max(_WIDTH, *(len(name) + 2 for name in pairs))
+    yield _Line(_columns(_NOTHING, pairs, with_source=False, width=width), "bold")
+    yield from _pair_lines(pairs, with_source, width)
+
+
+def _train_value(value: Any) -> str:
+    return " ".join(map(format_number, value)) if isinstance(value, list) else _value(value)
 
 
 def _in_use(gear: Gear) -> dict[str, Any]:
@@ -159,17 +197,17 @@ def _rack_lines(rack: Rack, with_source: bool) -> Iterator[_Line]:
         yield from _block(title, [row for row in rows if row[1] != [_ABSENT]], with_source)
 
 
-def _block(title: str, rows: list[tuple[symbols.Symbol, list[str]]], with_source: bool) -> Iterator[_Line]:
+def _block(title: str, rows: list[tuple[symbols.Symbol, list[str]]], with_source: bool, width: int = _WIDTH) -> Iterator[_Line]:
     if rows:
         yield _Line(title, "bold cyan")
         for symbol, values in rows:
-            yield _Line(_columns(symbol, values, with_source=with_source))
+            yield _Line(_columns(symbol, values, with_source=with_source, width=width))
         yield _Line("")
 
 
-def _columns(symbol: symbols.Symbol, values: Iterable[str], *, with_source: bool) -> str:
+def _columns(symbol: symbols.Symbol, values: Iterable[str], *, with_source: bool, width: int = _WIDTH) -> str:
     """One line of 76 characters, or some more with the source behind."""
-    numbers = "".join(f"{value:>12}" for value in values)
+    numbers = "".join(f"{value:>{width}}" for value in values)
     line = f"  {symbol.words:<37}{symbol.symbol:<6} {symbol.unit:<6}{numbers}"
     return f"{line:<80}{symbol.source}".rstrip() if with_source else line.rstrip()
 
@@ -188,6 +226,8 @@ def _title(design: Design) -> str:
         teeth = " / ".join(map(str, [*(gear.teeth for gear in design.gears.values()), rack.teeth]))
         return f"{'helical' if rack.helix_angle else 'spur'} {'pinion and ' if design.gears else ''}rack, z = {teeth}"
     teeth = " / ".join(str(gear.teeth) for gear in design.gears.values())
+    if isinstance(design, PlanetaryDesign):
+        return f"planetary train of type {design.train.set_type.value}, z = {teeth}"
     double = any(gear.double_helix.present for gear in design.gears.values())
     helical = any(gear.helix_angle for gear in design.gears.values())
     teeth_are = "double helical" if double else "helical" if helical else "spur"

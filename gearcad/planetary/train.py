@@ -53,7 +53,7 @@ class PlanetaryTrain(TrainData):
 
     def to_dict(self) -> dict[str, Any]:
         """What is given and derived, for JSON (the gears have their own)."""
-        return train_document(self)
+        return {"ratio": self.ratio, **train_document(self)}
 
     def _check_parts(self) -> None:
         """The right number of parts of the right types."""

@@ -45,17 +45,15 @@ class TrainData:
     centrals: tuple[Central, ...]
     rims: tuple[Rim, ...]
     carrier: Carrier = field(default_factory=Carrier)
-    input: Annotated[str, Words("driven member")]
-    output: Annotated[str, Words("driving member")]
+    input: Annotated[str, Words("input member")]
+    output: Annotated[str, Words("output member")]
     fixed: Annotated[str | None, Words("fixed member")] = None
     stages: tuple[PairStage, ...] = ()
     centre_distance: Annotated[float, Range("mm", 0.0, None, ends="(]"), Words("centre distance", "a", "5.2")] = NOT_GIVEN
     planet_angles: Annotated[
         tuple[float, ...] | Literal["equal", "permitted"], Range("deg", -360.0, 360.0), Words("angles of the planets", "ψ")
     ] = EQUAL
-    tip_distance: Annotated[float, Range("mm", 0.0, None), Words("least distance between the tips of neighbouring planets")] = (
-        0.0
-    )
+    tip_distance: Annotated[float, Range("mm", 0.0, None), Words("least distance between planets' tips")] = 0.0
 
     @cached_property
     def meshes(self) -> tuple[SetMesh, SetMesh]:

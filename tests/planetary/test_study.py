@@ -202,6 +202,20 @@ def test_the_command_shows_the_figures_and_writes_the_files(tmp_path: Path) -> N
     assert json.loads(run("planetary", str(spec), "-o", str(tmp_path), "--json", "--quiet").stdout)["ratio"] == 3.75
 
 
+def test_the_data_sheet_has_the_train_and_a_column_for_each_mesh() -> None:
+    sheet = run("data", str(TEMPLATES / "planetary-alm.toml")).stdout
+    assert sheet.startswith("planetary-alm: planetary train of type D, z = -70 / -72 / 22 / 21 / 18 / 161\n")
+    lines = {line[:38].strip(): line[38:].split() for line in sheet.splitlines()}
+    assert lines["ratio, speed of input over output"][-1] == "-124.2807"
+    assert lines["sum of the profile shifts"] == [
+        "Σx",
+        "-0.7025",
+        "-1.1794",
+        "0.5104",
+    ]  # the thesis prints the second as x of 5
+    assert "ring_4-rim_3 ring_5-rim_3p pre_stage" in " ".join(sheet.split())
+
+
 @pytest.mark.usefixtures("quick")
 def test_rows_of_a_table_have_the_figures(tmp_path: Path) -> None:
     lines = (TEMPLATES / "planetary-sets.csv").read_text(encoding="utf-8").splitlines()
