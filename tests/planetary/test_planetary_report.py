@@ -24,6 +24,8 @@ from gearcad.report import planetary_html, write_planetary_report
 from gearcad.report.check.figures import figure_address
 from gearcad.stiffness.methods import METHODS
 
+OWN = METHODS[QUICK]
+
 TEMPLATES = Path(__file__).parents[2] / "templates"
 
 NASTY_NAME = 'a <b>"train"</b> & $more$'
@@ -153,7 +155,9 @@ def test_a_differential_has_no_efficiency_from_end_to_end() -> None:
     assert planetary_html(locked, "differential") == text
 
 
-def test_loads_over_speed_are_there_where_they_were_asked_for() -> None:
+def test_loads_over_speed_are_there_where_they_were_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the method itself: a mean alone shakes nothing."""
+    monkeypatch.setitem(METHODS, QUICK, OWN)
     train = _weighed(TRAINS["A"])
     options = DynamicsOptions(speeds=10, speed_from=1500.0, speed_to=2500.0, harmonics=3)
     study = study_planetary(train, TrainLoad(torque=100.0, speed=2000.0), dynamics=options, response=True)
