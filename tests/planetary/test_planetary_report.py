@@ -166,3 +166,12 @@ def test_loads_over_speed_are_there_where_they_were_asked_for(monkeypatch: pytes
     assert "Loads over speed" in titles(text)
     factor, mesh, _ = study.response.greatest
     assert f"is {factor:.3f} times that at rest, in {mesh} at" in " ".join(text.split())
+
+
+def test_many_planets_are_not_listed_in_a_line() -> None:
+    train = _weighed(simple_train((159, 21, -201), (0.0, 0.0, 0.0), 20))
+    text = planetary_html(study_planetary(train), "many")
+    (angles,) = [row for row in table(text, "quantity,symbol,value,unit,source") if row[0] == "angles of the planets"]
+    assert angles[2] == "0, 18, ..., 342"
+    assert "sun-planet: planets are out of phase." in text
+    assert len(table(text, "mesh,planet")) == 2 * 20

@@ -60,6 +60,7 @@ def _draw_rows(axes: Axes, train: PlanetaryTrain, ahead: tuple[float, ...], mesh
     colour = colour_of(train, mesh.central.name)
     for planet, place in enumerate(ahead, 1):
         met = -place % 1.0
+        met = 0.0 if met > 1 - 1e-9 else met  # a whole pitch but for rounding
         axes.plot([0, 1], [planet, planet], color=PLANETS, linewidth=0.8, alpha=0.6)
         dots = [met, met + 1.0] if met < 1e-9 else [met]  # what is met at the end of the pitch is met at its beginning
         axes.plot(dots, [planet] * len(dots), "o", color=colour, markersize=5, clip_on=False)

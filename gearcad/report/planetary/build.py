@@ -16,7 +16,8 @@ from gearcad.report.dynamics.tables import WordTable
 
 __all__ = ["assembly_rows", "gear_table", "mesh_table"]
 
-_NONE = "–"  # an en dash where there is no value
+_LISTED = 6
+"""Most angles that have room in a line."""
 
 
 def gear_table(train: PlanetaryTrain) -> WordTable:
@@ -97,10 +98,16 @@ def assembly_rows(train: PlanetaryTrain) -> list[Row]:
             "of a full turn, by the teeth of all gears",
         ),
         Row("places for a planet", "q/N", (short(train.positions / train.planets),), "", _spacing(train)),
-        Row("angles of the planets", "ψ", (", ".join(map(short, train.angles)),), "°", "from +x, counter-clockwise"),
+        Row("angles of the planets", "ψ", (_angles(train),), "°", "from +x, counter-clockwise"),
         Row("pull of the planets outwards, of one", "|Σ exp(iψ)|", (short(_rounded(train.unbalance)),), "", _balance(train)),
     ]
     return rows
+
+
+def _angles(train: PlanetaryTrain) -> str:
+    """All of them, or of many the first and the last: the phases have all."""
+    words = list(map(short, train.angles))
+    return ", ".join(words if len(words) <= _LISTED else [*words[:2], "...", words[-1]])
 
 
 def _spacing(train: PlanetaryTrain) -> str:
