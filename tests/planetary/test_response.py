@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 from scipy.linalg import eigh
 from support.mode_trains import MASSES, TRAINS, masses_of, on_springs
@@ -25,6 +26,7 @@ from gearcad.dynamics.planetary.folding import fold, planets_alike
 from gearcad.dynamics.planetary.mesh_stiffness import train_stiffness
 from gearcad.dynamics.planetary.modes import ModeKind, planetary_modes
 from gearcad.dynamics.planetary.response import PlanetaryResponse, planetary_response
+from gearcad.dynamics.planetary.running import run_train
 from gearcad.dynamics.planetary.springs import SpringKind, TrainSprings, train_springs
 from gearcad.dynamics.response.flexibility import static_state
 from gearcad.dynamics.response.linear import periodic_response
@@ -183,6 +185,40 @@ def test_towards_standstill_it_is_the_train_at_rest_in_every_position(kind: str)
         right = load + springs.vectors[meshes].T @ (k[meshes] * excitation.errors(np.array(phase)))
         q = np.linalg.lstsq(springs.matrix(k), right, rcond=1e-11)[0]
         assert found == pytest.approx(springs.vectors[meshes] @ q, abs=2e-5 * np.abs(found).max())
+
+
+@dataclass(frozen=True)
+class _Course:
+    """A cosine wave of stiffness (N/µm) over base pitches past the pitch point."""
+
+    mean: float
+    jumps: Floats = field(default_factory=lambda: np.zeros(0))
+
+    def stiffness_at(self, ahead: ArrayLike) -> Floats:
+        return np.asarray(self.mean * (1 - 0.2 * np.cos(2 * np.pi * np.asarray(ahead))), float)
+
+
+@pytest.mark.parametrize("teeth", [(22, 20, -62), (20, 28, -76)])
+def test_towards_standstill_it_is_the_train_as_it_runs_without_masses(teeth: tuple[int, int, int]) -> None:
+    """By another solver, of forces, with planets in phase and not."""
+    shifts = {22: (0.4, 0.3, -1.0), 20: (0.3, 0.3, -0.9)}[teeth[0]]
+    train = on_springs(simple_train(teeth, shifts, 4), **ELASTIC)
+    load = TrainLoad(torque=300.0, speed=1500.0)
+    courses = {mesh.name: _Course(mean) for mesh, mean in zip(train.meshes, STIFFNESS, strict=True)}
+    run = run_train(train, load, courses)
+    waves = tuple(
+        MeshExcitation(stiffness=CosineStiffness(variation=0.2), phase=360 * ahead)
+        for mesh in train.meshes
+        for ahead in mesh_phases(train)[mesh.name].ahead
+    )
+    masses = masses_of((0.7, 3e-4), carrier=(3.2, 6e-3), sun=(0.5, 4e-4), ring=(2.1, 9e-3))
+    torques = power_flow(train, load).set_torques
+    system = planetary_system(train_springs(train, STIFFNESS), masses, torques)
+    k = Excitation(meshes=waves).ratios(2 * np.pi * run.rolled) * system.stiffness
+    forces = k * settled(system, static_state(system), k, np.zeros_like(k))
+    found = np.concatenate([run.forces[mesh.name] for mesh in train.meshes]).T
+    assert forces == pytest.approx(found, rel=1e-6)
+    assert (np.ptp(forces[:, 0]) > 0.005 * forces.mean()) == (teeth[0] == 22)
 
 
 def test_at_the_greatest_speeds_only_the_stiffness_of_the_teeth_changes_their_load() -> None:
