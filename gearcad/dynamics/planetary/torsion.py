@@ -24,6 +24,9 @@ __all__ = ["Contribution", "TorsionalStiffness", "TwistSource", "torsional_stiff
 _TURNS = 72
 """Angles of the carrier over which the squares of forces are averaged: exact, as they are harmonics of order 2."""
 
+_ROUNDING = 1e-12
+"""Share of the twist that rounding leaves to springs that carry nothing."""
+
 
 class TwistSource(Enum):
     """What springs are."""
@@ -140,6 +143,7 @@ def torsional_stiffness(
     squares = _mean_squares(statics)
     found = [*_of_set(statics, squares), *_of_shafts(statics), *_of_stages(statics, stiffness)]
     whole = sum(each.twist for each in found)
+    found = [each for each in found if abs(each.twist) > _ROUNDING * abs(whole) or each.source is TwistSource.PIN]
     return TorsionalStiffness(
         train=train,
         torque=statics.torque,

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from gearcad.dynamics.planetary.running import Running
 from gearcad.dynamics.planetary.sharing import LoadSharing
 from gearcad.dynamics.planetary.torsion import TorsionalStiffness
@@ -114,7 +116,10 @@ def _running(running: Running) -> Section:
     ]
     if (speed := running.ripple.speed) is not None:
         rows.append(Row("ripple of the output's speed, peak to peak", "", (_small(100 * speed),), "%", said("ripple_source")))
-    amplitudes = running.ripple.amplitude
+    amplitudes = dict(running.ripple.amplitude)
+    first, *others = amplitudes.values()
+    if all(np.array_equal(first, other) for other in others):  # of one frequency: the twist does not tell whose it is
+        amplitudes = {"both meshes": first}
     harmonics = enumerate(zip(*amplitudes.values(), strict=True), 1)
     rows_of = [(str(number), *(f"{3600 * float(each):.4f}" for each in row)) for number, row in harmonics]
     grid = WordTable(("harmonic", *amplitudes), rows_of)
