@@ -20,6 +20,7 @@ __all__ = [
     "clear_tip_alteration",
     "make_gears",
     "module_of",
+    "require_sound_numbers",
     "resolve_profile_shifts",
     "resolve_tip_alterations",
 ]
@@ -49,7 +50,8 @@ def resolve_profile_shifts(
     and ParameterError for a number that is not permitted whatever the shifts are; parameters are led by their gear.
     """
     shifts: PerGear[Any] = gears.map(lambda gear: gear.get("profile_shift", 0.0))
-    _require_sound_numbers(gears)
+    for role, gear in gears.items():
+        require_sound_numbers(gear, role.value)
     automatic = [role for role, shift in shifts.items() if shift == AUTO]
     if split is not None and len(automatic) < len(Role):
         raise GeometryError("profile_shift_split", split, 'needs profile_shift = "auto" on both gears')
@@ -171,19 +173,21 @@ def _mate(gears: PerGear[GearInputs]) -> bool:
     return all(abs(one - other) <= _SAME for one, other in zip(pinion, wheel, strict=True))
 
 
-def _require_sound_numbers(gears: PerGear[GearInputs]) -> None:
-    """Find single values out of range before any formula meets them; what depends on the shift is judged later."""
-    for role, gear in gears.items():
-        trial = {name: value for name, value in gear.items() if name != "tip_diameter"}
-        for automatic in ("profile_shift", "tip_alteration"):
-            if trial.get(automatic) in (AUTO, CLEAR):
-                del trial[automatic]
-        try:
-            Gear(**trial)
-        except ParameterError as error:
-            raise error.within(role.value) from error
-        except GeometryError:
-            continue
+def require_sound_numbers(gear: GearInputs, owner: str) -> None:
+    """Find single values out of range before any formula meets them; what depends on the shift is judged later.
+
+    Raises ParameterError, led by the owner.
+    """
+    trial = {name: value for name, value in gear.items() if name != "tip_diameter"}
+    for automatic in ("profile_shift", "tip_alteration"):
+        if trial.get(automatic) in (AUTO, CLEAR):
+            del trial[automatic]
+    try:
+        Gear(**trial)
+    except ParameterError as error:
+        raise error.within(owner) from error
+    except GeometryError:
+        return
 
 
 def _shared(total: float, gears: PerGear[GearInputs], centre_distance: float, split: ShiftSplit) -> PerGear[float]:

@@ -159,6 +159,8 @@ PRE_STAGE: dict[str, FieldSchema] = {
 SPEEDS = "speeds"
 """The part of [planetary] whose keys are members."""
 
+_OF_VIBRATION = ("speed_from", "speed_to", "speeds", "harmonics", "stiffness", "damping_ratio")
+
 PLANETARY: dict[str, dict[str, FieldSchema]] = {
     "planetary": {
         **_plain(PlanetaryTrain, "centrals", "rims", "stages"),
@@ -169,6 +171,7 @@ PLANETARY: dict[str, dict[str, FieldSchema]] = {
     },
     **OF_SETS,
     **{table: dict(_flat(kind)) for table, kind in {**BESIDE, "load": TrainLoad}.items() if table != "mounting"},
+    "dynamics": {key: schema_of(DynamicsOptions)[key] for key in _OF_VIBRATION},
 }
 """The tables of a planetary train, likewise: its [load] is that of the output."""
 

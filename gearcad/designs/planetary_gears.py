@@ -15,6 +15,7 @@ from gearcad.designs.auto import (
     backlash_free_distance,
     clear_tip_alteration,
     make_gears,
+    require_sound_numbers,
     resolve_profile_shifts,
     resolve_tip_alterations,
 )
@@ -85,6 +86,8 @@ class TrainGears:
         return trial._made({each: dict(own) for each, own in inputs.items()} | {table: dict(gear)})
 
     def _made(self, inputs: Inputs) -> tuple[dict[str, Gear], float | None]:
+        for table, gear in inputs.items():
+            require_sound_numbers(gear, table)
         automatic = {table: _automatic(gear) for table, gear in inputs.items()}
         given = self._given_distance()
         distance = self._implied_distance(inputs) if given is None else given

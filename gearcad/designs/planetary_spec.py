@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any, ClassVar, Self, TypeVar
 
 from gearcad.designs.auto import AUTO, CLEAR
+from gearcad.designs.design import require_plain_name
 from gearcad.designs.files import Where
 from gearcad.designs.keys import OF_SETS, SHARED
 from gearcad.designs.planetary_gears import TableMesh, TrainGears
@@ -103,6 +104,7 @@ class PlanetarySpec(Spec):
 
         Raises SpecError.
         """
+        self._check_names()
         self._share_values()
         inputs = {table: self._gear_of(table) for table in self.tables}
         self._check_teeth(inputs)
@@ -113,6 +115,13 @@ class PlanetarySpec(Spec):
         )
         rims = tuple(self._part(Rim, table, gears[table]) for table in dict.fromkeys(self.meshes.values()))
         return centrals, rims, distance
+
+    def _check_names(self) -> None:
+        """Each can name a file, so that messages about them stay one line."""
+        for key, given in self.values.items():
+            if key.endswith(".name") and key not in ("material.name", f"{MAIN}.name"):
+                with self.blame(key.removesuffix(".name")):
+                    require_plain_name(given.value)
 
     def _gear_of(self, table: str) -> dict[str, Any]:
         """Keyword arguments of a gear as they are written, named as its table unless it has a name."""

@@ -197,7 +197,7 @@ MISTAKES = [
     ),
     (
         (("face_width = 20.0\n", ""),),
-        "line 13: planet.face_width is missing: must be a number above 0 mm and at most 10000 mm (here or in [planetary])",
+        "line 9: sun.face_width is missing: must be a number above 0 mm and at most 10000 mm (here or in [planetary])",
     ),
     (
         (("profile_shift = 0.2", 'profile_shift = "auto"'),),

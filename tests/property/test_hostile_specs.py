@@ -17,6 +17,7 @@ from gearcad.designs import read_spec
 from gearcad.designs.starters import starter_text
 from gearcad.designs.table import open_table
 from gearcad.errors import SpecError
+from gearcad.output import json_text
 from gearcad.ranges import TORQUE
 
 FZG = tomllib.loads(starter_text("fzg-c")[1]) | {"check": CHEAP}
@@ -44,6 +45,15 @@ def test_reading_a_hostile_train(text: str) -> None:
         read_spec(spec_file(text))
     except SpecError as error:
         assert str(error).isprintable()
+
+
+@settings(max_examples=100)
+@given(text=hostile_specs(planetary=True))
+def test_reading_a_hostile_planetary_train(text: str) -> None:
+    try:
+        json_text(read_spec(spec_file(text)).to_dict())
+    except SpecError as error:
+        assert str(error).isprintable() and len(str(error)) < 1200
 
 
 @settings(max_examples=100)

@@ -15,7 +15,7 @@ from click.testing import CliRunner, Result
 from hypothesis import strategies as st
 
 from gearcad.cli import main
-from gearcad.designs.keys import KEYS
+from gearcad.designs.keys import KEYS, PLANETARY
 from gearcad.designs.starters import starter_text
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
 
@@ -51,6 +51,7 @@ CHEAP = {"positions": 12, "refinement": 0.25, "convergence": "off", "body_teeth"
 
 _PARTS = {"inertia": Inertia, "shaft": Shaft, "mesh": Mesh}
 _DESIGNS = ("fzg-c", "volvo-13-44", "spur", "uhlir-19-23", "rack")
+_PLANETARY = ("planetary-24-21-66", "planetary-alm", "planetary-differential")
 _TRAINS = ("train-1-stage", "train-2-stage")
 
 
@@ -92,6 +93,9 @@ def _more_places(tables: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:
             yield from (("train", key, 0, field.name) for field in fields(kind))
         yield from (("dynamics", key) for key in KEYS["dynamics"])
         return
+    if "planetary" in tables:
+        yield from ((table, *key.split(".")) for table, known in PLANETARY.items() for key in known)
+        return
     for table in tables:
         yield from ((table, *key.split(".")) for key in KEYS.get(table, ()))
     yield from ((table, key) for table in ("check", "mounting", "dynamics", "load") for key in KEYS[table])
@@ -108,9 +112,10 @@ def put(tables: dict[str, Any], path: tuple[Any, ...], value: Any) -> None:
 
 
 @st.composite
-def hostile_specs(draw: st.DrawFn, *, trains: bool) -> str:
+def hostile_specs(draw: st.DrawFn, *, trains: bool = False, planetary: bool = False) -> str:
     """A starter with one or two values replaced or added, and now and then a key that nobody knows."""
-    tables = tomllib.loads(starter_text(draw(st.sampled_from(_TRAINS if trains else _DESIGNS)))[1])
+    starters = _TRAINS if trains else _PLANETARY if planetary else _DESIGNS
+    tables = tomllib.loads(starter_text(draw(st.sampled_from(starters)))[1])
     for _ in range(draw(st.integers(1, 2))):
         places = sorted({*_places(tables), *_more_places(tables)}, key=str)
         path = draw(st.sampled_from(places))
