@@ -28,6 +28,7 @@ from gearcad.planetary.forces import forces
 from gearcad.planetary.mesh_loads import mesh_loads, stage_loads
 from gearcad.planetary.phases import Drive, MeshPhases, drive_of, mesh_phases
 from gearcad.planetary.power import PowerFlow, power_flow
+from gearcad.planetary.shafts import shafts_of
 from gearcad.planetary.speeds import Speeds, speeds
 from gearcad.progress import Agenda, Progress
 from gearcad.rating.options import RatingOptions
@@ -107,7 +108,9 @@ def study_planetary(
     tell("load sharing")
     sharing = found.part("sharing", ("power", "stiffness"), lambda: share_load(train, _loaded(train, load), secant, others))
     torsion = found.part(
-        "torsion", ("stiffness",), lambda: torsional_stiffness(train, _loaded(train, load), secant | of_stages, others)
+        "torsion",
+        ("stiffness",) if train.fixed else ("speeds", "stiffness"),
+        lambda: torsional_stiffness(train, _loaded(train, load), secant | of_stages, others),
     )
     tell("running")
     running = found.part(
@@ -202,7 +205,9 @@ def _speeds(
 
 
 def _what_is_missing(train: PlanetaryTrain, known: Mapping[str, float]) -> str:
-    free = [name for name in train.members if name not in known]
+    shafts = shafts_of(train)
+    taken = {shafts[name].member for name in known if name in shafts}
+    free = [name for name in train.members if name not in taken]
     if train.fixed:
         return f"no speed is given: that of {train.input} stands in [load], others in [planetary.speeds]"
     count = "a second speed is" if known else "two speeds are"
