@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.derived import NOT_GIVEN
 from gearcad.ranges import DEVIATION, INERTIA, OFFSET, STIFFNESS, TORSIONAL_STIFFNESS, Range
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
@@ -33,6 +34,7 @@ class _Member:
 class Rim(_Member):
     """The teeth of one rim of every planet: `gear`, whose teeth begin `axial_position` (mm) above those of the first rim.
 
+    Not given, the train puts them where they clear what meshes with the first rim.
     `clocking` (degrees) turns its tooth 0 against that of the first rim, counter-clockwise seen from +z, alike on all planets;
     "adjusted" turns that of each planet by itself until it fits where the planet stands, however many there are.
     `tooth_errors` in µm, one a planet (none: 0): how far its driven flanks stand proud, along the line of action.
@@ -42,7 +44,7 @@ class Rim(_Member):
     name: str
     gear: Gear
     clocking: Annotated[float | Literal["adjusted"], _ANGLE, Words("clocking against the first rim", "κ")] = 0.0
-    axial_position: Annotated[float, OFFSET, Words("axial position of its teeth")] = 0.0
+    axial_position: Annotated[float, OFFSET, Words("axial position of its teeth")] = NOT_GIVEN
     tooth_errors: Annotated[tuple[float, ...], DEVIATION, Words("errors of the planets' teeth")] = ()
 
     __repr__ = concise
@@ -120,7 +122,7 @@ class PairStage(_Member):
 
     One of the two is a member of the set - of a pre-stage the wheel is the carrier - or of a stage before it; the other is a
     shaft of its own. `angle` (degrees) is where the axis that is not the train's lies, seen from the train's axis, from +x.
-    Raises ParameterError.
+    Without `axial_position` (mm) the train puts it beside the set. Raises ParameterError.
     """
 
     name: str
@@ -128,7 +130,7 @@ class PairStage(_Member):
     pinion: str
     wheel: str
     angle: Annotated[float, _ANGLE, Words("direction of the other axis")] = 0.0
-    axial_position: Annotated[float, OFFSET, Words("axial position of the pinion's teeth")] = 0.0
+    axial_position: Annotated[float, OFFSET, Words("axial position of the pinion's teeth")] = NOT_GIVEN
 
     __repr__ = concise
 

@@ -11,6 +11,7 @@ from gearcad.notice import Notice
 from gearcad.planetary.assembly import check_assembly, check_counts
 from gearcad.planetary.coaxial import settle_centre_distance
 from gearcad.planetary.document import train_document
+from gearcad.planetary.heights import settle_heights
 from gearcad.planetary.members import Carrier, Central, PairStage, Rim
 from gearcad.planetary.phases import MeshPhases, mesh_phases
 from gearcad.planetary.poses import TrainPose, train_pose
@@ -40,6 +41,7 @@ class PlanetaryTrain(TrainData):
         self._check_names()
         check_shafts(self)
         check_counts(self)
+        settle_heights(self)
         settle_centre_distance(self)
         check_assembly(self)
 

@@ -9,8 +9,9 @@ import pytest
 from support.planetary import gear, simple_train, thesis_train
 
 from gearcad.errors import GeometryError, InputError, ParameterError
+from gearcad.geometry import GearPair
 from gearcad.geometry.derived import NOT_GIVEN, is_given
-from gearcad.planetary import Central, PlanetaryTrain, Rim
+from gearcad.planetary import Central, PairStage, PlanetaryTrain, Rim
 from gearcad.planetary.assembly import fitting_planets, fitting_teeth
 from gearcad.planetary.fitting import SetTeeth, fit_planets
 
@@ -226,3 +227,34 @@ def test_stages_that_stand_in_the_way_are_told() -> None:
         "its wheel stands at the height of rim_3p, ring_5",
     ]
     assert "rim_3, ring_4" in told(-19.0)[1]
+
+
+# ---------------------------------------------------------------------- heights that are not given
+
+
+def test_rims_and_stages_stand_where_nothing_is_in_their_way() -> None:
+    """The ring is wider than its rim, the sun has a hub: what is left free is beyond both."""
+    train = thesis_train()
+    wide = replace(train.centrals[0], gear=replace(train.centrals[0].gear, face_width=30.0))
+    rims = tuple(replace(rim, axial_position=NOT_GIVEN) for rim in train.rims)
+    placed = replace(train, centrals=(wide, train.centrals[1]), rims=rims)
+    first, second = (rim.gear.face_width for rim in rims)
+    level = (first + wide.gear.face_width) / 2 + 2.8 + max(placed.centrals[1].gear.face_width - second, 0.0) / 2
+    assert placed.rims[0].axial_position == 0 and placed.rims[1].axial_position == pytest.approx(level, abs=1e-12)
+    moved = replace(placed, centrals=train.centrals)
+    assert moved.rims[1].axial_position < level, "they are derived again"
+
+
+@pytest.mark.parametrize(("end", "above"), [("output", True), ("input", False)])
+def test_stages_stand_before_and_behind_the_set(end: str, above: bool) -> None:
+    pair = GearPair(pinion=gear(18, 1.5, face_width=12.0), wheel=gear(90, 1.5, face_width=10.0))
+    simple = simple_train((24, 21, -66), (0.3, 0.2, -0.7), 3)
+    stages = (
+        PairStage(name="outer", pair=pair, pinion="motor", wheel="lay"),
+        PairStage(name="inner", pair=pair, pinion="lay", wheel=simple.output if above else simple.input),
+    )
+    roles = {"output": "motor"} if above else {"input": "motor"}
+    train = replace(simple, stages=stages, **roles)
+    outer, inner = (float(stage.axial_position) for stage in train.stages)
+    assert (outer > inner + 10 > simple.rims[0].gear.face_width) if above else (outer + 10 < inner < -10)
+    assert not [notice for notice in train.notices if notice.code == "stage-in-the-way"]

@@ -18,7 +18,7 @@ from gearcad.planetary.train_data import TrainData
 def helical(hand: float, *, axial_position: float = 0.0, stepped: bool = False) -> TrainData:
     """24/21/-66 with a sun of that helix angle, its ring on a second rim if stepped."""
     rims = (
-        Rim(name="p", gear=gear(21, 2.0, 0.0, -hand)),
+        Rim(name="p", gear=gear(21, 2.0, 0.0, -hand), axial_position=0.0),
         Rim(name="q", gear=gear(21, 2.0, 0.0, -hand), axial_position=axial_position),
     )
     centrals = (
