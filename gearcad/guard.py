@@ -176,5 +176,7 @@ def _leave(number: int) -> NoReturn:
     if number in _STOPPING:
         os.write(2, b"Aborted!\n")
         os._exit(128 + number)
+    if number == signal.SIGPIPE:  # nobody reads on, as behind `| head`; files may be there by then
+        os._exit(128 + number)
     os.write(2, f"Error: something in the work {death(number)}; nothing was written\n".encode())
     os._exit(1)
