@@ -76,11 +76,18 @@ def test_signal_ends_a_kernel_call_at_once_and_leaves_nothing(
     assert wait_for_end([worker], 1) == []
 
 
+def test_worker_to_whom_nobody_listens_goes_without_a_word(tmp_path: Path) -> None:
+    """As behind `| head`, where a library has taken SIGPIPE from Python."""
+    with start(tmp_path, f"import signal; signal.signal(signal.SIGPIPE, signal.SIG_DFL); {KERNEL}") as process:
+        to_worker(process, signal.SIGPIPE)
+        assert (process.communicate(timeout=5), process.returncode) == (("", ""), 141)
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize(
     ("number", "status", "said"),
     [
         (signal.SIGTERM, 143, "Aborted!\n"),  # of the process that is seen to be busy
-        (signal.SIGPIPE, 141, ""),  # who reads its output has gone
         (signal.SIGSEGV, 1, "Error: something in the work killed its process (SIGSEGV); nothing was written\n"),
         (
             signal.SIGKILL,
