@@ -358,7 +358,7 @@ def test_options_are_checked_first(tmp_path: Path) -> None:
         assert str(caught.value).startswith(message)
     with pytest.raises(ParameterError, match=r"^do = '': must be one or more of data, build"):
         run_table(write_table(tmp_path / "table.csv", GEARS), tmp_path / "out", ())
-    with pytest.raises(ParameterError, match=r"^format = '': must be one or more of step, stl, 3mf, glb, dxf, csv$"):
+    with pytest.raises(ParameterError, match=r"^format = '': must be one or more of step, stl, 3mf, glb, png, dxf, csv$"):
         Build(formats=())
     assert not (tmp_path / "out").exists()
 

@@ -261,7 +261,7 @@ def test_what_makes_no_dynamics(here: Path, text: str, message: str) -> None:
 def test_other_commands_send_a_train_here(here: Path, command: str) -> None:
     result = run(command, spec(TRAIN))
     assert result.exit_code == 2
-    permitted = "a gear, a pair, a rack or a rack and pinion" if command in ("data", "build") else "a pair"
+    permitted = "a gear, a pair, a rack, a rack and pinion or a planetary train" if command in ("data", "build") else "a pair"
     said = f"Error: kind = 'train': must be {permitted}: a train is for `gearcad dynamics`\n"
     assert result.stderr == said
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import signal
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -190,12 +191,32 @@ def test_what_cannot_be_is_refused() -> None:
         mesh_tetrahedra(SPUR, size=1.0, refined_teeth=[9])
 
 
+@pytest.fixture
+def interrupts_as_they_were() -> Iterator[None]:
+    """Whatever the one who started these tests wants of them."""
+    kept = signal.getsignal(signal.SIGINT)
+    yield
+    signal.signal(signal.SIGINT, kept)
+
+
+def interrupt(_stage: object) -> None:
+    signal.raise_signal(signal.SIGINT)
+
+
+@pytest.mark.usefixtures("interrupts_as_they_were")
 def test_an_interrupt_leaves_nothing_behind() -> None:
     """It is raised, gmsh is closed, and the next interrupt is as any."""
     import gmsh
 
-    before = signal.getsignal(signal.SIGINT)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     with pytest.raises(KeyboardInterrupt):
-        mesh_tetrahedra(SPUR, size=0.6, stage=lambda _stage: signal.raise_signal(signal.SIGINT))
+        mesh_tetrahedra(SPUR, size=0.6, stage=interrupt)
     assert not gmsh.isInitialized()
-    assert signal.getsignal(signal.SIGINT) is before
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+@pytest.mark.usefixtures("interrupts_as_they_were")
+def test_an_interrupt_that_is_ignored_is_none() -> None:
+    """As below nohup."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    assert len(mesh_tetrahedra(SPUR, size=2.0, stage=interrupt).points)

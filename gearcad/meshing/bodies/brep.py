@@ -209,7 +209,8 @@ _OPTIONS: Mapping[str, float] = {
 def _interrupts_kept() -> Iterator[Event]:
     """Keep an interrupt until the end, and tell of it meanwhile: raised in what gmsh calls, it would be lost."""
     interrupted = Event()
-    if current_thread() is not main_thread():  # no other one hears of interrupts, or may ask for them
+    # No other thread hears of interrupts, or may ask for them; and who started this may want them ignored.
+    if current_thread() is not main_thread() or signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         yield interrupted
         return
     before = signal.signal(signal.SIGINT, lambda _number, _frame: interrupted.set())
