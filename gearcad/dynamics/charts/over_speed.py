@@ -5,11 +5,11 @@ SI units, frequencies are circular tooth frequencies of the first mesh (1/s).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gearcad.arrays import Bools, Floats
+from gearcad.arrays import Bools, Complexes, Floats
 from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.charts.kv import chart_of, idle_shafts, kv_chart
 from gearcad.dynamics.charts.notices import fixed_harmonics, hardly_damped, left_out, not_looked_for, standstill, stuck
@@ -22,6 +22,7 @@ from gearcad.dynamics.response.floquet import UNSTABLE, growth
 from gearcad.dynamics.response.linear import periodic_response
 from gearcad.dynamics.response.notices import instability, parting
 from gearcad.dynamics.response.periodic import PeriodicResponse
+from gearcad.dynamics.response.resolved import Motions
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import SolverError
 from gearcad.notice import Notice
@@ -54,18 +55,29 @@ class OverSpeed:
     branch: Parted | None
 
     def response(self, frequency: float) -> PeriodicResponse:
-        """What is seen running up to any one frequency, with so many harmonics that it can be drawn over time."""
+        """What is seen running up to any one frequency, with so many harmonics that it can be drawn over time.
+
+        It is as stable as the same motion is in the chart.
+        """
+        places = np.array([frequency])
         if not self.curves.resolvable:
-            return periodic_response(self.curves.system, self.curves.excitation, [frequency], harmonics=self.curves.few)
-        start, curves = None, self.curves
-        if self.branch is not None and self.branch.holds(frequency):
-            curves, start = self.branch.curves, self.branch.coefficients(frequency)
-        wanted = max(int(curves.orders(np.array([frequency]))[0]), _DRAWN * max(curves.excitation.orders))
+            return periodic_response(self.curves.system, self.curves.excitation, places, harmonics=self.curves.few)
+        if self.branch is None or not self.branch.holds(frequency):
+            stable = growth(self.curves.system, self.curves.excitation, places) <= UNSTABLE
+            return replace(self.curves.response(self._motion(self.curves, frequency)), stable=stable)
+        branch, row = self.branch.running_up(frequency)
+        motion = self._motion(self.branch.curves, frequency, branch.coefficients()[row])
+        if not motion.solved.all():
+            return branch.response(row)
+        return replace(self.branch.curves.response(motion), stable=branch.stable[row])
+
+    def _motion(self, curves: SpeedCurves, frequency: float, start: Complexes | None = None) -> Motions:
+        """With the harmonics of a drawing."""
+        places = np.array([frequency])
+        wanted = max(int(curves.orders(places)[0]), _DRAWN * max(curves.excitation.orders))
         balance = curves.balance(min(wanted, curves.most_orders))
-        (motions,) = balance.solve(np.array([curves.excitation.fundamental * frequency]), start)
-        if start is not None and not motions.solved.all():
-            return self.branch.response(frequency)  # type: ignore[union-attr]
-        return curves.response(motions)
+        (motion,) = balance.solve(curves.excitation.fundamental * places, start)
+        return motion
 
 
 def over_speed(
@@ -99,7 +111,7 @@ def over_speed(
     sides = [(told, stable, np.zeros(0))]
     if branch is not None:
         sides = [_together(told, stable, branch, direction) for direction in (Direction.UP, Direction.DOWN)]
-    charts = [_chart(linear, each, lasting, method_b) for each, lasting, _ in sides]
+    charts = [_chart(linear, each, lasting, method_b, parting=excitation.parting) for each, lasting, _ in sides]
     return OverSpeed(
         excitation=excitation,
         up=charts[0],
@@ -156,7 +168,7 @@ def _together(told: Told, stable: Bools, branch: Parted, direction: Direction) -
     return joined.at(order), np.concatenate([stable[outside], lasting])[order], jumps
 
 
-def _chart(curves: SpeedCurves, told: Told, stable: Bools, method_b: DynamicFactor | None) -> KvChart:
+def _chart(curves: SpeedCurves, told: Told, stable: Bools, method_b: DynamicFactor | None, *, parting: bool) -> KvChart:
     return chart_of(
         curves.system,
         curves.static,
@@ -164,7 +176,7 @@ def _chart(curves: SpeedCurves, told: Told, stable: Bools, method_b: DynamicFact
         (told.most, told.least, told.torques),
         method_b=method_b,
         stable=stable,
-        notices=(*instability(told.frequencies, stable), *left_out(curves, told)),
+        notices=(*instability(told.frequencies, stable, parting=parting), *left_out(curves, told)),
     )
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gearcad.arrays import Bools, Complexes, Floats, Indices
+from gearcad.arrays import Bools, Floats, Indices
 from gearcad.dynamics.charts.chart import ForceDefinition
 from gearcad.dynamics.charts.kv import extremes
 from gearcad.dynamics.charts.refine import speeds_between
@@ -17,7 +17,6 @@ from gearcad.dynamics.charts.speed_curves import SpeedCurves, Told
 from gearcad.dynamics.response.branch import Branch, trace
 from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.response.linear import harmonic_orders
-from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.errors import SolverError
 
 __all__ = ["MOST_ROUNDS", "Parted", "parted"]
@@ -52,9 +51,7 @@ class Parted:
 
     def seen(self, direction: Direction) -> tuple[Told, Bools, Floats]:
         """Loads (s,) over the branch's frequencies, whether they last, and the frequencies of jumps."""
-        # Near a fold more harmonics may find no motion where fewer did: the fold is a little before.
-        found = np.isfinite(self.told.left_out)
-        chosen, jumps = replace(self.branch, stable=self.branch.stable & found).seen(direction)
+        chosen, jumps = self._chosen(direction)
         return self.told.at(chosen), self.branch.stable[chosen], jumps
 
     def refined(self) -> Parted:
@@ -82,20 +79,17 @@ class Parted:
         """Whether the branch goes through a frequency."""
         return bool(self.branch.frequencies[0] <= frequency <= self.branch.frequencies[-1])
 
-    def coefficients(self, frequency: float) -> Complexes:
-        """(1, q, m) of the motion that is seen running up to a frequency."""
-        branch, row = self._running_up(frequency)
-        return branch.coefficients()[row]
+    def running_up(self, frequency: float) -> tuple[Branch, Indices]:
+        """A branch and which (1,) of its motions is seen running up to a frequency."""
+        of = self._with(np.array([frequency]))
+        chosen = of._chosen(Direction.UP)[0]
+        return of.branch, chosen[of.branch.frequencies == frequency]
 
-    def response(self, frequency: float) -> PeriodicResponse:
-        """The same, with the harmonics of the branch."""
-        branch, row = self._running_up(frequency)
-        return branch.response(row)
-
-    def _running_up(self, frequency: float) -> tuple[Branch, Indices]:
-        branch = self._with(np.array([frequency])).branch
-        chosen = branch.seen(Direction.UP)[0]
-        return branch, chosen[branch.frequencies == frequency]
+    def _chosen(self, direction: Direction) -> tuple[Indices, Floats]:
+        """Which motions (s,) are seen, and the frequencies of jumps."""
+        # Near a fold more harmonics may find no motion where fewer did: the fold is a little before.
+        found = np.isfinite(self.told.left_out)
+        return replace(self.branch, stable=self.branch.stable & found).seen(direction)
 
 
 def parted(curves: SpeedCurves, frequencies: Floats, apart: Floats) -> Parted:

@@ -10,12 +10,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from gearcad.arrays import Floats
+from gearcad.arrays import Floats, Indices
 from gearcad.dynamics.planetary.planar import PlanarTrain
 from gearcad.dynamics.planetary.springs import TrainSprings, all_coordinates
 from gearcad.planetary import MeshPhases
 
-__all__ = ["fold", "planets_alike"]
+__all__ = ["fold", "meshes_of_all", "planets_alike"]
 
 _SAME = 1e-9
 """Relative, or of a base pitch: rounding."""
@@ -58,6 +58,12 @@ def fold(springs: TrainSprings, alike: int) -> TrainSprings:
         coordinates=tuple(names),
         basis=springs.basis @ spread,
     )
+
+
+def meshes_of_all(planets: int, alike: int) -> Indices:
+    """(2 N,): which of the meshes of the first planets of each kind does what each mesh of all planets does."""
+    kept = planets // alike
+    return np.concatenate([np.tile(np.arange(kept), alike), np.tile(np.arange(kept, 2 * kept), alike)])
 
 
 def _spread(springs: TrainSprings, kept: int) -> tuple[Floats, list[str]]:

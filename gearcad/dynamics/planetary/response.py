@@ -5,7 +5,6 @@ Flanks stay in contact or, where both meshes have one tooth frequency, part; spe
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -20,14 +19,20 @@ from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.planetary.campbell import PlanetaryCampbell, planetary_campbell, speeds_per_input
 from gearcad.dynamics.planetary.driven import planetary_excitation, planetary_system
-from gearcad.dynamics.planetary.folding import fold, planets_alike
+from gearcad.dynamics.planetary.folding import fold, meshes_of_all, planets_alike
 from gearcad.dynamics.planetary.masses import TrainMasses
 from gearcad.dynamics.planetary.mesh_stiffness import MeshStiffness
 from gearcad.dynamics.planetary.modes import PlanetaryModes, planetary_modes
 from gearcad.dynamics.planetary.planar import held_members
+from gearcad.dynamics.planetary.response_notices import (
+    differences_where_parted,
+    errors_left_out,
+    planets_differ,
+    stages_left_out,
+    turning_axes,
+)
 from gearcad.dynamics.planetary.springs import SpringKind, train_springs
 from gearcad.dynamics.response.floquet import UNSTABLE, growth
-from gearcad.dynamics.response.notices import frequency_ranges
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import ParameterError, require_number
@@ -47,25 +52,22 @@ _SHARE = 0.02
 _SLOWEST_STEPPED = 1 / 200
 """Of the highest speed, where that of a chart of stepped planets begins: their meshes come again after many teeth only."""
 
-_FAST = 0.05
-"""Twice the speed of the carrier over the lowest natural frequency from which on turning axes are to be minded."""
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PlanetaryResponse:
     """Loads over `speeds` (s,) of the input (rpm) running up and, where that differs, down.
 
-    The mesh of every planet is one of the charts' meshes: those of the first central, then those of the second, by planets. In
-    `system` and `excitation` planets that do the same at the same time, `alike` of each kind, are one.
-    `tooth_frequency` (Hz) is that of the first central's meshes at 1 rpm of the input, in the charts in 1/s. `whole` is the
-    system with every planet for itself: motions are stable that last against any disturbance of it.
+    The mesh of every planet is one of the charts' meshes: those of the first central, then those of the second, by planets; so
+    `system` and `excitation` have them. `alike` planets of each kind do the same at the same time: motions were sought as if
+    they were one, but are stable only if they last against any disturbance of the `system`, with flanks in contact.
+    `tooth_frequency` (Hz) is that of the first central's meshes at 1 rpm of the input, in the charts in 1/s. Errors of pins and
+    teeth and run-out are left out.
     """
 
     train: PlanetaryTrain
     load: TrainLoad
     modes: PlanetaryModes
     system: System
-    whole: System
     excitation: Excitation
     over: OverSpeed
     tooth_frequency: float
@@ -101,20 +103,37 @@ class PlanetaryResponse:
         row, mesh = np.unravel_index(int(self.up.factors.argmax()), self.up.factors.shape)
         return float(self.up.factors.max()), self.up.mesh_names[mesh], float(self.speeds[row])
 
+    @property
+    def greatest_lasts(self) -> bool:
+        """Whether the motion of the greatest factor does; what comes instead of one that does not may be greater."""
+        return bool(self.up.stable[int(self.up.factors.max(axis=1).argmax())])
+
     @cached_property
     def damping_ratios(self) -> Floats:
         """(n,): what the damping of meshes, pins and supports comes to in each mode; nan of those without a frequency."""
-        squares, modes = np.linalg.eigh(self.whole.stiffness_matrix())
-        damping = np.einsum("nr,nk,kr->r", modes, self.whole.damping_matrix(), modes)
+        squares, modes = np.linalg.eigh(self.system.stiffness_matrix())
+        damping = np.einsum("nr,nk,kr->r", modes, self.system.damping_matrix(), modes)
         result = np.full(len(squares), np.nan)
         elastic = slice(self.modes.rigid, None)
         result[elastic] = damping[elastic] / (2 * np.sqrt(squares[elastic]))
         return result
 
     def at(self, speed: float) -> PeriodicResponse:
-        """The steady vibration at any one speed of the input (rpm). Raises ParameterError unless it turns."""
+        """The steady vibration at any one speed of the input (rpm), running up, with the meshes of every planet.
+
+        It is stable where the charts say so. Raises ParameterError unless it turns.
+        """
         require_number("speed", abs(speed), "rpm", above=0)
-        return self.over.response(2 * np.pi * self.tooth_frequency * abs(speed))
+        found = self.over.response(2 * np.pi * self.tooth_frequency * abs(speed))
+        if self.alike == 1:
+            return found
+        return replace(
+            found,
+            system=self.system,
+            excitation=self.excitation if found.excitation.parting else self.excitation.bonded,
+            approach_coefficients=found.approach_coefficients[..., meshes_of_all(self.train.planets, self.alike)],
+            stable=found.stable & _lasting(self.system, self.excitation, found.frequencies),
+        )
 
     @property
     def notices(self) -> tuple[Notice, ...]:
@@ -128,7 +147,8 @@ class PlanetaryResponse:
             "speed": self.speeds.tolist(),
             "tooth_frequency_per_rpm": self.tooth_frequency,
             "load_factor": {name: values.T.tolist() for name, values in self.factors.items()},
-            "greatest": {"factor": factor, "mesh": mesh, "speed": speed},
+            "stable": self.up.stable.tolist(),
+            "greatest": {"factor": factor, "mesh": mesh, "speed": speed, "lasts": self.greatest_lasts},
             "static_force": dict(zip(self.up.mesh_names, self.up.static_forces.tolist(), strict=True)),
             "campbell": self.campbell.to_dict(),
             "notices": [notice.to_dict() for notice in self.notices],
@@ -160,7 +180,7 @@ def planetary_response(
     charted = _speeds(train, options, modes, tooth_frequency, load)
     alike = planets_alike(springs.planar, phases)
     torques = _torques(train, load, given_speeds)
-    (whole, every), (system, excitation) = (
+    (system, excitation), folded = (
         (
             planetary_system(
                 fold(springs, many), masses, torques, driven=_driven(train), damping_ratio=options.damping_ratio, alike=many
@@ -169,19 +189,23 @@ def planetary_response(
         )
         for many in (1, alike)
     )
-    over = over_speed(system, excitation, 2 * np.pi * tooth_frequency * charted, harmonics=options.harmonics)
+    over = over_speed(*folded, 2 * np.pi * tooth_frequency * charted, harmonics=options.harmonics)
     return PlanetaryResponse(
         train=train,
         load=load,
         modes=modes,
         system=system,
-        whole=whole,
         excitation=excitation,
-        over=over if alike == 1 else _of_each(over, alike, whole, every.bonded),
+        over=over if alike == 1 else _of_each(over, alike, system, excitation),
         tooth_frequency=tooth_frequency,
         campbell=planetary_campbell(train, modes, phases, float(charted[-1]), given_speeds=given_speeds),
         alike=alike,
-        found=(*_turning_axes(modes, turns[train.carrier.name], float(charted[-1])), *_stages(train), *modes.notices),
+        found=(
+            *turning_axes(modes, turns[train.carrier.name], float(charted[-1])),
+            *stages_left_out(train),
+            *errors_left_out(train, load, stiffness, given_speeds),
+            *modes.notices,
+        ),
     )
 
 
@@ -232,58 +256,26 @@ def _speeds(
     return np.union1d(charted, asked) if first <= asked <= last else charted
 
 
-def _of_each(over: OverSpeed, alike: int, whole: System, excitation: Excitation) -> OverSpeed:
+def _of_each(over: OverSpeed, alike: int, system: System, excitation: Excitation) -> OverSpeed:
     """Charts of planets taken for one with the forces of each, and the stability of all, that with flanks in contact."""
+    columns = meshes_of_all(len(system.names[0]) // 2, alike)
 
     def unfolded(chart: KvChart) -> KvChart:
-        lasting = growth(whole, excitation, chart.frequencies) <= UNSTABLE
+        lasting = _lasting(system, excitation, chart.frequencies)
         return replace(
             chart,
             factors=chart.factors[:, columns],
             least=chart.least[:, columns],
             static_forces=chart.static_forces[columns] / alike,
-            mesh_names=whole.names[0],
+            mesh_names=system.names[0],
             stable=chart.stable & lasting,
-            notices=(*chart.notices, *_differing(chart.frequencies, chart.stable & ~lasting)),
+            notices=(*chart.notices, *planets_differ(chart.frequencies, chart.stable & ~lasting)),
         )
 
-    kept = len(over.up.mesh_names) // 2
-    columns = np.concatenate([np.tile(np.arange(kept), alike), np.tile(np.arange(kept, 2 * kept), alike)])
-
-    return replace(over, up=unfolded(over.up), down=None if over.down is None else unfolded(over.down))
+    notices = (*over.notices, *differences_where_parted(over))
+    return replace(over, up=unfolded(over.up), down=None if over.down is None else unfolded(over.down), notices=notices)
 
 
-# ---------------------------------------------------------------------- what to know
-
-
-def _turning_axes(modes: PlanetaryModes, carrier: float, highest_speed: float) -> tuple[Notice, ...]:
-    """Where axes that turn with the carrier would show; `carrier` is its speed over that of the input."""
-    elastic = modes.circular[modes.rigid :]
-    rpm = abs(carrier * highest_speed)
-    ratio = 2 * rpm * math.pi / 30 / float(elastic.min(initial=math.inf))
-    if ratio < _FAST:
-        return ()
-    text = (
-        f"the carrier turns at up to {rpm:.4g} rpm, of which twice the angular speed is {ratio:.2g} of the lowest natural"
-        " frequency: gyroscopic and centrifugal terms, which this model leaves out, would shift it there"
-    )
-    return (Notice("turning-axes", text),)
-
-
-def _differing(frequencies: Floats, growing: Bools) -> tuple[Notice, ...]:
-    """That planets do not go on doing the same at some of the tooth frequencies (s,) in 1/s."""
-    if not growing.any():
-        return ()
-    text = (
-        f"planets cease to do the same at tooth frequencies (1/s) {frequency_ranges(frequencies, growing)}: modes in which they"
-        " differ grow there while flanks stay in contact, so what is given does not last"
-    )
-    return (Notice("planets-differ", text),)
-
-
-def _stages(train: PlanetaryTrain) -> tuple[Notice, ...]:
-    """That stages vibrate by themselves here."""
-    if not train.stages:
-        return ()
-    names = " and ".join(stage.name for stage in train.stages)
-    return (Notice("stages-left-out", f"inertias and meshes of {names} are no part of the vibrating model", "stages"),)
+def _lasting(system: System, excitation: Excitation, frequencies: Floats) -> Bools:
+    """Whether (s,) motions of all planets last while flanks stay in contact."""
+    return np.asarray(growth(system, excitation.bonded, frequencies) <= UNSTABLE, bool)

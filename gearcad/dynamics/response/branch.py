@@ -116,7 +116,7 @@ class Branch:
             torque_coefficients=torques,
             stable=stable,
             jumps=np.zeros(0) if jumps is None else jumps,
-            notices=instability(frequencies, stable),
+            notices=instability(frequencies, stable, parting=self.excitation.parting),
         )
 
 

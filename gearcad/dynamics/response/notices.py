@@ -21,13 +21,16 @@ def frequency_ranges(frequencies: Floats, marked: Bools) -> str:
     return ", ".join(f"{part[0]:g} to {part[-1]:g}" for part in runs(frequencies, marked))
 
 
-def instability(frequencies: Floats, stable: Bools) -> tuple[Notice, ...]:
-    """That motions do not last at some of the tooth frequencies (s,) in 1/s."""
+def instability(frequencies: Floats, stable: Bools, *, parting: bool = False) -> tuple[Notice, ...]:
+    """That motions do not last at some of the tooth frequencies (s,) in 1/s: without bound, unless flanks are `parting`."""
     if stable.all():
         return ()
     ranges = [f"{part[0]:g}" if len(part) == 1 else f"{part[0]:g} to {part[-1]:g}" for part in runs(frequencies, ~stable)]
+    where = f"at tooth frequencies (1/s) {', '.join(ranges)}"
     text = (
-        f"parametric instability: vibrations grow without bound at tooth frequencies (1/s) {', '.join(ranges)}; "
+        f"the periodic motion does not last {where}: what comes instead is not computed, and can be greater than what is given"
+        if parting
+        else f"parametric instability: vibrations grow without bound {where}; "
         "what is given there is a periodic motion that does not last"
     )
     return (Notice("unstable", text),)

@@ -1,0 +1,182 @@
+"""What the response of a planetary train says of itself: what it leaves out, what lasts, and that `at` is as its charts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.mode_trains import MASSES, TRAINS, on_springs
+
+from gearcad.cli.planetary import _frequency_lines
+from gearcad.dynamics.options import DynamicsOptions
+from gearcad.dynamics.planetary.masses import train_masses
+from gearcad.dynamics.planetary.mesh_stiffness import MeshStiffness, train_stiffness
+from gearcad.dynamics.planetary.response import PlanetaryResponse, planetary_response
+from gearcad.dynamics.planetary.response_notices import errors_left_out
+from gearcad.dynamics.planetary.sharing import share_load
+from gearcad.dynamics.planetary.study import study_planetary
+from gearcad.geometry import Gear
+from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim, TrainLoad
+from gearcad.planetary.mesh_loads import mesh_loads
+from gearcad.planetary.power import power_flow
+from gearcad.report.planetary.vibration import sections_of_vibration
+
+LOAD = TrainLoad(torque=300.0, speed=1500.0)
+BARE = DynamicsOptions(stiffness="weber-banaschek", speed_to=600.0)
+"""A method that knows no rings: the rest of a study is soon there."""
+
+
+def _gear(teeth: int, shift: float, **keys: float) -> Gear:
+    return Gear(teeth=teeth, normal_module=2.0, profile_shift=shift, face_width=20.0, tooth_thinning=0.04, **keys)
+
+
+def _train(teeth: tuple[int, int, int], shifts: tuple[float, float, float], planets: int) -> PlanetaryTrain:
+    """With all members on springs: light and fast enough for parametric resonances within its chart."""
+    sun, ring = _gear(teeth[0], shifts[0]), _gear(teeth[2], shifts[2], tip_alteration=-0.1)
+    return PlanetaryTrain(
+        planets=planets,
+        centrals=(
+            Central(name="a", gear=sun, meshes="p", support_stiffness=100.0, mass=0.5, inertia=2e-4),
+            Central(name="b", gear=ring, meshes="p", support_stiffness=300.0, mass=2.0, inertia=1e-2),
+        ),
+        rims=(Rim(name="p", gear=_gear(teeth[1], shifts[1])),),
+        carrier=Carrier(
+            name="c",
+            pin_stiffness=300.0,
+            support_stiffness=400.0,
+            mass=3.0,
+            inertia=5e-3,
+            planet_mass=0.25,
+            planet_inertia=7e-5,
+        ),
+        fixed="b",
+        input="a",
+        output="c",
+    )
+
+
+def _stiffness(train: PlanetaryTrain) -> dict[str, MeshStiffness]:
+    return train_stiffness(train, mesh_loads(train, power_flow(train, LOAD)), method="strain-energy", positions=24)
+
+
+def _respond(train: PlanetaryTrain, speeds: int, start: float, end: float) -> PlanetaryResponse:
+    options = DynamicsOptions(speeds=speeds, speed_from=start, speed_to=end)
+    return planetary_response(train, LOAD, _stiffness(train), train_masses(train), options)
+
+
+@pytest.fixture(scope="module")
+def unstable() -> PlanetaryResponse:
+    """Three planets out of phase, about a speed at which the motion with parted flanks does not last."""
+    return _respond(_train((25, 20, -65), (0.2, 0.2, -0.6), 3), 9, 34_500.0, 37_500.0)
+
+
+@pytest.fixture(scope="module")
+def folded() -> PlanetaryResponse:
+    """Four planets, every second of which does the same, about such a speed."""
+    return _respond(_train((22, 20, -62), (0.4, 0.3, -1.0), 4), 9, 36_500.0, 42_000.0)
+
+
+# ---------------------------------------------------------------------- at one speed
+
+
+def test_at_a_speed_every_planet_carries_its_own_force() -> None:
+    """Three planets taken for one: the mean force of each mesh is that at rest, its greatest that of the chart."""
+    found = _respond(_train((24, 21, -66), (0.3, 0.2, -0.7), 3), 5, 4000.0, 6000.0)
+    assert found.alike == 3
+    one = found.at(5000.0)
+    forces = one.spring_forces()[0]
+    assert forces.mean(axis=0) == pytest.approx(found.up.static_forces, rel=1e-3)  # jumps between samples
+    assert len(one.system.names[0]) == one.spring_forces().shape[-1] == 6
+    (row,) = np.flatnonzero(np.isclose(found.speeds, 5000.0))
+    assert forces.max(axis=0) / found.up.static_forces == pytest.approx(found.up.factors[row], rel=5e-3)
+    assert one.system.stiffness * one.static.approach == pytest.approx(found.up.static_forces, rel=1e-6)
+
+
+@pytest.mark.parametrize("which", ["unstable", "folded"])
+def test_at_a_speed_a_motion_lasts_where_the_chart_says_so(which: str, request: pytest.FixtureRequest) -> None:
+    found: PlanetaryResponse = request.getfixturevalue(which)
+    stable = found.up.stable
+    assert 0 < stable.sum() < len(stable)
+    rows = [*np.flatnonzero(~stable)[:3], *np.flatnonzero(stable)[::7]]
+    for row in rows:
+        one = found.at(float(found.speeds[row]))
+        assert bool(one.stable[0]) == stable[row]
+        most = one.spring_forces()[0].max(axis=0) / found.up.static_forces
+        assert most == pytest.approx(found.up.factors[row], rel=0.02)
+
+
+# ---------------------------------------------------------------------- motions that do not last
+
+
+def test_nothing_grows_without_bound_where_flanks_part(unstable: PlanetaryResponse) -> None:
+    (notice,) = [each for each in unstable.notices if each.code == "unstable"]
+    assert "without bound" not in notice.text
+    assert "does not last" in notice.text and "not computed, and can be greater" in notice.text
+
+
+def test_a_greatest_factor_that_does_not_last_is_marked(unstable: PlanetaryResponse) -> None:
+    """In the document, on the screen and in the report."""
+    row = int(unstable.up.factors.max(axis=1).argmax())
+    assert not unstable.up.stable[row] and not unstable.greatest_lasts
+    document = unstable.to_dict()
+    assert document["greatest"]["lasts"] is False and document["stable"][row] is False
+    study = replace(study_planetary(unstable.train), response=unstable)
+    (line,) = [line for line in _frequency_lines(study) if line.startswith("dynamic load factor")]
+    assert line.endswith("of a motion that does not last: what comes instead may be greater")
+    (section,) = [each for each in sections_of_vibration(study) if each.title == "Loads over speed"]
+    assert "That motion does not last" in " ".join(section.words)
+
+
+def test_a_greatest_factor_that_lasts_is_not_marked() -> None:
+    found = _respond(_train((24, 21, -66), (0.3, 0.2, -0.7), 3), 5, 4000.0, 6000.0)
+    assert found.to_dict()["greatest"]["lasts"] is True and all(found.to_dict()["stable"])
+    assert not {"unstable", "planets-differ"} & {notice.code for notice in found.notices}
+
+
+# ---------------------------------------------------------------------- what is left out
+
+
+def _with_error(train: PlanetaryTrain, kind: str, size: float) -> PlanetaryTrain:
+    one = (size, *[0.0] * (train.planets - 1))
+    if kind == "pin errors of carrier":
+        return replace(train, carrier=replace(train.carrier, pin_errors=one))
+    if kind == "tooth errors of rim1":
+        return replace(train, rims=(replace(train.rims[0], tooth_errors=one),))
+    if kind == "run-out of a":
+        return replace(train, centrals=(replace(train.centrals[0], run_out=size), train.centrals[1]))
+    return replace(train, carrier=replace(train.carrier, run_out=size))
+
+
+ERRORS = ("pin errors of carrier", "tooth errors of rim1", "run-out of a", "run-out of carrier")
+
+
+def test_errors_that_are_left_out_are_named() -> None:
+    """With the K_gamma of their load sharing; those of 0 are none."""
+    plain = on_springs(TRAINS["A helical"], support=60.0, pin=200.0)
+    stiffness = _stiffness(plain)
+    for kind in ERRORS:
+        train = _with_error(plain, kind, 40.0)
+        (notice,) = errors_left_out(train, LOAD, stiffness, None)
+        sharing = share_load(train, LOAD, {name: each.mean for name, each in stiffness.items()})
+        assert notice.where == "response" and sharing.mesh_load_factor > 1.01
+        assert notice.text.startswith(f"errors are left out ({kind}): here every planet carries an even share")
+        assert f"K_gamma at rest is {sharing.mesh_load_factor:.3g}" in notice.text
+        assert ("without contact" in notice.text) == bool(sharing.unloaded)
+        assert not errors_left_out(_with_error(plain, kind, 0.0), LOAD, stiffness, None)
+
+
+def test_the_response_says_what_it_leaves_out_and_so_does_the_study() -> None:
+    train = _with_error(on_springs(TRAINS["A helical"], support=60.0, pin=200.0), ERRORS[0], 40.0)
+    options = DynamicsOptions(speeds=3, speed_from=500.0, speed_to=600.0, harmonics=2)
+    found = planetary_response(train, LOAD, _stiffness(train), MASSES, options)
+    (notice,) = [each for each in found.notices if each.code == "errors-left-out"]
+    assert notice in replace(study_planetary(train, dynamics=BARE), response=found).notices
+    assert notice.to_dict() in found.to_dict()["notices"]
+
+
+def test_errors_without_a_sharing_are_named_too() -> None:
+    """Without torque there is none."""
+    train = _with_error(TRAINS["A helical"], ERRORS[0], 40.0)
+    (notice,) = errors_left_out(train, replace(LOAD, torque=0.0), _stiffness(train), None)
+    assert "load sharing at rest could not be had: " in notice.text
