@@ -85,16 +85,30 @@ def _lines(study: PlanetaryStudy) -> Iterator[str]:
 
 
 def _member_lines(study: PlanetaryStudy) -> Iterator[str]:
-    train = study.train
+    train, flow, turning = study.train, study.flow, study.turning
     if study.speeds is None:
         return
     roles = {train.input: "input", train.output: "output", train.fixed: "fixed"}
-    torques = {} if study.flow is None else study.flow.torques
-    yield f"{'member':<22}{'rpm':>12}{'N·m':>12}"
-    for name, speed in study.speeds.members.items():
-        torque = f"{torques[name]:>12.5g}" if name in torques else f"{'-':>12}"
-        yield f"{name:<22}{speed:>12.6g}{torque}  {roles.get(name, '')}".rstrip()
-    yield f"{'planet':<22}{study.speeds.planet:>12.6g}{'':>12}  {study.speeds.planet_relative:.6g} rpm on its pin"
+    yield f"{'member':<22}{'rpm':>12}{'N·m':>12}{'W':>12}"
+    for name in study.speeds.members:
+        speed = None if turning is None else turning.members[name]
+        torque = None if flow is None else flow.torques.get(name)
+        power = None if flow is None or turning is None else flow.powers.get(name)
+        cells = _cell(speed, 6) + _cell(torque, 5) + _cell(power, 5)
+        words = filter(None, (roles.get(name), "" if train.fixed else _power_words(power)))
+        yield f"{name:<22}{cells}  {', '.join(words)}".rstrip()
+    if turning is not None:
+        yield f"{'planet':<22}{turning.planet:>12.6g}{'':>24}  {turning.planet_relative:.6g} rpm on its pin"
+
+
+def _cell(value: float | None, digits: int) -> str:
+    """A number in its column, or "-" where there is none."""
+    return f"{'-':>12}" if value is None else f"{value:>12.{digits}g}"
+
+
+def _power_words(power: float | None) -> str:
+    """Who drives and who is driven, which in a differential is up to the speeds."""
+    return "" if not power else "drives" if power > 0 else "is driven"
 
 
 def _efficiency(study: PlanetaryStudy) -> str:

@@ -194,12 +194,35 @@ def test_the_command_shows_the_figures_and_writes_the_files(tmp_path: Path) -> N
     result = run("planetary", str(spec), "-o", str(tmp_path), "--quiet")
     lines = {line[:22].strip(): line[22:].split() for line in result.stdout.splitlines()}
     assert lines["set"][:2] == ["type", "A,"] and lines["set"][-3:] == ["i", "=", "3.75"]
-    assert lines["sun"] == ["1500", "54.123", "input"]
-    assert lines["carrier"] == ["400", "-200", "output"]
+    assert lines["sun"] == ["1500", "54.123", "8501.6", "input"]
+    assert lines["carrier"] == ["400", "-200", "-8377.6", "output"]
     assert lines["efficiency"][0] == "98.54"
     assert (tmp_path / "sun-planet.toml").exists()
     assert run("planetary", status=2).stderr.startswith("Error: spec = None: must be given")
     assert json.loads(run("planetary", str(spec), "-o", str(tmp_path), "--json", "--quiet").stdout)["ratio"] == 3.75
+
+
+def test_the_screen_says_who_drives_a_differential(tmp_path: Path) -> None:
+    """The carrier turns at (30·1500 + 66·300)/96; sun and ring put power in, as the starter says."""
+    spec = TEMPLATES / "planetary-differential.toml"
+    result = run("planetary", str(spec), "-o", str(tmp_path), "--quiet")
+    lines = {line[:22].strip(): line[22:].split() for line in result.stdout.splitlines()}
+    assert lines["sun"][3:] == ["input,", "drives"] and lines["ring"][3:] == ["drives"]
+    assert lines["carrier"] == ["675", "-300", "-21206", "output,", "is", "driven"]
+    assert float(lines["sun"][2]) + float(lines["ring"][2]) == pytest.approx(21206 / 0.9924, rel=1e-4)
+
+
+@pytest.mark.usefixtures("quick")
+def test_without_a_speed_torques_are_known_and_nothing_is_said_to_stand(tmp_path: Path) -> None:
+    text = (TEMPLATES / "planetary-24-21-66.toml").read_text(encoding="utf-8")
+    spec = tmp_path / "slow.toml"
+    spec.write_text(text.replace("\nspeed = ", "\n# speed = "), encoding="utf-8")
+    result = run("planetary", str(spec), "-o", str(tmp_path / "out"), "--quiet")
+    lines = {line[:22].strip(): line[22:].split() for line in result.stdout.splitlines()}
+    assert lines["sun"] == ["-", "54.123", "-", "input"] and "planet" not in lines
+    document = json.loads((tmp_path / "out" / "planetary.json").read_text(encoding="utf-8"))
+    assert {member["speed"] for member in document["members"].values()} == {None}
+    assert document["planet_speed"] is None and "speed of sun" in document["why_not"]["speeds"]
 
 
 def test_the_data_sheet_has_the_train_and_a_column_for_each_mesh() -> None:

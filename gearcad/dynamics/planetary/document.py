@@ -24,8 +24,8 @@ def study_document(study: PlanetaryStudy) -> dict[str, Any]:
         "efficiency": None if flow is None else flow.efficiency,
         "efficiency_back": None if flow is None else flow.efficiency_back,
         "members": _members(study),
-        "planet_speed": None if study.speeds is None else study.speeds.planet,
-        "planet_speed_relative": None if study.speeds is None else study.speeds.planet_relative,
+        "planet_speed": None if study.turning is None else study.turning.planet,
+        "planet_speed_relative": None if study.turning is None else study.turning.planet_relative,
         "power": _document(flow),
         "planet_angles": list(train.angles),
         "pose": _pose(study.pose),
@@ -47,10 +47,19 @@ def study_document(study: PlanetaryStudy) -> dict[str, Any]:
         "response": _document(study.response),
         "rating": _document(study.rating),
         "gears": {name: gear.to_dict() for name, gear in train.gears.items()},
-        "why_not": dict(study.why_not),
+        "why_not": _why_not(study),
         "warnings": list(study.warnings),
         "notices": [notice.to_dict() for notice in study.notices],
     }
+
+
+def _why_not(study: PlanetaryStudy) -> dict[str, str]:
+    """Why a part is None; of speeds that of a train at rest, too, whose torques are known."""
+    if study.speeds is None or study.turning is not None:
+        return dict(study.why_not)
+    return {"speeds": f"nothing turns: the speed of {study.train.input} stands in [load], others in [planetary.speeds]"} | dict(
+        study.why_not
+    )
 
 
 def _document(part: Any) -> dict[str, Any] | None:
@@ -71,8 +80,9 @@ def _members(study: PlanetaryStudy) -> dict[str, dict[str, Any]]:
     """Speed (rpm) and torque from outside (N·m) of every member and shaft, and what it is to the train."""
     speeds = {} if study.speeds is None else study.speeds.members
     torques = {} if study.flow is None else study.flow.torques
+    known = {} if study.turning is None else study.turning.members
     names = dict.fromkeys((*study.train.members, *speeds, *torques))
-    return {name: {"speed": speeds.get(name), "torque": torques.get(name), "role": _role(study.train, name)} for name in names}
+    return {name: {"speed": known.get(name), "torque": torques.get(name), "role": _role(study.train, name)} for name in names}
 
 
 def _role(train: PlanetaryTrain, name: str) -> str:

@@ -81,6 +81,11 @@ class PlanetaryStudy:
         return self.train.name
 
     @property
+    def turning(self) -> Speeds | None:
+        """The speeds, where there is one: None of a train that has only a torque, or is at rest."""
+        return self.speeds if self.speeds is not None and any(self.speeds.members.values()) else None
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """The notices in words."""
         return texts(self.notices)
