@@ -1,12 +1,13 @@
 """The values of a planetary train's spec, and how its gears come to theirs.
 
 What the gears of the set share may stand in `[planetary]`; a gear's own value wins, and what two gears of a mesh have in
-common, module and helix, may stand on either. The hand follows: opposed at a sun, the same in a ring.
+common, module and helix, may stand on either. A shared module that no gear is left with is refused. The hand follows: opposed
+at a sun, the same in a ring.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Any, ClassVar, Self, TypeVar
 
@@ -17,7 +18,7 @@ from gearcad.designs.keys import OF_SETS, SHARED
 from gearcad.designs.planetary_gears import TableMesh, TrainGears
 from gearcad.designs.planetary_tables import MAIN, place_tables
 from gearcad.designs.spec import Spec
-from gearcad.errors import GeometryError, InputError, SpecError
+from gearcad.errors import GeometryError, InputError, SpecError, format_number
 from gearcad.geometry import Gear
 from gearcad.geometry.diametral import MODULE_OR_PITCH
 from gearcad.planetary import Central, Rim
@@ -143,8 +144,11 @@ class PlanetarySpec(Spec):
 
     def _share_values(self) -> None:
         """Give the gears what stands in [planetary] or on a mate, unless they have their own."""
+        sizes = [f"{table}.{name}" for table in self.tables for name in MODULE_OR_PITCH]
+        own = [key for key in sizes if key in self.values]
         for name in MODULE_OR_PITCH:
             self._spread(name)
+        self._check_size_is_used(own)
         for name in _OPPOSED:
             self._spread_helix(name)
         for table in self.tables:
@@ -156,6 +160,20 @@ class PlanetarySpec(Spec):
                     continue
                 if not (renamed and key.startswith("rack")):
                     self.values.setdefault(f"{table}.{key}", given)
+
+    def _check_size_is_used(self, own: Sequence[str]) -> None:
+        """Raise SpecError for a shared module that no gear has, as every mesh takes that of its gear's `own` keys."""
+        for name in MODULE_OR_PITCH:
+            given = self.values.get(f"{MAIN}.{name}")
+            if given is None or not all(
+                any(f"{table}.{each}" in self.values for each in MODULE_OR_PITCH) for table in self.tables
+            ):
+                continue
+            if all(self.values[key].value != given.value for key in own if key.endswith(name)):
+                said = " and ".join(f"{self.values[key].key} = {format_number(self.values[key].value)}" for key in own)
+                permitted = f"is no gear's: {said} counts before it, for mates too; leave one out, or make them agree"
+                with self.blame(MAIN):
+                    raise GeometryError(name, given.value, permitted, "mm" if name == "normal_module" else "1/inch")
 
     def _spread(self, key: str) -> None:
         """Let gears have what their mates have, from mesh to mesh: what two in mesh must share, with the sign it has."""

@@ -10,7 +10,7 @@ from gearcad.planetary.fitting import SetTeeth
 from gearcad.planetary.poses import assembled
 from gearcad.planetary.train_data import EQUAL, PERMITTED, TrainData
 
-__all__ = ["check_assembly", "check_counts", "fitting_planets", "fitting_teeth"]
+__all__ = ["check_angles", "check_assembly", "check_errors", "fitting_planets", "fitting_teeth"]
 
 MISFIT = 1e-7
 """Pitches by which teeth may miss their spaces from rounding."""
@@ -22,13 +22,18 @@ _OFFERED = 4
 """How many of such sets are told."""
 
 
-def check_counts(train: TrainData) -> None:
-    """As many angles and errors as planets. Raises ParameterError."""
+def check_errors(train: TrainData) -> None:
+    """As many errors as planets. Raises ParameterError."""
     given = {f"{rim.name}.tooth_errors": rim.tooth_errors for rim in train.rims}
     given[f"{train.carrier.name}.pin_errors"] = train.carrier.pin_errors
     for name, values in given.items():
         if len(values) not in (0, train.planets):
-            raise ParameterError(name, len(values), f"must be one for each of {train.planets} planets, or none")
+            permitted = f"must be {train.planets} values, one a planet, or none; there are {len(values)}"
+            raise ParameterError(name, list(values), permitted)
+
+
+def check_angles(train: TrainData) -> None:
+    """As many angles as planets. Raises ParameterError."""
     angles = train.planet_angles
     if angles not in (EQUAL, PERMITTED) and (isinstance(angles, str) or len(angles) != train.planets):
         permitted = f'must be "equal", "permitted" or {train.planets} angles, one a planet'

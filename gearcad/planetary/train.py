@@ -8,7 +8,7 @@ from typing import Any
 
 from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.notice import Notice
-from gearcad.planetary.assembly import check_assembly, check_counts
+from gearcad.planetary.assembly import check_angles, check_assembly, check_errors
 from gearcad.planetary.coaxial import settle_centre_distance
 from gearcad.planetary.document import train_document
 from gearcad.planetary.heights import settle_heights
@@ -40,10 +40,11 @@ class PlanetaryTrain(TrainData):
         require_fields(self)
         self._check_names()
         check_shafts(self)
-        check_counts(self)
+        check_angles(self)
         settle_heights(self)
         settle_centre_distance(self)
         check_assembly(self)
+        check_errors(self)  # last: another number of planets is looked at for its assembly first
 
     @property
     def ratio(self) -> float | None:

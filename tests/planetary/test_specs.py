@@ -166,6 +166,17 @@ def test_the_module_of_a_mesh_may_stand_on_either_gear(tmp_path: Path) -> None:
     assert read(tmp_path, moved).train == read(tmp_path, PLAIN).train
 
 
+def test_a_shared_module_that_no_gear_is_left_with_is_refused(tmp_path: Path) -> None:
+    own = ("[planet]", "[planet]\nnormal_module = 2.5")
+    assert "planetary.normal_module = 2 mm: is no gear's: planet.normal_module = 2.5 counts before it" in fault(
+        tmp_path, PLAIN, own
+    )
+    agreed = read(tmp_path, PLAIN.replace(own[0], own[1].replace("2.5", "2.0")))
+    assert agreed.train == read(tmp_path, PLAIN).train
+    pitch = PLAIN.replace("normal_module = 2.0", "normal_diametral_pitch = 12.7")
+    assert "planetary.normal_diametral_pitch = 12.7 1/inch: is no gear's: " in fault(tmp_path, pitch, own)
+
+
 def test_two_automatic_shifts_share_what_the_centre_distance_asks_for(tmp_path: Path) -> None:
     text = PLAIN.replace("profile_shift = 0.2", 'profile_shift = "auto"').replace(
         "teeth = 21", 'teeth = 21\nprofile_shift = "auto"'

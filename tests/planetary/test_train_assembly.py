@@ -201,10 +201,17 @@ def test_angles_are_one_a_planet(angles: object) -> None:
 
 def test_errors_are_one_a_planet() -> None:
     train = thesis_train()
-    with pytest.raises(ParameterError, match=r"carrier.pin_errors = 2: must be one for each of 3 planets"):
+    with pytest.raises(ParameterError, match=r"carrier.pin_errors = .*: must be 3 values, one a planet, or none; there are 2"):
         replace(train, carrier=replace(train.carrier, pin_errors=(1.0, 2.0)))
-    with pytest.raises(ParameterError, match=r"rim_3.tooth_errors = 4"):
+    with pytest.raises(ParameterError, match=r"rim_3.tooth_errors = \[1.0, .*; there are 4"):
         replace(train, rims=(replace(train.rims[0], tooth_errors=(1.0,) * 4), train.rims[1]))
+
+
+def test_planets_that_do_not_fit_are_named_before_the_count_of_their_errors() -> None:
+    train = thesis_train()
+    carrier = replace(train.carrier, pin_errors=(1.0, 2.0, 3.0))
+    with pytest.raises(GeometryError, match="must let the teeth fit"):
+        replace(train, carrier=carrier, planets=4)
 
 
 def test_the_basic_ratio_of_one_is_refused() -> None:
