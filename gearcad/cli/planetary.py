@@ -152,15 +152,17 @@ def _frequency_lines(study: PlanetaryStudy) -> Iterator[str]:
     if study.modes is None:
         return
     above = [family for family in study.modes.families if family.frequency > 0]
+    few = f"; first {_MOST_FREQUENCIES} of {len(above)}" if len(above) > _MOST_FREQUENCIES else ""
     listed = ", ".join(
         f"{family.frequency:.5g} {family.kind.value}{f' ({family.multiplicity})' if family.multiplicity > 1 else ''}"
         for family in above[:_MOST_FREQUENCIES]
     )
-    yield f"{'natural frequencies':<22}{listed} Hz"
+    yield f"{'natural frequencies':<22}{listed} Hz{few}"
     if study.campbell is not None:
         speeds = dict.fromkeys(f"{each.speed:.5g}" for each in study.campbell.excited)
         met = ", ".join(list(speeds)[:_MOST_FREQUENCIES])
-        yield f"{'resonances':<22}{met or 'none'} rpm of {study.train.input}, up to {study.campbell.highest_speed:.6g}"
+        few = f"; first {_MOST_FREQUENCIES} of {len(speeds)}" if len(speeds) > _MOST_FREQUENCIES else ""
+        yield f"{'resonances':<22}{met or 'none'} rpm of {study.train.input}, up to {study.campbell.highest_speed:.6g}{few}"
     if study.response is not None:
         factor, mesh, speed = study.response.greatest
         lasts = "" if study.response.greatest_lasts else ", of a motion that does not last: what comes instead may be greater"

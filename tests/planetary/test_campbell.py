@@ -61,9 +61,9 @@ def test_forces_on_modes_follow_the_rule_of_phases(case: str, sign: int) -> None
                 assert shares[shares > 0] == pytest.approx(1.0)
 
 
-def _campbell(train: PlanetaryTrain, speed: float, **given: object) -> PlanetaryCampbell:
+def _campbell(train: PlanetaryTrain, highest: float, **given: object) -> PlanetaryCampbell:
     modes = planetary_modes(train_springs(train, STIFFNESS), MASSES)
-    return planetary_campbell(train, modes, train.phases, speed, **given)  # type: ignore[arg-type]
+    return planetary_campbell(train, modes, train.phases, highest, **given)  # type: ignore[arg-type]
 
 
 def test_frequencies_of_a_sun_planet_ring_train() -> None:
@@ -107,6 +107,27 @@ def test_resonances_are_where_lines_meet_modes() -> None:
     assert campbell.kinds_excited("b-rim2", 2) == (ModeKind.ROTATIONAL,)
     plain = campbell.to_dict()
     assert plain["lines"][0]["name"] == "a-rim1" and plain["shares"][-1][0] is None
+
+
+def test_a_load_near_a_resonance_is_told() -> None:
+    train = on_springs(TRAINS["B"], support=60.0, pin=200.0)
+    met = _campbell(train, 20_000.0).excited[0]
+    for share, told in ((1.0, True), (0.951, True), (1.049, True), (0.949, False), (1.051, False)):
+        # Whether the speed is drawn or not, and whichever way the input turns.
+        for highest, sense in ((20_000.0, 1), (100.0, -1)):
+            campbell = _campbell(train, highest, speed=sense * share * met.speed)
+            assert campbell.speed == pytest.approx(share * met.speed)
+            assert all(each.excited and abs(campbell.speed / each.speed - 1) <= 0.05 for each in campbell.near)
+            found = [each for each in campbell.near if (each.line, each.family) == (met.line, met.family)]
+            assert bool(found) == told
+            words = [notice.text for notice in campbell.notices if f"{met.speed:.5g} rpm" in notice.text]
+            assert bool(words) == told
+            assert not told or campbell.lines[met.line].name in words[0]
+    # Beside one at which the planets take each other off nothing is told of it.
+    idle = next(each for each in _campbell(train, 20_000.0).resonances if each.excited is False)
+    near = _campbell(train, 20_000.0, speed=idle.speed).near
+    assert (idle.line, idle.family) not in {(each.line, each.family) for each in near}
+    assert not _campbell(train, 20_000.0).notices and not _campbell(train, 20_000.0, speed=0.0).near
 
 
 def test_unequal_planets_are_excited_by_their_own_phases() -> None:

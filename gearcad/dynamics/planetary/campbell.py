@@ -13,10 +13,12 @@ from gearcad.arrays import Floats
 from gearcad.dynamics.planetary.modes import ModeFamily, ModeKind, PlanetaryModes
 from gearcad.dynamics.planetary.springs import SpringKind
 from gearcad.errors import GeometryError, require_whole
+from gearcad.notice import Notice
 from gearcad.planetary import MeshPhases, PlanetaryTrain
 from gearcad.planetary.speeds import speeds
 
 __all__ = [
+    "NEAR",
     "CampbellLine",
     "LineKind",
     "PlanetaryCampbell",
@@ -25,6 +27,9 @@ __all__ = [
     "planetary_campbell",
     "speeds_per_input",
 ]
+
+NEAR = 0.05
+"""Of the speed of a resonance: a load that runs so near is told of."""
 
 _SHAKEN = 1e-6
 """Of what all planets together could do to a mode: rounding of what takes itself off."""
@@ -86,9 +91,12 @@ class Resonance(NamedTuple):
 class PlanetaryCampbell:
     """`lines` over the input's speed up to `highest_speed` (rpm), the modes' `families`, and where both meet, by rising speed.
 
-    `shares` (l, f) of lines in families are those of the resonances, nan where they are not judged.
+    `shares` (l, f) of lines in families are those of the resonances, nan where they are not judged. `speed` (rpm, without its
+    sign) is that of the load, where one is given.
     """
 
+    train: PlanetaryTrain
+    speed: float | None
     highest_speed: float
     lines: tuple[CampbellLine, ...]
     families: tuple[ModeFamily, ...]
@@ -100,6 +108,41 @@ class PlanetaryCampbell:
         """Those at which modes are shaken."""
         return tuple(each for each in self.resonances if each.excited)
 
+    @property
+    def near(self) -> tuple[Resonance, ...]:
+        """Those that excite modes, within NEAR of which the load runs, the nearest first, even beyond the diagram."""
+        if not self.speed:
+            return ()
+        found = [
+            Resonance(family.frequency / line.per_rpm, family.frequency, row, column, float(self.shares[row, column]))
+            for row, line in enumerate(self.lines)
+            for column, family in enumerate(self.families)
+            if self.shares[row, column] > 0
+        ]
+        by_distance = sorted((abs(self.speed / each.speed - 1), place) for place, each in enumerate(found))
+        return tuple(found[place] for distance, place in by_distance if distance <= NEAR)
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """That the load runs near a resonance: one for each mode and speed, of all harmonics that meet there."""
+        together: dict[tuple[int, str], list[Resonance]] = {}
+        for each in self.near:
+            together.setdefault((each.family, f"{each.speed:.6g}"), []).append(each)
+        return tuple(Notice("near-resonance", self._near_words(met)) for met in together.values())
+
+    def _near_words(self, met: list[Resonance]) -> str:
+        speed, family = self.speed or 0.0, self.families[met[0].family]
+        away = 100 * (speed / met[0].speed - 1)
+        apart = f"{abs(away):.2g} % {'above' if away > 0 else 'below'}" if abs(away) >= 1e-3 else "at"
+        lines = " and ".join(self.lines[each.line].name for each in met)
+        last = family.first + family.multiplicity
+        modes = f"mode {last}" if family.multiplicity == 1 else f"modes {family.first + 1} to {last}"
+        return (
+            f"{speed:.5g} rpm of {self.train.input} is {apart} the resonance at {met[0].speed:.5g} rpm, where {lines} "
+            f"{'excites' if len(met) == 1 else 'excite'} {modes} ({family.kind.value}, {family.frequency:.5g} Hz); "
+            f"told within {100 * NEAR:g} %, damping is not judged"
+        )
+
     def kinds_excited(self, source: str, harmonic: int) -> tuple[ModeKind, ...]:
         """Kinds of the modes that a line shakes."""
         (row,) = [i for i, line in enumerate(self.lines) if (line.source, line.harmonic) == (source, harmonic)]
@@ -109,11 +152,13 @@ class PlanetaryCampbell:
     def to_dict(self) -> dict[str, Any]:
         """Plain lists; no value (null) where a share is not judged."""
         return {
+            "speed": self.speed,
             "highest_speed": self.highest_speed,
             "lines": [{**line._asdict(), "kind": line.kind.value, "name": line.name} for line in self.lines],
             "families": [family.to_dict() for family in self.families],
             "shares": [[None if np.isnan(share) else float(share) for share in row] for row in self.shares],
             "resonances": [{**each._asdict(), "excited": each.excited} for each in self.resonances],
+            "near": [{**each._asdict(), "excited": each.excited} for each in self.near],
         }
 
 
@@ -125,11 +170,12 @@ def planetary_campbell(
     *,
     harmonics: int = 6,
     given_speeds: Mapping[str, float] | None = None,
+    speed: float | None = None,
 ) -> PlanetaryCampbell:
     """Up to a speed of the input (rpm), with so many `harmonics` of every mesh.
 
-    `given_speeds` (rpm) are those of a differential beside its input at `highest_speed`: all rise alike. Raises ParameterError,
-    and GeometryError where the set turns as one.
+    `given_speeds` (rpm) are those of a differential beside its input at `highest_speed`: all rise alike. `speed` (rpm) of the
+    load: resonances near it are told. Raises ParameterError, and GeometryError where the set turns as one.
     """
     require_whole("harmonics", harmonics, at_least=1, at_most=1000)
     turns = speeds_per_input(train, {**(given_speeds or {}), train.input: highest_speed})
@@ -139,12 +185,14 @@ def planetary_campbell(
         if line.kind is LineKind.MESH:
             shares[row] = modal_shares(modes, line.source, np.array(phases[line.source].ahead), line.harmonic)
     met = [
-        Resonance(speed, family.frequency, row, column, None if np.isnan(shares[row, column]) else float(shares[row, column]))
+        Resonance(meeting, family.frequency, row, column, None if np.isnan(shares[row, column]) else float(shares[row, column]))
         for row, line in enumerate(lines)
         for column, family in enumerate(modes.families)
-        if 0 < (speed := family.frequency / line.per_rpm) <= highest_speed
+        if 0 < (meeting := family.frequency / line.per_rpm) <= highest_speed
     ]
     return PlanetaryCampbell(
+        train=train,
+        speed=abs(speed) if speed else None,
         highest_speed=highest_speed,
         lines=lines,
         families=modes.families,

@@ -96,7 +96,7 @@ class PlanetaryStudy:
         found = [*self.train.notices]
         for mesh in (self.stiffness or {}).values():
             found += mesh.notices
-        for part in (self.sharing, self.torsion, self.running, self.modes, self.response, self.rating):
+        for part in (self.sharing, self.torsion, self.running, self.modes, self.campbell, self.response, self.rating):
             found += part.notices if part is not None else ()
         if self.flow is not None and self.flow.self_locking:
             found.append(Notice("self-locking", f"{self.train.output} cannot drive {self.train.input}: the train locks itself"))

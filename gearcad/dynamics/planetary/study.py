@@ -263,13 +263,14 @@ def _campbell(
     options: DynamicsOptions | None,
 ) -> PlanetaryCampbell:
     """Up to the speed of the options, or _BEYOND times that of the load."""
-    speed = 0.0 if load is None else abs(load.speed)
+    speed = 0.0 if load is None else load.speed
     highest = None if options is None else options.speed_to
     if highest is None and not speed:
         raise ParameterError("load.speed", 0.0, f"must be given, in rpm of {train.input}, or dynamics.speed_to", "rpm")
-    highest = _BEYOND * speed if highest is None else highest
+    highest = _BEYOND * abs(speed) if highest is None else highest
+    # By the signed speed: where the input turns clockwise all senses are reversed alike, as `highest` has none.
     given = {name: each * highest / speed if speed else each for name, each in others.items()}
-    return planetary_campbell(train, modes, phases, highest, given_speeds=given)
+    return planetary_campbell(train, modes, phases, highest, given_speeds=given, speed=speed)
 
 
 def _weighed(train: PlanetaryTrain, masses: TrainMasses) -> PlanetaryTrain:

@@ -8,7 +8,7 @@ from gearcad.dynamics.planetary.campbell import CampbellLine, LineKind, Planetar
 from gearcad.dynamics.planetary.modes import ModeFamily, ModeKind
 from gearcad.planetary import PlanetaryTrain
 from gearcad.plots.labels import plain
-from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, SERIES, new_figure, prepared
+from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, SERIES, new_figure, prepared, short
 from gearcad.plots.planetary.callouts import spread
 from gearcad.plots.planetary.parts import colour_of
 
@@ -35,8 +35,8 @@ _LEAST, _MOST = 3.0, 6.5
 _ABOVE = 1.05
 """Of the highest natural frequency, up to where the picture goes."""
 
-_NEAR = 0.15
-"""Relative difference of slopes that leaves no room for a number at each line."""
+_NUMBERED = {True: 0.97, False: 0.9}
+"""Of a line's length, where its number stands: above the line of the mesh that rises faster, below that of the other."""
 
 _ROW = 0.14
 """Inches between the numbers of natural frequencies beside the picture."""
@@ -67,6 +67,7 @@ def plot_train_campbell(train: PlanetaryTrain, campbell: PlanetaryCampbell, ax: 
         elif met.excited is False:
             axes.plot(met.speed, met.frequency, "x", color=MARKED, markersize=4, zorder=3)
     _name_families(axes, families, highest)
+    _mark_load(axes, campbell)
     _explain(axes, train, campbell)
     return axes
 
@@ -78,23 +79,58 @@ def highest_drawn(campbell: PlanetaryCampbell) -> float:
     return _ABOVE * min(max(natural, default=1.0), max(reached, min(natural, default=1.0)))
 
 
-def _beside(train: PlanetaryTrain, line: CampbellLine, campbell: PlanetaryCampbell) -> bool:
-    """Whether a line of the second mesh is so near to that of the first that one number is for both."""
-    first = train.meshes[0].name
-    near = [each.per_rpm for each in campbell.lines if (each.source, each.harmonic) == (first, line.harmonic)]
-    return line.source != first and bool(near) and abs(line.per_rpm / near[0] - 1) < _NEAR
-
-
 def _draw_line(axes: Axes, train: PlanetaryTrain, line: CampbellLine, campbell: PlanetaryCampbell, highest: float) -> None:
     """A line from standstill to where it leaves the picture, its harmonic there."""
     end = min(campbell.highest_speed, highest / line.per_rpm)
     colour, style, width = _style(train, line)
     axes.plot([0, end], [0, line.per_rpm * end], color=colour, linestyle=style, linewidth=width, zorder=2)
-    if line.kind is LineKind.MESH and not _beside(train, line, campbell):
-        place = (end, line.per_rpm * end)
-        axes.annotate(
-            str(line.harmonic), place, (-2, -2), textcoords="offset points", ha="right", va="top", fontsize=7, color=DARK
-        )  # fmt: skip
+    if line.kind is LineKind.MESH:
+        rest = [each.per_rpm for each in campbell.lines if each.kind is LineKind.MESH and each.harmonic == line.harmonic]
+        # Of meshes of one frequency, the first has its numbers above.
+        above = line.per_rpm == max(rest) and (min(rest) < max(rest) or line.source == train.meshes[0].name)
+        _number(axes, line, _NUMBERED[above] * end, above=above, colour=colour)
+
+
+def _number(axes: Axes, line: CampbellLine, speed: float, *, above: bool, colour: str) -> None:
+    """The harmonic of a line at a speed, in the colour of its mesh, on that side of the rising line which it does not cross."""
+    from matplotlib.patheffects import withStroke
+
+    axes.annotate(
+        str(line.harmonic),
+        (speed, line.per_rpm * speed),
+        (-1, 1) if above else (1, -1),
+        textcoords="offset points",
+        ha="right" if above else "left",
+        va="bottom" if above else "top",
+        fontsize=7.5,
+        color=colour,
+        path_effects=[withStroke(linewidth=2.0, foreground="white")],
+        zorder=5,
+    )
+
+
+def _mark_load(axes: Axes, campbell: PlanetaryCampbell) -> None:
+    """An upright line at the speed of the load, which is written beside it."""
+    from matplotlib.patheffects import withStroke
+
+    speed = campbell.speed
+    if speed is None or speed > campbell.highest_speed:
+        return
+    axes.axvline(speed, color=DARK, linewidth=1.2, zorder=3)
+    axes.annotate(
+        f"load: {short(speed)} rpm",
+        (speed, 1.0),
+        (-3, -4),
+        axes.get_xaxis_transform(),
+        "offset points",
+        rotation=90,
+        ha="right",
+        va="top",
+        fontsize=8,
+        color=DARK,
+        path_effects=[withStroke(linewidth=2.5, foreground="white")],
+        zorder=5,
+    )
 
 
 _Dashes = str | tuple[int, tuple[int, int]]

@@ -44,12 +44,13 @@ def plot_running(running: Running, figure: Figure | None = None) -> Figure:
     panels = of.subplots(2, 2, sharey="row", sharex="col", width_ratios=(1.2, 1))
     near = running.rolled <= shown_pitches(running) + 1e-9
     name = running.train.meshes[0].name
+    turn, sense = np.abs(running.carrier_angle), ", clockwise" if running.carrier_angle[-1] < 0 else ""
     for row, (curves, slow, words) in enumerate(_rows(running)):
-        prepared(panels[row, 0], "" if row == 0 else f"turn of {running.train.carrier.name} in °", words)
+        prepared(panels[row, 0], "" if row == 0 else f"turn of {running.train.carrier.name} in °{sense}", words)
         prepared(panels[row, 1], "" if row == 0 else f"base pitches of {name}".replace("$", r"\$"), "")
         for number, (curve, mean) in enumerate(zip(curves, slow, strict=True)):
             colour = _SHADES[number % len(_SHADES)] if row == 0 else SERIES[0]
-            _draw_band(panels[row, 0], running.carrier_angle, curve, colour)
+            _draw_band(panels[row, 0], turn, curve, colour)
             panels[row, 1].plot(running.rolled[near], curve[near], color=colour, linewidth=1.2, label=f"planet {number + 1}")
             panels[row, 1].plot(running.rolled[near], mean[near], color=MARKED, linewidth=0.8, linestyle="--")
         for panel in panels[row]:
