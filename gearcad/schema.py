@@ -13,14 +13,14 @@ from functools import cache, cached_property
 from types import MappingProxyType, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
 
-from gearcad.errors import ParameterError, as_choice, plain_numbers
+from gearcad.errors import ParameterError, as_choice, plain_numbers, require_name
 from gearcad.ranges import Choice, Member, Range, Whole
 from gearcad.symbols import Symbol
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
-__all__ = ["FieldSchema", "InPlaceOf", "Words", "require_fields", "schema_of", "symbols_of"]
+__all__ = ["FieldSchema", "InPlaceOf", "NamedPart", "Words", "require_fields", "schema_of", "symbols_of"]
 
 Permitted = Range | Whole | Choice | Member
 
@@ -159,6 +159,17 @@ def symbols_of(kind: type[DataclassInstance]) -> dict[str, Symbol]:
         else:
             found |= {f"{name}.{inner}": symbol for inner, symbol in symbols_of(field.part).items()}
     return found
+
+
+class NamedPart:
+    """A part of something larger, which is known by its name: errors about its fields begin with that."""
+
+    name: str
+
+    def _check_fields(self) -> None:
+        """A name that an error can begin with, and each field by itself. Raises ParameterError."""
+        require_name("name", self.name)
+        require_fields(self, self.name)
 
 
 def require_fields(instance: Any, owner: str = "") -> None:

@@ -10,7 +10,7 @@ from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.derived import NOT_GIVEN
 from gearcad.ranges import DEVIATION, INERTIA, OFFSET, STIFFNESS, TORSIONAL_STIFFNESS, Range
 from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields
+from gearcad.schema import NamedPart, Words
 
 __all__ = ["Carrier", "Central", "PairStage", "Rim"]
 
@@ -19,19 +19,8 @@ _MASS = Range("kg", 1e-12, 1e9)
 _SUPPORT = STIFFNESS._replace(may_vanish=True)
 
 
-class _Member:
-    """A part of a train, known by its name."""
-
-    name: str
-
-    def _check_fields(self) -> None:
-        """A name that an error can begin with, and each field by itself."""
-        require_name("name", self.name)
-        require_fields(self, self.name)
-
-
 @dataclass(frozen=True, kw_only=True)
-class Rim(_Member):
+class Rim(NamedPart):
     """The teeth of one rim of every planet: `gear`, whose teeth begin `axial_position` (mm) above those of the first rim.
 
     Not given, the train puts them where they clear what meshes with the first rim.
@@ -57,7 +46,7 @@ class Rim(_Member):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Central(_Member):
+class Central(NamedPart):
     """A gear on the axis of the train, sun or ring, that meshes with the rim `meshes` of every planet, middle by middle.
 
     `support_stiffness` (N/µm) of its bearing: None holds it, 0 lets it float. `torsional_stiffness` (N·m/rad) is that of
@@ -90,7 +79,7 @@ class Central(_Member):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Carrier(_Member):
+class Carrier(NamedPart):
     """What holds the pins on which the planets turn.
 
     `support_stiffness`, `torsional_stiffness`, `mass`, `inertia` and `run_out` (of its bearing) as of a Central; without mass
@@ -117,7 +106,7 @@ class Carrier(_Member):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PairStage(_Member):
+class PairStage(NamedPart):
     """A pair on fixed axes before or behind the set: `pinion` and `wheel` name what turns with each gear.
 
     One of the two is a member of the set - of a pre-stage the wheel is the carrier - or of a stage before it; the other is a

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Annotated, Any
 
-from gearcad.errors import GeometryError, ParameterError, require_name
+from gearcad.errors import GeometryError, ParameterError
 from gearcad.per_gear import PerGear
 from gearcad.ranges import (
     ANGULAR_DAMPING,
@@ -26,7 +26,7 @@ from gearcad.ranges import (
     Whole,
 )
 from gearcad.reprs import concise
-from gearcad.schema import Words, require_fields
+from gearcad.schema import NamedPart, Words
 
 __all__ = ["GROUND", "Inertia", "Mesh", "Shaft", "StiffnessWave"]
 
@@ -41,19 +41,8 @@ class StiffnessWave(Enum):
     SQUARE = "square"
 
 
-class _Member:
-    """A member of a train, known by its name."""
-
-    name: str
-
-    def _check_fields(self) -> None:
-        """A name that an error can begin with, and each field by itself."""
-        require_name("name", self.name)
-        require_fields(self, self.name)
-
-
 @dataclass(frozen=True, kw_only=True)
-class Inertia(_Member):
+class Inertia(NamedPart):
     """A rigid body that turns: a gear, a motor, a load. `inertia` in kg·m². Raises ParameterError."""
 
     name: str
@@ -68,7 +57,7 @@ class Inertia(_Member):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Shaft(_Member):
+class Shaft(NamedPart):
     """A shaft, or a coupling, from `start` to `end`: names of inertias, or "ground".
 
     Either `torsional_stiffness` in N·m/rad - then it has no mass in any model - or `length` and `diameter` in mm, bored out to
@@ -140,7 +129,7 @@ class Shaft(_Member):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Mesh(_Member):
+class Mesh(NamedPart):
     """The teeth of `pinion` and `wheel` (names of inertias) in mesh.
 
     `base_radii` of both in mm; `teeth` of the pinion; `internal` for a ring gear as the wheel. `stiffness` along the line of
