@@ -11,7 +11,7 @@ from gearcad.planetary.shafts import Shaft, shafts_of, willis_row
 from gearcad.planetary.train_data import TrainData
 from gearcad.ranges import SPEED
 
-__all__ = ["Speeds", "speeds"]
+__all__ = ["Speeds", "check_speeds", "speeds"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,29 +48,41 @@ def speeds(train: TrainData, given: Mapping[str, float]) -> Speeds:
     return Speeds(members=members, planet=turning + relative, planet_relative=relative)
 
 
+def check_speeds(train: TrainData, given: Mapping[str, float]) -> None:
+    """Raise ParameterError where one of the speeds `given` (rpm) is of no member, or follows from those before it."""
+    _told(train, shafts_of(train), given)
+
+
 def _known(train: TrainData, shafts: Mapping[str, Shaft], given: Mapping[str, float]) -> dict[str, float]:
     """The two speeds of members that were given. Raises ParameterError."""
-    told = {train.fixed: 0.0} if train.fixed else {}
-    known: dict[str, float] = {}
-    by: dict[str, str] = {}
-    for name, speed in [*told.items(), *given.items()]:
-        if name not in shafts:
-            raise ParameterError("speed of", name, f"must be that of {', '.join(shafts)}")
-        SPEED.require(f"speed of {name}", speed)
-        member = shafts[name].member
-        if member in by:
-            other = "is fixed" if by[member] == train.fixed else "is given"
-            with_it = f"{by[member]} {other}" if name == by[member] else f"it turns with {by[member]}, which {other}"
-            raise ParameterError(f"speed of {name}", speed, f"must not be given too: {with_it}", "rpm")
-        if len(known) == 2:
-            raise ParameterError(f"speed of {name}", speed, f"must not be given too: it follows from {_words(by)}", "rpm")
-        by[member] = name
-        known[member] = float(speed / shafts[name].speed_ratio) if speed else 0.0
+    known, by = _told(train, shafts, given)
     if len(known) < 2:
         free = [shaft.name for shaft in shafts.values() if shaft.member not in by]
         count, reason = ("one", "") if known else ("two", ": no member is fixed")
         raise ParameterError("speeds", sorted(given), f"must have {count} more, of {', '.join(free)}{reason}")
     return known
+
+
+def _told(train: TrainData, shafts: Mapping[str, Shaft], given: Mapping[str, float]) -> tuple[dict[str, float], dict[str, str]]:
+    """The speeds of members that were given, at the most two, and by the name of which shaft each. Raises ParameterError."""
+    told = {train.fixed: 0.0} if train.fixed else {}
+    known: dict[str, float] = {}
+    by: dict[str, str] = {}
+    for name, speed in [*told.items(), *given.items()]:
+        key = f"speeds.{name}"
+        if name not in shafts:
+            raise ParameterError(key, speed, f"is of no member: there are {', '.join(shafts)}", "rpm")
+        SPEED.require(key, speed)
+        member = shafts[name].member
+        if member in by:
+            other = "is fixed" if by[member] == train.fixed else "is given"
+            with_it = f"{by[member]} {other}" if name == by[member] else f"it turns with {by[member]}, which {other}"
+            raise ParameterError(key, speed, f"must not be given too: {with_it}", "rpm")
+        if len(known) == 2:
+            raise ParameterError(key, speed, f"must not be given too: it follows from {_words(by)}", "rpm")
+        by[member] = name
+        known[member] = float(speed / shafts[name].speed_ratio) if speed else 0.0
+    return known, by
 
 
 def _words(by: Mapping[str, str]) -> str:

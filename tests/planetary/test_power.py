@@ -35,12 +35,12 @@ def nearly_one(**fields: Any) -> TrainData:
         (
             plain(),
             {"a": 1.0, "b": 1.0, "carrier": 1.0},
-            "speed of carrier = 1 rpm: must not be given too: it follows from a and b",
+            "speeds.carrier = 1 rpm: must not be given too: it follows from a and b",
         ),
-        (plain(fixed="b"), {"b": 2.0}, "speed of b = 2 rpm: must not be given too: b is fixed"),
+        (plain(fixed="b"), {"b": 2.0}, "speeds.b = 2 rpm: must not be given too: b is fixed"),
         (alm_train(), {"carrier": 1.0, "pinion_1": 2.0}, "it turns with carrier, which is given"),
-        (plain(fixed="b"), {"sun": 2.0}, "speed of = 'sun': must be that of a, b, carrier"),
-        (plain(fixed="b"), {"a": math.nan}, "speed of a"),
+        (plain(fixed="b"), {"sun": 2.0}, "speeds.sun = 2 rpm: is of no member: there are a, b, carrier"),
+        (plain(fixed="b"), {"a": math.nan}, "speeds.a = nan"),
     ],
 )
 def test_speeds_that_are_missing_or_too_many_are_named(train: TrainData, given: dict[str, float], message: str) -> None:

@@ -241,7 +241,19 @@ MISTAKES = [
     ),
     (
         (("[sun]", "[planetary.speeds]\nrnig = 1\n[sun]"),),
-        "line 11: planetary.speeds.rnig = 1: is of no member: there are sun, ring, carrier",
+        "line 11: planetary.speeds.rnig = 1 rpm: is of no member: there are sun, ring, carrier",
+    ),
+    (
+        (("[sun]", "[load]\ntorque = 1\nspeed = 9\n[planetary.speeds]\nsun = 1\n[sun]"),),
+        "line 14: planetary.speeds.sun = 1 rpm: must not be given too: load.speed is that of sun",
+    ),
+    (
+        (("[sun]", "[planetary.speeds]\nring = 1\n[sun]"),),
+        "line 11: planetary.speeds.ring = 1 rpm: must not be given too: ring is fixed",
+    ),
+    (
+        (("[sun]", "[load]\ntorque = 1\nspeed = 9\n[planetary.speeds]\ncarrier = 1\n[sun]"),),
+        "line 14: planetary.speeds.carrier = 1 rpm: must not be given too: it follows from ring and sun",
     ),
     ((('profile_shift = "auto"', "profile_shift = 0.2"),), "ring.profile_shift = -0.2"),
 ]

@@ -21,7 +21,7 @@ from gearcad.material import Material
 from gearcad.meshing.options import MeshOptions
 from gearcad.per_gear import Role
 from gearcad.planetary import Carrier, PairStage, PlanetaryTrain, TrainLoad
-from gearcad.ranges import SPEED
+from gearcad.planetary.speeds import check_speeds
 from gearcad.rating.options import RatingOptions
 
 __all__ = ["PlanetaryDesign"]
@@ -77,7 +77,7 @@ class PlanetaryDesign(ToothedDesign):
         inputs = _inputs(spec) | {"name": name}
         with spec.blame(MAIN):
             train = PlanetaryTrain(**inputs)
-            return cls(name=name, train=train, speeds=_speeds(spec, train), **beside)
+            return cls(name=name, train=train, speeds=_speeds(spec, train, beside.get("load")), **beside)
 
     @classmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> PlanetarySpec:
@@ -159,12 +159,12 @@ def _stage(spec: PlanetarySpec, owner: str, wheel_on: str) -> PairStage:
             raise type(error)(field, error.value, error.permitted, error.unit) from error
 
 
-def _speeds(spec: PlanetarySpec, train: PlanetaryTrain) -> dict[str, float]:
-    """What is given of the speeds of members. Raises ParameterError."""
+def _speeds(spec: PlanetarySpec, train: PlanetaryTrain, load: TrainLoad | None) -> dict[str, float]:
+    """What is given of the speeds of members. Raises ParameterError where one contradicts the others, or that of the load."""
     given = spec.fields_of(f"{MAIN}.{SPEEDS}")
-    shafts = tuple(dict.fromkeys((*train.members, *(end for stage in train.stages for end in (stage.pinion, stage.wheel)))))
-    for name, speed in given.items():
-        if name not in shafts:
-            raise ParameterError(f"{SPEEDS}.{name}", speed, f"is of no member: there are {', '.join(shafts)}")
-        SPEED.require(f"{SPEEDS}.{name}", speed)
+    of_load = {} if load is None or not load.speed else {train.input: load.speed}
+    if of_load and train.input in given:
+        permitted = f"must not be given too: load.speed is that of {train.input}"
+        raise ParameterError(f"{SPEEDS}.{train.input}", given[train.input], permitted, "rpm")
+    check_speeds(train, of_load | given)
     return given

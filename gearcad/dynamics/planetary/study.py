@@ -193,7 +193,7 @@ def _speeds(
         permitted = f"must not be given too: load.speed is that of {train.input}"
         raise ParameterError(f"speeds.{train.input}", known[train.input], permitted, "rpm")
     if load is not None and train.input not in known and (load.speed or len(known) < needed):
-        known[train.input] = load.speed
+        known = {train.input: load.speed} | known
     if len(known) < needed:
         found.why_not["speeds"] = _what_is_missing(train, known)
         return None, load, known
