@@ -137,7 +137,11 @@ def _ends(name: str, text: str) -> tuple[int, int]:
 
 
 def _table(result: SearchResult) -> Iterator[str]:
-    """A line for each set, under a heading."""
+    """A line for each set, under a heading, and what their members do."""
+    for kind in dict.fromkeys(candidate.kind for candidate in result.found):
+        roles = result.task.roles(kind)
+        gears = ", ".join(next(each for each in result.found if each.kind is kind).teeth)
+        yield f"type {kind.value}: {gears}; input {roles.input}, output {roles.output}, fixed {roles.fixed}"
     rows = [_HEADING, *(_row(candidate) for candidate in result.found)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
@@ -146,7 +150,7 @@ def _table(result: SearchResult) -> Iterator[str]:
         yield "  ".join((f"{name:<{widths[0]}}", *cells)).rstrip()
 
 
-_HEADING = ("set", "ratio", "off %", "diameter", "a", "N", "q", "z mod N", "gcd", "efficiency", "error share")
+_HEADING = ("set", "ratio", "off %", "diameter mm", "a mm", "N", "q", "z mod N", "gcd", "efficiency", "error share")
 
 
 def _row(each: Candidate) -> tuple[str, ...]:
@@ -171,7 +175,9 @@ def _remarks(result: SearchResult, output: Path | None) -> Iterator[str]:
         yield f"{grouped(result.left)} more meet all conditions: --count"
     if result.unmade:
         yield f"{len(result.unmade)} could not be made; the first: {result.unmade[0]}"
-    yield "z mod N is 0 where planets are in phase; gcd 1 is a hunting tooth; error share is left while a central floats"
+    yield "a centre distance, N planets, on q places where their teeth fit; z mod N is 0 where they are in phase; gcd 1 is a"
+    yield "hunting tooth; error share: of the load that an error of one planet brings, what is left while a central floats"
+    yield "No set has backlash yet: planetary.tooth_thinning is 0 in the table"
     yield f"Next: gearcad batch {output}" if output is not None else "-o FILE.csv writes a design table for gearcad batch"
 
 

@@ -45,7 +45,10 @@ def _columns(rows: Sequence[dict[str, str]]) -> list[str]:
 
 
 def _cells(candidate: Candidate) -> dict[str, str]:
-    """A row by its columns. The shifts of centrals follow from the centre distance, so it fits to the last digit."""
+    """A row by its columns. The shifts of centrals follow from the centre distance, so it fits to the last digit.
+
+    The thinning is there to be given: without it no set has backlash.
+    """
     task, roles = candidate.task, candidate.task.roles(candidate.kind)
     train: dict[str, object] = {
         "planets": candidate.planets,
@@ -54,13 +57,19 @@ def _cells(candidate: Candidate) -> dict[str, str]:
         "tip_distance": task.least_distance,
         "normal_module": task.module,
         "face_width": task.width,
+        "tooth_thinning": 0.0,
     }
     if task.helix_angle:
         train["helix_angle"] = task.helix_angle
-    row = {"name": candidate.name} | {f"planetary.{key}": str(value) for key, value in train.items()}
+    row = {"name": candidate.name} | {f"planetary.{key}": _plain(value) for key, value in train.items()}
     for name in candidate.teeth:
-        row |= {f"{name}.{key}": str(value) for key, value in _of_gear(candidate, name).items()}
+        row |= {f"{name}.{key}": _plain(value) for key, value in _of_gear(candidate, name).items()}
     return row
+
+
+def _plain(value: object) -> str:
+    """A cell, without the last digits of a float, which are rounding: 37.8 and not 37.800000000000004."""
+    return f"{value:.12g}" if isinstance(value, float) else str(value)
 
 
 def _of_gear(candidate: Candidate, name: str) -> dict[str, object]:

@@ -76,10 +76,14 @@ def _placed(pair: PairData, distance: float) -> PairData:
 
 
 def _shift_for(train: TrainData, pairs: list[PairData], number: int, distance: float) -> str:
-    """In words the shift of a central with which its mesh runs at a distance (mm), with the thinning there is; "" if none."""
+    """In words the shift of a central with which its mesh runs at a distance (mm), "" if none: that which leaves the thinning
+    as backlash, and with thinning that which leaves none."""
     central = train.centrals[number]
     try:
-        shift = _placed(pairs[number], distance).fitting_shift_sum - train.rim_of(central).gear.profile_shift
+        placed, other = _placed(pairs[number], distance), train.rim_of(central).gear.profile_shift
+        tight, free = placed.fitting_shift_sum - other, placed.zero_backlash_shift_sum - other
     except InputError:  # not even the base circles stand clear
         return ""
-    return f"; {central.name}.profile_shift = {shift:.4f} would do"
+    if free >= tight:
+        return f"; {central.name}.profile_shift = {tight:.4f} would do, without backlash"
+    return f"; {central.name}.profile_shift = {free:.4f} would do, with the thinning as backlash (at {tight:.4f} without any)"

@@ -41,7 +41,10 @@ def test_what_is_found_is_a_design_table(tmp_path: Path, kind: str, helix: int) 
     assert shown.exit_code == 0, shown.stderr
     assert shown.stderr.endswith(f"Next: gearcad batch {path}\n")
     document = json.loads(run(*words, "--json", "--quiet").stdout)
-    heading, *lines = shown.stdout.splitlines()[:-1]
+    members, heading, *lines = shown.stdout.splitlines()[:-1]
+    roles = designs(path)[0].train
+    assert members.endswith(f"; input {roles.input}, output {roles.output}, fixed {roles.fixed}")
+    assert "0000000" not in path.read_text(encoding="utf-8")
     assert heading.split()[:2] == ["set", "ratio"]
     assert [line.split()[0] for line in lines] == [each["name"] for each in document["found"]]
     for design, each in zip(designs(path), document["found"], strict=True):

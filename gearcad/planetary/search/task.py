@@ -28,6 +28,9 @@ _RATIO = Range("", -1e4, 1e4)
 _LEAST_RATIO = 1e-4
 _TOLERANCE = Range("%", 0.0, 1000.0)
 _TEETH = Whole(5, 500)
+_MODULE = Range("mm", 0.01, 200.0)
+"""As of a Gear."""
+
 _LENGTH = Range("mm", 0.0, None, ends="(]")
 
 
@@ -60,10 +63,10 @@ class SearchTask:
     """
 
     ratio: Annotated[float, _RATIO, Words("ratio wanted", "i")]
-    module: Annotated[float, Range("mm", 1e-3, 1e3), Words("normal module of the first mesh", "m_n")]
+    module: Annotated[float, _MODULE, Words("normal module of the first mesh", "m_n")]
     types: tuple[SetType, ...] = (SetType.A,)
     planets: tuple[int, int] = (3, 5)
-    module_2: Annotated[float | None, Range("mm", 1e-3, 1e3), Words("normal module of the second mesh")] = None
+    module_2: Annotated[float | None, _MODULE, Words("normal module of the second mesh")] = None
     fixed: str | None = None
     input: str | None = None
     output: str | None = None
