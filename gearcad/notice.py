@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
-__all__ = ["Notice", "texts"]
+__all__ = ["Notice", "joined", "texts"]
 
 
 @dataclass(frozen=True)
@@ -38,3 +38,16 @@ class Notice:
 def texts(notices: Iterable[Notice]) -> tuple[str, ...]:
     """Each notice in a line, without those said before."""
     return tuple(dict.fromkeys(map(str, notices)))
+
+
+def joined(notices: Iterable[Notice]) -> Sequence[Notice]:
+    """Each text once, where it was first, with all places that it is about.
+
+    >>> stiff = Notice("rigid", "taken for rigid")
+    >>> print(*joined([stiff.within("sharing"), stiff.within("running")]))
+    sharing, running: taken for rigid
+    """
+    places: dict[tuple[str, str], dict[str, None]] = {}
+    for notice in notices:
+        places.setdefault((notice.code, notice.text), {})[notice.where] = None
+    return [Notice(code, text, where=", ".join(filter(None, where))) for (code, text), where in places.items()]

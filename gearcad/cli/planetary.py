@@ -11,6 +11,7 @@ import click
 from gearcad.cli.group import debug_option
 from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
 from gearcad.cli.planetary_search import require_no_search, search_options, search_sets
+from gearcad.notice import joined
 
 if TYPE_CHECKING:
     from gearcad.dynamics.planetary.result import PlanetaryStudy
@@ -64,7 +65,7 @@ def planetary(
 
 def _show(_name: str, found: Studied) -> None:
     click.echo("\n".join(_lines(found.study)))
-    echo_warnings(found.study.notices)
+    echo_warnings(joined(found.study.notices))
 
 
 def _lines(study: PlanetaryStudy) -> Iterator[str]:

@@ -63,7 +63,7 @@ class Central(NamedPart):
     mesh_stiffness: Annotated[float | None, STIFFNESS, Words("mean stiffness of the mesh with one planet")] = None
     mass: Annotated[float | None, _MASS, Words("mass", "m")] = None
     inertia: Annotated[float | None, INERTIA, Words("inertia", "J")] = None
-    run_out: Annotated[float, DEVIATION, Words("eccentricity of its teeth", "e")] = 0.0
+    run_out: Annotated[float, DEVIATION, Words("eccentricity, half its run-out", "e")] = 0.0
 
     __repr__ = concise
 
@@ -95,7 +95,7 @@ class Carrier(NamedPart):
     pin_errors: Annotated[tuple[float, ...], DEVIATION, Words("tangential errors of the pins")] = ()
     mass: Annotated[float | None, _MASS, Words("mass", "m")] = None
     inertia: Annotated[float | None, INERTIA, Words("inertia", "J")] = None
-    run_out: Annotated[float, DEVIATION, Words("eccentricity of its bearing", "e")] = 0.0
+    run_out: Annotated[float, DEVIATION, Words("eccentricity, half its run-out", "e")] = 0.0
     planet_mass: Annotated[float | None, _MASS, Words("mass of a planet", "m_p")] = None
     planet_inertia: Annotated[float | None, INERTIA, Words("inertia of a planet", "J_p")] = None
 

@@ -211,7 +211,7 @@ def test_what_tilts_planets_is_told_to_be_left_out() -> None:
     ):
         found = share_load(train, TrainLoad(torque=500.0, speed=10.0), by_name(train))
         told = [notice.text for notice in found.notices if notice.code == "planets-parallel"]
-        assert told == ([f"planets stand parallel: what {words} tilt them is left out"] if words else [])
+        assert told == ([f"planets stand parallel: how far {words} tilt them is left out"] if words else [])
 
 
 def test_what_cannot_be_shared_is_refused() -> None:

@@ -17,6 +17,7 @@ from gearcad.dynamics.planetary.mesh_stiffness import QUICK
 from gearcad.dynamics.planetary.result import PARTS, PlanetaryStudy
 from gearcad.errors import ParameterError
 from gearcad.jobs.planetary import Planetary, Studied
+from gearcad.notice import Notice, joined
 from gearcad.planetary import TrainLoad
 from gearcad.rating.options import RatingOptions
 from gearcad.stiffness.methods import METHODS
@@ -210,6 +211,12 @@ def test_the_screen_says_who_drives_a_differential(tmp_path: Path) -> None:
     assert lines["sun"][3:] == ["input,", "drives"] and lines["ring"][3:] == ["drives"]
     assert lines["carrier"] == ["675", "-300", "-21206", "output,", "is", "driven"]
     assert float(lines["sun"][2]) + float(lines["ring"][2]) == pytest.approx(21206 / 0.9924, rel=1e-4)
+
+
+def test_equal_notices_are_told_once_with_their_places() -> None:
+    one, other = Notice("rigid", "taken for rigid"), Notice("rigid", "soft")
+    found = joined([one.within("a"), other.within("a"), one.within("b"), one.within("a"), other])
+    assert list(map(str, found)) == ["a, b: taken for rigid", "a: soft"]
 
 
 @pytest.mark.usefixtures("quick")

@@ -110,7 +110,7 @@ class Running:
     @property
     def notices(self) -> tuple[Notice, ...]:
         """What to know before trusting it."""
-        span = f"{self.rolled[-1]:.6g} base pitches of {self.train.meshes[0].name}"
+        span = f"{self.rolled[-1]:.6g} base {'pitch' if self.rolled[-1] == 1 else 'pitches'} of {self.train.meshes[0].name}"
         turn = f"the carrier turns {abs(self.carrier_angle[-1]):.4g} deg"
         found = [Notice("span", f"run over {span}, in which {turn}, at {len(self.rolled)} places; without masses and friction")]
         found.extend(planar_notices(self.train))

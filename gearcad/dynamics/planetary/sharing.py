@@ -100,7 +100,8 @@ class LoadSharing:
             )
         if self.undetermined:
             names = " and ".join(self.undetermined)
-            text = f"nothing decides where {names} float: forces do not depend on it, and the least displacements are shown"
+            verb = "float" if len(self.undetermined) > 1 else "floats"
+            text = f"nothing decides where {names} {verb}: forces do not depend on it, and the least displacements are shown"
             found.append(Notice("position-undetermined", text))
         if self.turning:
             steps = 360 / grid_points(len(self.turning))

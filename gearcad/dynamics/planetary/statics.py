@@ -177,7 +177,7 @@ def planar_notices(train: PlanetaryTrain) -> tuple[Notice, ...]:
     if len(middles) == 1 and not helical:
         return ()
     because = " and ".join(["meshes in different planes"] * (len(middles) > 1) + ["axial forces"] * helical)
-    return (Notice("planets-parallel", f"planets stand parallel: what {because} tilt them is left out"),)
+    return (Notice("planets-parallel", f"planets stand parallel: how far {because} tilt them is left out"),)
 
 
 def _with_rigid(planar: PlanarTrain, output: str) -> tuple[TrainSprings, Floats]:
