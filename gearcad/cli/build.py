@@ -41,6 +41,9 @@ def files_options(command: Command) -> Command:
     return cast("Command", with_options)
 
 
+_TURNING = """Let the assembly turn, as an animation (trains, GLB): with the senses of the speeds that are given, clockwise
+where they are negative. It lasts one turn of the carrier, or as many as bring all teeth round if none turns over 60 times."""
+
 _OPTIONS = (
     click.option("--chord-error", default=0.005, show_default=True, metavar="MM", help="Largest error of the facets, in mm."),
     click.option("--bracket", is_flag=True, help="Put the assembly on two shafts with a bracket (STEP)."),
@@ -49,7 +52,7 @@ _OPTIONS = (
     ),
     click.option("--carrier", is_flag=True, help="Make a carrier too: plates, and pins in the planets' bores (trains)."),
     click.option("--exploded", is_flag=True, help="Move the members of the assembly apart along the axis (trains)."),
-    click.option("--turning", is_flag=True, help="Let the assembly turn, as an animation (trains, GLB)."),
+    click.option("--turning", is_flag=True, help=_TURNING),
 )
 
 

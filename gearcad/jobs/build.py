@@ -34,7 +34,7 @@ _DEFAULT = (Format.STEP, Format.STL)
 _WHERE = {
     "bracket": "the bracket is part of assembly.step",
     "circles": "the circles are drawn there",
-    "carrier": "the carrier is part of the assembly",
+    "carrier": "the carrier is a body",
     "exploded": "the assembly is there",
     "turning": "it is an animation of assembly.glb",
 }
@@ -48,9 +48,9 @@ _OF_TRAINS = ("carrier", "exploded", "turning")
 class Build(Job[ToothedDesign, ToothedDesign]):
     """The files of a design in some formats. Its result is the design itself: solids are made as they are written.
 
-    Per part `pinion.step`, `wheel.step`, `rack.step` or `gear.step` and so on, of a planetary train by the names of its gears;
-    a pair, or a train, also gets `assembly.*`, posed in mesh, in the formats that have assemblies. Raises ParameterError
-    without a format.
+    Per part `pinion.step`, `wheel.step`, `rack.step` or `gear.step` and so on, of a planetary train by the names of its gears
+    and of its carrier, if one is made; a pair, or a train, also gets `assembly.*`, posed in mesh, in the formats that have
+    assemblies. Raises ParameterError without a format.
     """
 
     verb = "build"
@@ -100,6 +100,8 @@ class Build(Job[ToothedDesign, ToothedDesign]):
             if kind not in self.formats:
                 continue
             found |= {f"{name}.{kind.value}": partial(kind.entry.write, product) for name, product in parts.items()}
+            if isinstance(assembly, TrainProduct) and assembly.carrier is not None and kind.entry.write_carrier is not None:
+                found[f"{assembly.train.carrier.name}.{kind.value}"] = partial(kind.entry.write_carrier, assembly.carrier)
             if (write := _assembly_writer(kind, assembly)) is not None:
                 found[f"assembly.{kind.value}"] = write
         return found
@@ -152,7 +154,7 @@ def _assembly_writer(kind: Format, assembly: AssemblyProduct | None) -> Writer |
 def _products(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[str, PartProduct], AssemblyProduct | None]:
     """Gears and racks as files hold them, by the names of these files, and what they are in mesh."""
     if isinstance(design, PlanetaryDesign):
-        train = TrainProduct(design.train, options)
+        train = TrainProduct(design.train, options, _given_speeds(design))
         return train.parts, train
     if isinstance(design, PairDesign):
         pair = PairProduct(design.pair, options)
@@ -163,6 +165,12 @@ def _products(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[str,
     if isinstance(design, RackDesign):
         return {"rack": RackProduct(rack=design.rack, name=design.name, options=options)}, None
     return {name: GearProduct(gear=gear, name=design.name, options=options) for name, gear in design.gears.items()}, None
+
+
+def _given_speeds(design: PlanetaryDesign) -> dict[str, float]:
+    """The speeds (rpm) of a train that its design has."""
+    of_load = {design.train.input: design.load.speed} if design.load is not None and design.load.speed else {}
+    return {**design.speeds, **of_load}
 
 
 def build(

@@ -30,6 +30,13 @@ def test_every_gear_has_files_of_its_own_and_the_train_an_assembly(tmp_path: Pat
     assert {file.name for file in (tmp_path / "out").iterdir()} == files
 
 
+def test_a_carrier_has_files_of_its_own_in_the_formats_of_bodies() -> None:
+    job = Build(formats=("step", "stl", "dxf", "csv"), options=FileOptions(carrier=True))
+    files = job.files(job.run(read_spec(ALM)))
+    assert [file for file in files if file.startswith("carrier.")] == ["carrier.stl", "carrier.step"]
+    assert not any(file.startswith("carrier.") for file in Build(formats=("step",)).files(read_spec(ALM)))
+
+
 PLAIN = """
 [planetary]
 planets = 3

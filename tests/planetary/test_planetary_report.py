@@ -22,6 +22,7 @@ from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.plots.paper import short
 from gearcad.report import planetary_html, write_planetary_report
 from gearcad.report.check.figures import figure_address
+from gearcad.report.planetary.build import mesh_table
 from gearcad.stiffness.methods import METHODS
 
 OWN = METHODS[QUICK]
@@ -175,3 +176,11 @@ def test_many_planets_are_not_listed_in_a_line() -> None:
     assert angles[2] == "0, 18, ..., 342"
     assert "sun-planet: planets are out of phase." in text
     assert len(table(text, "mesh,planet")) == 2 * 20
+
+
+@pytest.mark.parametrize("kind", TRAINS)
+def test_teeth_stand_in_the_order_of_the_name_of_their_mesh(kind: str) -> None:
+    """Where the planet is the smaller gear it is the pinion of the pair."""
+    train = TRAINS[kind]
+    teeth = [row[1] for row in mesh_table(train).rows]
+    assert teeth == [f"{mesh.central.gear.teeth} / {mesh.rim.gear.teeth}" for mesh in train.meshes]

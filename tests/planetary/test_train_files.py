@@ -21,8 +21,10 @@ from support.gltf import Glb
 from support.train_solids import alm_train, simple_set, small_train
 
 from gearcad.planetary import PlanetaryTrain
+from gearcad.planetary.speeds import speeds
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.files.train_products import TrainProduct
+from gearcad.solids.files.train_turning import turning_of
 from gearcad.solids.train_layout import TrainLayout
 
 COARSE = FileOptions(chord_error=0.05)
@@ -65,6 +67,31 @@ def test_a_scene_turns_as_the_train_does(name: str, tmp_path: Path) -> None:
             assert seen[:3, 3] == pytest.approx(standing.offset, abs=2e-4), standing.name
             assert (seen[0, 0], seen[1, 0]) == pytest.approx((math.cos(angle), math.sin(angle)), abs=5e-6), standing.name
     assert abs(glb.turned(train.input, glb.duration)) > 359
+
+
+@pytest.mark.parametrize("name", TURNING)
+def test_a_scene_turns_with_the_senses_of_its_speeds(name: str) -> None:
+    train = TURNING[name]
+    for sense in (700.0, -700.0):
+        given = {train.input: sense} | ({} if train.fixed else {"carrier": sense / 7})
+        turns = turning_of(TrainLayout(train, train.pose()), given).turns
+        meant = speeds(train, given).members
+        assert [np.sign(turns[member]) for member in train.members] == [np.sign(meant[member]) for member in train.members]
+
+
+@pytest.mark.parametrize(("name", "times"), [("carrier held", 1), ("stepped, with a stage", 5), ("the thesis's", 1)])
+def test_a_scene_ends_when_all_teeth_have_come_round(name: str, times: int) -> None:
+    """Rims of 20 and 18, or so, are whole only where both are. The thesis's train would need 11 turns, its pinion then 98."""
+    layout = TrainLayout(TURNING[name], TURNING[name].pose())
+    turns = turning_of(layout).turns
+    assert abs(turns["carrier"] or turns["a"]) == times
+    for shorter in range(1, times + 1):
+        passed = [
+            turns[each.axle.name] * shorter / times * each.body.gear.tooth_count
+            for each in (*layout.centrals, *layout.planets[0], *layout.stages)
+        ]
+        whole = np.allclose(passed, np.round(passed), atol=1e-6)
+        assert whole == (shorter == times) or name == "the thesis's"
 
 
 def test_another_reader_plays_the_animation_alike(tmp_path: Path) -> None:
@@ -198,6 +225,27 @@ def test_a_picture_shows_every_part_in_its_colour_from_three_sides_and_apart(tmp
         assert 0.1 < painted.mean() < 0.9
         assert painted.any(axis=0).sum() > 0.85 * width / 2 or painted.any(axis=1).sum() > 0.85 * height / 2
     assert capfd.readouterr().err == ""  # type: ignore[attr-defined]
+    # Of a train that is apart, the last view shows it in mesh.
+    apart = np.array(Image.open(_write(train, Format.PNG, tmp_path, carrier=True, exploded=True)).convert("RGB")).astype(int)
+    views = {
+        key: [image[height // 2 :, : width // 2], image[height // 2 :, width // 2 :]]
+        for key, image in (("mesh", pixels), ("apart", apart))
+    }
+    for one, other in ((0, 1), (1, 0)):
+        assert np.abs(views["apart"][one] - views["mesh"][other]).mean() < 0.5
+    assert np.abs(views["apart"][0] - views["apart"][1]).mean() > 5
+
+
+@pytest.mark.parametrize("train", [small_train(), simple_set(24, 21, -66, 3)], ids=["stepped", "plain"])
+def test_a_carrier_is_a_part_of_its_own(train: PlanetaryTrain) -> None:
+    assert TrainProduct(train, COARSE).carrier is None
+    made = TrainProduct(train, replace(COARSE, carrier=True))
+    assert made.carrier is not None and made.carrier.name == f"{train.name} carrier"
+    placed = made.scene()[-1]
+    (alone,) = made.carrier.scene()
+    assert alone.facets is placed.facets and alone.offset == (0.0, 0.0, 0.0)
+    assert made.carrier.solid().Volume() == pytest.approx(alone.facets.volume, rel=0.02)
+    assert made.carrier.solid().BoundingBox().zmin == pytest.approx(alone.facets.vertices[:, 2].min(), abs=1e-6)
 
 
 # ---------------------------------------------------------------------- bytes

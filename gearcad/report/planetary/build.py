@@ -56,11 +56,13 @@ def mesh_table(train: PlanetaryTrain) -> WordTable:
         "ε_β",
         "backlash j_wt, mm",
     )
-    pairs = [(mesh.name, mesh.pair) for mesh in train.meshes] + [(stage.name, stage.pair) for stage in train.stages]
-    return WordTable(heads, [_mesh(name, pair) for name, pair in pairs], 2)
+    rows = [_mesh(mesh.name, (mesh.central.gear, mesh.rim.gear), mesh.pair) for mesh in train.meshes]
+    rows += [_mesh(stage.name, (stage.pair.pinion, stage.pair.wheel), stage.pair) for stage in train.stages]
+    return WordTable(heads, rows, 2)
 
 
-def _mesh(name: str, pair: GearPair) -> tuple[str, ...]:
+def _mesh(name: str, gears: tuple[Gear, Gear], pair: GearPair) -> tuple[str, ...]:
+    """A row; the teeth of the gears in the order of their names in that of the mesh."""
     numbers = (
         pair.centre_distance,
         pair.centre_distance_for(pair.profile_shift_sum),
@@ -70,7 +72,7 @@ def _mesh(name: str, pair: GearPair) -> tuple[str, ...]:
         pair.overlap_ratio,
         _rounded(pair.circumferential_backlash),
     )
-    return (name, f"{pair.pinion.teeth} / {pair.wheel.teeth}", *map(short, numbers))
+    return (name, " / ".join(str(gear.teeth) for gear in gears), *map(short, numbers))
 
 
 def assembly_rows(train: PlanetaryTrain) -> list[Row]:

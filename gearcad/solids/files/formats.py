@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from gearcad.solids.files.options import FileOptions
     from gearcad.solids.files.products import GearProduct, PairProduct
     from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
-    from gearcad.solids.files.train_products import TrainProduct
+    from gearcad.solids.files.train_products import CarrierProduct, TrainProduct
 
     PartProduct = GearProduct | RackProduct
     AssemblyProduct = PairProduct | RackPairProduct | TrainProduct
@@ -45,7 +45,7 @@ class Format(Enum):
 class Entry:
     """One format: what it holds, in words; what writes a gear or a rack, and what stands in mesh (None: it has no assemblies);
     which fields of FileOptions matter to it; whether it holds bodies, so that a ring needs its rim; what writes a planetary
-    train, where that is more than of a pair.
+    train, where that is more than of a pair, and what its carrier by itself, which has no teeth.
     """
 
     words: str
@@ -54,6 +54,7 @@ class Entry:
     options: tuple[str, ...] = ()
     of_bodies: bool = True
     write_train: Callable[[TrainProduct, Path], None] | None = None
+    write_carrier: Callable[[CarrierProduct, Path], None] | None = None
 
 
 def formats_minding(option: str) -> list[Format]:
@@ -61,25 +62,25 @@ def formats_minding(option: str) -> list[Format]:
     return [kind for kind in Format if option in kind.entry.options]
 
 
-def _step(product: PartProduct | AssemblyProduct, path: Path) -> None:
+def _step(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
     from gearcad.solids.files.step import write_step
 
     write_step(product.solid(), path, name=product.name)
 
 
-def _stl(product: PartProduct, path: Path) -> None:
+def _stl(product: PartProduct | CarrierProduct, path: Path) -> None:
     from gearcad.solids.files.stl import write_stl
 
     write_stl(product.facets, path)
 
 
-def _3mf(product: PartProduct | AssemblyProduct, path: Path) -> None:
+def _3mf(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
     from gearcad.solids.files.three_mf import write_3mf
 
     write_3mf(product.scene(), path)
 
 
-def _glb(product: PartProduct | AssemblyProduct, path: Path) -> None:
+def _glb(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
     from gearcad.solids.files.glb import write_glb
 
     write_glb(product.scene(), path)
@@ -91,7 +92,7 @@ def _turning_glb(product: TrainProduct, path: Path) -> None:
     write_glb(product.scene(), path, product.turning())
 
 
-def _png(product: PartProduct | AssemblyProduct, path: Path) -> None:
+def _png(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
     from gearcad.solids.files.picture import write_picture
 
     write_picture(product.scene(), path)
@@ -100,7 +101,7 @@ def _png(product: PartProduct | AssemblyProduct, path: Path) -> None:
 def _train_png(product: TrainProduct, path: Path) -> None:
     from gearcad.solids.files.picture import write_picture
 
-    write_picture(product.scene(), path, product.apart())
+    write_picture(product.scene(), path, product.other_scene())
 
 
 def _dxf(product: PartProduct | TrainProduct, path: Path) -> None:
@@ -115,11 +116,15 @@ _FACETED = ("chord_error",)
 _PLACED = ("carrier", "exploded")
 
 _ENTRIES = {
-    Format.STEP: Entry("the exact solid", _step, _step, ("bracket", *_PLACED), write_train=_step),
-    Format.STL: Entry("facets within --chord-error", _stl, None, _FACETED),
-    Format.THREE_MF: Entry("facets, for printing", _3mf, _3mf, (*_FACETED, *_PLACED), write_train=_3mf),
-    Format.GLB: Entry("facets, for viewers", _glb, _glb, (*_FACETED, *_PLACED, "turning"), write_train=_turning_glb),
-    Format.PNG: Entry("a picture from three sides", _png, _png, (*_FACETED, *_PLACED), write_train=_train_png),
+    Format.STEP: Entry("the exact solid", _step, _step, ("bracket", *_PLACED), write_train=_step, write_carrier=_step),
+    Format.STL: Entry("facets within --chord-error", _stl, None, (*_FACETED, "carrier"), write_carrier=_stl),
+    Format.THREE_MF: Entry("facets, for printing", _3mf, _3mf, (*_FACETED, *_PLACED), write_train=_3mf, write_carrier=_3mf),
+    Format.GLB: Entry(
+        "facets, for viewers", _glb, _glb, (*_FACETED, *_PLACED, "turning"), write_train=_turning_glb, write_carrier=_glb
+    ),
+    Format.PNG: Entry(
+        "a picture from three sides", _png, _png, (*_FACETED, *_PLACED), write_train=_train_png, write_carrier=_png
+    ),
     Format.DXF: Entry("exact section, for cutting", _dxf, None, ("circles",), of_bodies=False, write_train=_dxf),
     Format.CSV: Entry("points of flank and fillet", _csv, of_bodies=False),
 }

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gearcad.planetary import PlanetaryTrain
+from gearcad.solids.carrier_plan import CarrierPlan
 from gearcad.solids.colours import TRAIN_COLOURS
+from gearcad.solids.exact.carrier import carrier_solid
 from gearcad.solids.exact.train_assembly import assembly_of
 from gearcad.solids.facets.tessellation import Facets
 from gearcad.solids.files.carrier_facets import carrier_facets
@@ -25,15 +27,40 @@ from gearcad.solids.train_plan import TrainPlan
 if TYPE_CHECKING:
     import cadquery
 
-__all__ = ["TrainProduct"]
+__all__ = ["CarrierProduct", "TrainProduct"]
+
+
+@dataclass(frozen=True)
+class CarrierProduct:
+    """The carrier of a train, called `name`: its lowest plate begins at z = 0."""
+
+    plan: CarrierPlan
+    name: str
+    options: FileOptions
+
+    @cached_property
+    def facets(self) -> Facets:
+        return carrier_facets(self.plan, self.options.chord_error)
+
+    def solid(self) -> cadquery.Solid:
+        """Pins and plates: see `carrier_solid`."""
+        return carrier_solid(self.plan)
+
+    def scene(self) -> list[Part]:
+        """The carrier alone, in the middle."""
+        return [Part(name=self.name, facets=self.facets, colour=TRAIN_COLOURS["carrier"][0])]
 
 
 @dataclass(frozen=True)
 class TrainProduct:
-    """A planetary train, as the options ask for it. Raises GeometryError where it cannot be made: see `TrainPlan`."""
+    """A planetary train, as the options ask for it. Raises GeometryError where it cannot be made: see `TrainPlan`.
+
+    `speeds` (rpm) are those that are given, by which it turns in an animation.
+    """
 
     train: PlanetaryTrain
     options: FileOptions
+    speeds: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
@@ -64,13 +91,13 @@ class TrainProduct:
         """All bodies in their places, what is alike with the same facets."""
         return list(self._scene(self.plan))
 
-    def apart(self) -> list[Part]:
-        """The same, moved apart."""
-        return list(self._scene(TrainPlan.of(self.train, carrier=self.options.carrier, exploded=True)))
+    def other_scene(self) -> list[Part]:
+        """The same moved apart, or in mesh where the scene is apart already."""
+        return list(self._scene(TrainPlan.of(self.train, carrier=self.options.carrier, exploded=not self.options.exploded)))
 
     def turning(self) -> Turning | None:
         """How the train turns, if that is asked for."""
-        return turning_of(self.plan.layout) if self.options.turning else None
+        return turning_of(self.plan.layout, self.speeds) if self.options.turning else None
 
     def write_dxf(self, path: Path) -> None:
         """All sections in mesh: see `write_train_dxf`."""
@@ -88,15 +115,15 @@ class TrainProduct:
                 product=product.name,
                 axle=standing.axle,
             )
-        if plan.carrier is not None:
-            axle, height = plan.layout.carrier, plan.carrier.plates[0][0]
-            product_name = f"{self.name} {axle.name}"
-            colour = TRAIN_COLOURS["carrier"][0]
-            offset = (0.0, 0.0, height)
-            yield Part(name=axle.name, facets=self._carrier, colour=colour, offset=offset, product=product_name, axle=axle)
+        if plan.carrier is not None and self.carrier is not None:
+            axle, offset = plan.layout.carrier, (0.0, 0.0, plan.carrier.plates[0][0])
+            (part,) = self.carrier.scene()
+            yield replace(part, name=axle.name, offset=offset, product=part.name, axle=axle)
 
     @cached_property
-    def _carrier(self) -> Facets:
-        plan = TrainPlan.of(self.train, carrier=True).carrier
-        assert plan is not None  # as it was asked for
-        return carrier_facets(plan.lifted(-plan.plates[0][0]), self.options.chord_error)
+    def carrier(self) -> CarrierProduct | None:
+        """The carrier by itself, if one is made."""
+        if not self.options.carrier or self.plan.carrier is None:
+            return None
+        lowest = self.plan.carrier.plates[0][0]
+        return CarrierProduct(self.plan.carrier.lifted(-lowest), f"{self.name} {self.train.carrier.name}", self.options)

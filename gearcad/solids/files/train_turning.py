@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
+
 from gearcad.planetary import PlanetaryTrain
 from gearcad.planetary.shafts import shafts_of
 from gearcad.planetary.speeds import speeds
@@ -11,7 +14,7 @@ from gearcad.solids.train_layout import TrainLayout
 __all__ = ["turning_of"]
 
 _SECONDS = 10.0
-"""That an animation takes at least: one turn of the carrier, or of what is driven where the carrier stands still."""
+"""That an animation takes at least."""
 
 _MOST_TURNS = 60.0
 """Of anything, after which an animation ends even if the carrier has not come round."""
@@ -19,23 +22,46 @@ _MOST_TURNS = 60.0
 _FASTEST = 1.5
 """Turns a second of anything: what is faster cannot be followed."""
 
+_WHOLE = 1e-6
+"""Of a pitch: what is no nearer to whole ones does not come round."""
 
-def turning_of(layout: TrainLayout) -> Turning:
-    """The input turns, the fixed member stands still, and of a differential the member that is neither input nor output."""
+
+def turning_of(layout: TrainLayout, given: Mapping[str, float] | None = None) -> Turning:
+    """As `given` speeds (rpm) say; where they do not suffice, the input turns with its sign in them, or positively.
+
+    Then a differential's member that is neither input nor output stands still. It lasts one turn of the carrier, or of the
+    input where the carrier does not turn, or so many of them that all teeth come round, where nothing turns over _MOST_TURNS
+    times. Raises ParameterError for speeds that contradict each other.
+    """
     train = layout.train
-    found = speeds(train, _given(train))
+    found = speeds(train, _given(train, given or {}))
     turns = {**found.members, **{planet[0].axle.name: found.planet_relative for planet in layout.planets}}
-    of_carrier = found.members[train.carrier.name]
-    share = 1 / (of_carrier or found.members[train.input])
-    most = max(abs(speed * share) for speed in turns.values())
-    share *= min(1.0, _MOST_TURNS / most)
-    most = min(most, _MOST_TURNS)
-    return Turning(duration=max(_SECONDS, most / _FASTEST), turns={name: speed * share for name, speed in turns.items()})
+    once = next((abs(turns[name]) for name in (train.carrier.name, train.input) if turns[name]), max(map(abs, turns.values())))
+    turns = {name: speed / once for name, speed in turns.items()}
+    most = max(map(abs, turns.values()))
+    times = _times_round(layout, turns, most) if most <= _MOST_TURNS else _MOST_TURNS / most
+    return Turning(duration=max(_SECONDS, times * most / _FASTEST), turns={name: times * turn for name, turn in turns.items()})
 
 
-def _given(train: PlanetaryTrain) -> dict[str, float]:
+def _times_round(layout: TrainLayout, turns: Mapping[str, float], most: float) -> int:
+    """How often these turns bring every body to where it looks as at first; 1 if that takes too long."""
+    pitches: dict[str, int] = {layout.carrier.name: 1}
+    for standing in layout.standing:
+        # All gears of an axle come round together.
+        name, teeth = standing.axle.name, standing.body.gear.tooth_count
+        pitches[name] = math.gcd(pitches.get(name, 0), teeth)
+    for times in range(1, int(_MOST_TURNS / most) + 1):
+        passed = [times * turns[name] * count for name, count in pitches.items()]
+        if all(abs(each - round(each)) < _WHOLE for each in passed):
+            return times
+    return 1
+
+
+def _given(train: PlanetaryTrain, known: Mapping[str, float]) -> Mapping[str, float]:
     """The speeds (rpm) that say how all turns."""
-    given = {train.input: 1.0}
+    if len(known) >= (1 if train.fixed else 2) and any(known.values()):
+        return known
+    given = {train.input: math.copysign(1.0, known.get(train.input, 1.0))}
     if train.fixed is None:
         shafts = shafts_of(train)
         busy = {shafts[name].member for name in (train.input, train.output)}
