@@ -91,6 +91,8 @@ class InputError(GearcadError, ValueError):
         self.unit = unit
 
     def __str__(self) -> str:
+        if self.value is None and self.permitted.startswith("must be given"):
+            return f"{shown(self.parameter)} is missing: {self.permitted}"
         unit = f" {self.unit}" if self.unit else ""
         return f"{shown(self.parameter)} = {format_number(self.value)}{unit}: {self.permitted}"
 

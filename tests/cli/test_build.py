@@ -256,6 +256,6 @@ def test_a_ring_without_a_rim_is_drawn_but_has_no_body(tmp_path: Path) -> None:
         result = CliRunner().invoke(main, ["build", str(spec), "-o", str(tmp_path / kind), "--format", kind])
         assert result.exit_code != 0
         (line,) = (line for line in result.output.splitlines() if line.startswith("Error"))
-        assert "gear.body.rim_diameter = None: must be given, at least 129.634 mm" in line
+        assert "gear.body.rim_diameter is missing: must be given, at least 129.634 mm" in line
         assert ".step" not in result.output and ".stl" not in result.output
         assert not (tmp_path / kind).exists()

@@ -60,7 +60,7 @@ teeth = -66
 @pytest.mark.parametrize(
     ("spec", "arguments", "message"),
     [
-        ("plain", ["--format", "step"], "ring.body.rim_diameter = None: must be given, at least 137.4 mm: a solid of a ring"),
+        ("plain", ["--format", "step"], "ring.body.rim_diameter is missing: must be given, at least 137.4 mm: a solid of"),
         ("alm", ["--format", "dxf", "--exploded"], "exploded = True: needs the format step or 3mf or glb or png"),
         ("alm", ["--format", "step", "--turning"], "turning = True: needs the format glb: it is an animation of assembly.glb"),
         ("alm", ["--bracket"], "bracket = True: needs a pair of gears: a planetary train has a carrier"),

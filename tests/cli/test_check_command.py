@@ -105,7 +105,7 @@ def test_limits_that_are_passed_over_are_exit_status_1_and_json_is_one_document(
     [
         (
             SPUR.replace("[load]\ntorque = 50.0", ""),
-            "load.torque = None: must be given, in N·m on the pinion: without it there is no stress",
+            "load.torque is missing: must be given, in N·m on the pinion: without it there is no stress",
         ),
         (
             SPUR.replace("torque = 50.0", "torque = 0"),

@@ -128,7 +128,7 @@ def test_it_prints_before_and_after_and_warns(here: Path, monkeypatch: pytest.Mo
         (
             SPEC.replace("[load]\ntorque = 40.0\napplication_factor = 1.25\n", ""),
             (),
-            "load.torque = None: must be given, in N·m on the pinion, here or as --torque",
+            "load.torque is missing: must be given, in N·m on the pinion, here or as --torque",
         ),
         (
             SPEC.replace("torque = 40.0", "torque = 0.0"),

@@ -101,7 +101,7 @@ def test_the_condition_that_removes_all_is_named() -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--ratio", 5.2), "module = None: must be given, in mm, with --ratio"),
+        (("--ratio", 5.2), "module is missing: must be given, in mm, with --ratio"),
         (("--teeth", "17:20"), "teeth = '17:20': is of a search: needs --ratio"),
         (("--force",), "force = True: is of a search: needs --ratio"),
         (("x.toml", "--ratio", 3, "--module", 1), "ratio = 3: searches without a spec: leave out x.toml"),
@@ -112,7 +112,7 @@ def test_the_condition_that_removes_all_is_named() -> None:
         (("--ratio", 3, "--module", 1, "--count", 0), "count = 0"),
         (("--ratio", 3, "--module", 1, "-o", "folder"), "output = 'folder': must end in .csv"),
         (("--ratio", 0, "--module", 1), "ratio = 0: must be at least 0.0001 in size"),
-        ((), "spec = None: must be given"),
+        ((), "spec is missing: must be given"),
     ],
 )
 def test_wrong_words_get_one_line(words: tuple[object, ...], message: str) -> None:

@@ -102,7 +102,7 @@ def test_wrong_options(here: Path, arguments: list[str], message: str) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (PAIR.replace("[load]\ntorque = 50.0\n", ""), "load.torque = None: must be given"),
+        (PAIR.replace("[load]\ntorque = 50.0\n", ""), "load.torque is missing: must be given"),
         (PAIR.replace("torque = 50.0", "torque = 0.0"), "load.torque = 0 N·m: must not be 0"),
         ("[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 10.0\n", "must be a pair"),
         (PAIR.replace("teeth = 30", "teeth = -60"), "wheel.body.bore = 20 mm: must be left out: it is for external gears"),

@@ -62,7 +62,7 @@ def test_a_ring_without_a_rim_has_no_mass_and_says_why() -> None:
     ring = train_masses(simple_set()).members["ring"]
     assert ring.mass is None
     assert ring.inertia is None
-    assert ring.why.startswith("ring.body.rim_diameter = None: must be given, at least 140.201 mm")
+    assert ring.why.startswith("ring.body.rim_diameter is missing: must be given, at least 140.201 mm")
 
 
 def test_what_is_given_wins() -> None:

@@ -179,7 +179,7 @@ def test_what_has_no_body_or_no_room_is_refused_in_a_line() -> None:
     close = replace(TRAIN, rims=(replace(rim, gear=replace(rim.gear, body=hub)), other))
     solid = tuple(replace(rim, gear=replace(rim.gear, body=Body())) for rim in TRAIN.rims)
     cases = {
-        r"^b\.body\.rim_diameter = None: must be given, at least": _with_first_ring(Body()),
+        r"^b\.body\.rim_diameter is missing: must be given, at least": _with_first_ring(Body()),
         r"^rim_b\.axial_position = 13 mm: must be at least 15 or at most -11 mm: rim_b and rim_a stand in each other$": close,
         r"^pre\.axial_position = -5 mm: must be at least 23 or at most -12 mm: .* in each other$": _with_stage_at(-5.0),
         r"^rim_a\.body\.bore = 0 mm: must be above 0 mm: the pins of the carrier go through it$": replace(TRAIN, rims=solid),

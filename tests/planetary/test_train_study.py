@@ -135,7 +135,7 @@ def test_what_is_not_given_is_named_and_the_rest_is_there() -> None:
     assert list(told) == list(dict.fromkeys(study.why_not.values()))
     assert told[speed].startswith("no speeds, torques and efficiency, ")
     weighed = gearcad.planetary(simple_set(rim_diameter=160.0), TrainLoad(torque=100, speed=1000))
-    inertia = "carrier.inertia = None: must be given in kg·m²: without it there are no dynamics"
+    inertia = "carrier.inertia is missing: must be given in kg·m²: without it there are no dynamics"
     assert weighed.why_not == {"modes": inertia, "campbell": inertia}
     assert weighed.sharing is not None
 
@@ -199,7 +199,7 @@ def test_the_command_shows_the_figures_and_writes_the_files(tmp_path: Path) -> N
     assert lines["carrier"] == ["400", "-200", "-8377.6", "output"]
     assert lines["efficiency"][0] == "98.54"
     assert (tmp_path / "sun-planet.toml").exists()
-    assert run("planetary", status=2).stderr.startswith("Error: spec = None: must be given")
+    assert run("planetary", status=2).stderr.startswith("Error: spec is missing: must be given")
     assert json.loads(run("planetary", str(spec), "-o", str(tmp_path), "--json", "--quiet").stdout)["ratio"] == 3.75
 
 

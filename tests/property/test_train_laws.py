@@ -233,7 +233,7 @@ def _shaft(**changes: Any) -> list[dict[str, Any]]:
             "m.stiffness = -3 N/µm: must be a number at least 1e-09 N/µm and at most 1000000000 N/µm",
         ),
         ({"mesh": {"variation": 1.0}}, "m.variation = 1: must be a number at least 0 and below 1"),
-        ({"mesh": {"shape": "square"}}, "m.contact_ratio = None: must be given for a square wave"),
+        ({"mesh": {"shape": "square"}}, "m.contact_ratio is missing: must be given for a square wave"),
         ({"mesh": {"shape": "saw"}}, "m.shape = 'saw': must be one of 'cosine', 'square'"),
         ({"mesh": {"base_radii": (20.0,)}}, "m.base_radii = (20.0,): must be two lengths in mm: of pinion and wheel"),
         ({"mesh": {"damping": 3.0, "damping_ratio": 0.1}}, "m.damping_ratio = 0.1: not beside damping: one says the other"),
@@ -250,7 +250,7 @@ def _shaft(**changes: Any) -> list[dict[str, Any]]:
             {"shafts": _shaft(torsional_stiffness=1e5)},
             "s.length = 100 mm: not beside torsional_stiffness: a shaft has either a stiffness or a shape",
         ),
-        ({"shafts": _shaft(diameter=None)}, "s.diameter = None: must be given, or else torsional_stiffness"),
+        ({"shafts": _shaft(diameter=None)}, "s.diameter is missing: must be given, or else torsional_stiffness"),
         ({"shafts": _shaft(inner_diameter=20.0)}, "s.inner_diameter = 20 mm: must be below diameter 20 mm"),
         ({"shafts": _shaft(modes=0)}, "s.modes = 0: must be a whole number from 1 to 40"),
         (

@@ -290,7 +290,7 @@ def test_random_rings_are_closed_within_the_chord_error_and_have_their_volume_lo
 
 
 def test_a_ring_without_a_rim_has_no_facets() -> None:
-    with pytest.raises(GeometryError, match=r"body.rim_diameter = None: must be given, at least 125.4 mm"):
+    with pytest.raises(GeometryError, match=r"body.rim_diameter is missing: must be given, at least 125.4 mm"):
         tessellate(Gear(teeth=-60, normal_module=2, face_width=12))
 
 

@@ -224,7 +224,7 @@ def test_external_gears_cut_by_a_shaper(name: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "body, permitted",
     [
-        ({}, "body.rim_diameter = None: must be given, at least 85.4 mm"),
+        ({}, "body.rim_diameter is missing: must be given, at least 85.4 mm"),
         ({"rim_diameter": 85.0}, "body.rim_diameter = 85 mm: must be at least 85.4 mm"),
         ({"bolt_circle": 90, "bolt_holes": 4, "bolt_diameter": 6}, "body.bolt_circle = 90 mm: must be at least 91.4 mm (walls"),
         (

@@ -58,7 +58,7 @@ def test_two_halves_carry_what_their_pairs_do(offset: float) -> None:
         (lambda: DoubleHelix(gap_width=-1.0), "gap_width = -1 mm: must be a number"),
         (
             lambda: GearPair(pinion=_gear(), wheel=Gear(teeth=30, normal_module=2, face_width=50, helix_angle=-25)),
-            "wheel.double_helix.gap_width = None mm: must be given for both gears",
+            "wheel.double_helix.gap_width is missing: must be given for both gears",
         ),
         (
             lambda: GearPair(pinion=_gear(offset=0.2), wheel=_gear(54, -25.0)),

@@ -188,7 +188,7 @@ def test_a_material_without_group_wears_least_and_is_told() -> None:
 
 
 def test_through_hardened_flanks_need_their_endurance_limit() -> None:
-    with pytest.raises(ParameterError, match=r"material\.contact_endurance_limit = None: must be given for material group V"):
+    with pytest.raises(ParameterError, match=r"material\.contact_endurance_limit is missing: must be given for material"):
         DynamicFactor.of(LIGHT, Material(group="V"), Load(torque=80.0), INERTIAS)  # type: ignore[arg-type]
 
 
