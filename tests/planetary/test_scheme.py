@@ -11,11 +11,13 @@ from support.mode_trains import TRAINS
 from support.planetary import simple_train, thesis_train
 
 from gearcad import Gear, GearPair
-from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim
+from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad
+from gearcad.planetary.power import power_flow
 from gearcad.plots.paper import new_figure
 from gearcad.plots.planetary.callouts import spread
 from gearcad.plots.planetary.scheme import plot_scheme, scheme_inches
 from gearcad.plots.planetary.skeleton import Plan, Stroke, Weight, plan_of
+from gearcad.report.planetary.loads import speed_table
 
 LONG = "a name that is far longer than any column of a picture has room for, and goes on and on"
 """A name of more lines than are shown."""
@@ -135,6 +137,19 @@ def test_parts_hang_together_and_cross_no_other_in_any_role(train: PlanetaryTrai
         for (name, one), (other, two) in combinations(parts.items(), 2):
             crossed = [pair for pair in ((a, b) for a in one for b in two) if _crosses(*pair)]
             assert not crossed or {name, other} <= {"above", "below"}, f"{name} crosses {other} with {words}"
+
+
+@pytest.mark.parametrize(("torque", "carrier"), [(-200.0, 300.0), (200.0, 300.0), (-200.0, -2000.0), (0.0, 300.0)])
+def test_arrows_are_where_power_goes_in_and_out(torque: float, carrier: float) -> None:
+    """Of a differential at every member that has power: one that goes in begins away from the train."""
+    train = _plain(input="sun", output="ring", fixed=None)
+    flow = power_flow(train, TrainLoad(torque=torque, speed=900.0), {"carrier": carrier})
+    found = {arrow.part: "in" if abs(arrow.start[0]) > abs(arrow.end[0]) else "out" for arrow in plan_of(train, flow).arrows}
+    powers = {name: "in" if power > 0 else "out" for name, power in flow.powers.items() if power}
+    assert found == (powers or {"sun": "in", "ring": "out"})
+    words = {row[0]: row[1] for row in speed_table(train, flow.speeds, flow, "rpm").rows}
+    for name, way in powers.items():
+        assert words[name] in (f"{way}put", f"power {way}", f"input, power {way}", f"output, power {way}")
 
 
 def _pin(plan: Plan, train: PlanetaryTrain) -> float:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from gearcad.per_gear import Role
 from gearcad.planetary import PlanetaryTrain
+from gearcad.planetary.power import PowerFlow
 from gearcad.plots.labels import plain
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, new_figure
 from gearcad.plots.planetary.callouts import LINE, lines_of, spread
-from gearcad.plots.planetary.parts import colour_of, rim_words, role_of, signed, stage_gear
+from gearcad.plots.planetary.parts import colour_of, rim_words, role_words, signed, stage_gear
 from gearcad.plots.planetary.skeleton import Callout, Ground, Plan, Weight, plan_of
 
 if TYPE_CHECKING:
@@ -25,17 +27,20 @@ _MARGIN = 0.12
 _ARROW = {"arrowstyle": "-|>", "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0}
 
 
-def scheme_inches(train: PlanetaryTrain) -> tuple[float, float]:
+def scheme_inches(train: PlanetaryTrain, flow: PowerFlow | None = None) -> tuple[float, float]:
     """Size of the scheme of a train."""
-    (left, low, right, high), _ = _laid_out(plan_of(train), train)
+    (left, low, right, high), _ = _laid_out(plan_of(train, flow), train)
     return max(FIGURE_INCHES[0], right - left), high - low
 
 
-def plot_scheme(train: PlanetaryTrain, ax: Axes | None = None) -> Axes:
-    """Half section of the train in symbols: bars are teeth, hatched lines do not turn, arrows are input and output."""
-    plan = plan_of(train)
+def plot_scheme(train: PlanetaryTrain, ax: Axes | None = None, flow: PowerFlow | None = None) -> Axes:
+    """Half section of the train in symbols: bars are teeth, hatched lines do not turn, power goes in and out along arrows.
+
+    Without its `flow` these are at input and output.
+    """
+    plan = plan_of(train, flow)
     (left, low, right, high), names = _laid_out(plan, train)
-    axes = new_figure(scheme_inches(train)).subplots() if ax is None else ax
+    axes = new_figure(scheme_inches(train, flow)).subplots() if ax is None else ax
     for stroke in plan.strokes:
         style = (0, (12, 3, 2, 3)) if stroke.weight is Weight.AXIS else "-"
         axes.plot(
@@ -79,7 +84,7 @@ def _laid_out(plan: Plan, train: PlanetaryTrain) -> tuple[tuple[float, float, fl
     names: list[_Name] = []
     for side, x in ((-1, left), (1, right)):
         here = [each for each in plan.callouts if each.side == side]
-        texts = [_words(train, each.part) for each in here]
+        texts = [_words(train, each.part, plan.ways) for each in here]
         heights = spread([each.anchor[1] for each in here], [LINE * len(lines) for lines in texts])
         names += [(each, lines, height, x) for each, lines, height in zip(here, texts, heights, strict=True)]
     low = min([low, *(height - LINE * len(lines) / 2 for _, lines, height, _ in names)])
@@ -87,9 +92,9 @@ def _laid_out(plan: Plan, train: PlanetaryTrain) -> tuple[tuple[float, float, fl
     return (left - _COLUMN, low - _MARGIN, right + _COLUMN, high + _MARGIN), names
 
 
-def _words(train: PlanetaryTrain, part: str) -> list[str]:
-    """A part's name, its teeth, and what it is to the train."""
-    role = role_of(train, part)
+def _words(train: PlanetaryTrain, part: str, ways: Mapping[str, str]) -> list[str]:
+    """A part's name, its teeth, what it is to the train, and which way power goes there."""
+    role = role_words(train, part, ways)
     for rim in train.rims:
         if rim.name == part:
             return lines_of(rim_words(train, rim), signed(rim.gear))

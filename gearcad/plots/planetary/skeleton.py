@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
@@ -10,7 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.planetary import Central, PairStage, PlanetaryTrain, Rim
-from gearcad.plots.planetary.parts import placed_stages, role_of
+from gearcad.planetary.power import PowerFlow
+from gearcad.plots.planetary.parts import placed_stages, power_ways, role_of
 from gearcad.plots.planetary.places import CLEAR, Places
 
 __all__ = ["Arrow", "Callout", "Ground", "Plan", "Point", "Stroke", "Weight", "plan_of"]
@@ -69,12 +71,13 @@ class Callout(NamedTuple):
 
 @dataclass(frozen=True)
 class Plan:
-    """All that is drawn."""
+    """All that is drawn; `ways` of members and shafts are "in" and "out", as power goes there."""
 
     strokes: tuple[Stroke, ...]
     grounds: tuple[Ground, ...]
     arrows: tuple[Arrow, ...]
     callouts: tuple[Callout, ...]
+    ways: Mapping[str, str]
 
     @property
     def box(self) -> tuple[float, float, float, float]:
@@ -84,16 +87,16 @@ class Plan:
         return left, low, right, high
 
 
-def plan_of(train: PlanetaryTrain) -> Plan:
-    """The skeleton of a train."""
-    return _Draft(train).drawn()
+def plan_of(train: PlanetaryTrain, flow: PowerFlow | None = None) -> Plan:
+    """The skeleton of a train, with arrows where power goes in and out: as it flows, or at its input and output."""
+    return _Draft(train, power_ways(train, flow)).drawn()
 
 
 class _Draft:
     """A plan while it is drawn."""
 
-    def __init__(self, train: PlanetaryTrain) -> None:
-        self.train, self.places = train, Places(train)
+    def __init__(self, train: PlanetaryTrain, ways: Mapping[str, str]) -> None:
+        self.train, self.places, self.ways = train, Places(train), ways
         self.strokes: list[Stroke] = []
         self.grounds: list[Ground] = []
         self.arrows: list[Arrow] = []
@@ -112,7 +115,7 @@ class _Draft:
             self._name_rim(rim)
         ends = [point[0] for stroke in self.strokes for point in stroke.points]
         self._line("", Weight.AXIS, (min(ends) - 0.1, 0.0), (max(ends) + 0.1, 0.0))
-        return Plan(tuple(self.strokes), tuple(self.grounds), tuple(self.arrows), tuple(self.callouts))
+        return Plan(tuple(self.strokes), tuple(self.grounds), tuple(self.arrows), tuple(self.callouts), self.ways)
 
     def _line(self, part: str, weight: Weight, *points: Point) -> None:
         self.strokes.append(Stroke(part, points, weight))
@@ -157,7 +160,7 @@ class _Draft:
             if inner in reached:
                 reached.add(outer)
                 place = self._draw_stage(stage, (inner, outer), side, place + side * _STAGE)
-        if len(reached) > 1 and not role_of(self.train, name):
+        if len(reached) > 1 and not role_of(self.train, name) and name not in self.ways:
             self.callouts.append(Callout(name, self.axes[name], side))
             return place
         start, height = self.axes[name]
@@ -191,12 +194,12 @@ class _Draft:
 
     def _end(self, name: str, side: int, at: Point) -> float:
         """The end of a shaft: an arrow in or out, or ground; how far out it comes."""
-        role, (x, y) = role_of(self.train, name), at
-        if role == "fixed":
+        x, y = at
+        if role_of(self.train, name) == "fixed":
             self.grounds.append(Ground(at, (side, 0)))
-        elif role:
+        elif name in self.ways:
             near, far = (x + side * 0.06, y), (x + side * (0.06 + _ARROW), y)
-            self.arrows.append(Arrow(name, *((far, near) if role == "input" else (near, far))))
+            self.arrows.append(Arrow(name, *((far, near) if self.ways[name] == "in" else (near, far))))
             x = far[0]
         self.callouts.append(Callout(name, (x, y), side, dotted=False))
         return x

@@ -10,7 +10,7 @@ from gearcad.planetary.harmonics import Excited, train_harmonics
 from gearcad.planetary.power import PowerFlow
 from gearcad.planetary.speeds import Speeds
 from gearcad.plots.paper import short
-from gearcad.plots.planetary.parts import role_of
+from gearcad.plots.planetary.parts import power_ways, role_words
 from gearcad.report.check.tables import Row
 from gearcad.report.dynamics.tables import WordTable
 
@@ -25,8 +25,9 @@ def speed_table(train: PlanetaryTrain, speeds: Speeds, flow: PowerFlow | None, u
     if flow is not None:
         heads = (*heads, "torque from outside, N·m", "power in, W", "torque on the set, N·m")
     rows: list[tuple[str, ...]] = []
+    ways = power_ways(train, flow)
     for name, speed in speeds.members.items():
-        row: tuple[str, ...] = (name, role_of(train, name), short(speed))
+        row: tuple[str, ...] = (name, role_words(train, name, ways), short(speed))
         if flow is not None:
             of_set = short(flow.set_torques[name]) if name in flow.set_torques else _NONE
             row = (*row, short(flow.torques.get(name, 0.0)), short(flow.powers.get(name, 0.0)), of_set)

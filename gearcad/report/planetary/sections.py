@@ -64,8 +64,9 @@ def on_axes(draw: Callable[..., object]) -> Callable[[Figure], object]:
 
 def sections_of_build(study: PlanetaryStudy) -> Iterator[Section]:
     """Scheme, gears, assembly."""
-    train = study.train
-    scheme = figure("Scheme", on_axes(partial(plot_scheme, train)), scheme_inches(train), said("scheme", train))
+    train, flow = study.train, study.flow
+    draw = on_axes(partial(plot_scheme, train, flow=flow))
+    scheme = figure("Scheme", draw, scheme_inches(train, flow), said("scheme", train, flow))
     yield Section("Scheme", figures=(scheme,))
     speeds = study.speeds
     turning = {} if speeds is None else {**speeds.members, "planet": speeds.planet}
