@@ -229,6 +229,8 @@ def test_without_a_speed_torques_are_known_and_nothing_is_said_to_stand(tmp_path
     assert lines["sun"] == ["-", "54.123", "-", "input"] and "planet" not in lines
     document = json.loads((tmp_path / "out" / "planetary.json").read_text(encoding="utf-8"))
     assert {member["speed"] for member in document["members"].values()} == {None}
+    page = (tmp_path / "out" / "planetary.html").read_text(encoding="utf-8")
+    assert "Speeds and torques" in page and "Lever of the speeds" not in page
     assert document["planet_speed"] is None and "speed of sun" in document["why_not"]["speeds"]
 
 

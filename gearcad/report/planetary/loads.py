@@ -20,21 +20,26 @@ _NONE = "–"  # an en dash where there is no value
 
 
 def speed_table(train: PlanetaryTrain, speeds: Speeds, flow: PowerFlow | None, unit: str) -> WordTable:
-    """Members, shafts of stages and planets: what each is, its speed, and what acts on it from outside."""
+    """Members, shafts of stages and planets: what each is, its speed, and what acts on it from outside; no speeds at rest."""
+    rests = not any(speeds.members.values())
+
+    def turned(value: float) -> str:
+        return _NONE if rests else short(value)
+
     heads: tuple[str, ...] = ("member or shaft", "", f"speed, {unit}")
     if flow is not None:
         heads = (*heads, "torque from outside, N·m", "power in, W", "torque on the set, N·m")
     rows: list[tuple[str, ...]] = []
     ways = power_ways(train, flow)
     for name, speed in speeds.members.items():
-        row: tuple[str, ...] = (name, role_words(train, name, ways), short(speed))
+        row: tuple[str, ...] = (name, role_words(train, name, ways), turned(speed))
         if flow is not None:
             of_set = short(flow.set_torques[name]) if name in flow.set_torques else _NONE
-            row = (*row, short(flow.torques.get(name, 0.0)), short(flow.powers.get(name, 0.0)), of_set)
+            row = (*row, short(flow.torques.get(name, 0.0)), turned(flow.powers.get(name, 0.0)), of_set)
         rows.append(row)
     blank = (_NONE,) * (len(heads) - 3)
-    rows.append(("planets", "", short(speeds.planet), *blank))
-    rows.append(("planets on their pins", "against the carrier", short(speeds.planet_relative), *blank))
+    rows.append(("planets", "", turned(speeds.planet), *blank))
+    rows.append(("planets on their pins", "against the carrier", turned(speeds.planet_relative), *blank))
     return WordTable(heads, rows, 2)
 
 

@@ -86,17 +86,16 @@ def sections_of_load(study: PlanetaryStudy) -> Iterator[Section]:
     """Speeds and torques, power, phases, forces: those that are known."""
     train, speeds, flow = study.train, study.speeds, study.flow
     if speeds is not None:
+        lever = figure(
+            "Lever of the speeds",
+            on_axes(partial(plot_ladder, train, speeds.members, speeds.planet, "rpm")),
+            (6.6, 3.7),
+            said("ladder", train),
+        )
         yield Section(
             "Speeds and torques",
             tables=(Table("", grid=speed_table(train, speeds, flow, "rpm"), note=said("speed_note", train, flow)),),
-            figures=(
-                figure(
-                    "Lever of the speeds",
-                    on_axes(partial(plot_ladder, train, speeds.members, speeds.planet, "rpm")),
-                    (6.6, 3.7),
-                    said("ladder", train),
-                ),
-            ),
+            figures=(lever,) if study.turning is not None else (),
         )
     if flow is not None:
         yield Section("Power", words=(said("power", train, flow),), tables=(Table("", rows=power_rows(train, flow)),))
