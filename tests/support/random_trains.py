@@ -80,7 +80,7 @@ def build_train(inputs: dict[str, Any], kind: type[TrainData] = PlanetaryTrain) 
         centre_distance=side * distance,
     )
     central_b, rim_b = _mates(second, second_rim, m, total - shift, shift, helix[1], inputs, 2)
-    named = [Rim(name="rim_a", gear=rim_a)]
+    named = [Rim(name="rim_a", gear=rim_a, axial_position=0.0)]
     if stepped:
         named.append(Rim(name="rim_b", gear=rim_b, axial_position=POSITION, clocking=inputs["clocking"]))
     centrals = Central(name="a", gear=central_a, meshes="rim_a"), Central(name="b", gear=central_b, meshes=named[-1].name)
