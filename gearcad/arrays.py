@@ -1,11 +1,17 @@
-"""The arrays that cross the walls of the house, by what they hold."""
+"""The arrays that cross the walls of the house, by what they hold; results whose arrays nobody can change."""
 
 from __future__ import annotations
+
+from dataclasses import fields
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Bools", "Complexes", "Floats", "Indices", "Wholes"]
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+__all__ = ["Bools", "Complexes", "Floats", "Indices", "Wholes", "freeze"]
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -16,3 +22,11 @@ Wholes = NDArray[np.int64]
 
 Indices = NDArray[np.intp]
 """Places in arrays, of the machine's own size."""
+
+
+def freeze(result: DataclassInstance) -> None:
+    """Let no array among the fields of a frozen dataclass be written to."""
+    for each in fields(result):
+        value = getattr(result, each.name)
+        if isinstance(value, np.ndarray):
+            value.flags.writeable = False

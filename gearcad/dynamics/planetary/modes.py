@@ -7,12 +7,12 @@ N - 3 times. SI units inside.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from gearcad.arrays import Floats, Indices
+from gearcad.arrays import Floats, Indices, freeze
 from gearcad.dynamics.planetary.eigenspaces import MassSprings, ModeKind, eigenspaces
 from gearcad.dynamics.planetary.masses import TrainMasses
 from gearcad.dynamics.planetary.planar import PlanarTrain
@@ -62,10 +62,7 @@ class PlanetaryModes:
     notices: tuple[Notice, ...]
 
     def __post_init__(self) -> None:
-        for each in fields(self):
-            value = getattr(self, each.name)
-            if isinstance(value, np.ndarray):
-                value.flags.writeable = False
+        freeze(self)
 
     def __len__(self) -> int:
         return len(self.frequency)

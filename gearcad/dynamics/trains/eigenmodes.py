@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gearcad.arrays import Floats
+from gearcad.arrays import Floats, freeze
 
 __all__ = ["NaturalModes"]
 
@@ -44,10 +44,7 @@ class NaturalModes:
     missed: int
 
     def __post_init__(self) -> None:
-        for each in fields(self):
-            value = getattr(self, each.name)
-            if isinstance(value, np.ndarray):
-                value.flags.writeable = False
+        freeze(self)
 
     def __len__(self) -> int:
         return len(self.frequency)
