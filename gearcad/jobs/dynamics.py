@@ -15,6 +15,7 @@ from gearcad.designs import Design, Inputs, PairDesign, TrainDesign
 from gearcad.dynamics.options import DynamicsOptions, PairModel
 from gearcad.dynamics.pair import study_contact, study_pair
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
+from gearcad.dynamics.side_by_side import SideBySide
 from gearcad.dynamics.train import study_modes, study_train
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
 from gearcad.dynamics.trains.train import Train
@@ -35,7 +36,7 @@ from gearcad.version import __version__
 
 __all__ = ["Dynamics", "Study", "dynamics"]
 
-Study = TrainStudy | ModalStudy | PairStudy | ContactStudy
+Study = TrainStudy | ModalStudy | SideBySide | PairStudy | ContactStudy
 
 _TRAIN = ("modes", "chart", "course")
 _PAIR = {

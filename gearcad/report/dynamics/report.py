@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
+from gearcad.dynamics.side_by_side import SideBySide
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
 from gearcad.plots.campbell import plot_campbell, plot_motion, plot_spectrum
 from gearcad.plots.speeds import (
@@ -21,6 +22,7 @@ from gearcad.plots.trains import MOST_SHAPES, energies_inches, plot_energies, pl
 from gearcad.report.check.figures import Picture, figure_address, pair_picture, picture_address
 from gearcad.report.check.tables import gear_rows, pair_rows
 from gearcad.report.dynamics.rows import contact_rows, pair_dynamics_rows
+from gearcad.report.dynamics.side_by_side import beside_figures, greatest_table, overload_table, resonance_table
 from gearcad.report.dynamics.tables import (
     MOST_PEAKS,
     inertia_table,
@@ -45,7 +47,9 @@ _TALL = (6.6, 5.2)
 """Sizes (inches): with a second axis above, and of two pictures on each other."""
 
 
-def write_dynamics_report(study: TrainStudy | ModalStudy | PairStudy | ContactStudy, name: str, path: Path) -> None:
+def write_dynamics_report(
+    study: TrainStudy | ModalStudy | SideBySide | PairStudy | ContactStudy, name: str, path: Path
+) -> None:
     """Write the report of a study of the design `name` to `path`; the same study gives the same bytes."""
     path.write_text(dynamics_html(study, name), encoding="utf-8")
 
@@ -92,6 +96,24 @@ def _train_html(study: TrainStudy, name: str) -> str:
         peaks=peak_table(study),
         shape_figures=_shape_figures(study),
         speed_figures=_speed_figures(study),
+        warnings=study.warnings,
+    )
+
+
+@dynamics_html.register
+def _side_by_side_html(study: SideBySide, name: str) -> str:
+    first = study.studies[study.reference]
+    train = first.train
+    return page_html(
+        "dynamics_side_by_side.html",
+        name,
+        of=study,
+        first=first,
+        parts=[inertia_table(first), *([shaft_table(first)] if train.shafts else []), mesh_table(first)],
+        greatest=greatest_table(study),
+        overloads=overload_table(study),
+        resonances=resonance_table(study),
+        figures=beside_figures(study),
         warnings=study.warnings,
     )
 

@@ -1,0 +1,96 @@
+"""Pictures of a train several times side by side: dynamic factors of its meshes and overload of its shafts over speed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearcad.arrays import Floats
+from gearcad.dynamics.charts.chart import KvChart
+from gearcad.dynamics.side_by_side import SideBySide
+from gearcad.dynamics.train_result import TrainStudy
+from gearcad.plots.labels import plain
+from gearcad.plots.paper import FIGURE_INCHES, SERIES, legend_above, new_figure, prepared
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["beside_inches", "plot_factors_beside", "plot_overloads_beside", "study_colours"]
+
+
+_SPEED = "speed of the pinion in rpm"
+
+_PANEL, _ABOVE, _ROW = 2.9, 0.5, 4
+"""Inches of a panel, and of axis and legend; studies in a row of the legend."""
+
+_WIDE = 20.0
+"""Ratio of greatest to least value above which the axis is logarithmic."""
+
+
+def beside_inches(panels: int, studies: int) -> tuple[float, float]:
+    """Size of a figure with a panel for each mesh or shaft."""
+    return FIGURE_INCHES[0], _PANEL * panels + _ABOVE + 0.2 * -(-studies // _ROW)
+
+
+def study_colours(count: int) -> list[str]:
+    """A colour for each study; from light to dark, in their order, where there are many."""
+    if count <= len(SERIES):
+        return list(SERIES[:count])
+    from matplotlib import colormaps
+    from matplotlib.colors import to_hex
+
+    return [to_hex(colormaps["viridis"](place)) for place in np.linspace(0.92, 0.0, count)]
+
+
+def plot_factors_beside(of: SideBySide, figure: Figure | None = None) -> Figure:
+    """K_v of every mesh over speed, a panel each, a colour for each study; running down dashed."""
+
+    def curve(_study: TrainStudy, chart: KvChart, name: str) -> Floats | None:
+        return chart.factors[:, chart.mesh_names.index(name)]
+
+    return _panels(of, figure, of.mesh_names, "$K_{\\mathrm{v}}$", curve)
+
+
+def plot_overloads_beside(of: SideBySide, figure: Figure | None = None) -> Figure:
+    """Greatest torque of every shaft over its static one, a panel each, a colour for each study that has the shaft."""
+
+    def curve(study: TrainStudy, chart: KvChart, name: str) -> Floats | None:
+        return chart.shaft_factors[:, chart.shaft_names.index(name)] if name in study.shaft_overloads else None
+
+    return _panels(of, figure, of.shaft_names, "torque over the static one", curve)
+
+
+def _panels(
+    of: SideBySide,
+    figure: Figure | None,
+    names: tuple[str, ...],
+    words: str,
+    curve: Callable[[TrainStudy, KvChart, str], Floats | None],
+) -> Figure:
+    """What `curve` has of each name in each chart of each study, None where it has nothing."""
+    drawn = figure or new_figure(beside_inches(len(names), len(of.studies)))
+    panels = drawn.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
+    speeds = [float(end) for study in of.studies for end in (study.speeds[0], study.speeds[-1])]
+    for panel, name in zip(panels, names, strict=True):
+        prepared(panel, _SPEED if panel is panels[-1] else "", f"{plain(name)}: {words}")
+        shown = []
+        for colour, label, study in zip(study_colours(len(of.studies)), of.labels, of.studies, strict=True):
+            for (_, chart), style in zip(study.charts.directions(), ("-", "--"), strict=False):
+                values = curve(study, chart, name)
+                if values is not None:
+                    words_of = plain(label) if style == "-" else ""
+                    panel.plot(study.speeds, values, style, color=colour, linewidth=1.3, label=words_of)
+                    shown.append(values)
+        panel.set_xlim(min(speeds), max(speeds))
+        _set_scale(panel, np.concatenate(shown))
+    legend_above(panels[0], _ROW)
+    return drawn
+
+
+def _set_scale(axes: Axes, values: Floats) -> None:
+    """Logarithmic where values are far apart."""
+    if values.max() > _WIDE * max(values.min(), 1.0) and values.min() > 0:
+        axes.set_yscale("log")
