@@ -127,9 +127,10 @@ def _resonance_line(study: SideBySide, mesh: str, at: int) -> str:
 
 def _contact_lines(study: ContactStudy) -> list[str]:
     model, found = study.model, study.study
+    several = f", {model.natural_frequency(model.contact_ratio):.6g} Hz with {model.contact_ratio:.4g}"
+    natural = f"{model.natural_frequency():.6g} Hz with one pair of teeth" + several * (model.contact_ratio != 1)
     lines = [
-        f"natural frequency           {model.natural_frequency():.6g} Hz with one pair of teeth, "
-        f"{model.natural_frequency(model.contact_ratio):.6g} Hz with {model.contact_ratio:.4g}",
+        f"natural frequency           {natural}",
         f"damping ratio               {model.damping_ratio:.4g}",
         f"approach at rest            {model.static_approach:.5g} µm with one pair",
         f"{'rpm':>8}{'mean µm':>12}{'greatest µm':>14}{'parted %':>10}  highest peaks of the pinion's speed, Hz",

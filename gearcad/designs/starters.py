@@ -9,7 +9,13 @@ from gearcad.shipped import templates
 
 __all__ = ["starter_text", "starters"]
 
-_ALIASES = {"gear": "spur", "pair": "volvo-13-44", "ring": "ring-22-70", "planetary": "planetary-24-21-66"}
+_ALIASES = {
+    "gear": "spur",
+    "pair": "volvo-13-44",
+    "ring": "ring-22-70",
+    "planetary": "planetary-24-21-66",
+    "uhlir": "uhlir-19-23",
+}
 """What a newcomer would ask for."""
 
 
@@ -33,7 +39,8 @@ def starters() -> dict[str, str]:
 def starter_text(kind: str) -> tuple[str, str]:
     """Name of the file and text of the starter called `kind` - its name, or the beginning of one. Raises ParameterError."""
     files = _files()
-    matches = [kind] if kind in files else [name for name in files if name.startswith(_ALIASES.get(kind, kind))]
+    asked = _ALIASES.get(kind, kind)
+    matches = [asked] if asked in files else [name for name in files if name.startswith(asked)]
     if len(matches) != 1:
         raise ParameterError("kind", kind, f"must be one of {', '.join(files)} (or {', '.join(_ALIASES)})")
     path = files[matches[0]]

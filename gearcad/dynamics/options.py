@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Annotated
 
+from gearcad.dynamics.tooth_springs.contact_model import EngagedPairs
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.per_gear import PerGear
@@ -67,7 +68,8 @@ class DynamicsOptions:
     gears travel as well as turn: six degrees of freedom.
 
     Of the contact model: `tooth_stiffness` (N/µm) of one pair of teeth (None: mean mesh stiffness over the contact ratio),
-    `tooth_damping` (N·s/m; None: by the damping ratio); each speed runs for `duration` (s), sampled at `sampling` (Hz).
+    `tooth_damping` (N·s/m; None: by the damping ratio); `zone` says which pairs carry: those between "rigid tips", between
+    "penetrating tips", or always "one pair", the simple model. Each speed runs for `duration` (s), sampled at `sampling` (Hz).
     """
 
     speed_from: Annotated[float | None, _SPEED._replace(least=0.0), Words("least speed of the chart", "n_1")] = None
@@ -88,6 +90,7 @@ class DynamicsOptions:
     bearing_damping: Annotated[float, DAMPING, Words("damping of the bearings"), OF_PAIRS] = 0.0
     tooth_stiffness: Annotated[float | None, STIFFNESS, Words("stiffness of one pair of teeth"), OF_PAIRS] = None
     tooth_damping: Annotated[float | None, DAMPING, Words("damping of one pair of teeth"), OF_PAIRS] = None
+    zone: Annotated[str, Member(EngagedPairs), Words("which pairs of teeth carry"), OF_PAIRS] = EngagedPairs.RIGID_TIPS.value
     duration: Annotated[float, DURATION, Words("time that each speed runs"), OF_PAIRS] = 1.0
     sampling: Annotated[float, SAMPLING, Words("samples of each speed per second"), OF_PAIRS] = 200_000.0
 
@@ -153,3 +156,8 @@ class DynamicsOptions:
     def pair_model(self) -> PairModel:
         """The model as an enum."""
         return PairModel(self.model)
+
+    @property
+    def engaged_pairs(self) -> EngagedPairs:
+        """The zone as an enum."""
+        return EngagedPairs(self.zone)

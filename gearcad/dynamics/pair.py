@@ -12,7 +12,7 @@ from gearcad.dynamics.excitation.sources import pair_errors, pair_excitation, pa
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.tooth_springs.campbell import campbell
-from gearcad.dynamics.tooth_springs.contact_model import ContactModel
+from gearcad.dynamics.tooth_springs.contact_model import ContactModel, EngagedPairs
 from gearcad.dynamics.tooth_springs.motion import time_history
 from gearcad.dynamics.train import study_train
 from gearcad.dynamics.trains.lines import system
@@ -123,7 +123,8 @@ def study_contact(
     `cycle` gives the stiffness of a pair of teeth where the options do not.
     """
     inertias = PerGear(*inertias)
-    ratio, torque = pair.usable_contact_ratio, abs(load.torque) * load.application_factor
+    one_pair, torque = options.engaged_pairs is EngagedPairs.ONE_PAIR, abs(load.torque) * load.application_factor
+    ratio = 1.0 if one_pair else pair.usable_contact_ratio
     stiffness = options.tooth_stiffness
     if stiffness is None:
         assert cycle is not None  # whoever calls has one then
@@ -133,7 +134,14 @@ def study_contact(
     damping = options.tooth_damping
     if damping is None:
         damping = 2 * options.damping_ratio * math.sqrt(1e6 * stiffness * ratio * mass)
-    model = ContactModel.from_pair(pair, inertias=inertias, pair_stiffness=stiffness, damping=damping, torque=torque)
+    model = ContactModel.from_pair(
+        pair,
+        inertias=inertias,
+        pair_stiffness=stiffness,
+        damping=damping,
+        torque=torque,
+        zone=options.engaged_pairs,
+    )
     resonance = 60 * model.natural_frequency(ratio) / pair.pinion.teeth
     last = options.speed_to or _SPAN * resonance
     speeds = np.linspace(options.speed_from or 0.0, last, options.campbell_speeds)

@@ -131,6 +131,7 @@ class ContactStudy:
         model = self.model
         return {
             "model": "contact",
+            "zone": model.zone.value,
             "tooth_stiffness": model.pair_stiffness,
             "tooth_damping": model.damping,
             "pinion_inertia": model.inertias.pinion,
@@ -154,4 +155,6 @@ class ContactStudy:
             "history_approach": self.history.approach,
             "history_pinion_speed": self.history.pinion_speed,
             "history_wheel_speed": self.history.wheel_speed,
+            "history_pinion_angle": self.history.pinion_angle,
+            "history_wheel_angle": self.history.wheel_angle,
         }

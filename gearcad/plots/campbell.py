@@ -1,4 +1,4 @@
-"""Pictures of a Campbell study: amplitudes over speed and frequency, and one speed over time and frequency."""
+"""The picture of a Campbell study: amplitudes over speed and frequency."""
 
 from __future__ import annotations
 
@@ -7,14 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
-from gearcad.dynamics.tooth_springs.history import TimeHistory
-from gearcad.plots.paper import DARK, MARKED, SERIES, new_figure, prepared, short
+from gearcad.plots.paper import DARK, MARKED, SERIES, prepared, short
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
-__all__ = ["plot_campbell", "plot_history", "plot_motion", "plot_spectrum"]
+__all__ = ["DECADES", "HARMONICS", "PINION_SPEED", "plot_campbell"]
 
 DECADES = 4.0
 """Range of the colours below the greatest amplitude."""
@@ -25,11 +23,7 @@ HARMONICS = 7
 _CELLS = 280
 """Most rows of colours, so that a sharp peak can be seen: a row shows the greatest amplitude of its frequencies."""
 
-_SHOWN = 6
-"""Tooth meshes that a motion over time shows, at the end of it."""
-
-_LABELLED = 4
-_OMEGA = "amplitude of pinion speed in rad/s"
+PINION_SPEED = "amplitude of pinion speed in rad/s"
 
 
 def plot_campbell(study: CampbellStudy, ax: Axes | None = None, highest: float = 7000.0) -> Axes:
@@ -56,51 +50,8 @@ def plot_campbell(study: CampbellStudy, ax: Axes | None = None, highest: float =
     _draw_lines(study, axes, highest)
     figure = axes.get_figure(root=True)
     assert figure is not None  # prepared() has put them on one
-    figure.colorbar(colours, ax=axes, label=_OMEGA, pad=0.02, extend="min")
+    figure.colorbar(colours, ax=axes, label=PINION_SPEED, pad=0.02, extend="min")
     return axes
-
-
-def plot_motion(history: TimeHistory, ax: Axes | None = None) -> Axes:
-    """Speed of the pinion over time: the last tooth meshes, or all of a motion that is shorter or stands still."""
-    axes = prepared(ax, "time in ms", "pinion speed in rad/s")
-    frequency = history.model.tooth_frequency(history.speed)
-    whole = len(history.approach)
-    count = min(whole, int(_SHOWN / frequency * history.sampling) + 1) if frequency > 0 else whole
-    axes.plot(1e3 * history.time[-count:], history.pinion_speed[-count:], color=SERIES[0], linewidth=1.2)
-    axes.axhline(history.speed * np.pi / 30, color=MARKED, linewidth=0.8, linestyle="--")
-    axes.margins(x=0)
-    return axes
-
-
-def plot_spectrum(history: TimeHistory, ax: Axes | None = None, highest: float = 7000.0) -> Axes:
-    """Spectrum of the pinion's speed up to a frequency (Hz), with its highest peaks and the tooth frequencies."""
-    axes = prepared(ax, "frequency in Hz", _OMEGA)
-    spectrum = history.spectrum(highest)
-    shown = spectrum.frequency > 0
-    axes.semilogy(spectrum.frequency[shown], np.maximum(spectrum.amplitude[shown], 1e-300), color=SERIES[0], linewidth=1.0)
-    greatest = float(spectrum.amplitude[shown].max())
-    axes.set_ylim(greatest / 10**DECADES, 4 * greatest)
-    axes.set_xlim(0, highest)
-    tooth = history.model.tooth_frequency(history.speed)
-    if tooth > 0:
-        for harmonic in range(1, min(HARMONICS, int(highest / tooth)) + 1):
-            axes.axvline(harmonic * tooth, color=MARKED, linewidth=0.8, linestyle=":", zorder=0)
-    for peak in spectrum.peaks(_LABELLED, distance=highest / 10):
-        axes.annotate(
-            f"{short(round(peak.frequency, 1))} Hz", peak, (3, 3), textcoords="offset points", fontsize=8, color=DARK
-        )  # fmt: skip
-    return axes
-
-
-def plot_history(history: TimeHistory, highest: float = 7000.0) -> Figure:
-    """Motion and spectrum of one speed, side by side."""
-    figure = new_figure((9.0, 3.4))
-    left, right = figure.subplots(1, 2)
-    plot_motion(history, left)
-    plot_spectrum(history, right, highest)
-    words = ", chaotic" if history.chaotic else ""
-    figure.suptitle(f"{history.speed:g} rpm{words}", fontsize=10)
-    return figure
 
 
 def _edges(speeds: np.ndarray) -> np.ndarray:

@@ -16,7 +16,7 @@ from gearcad.designs.starters import starters
 
 VOLVO = "volvo-13-44"
 PLANETARY = ["planetary-24-21-66", "planetary-alm", "planetary-alm-in-phase", "planetary-differential"]
-PAIRS = ["alm-18-161", "double-23-81", "fzg-c", "reducer-21-43", "ring-22-70", "uhlir-19-23", VOLVO]
+PAIRS = ["alm-18-161", "double-23-81", "fzg-c", "reducer-21-43", "ring-22-70", "uhlir-19-23", "uhlir-19-23-simple", VOLVO]
 STARTERS = [*PAIRS, *PLANETARY, "rack", "spur"]
 TRAINS = ["train-1-stage", "train-2-stage"]
 TABLES = ["gears", "pairs", "planetary-sets", "rings"]
@@ -82,7 +82,7 @@ def test_new_refuses_what_it_does_not_have() -> None:
     result = run("new", "bevel", status=2)
     assert (
         result.stderr == f"Error: kind = 'bevel': must be one of {', '.join(sorted([*STARTERS, *TRAINS, *TABLES]))}"
-        " (or gear, pair, ring, planetary)\n"
+        " (or gear, pair, ring, planetary, uhlir)\n"
     )
 
 

@@ -214,9 +214,39 @@ def test_the_contact_model_of_the_thesis(here: Path) -> None:
     assert re.search(r"Warning: .*1\.6 mm at rest", result.stdout)
 
 
+def test_the_simple_model_of_the_thesis(here: Path) -> None:
+    """One spring that does not vary: a vibration that dies away, in closed form, in the angles of both gears."""
+    assert run("new", "uhlir-19-23-simple").exit_code == 0
+    text = Path("uhlir-19-23-simple.toml").read_text(encoding="utf-8")
+    short = text.replace("speeds = 41", "speeds = 2").replace("duration = 1.0", "duration = 0.2")
+    result = run("dynamics", spec(short), "--quiet")
+    assert result.exit_code == 0, result.output
+    assert "489 Hz" in result.stdout.replace("488.987", "489") and "612" not in result.stdout
+    folder = Path("output/uhlir-19-23-simple")
+    document = json.loads((folder / "dynamics.json").read_text(encoding="utf-8"))
+    assert (document["zone"], document["contact_ratio"]) == ("one pair", 1.0)
+    assert [peaks[0][0] for peaks in document["campbell"]["peaks"]] == [490.0, 490.0]  # 5 Hz apart
+    zeta, omega = document["damping_ratio"], 2 * math.pi * document["natural_frequency"]
+    with np.load(folder / "dynamics.npz", allow_pickle=False) as arrays:
+        time, approach = arrays["history_time"], arrays["history_approach"]
+        angles = (arrays["history_pinion_angle"], arrays["history_wheel_angle"])
+    phase = omega * math.sqrt(1 - zeta**2) * time
+    fading = np.exp(-zeta * omega * time) * (np.cos(phase) + zeta / math.sqrt(1 - zeta**2) * np.sin(phase))
+    assert approach == pytest.approx(document["static_approach"] * (1 - fading), abs=1e-6)
+    # The gears' shares are as their radii squared over inertias; together they turn by what the flanks approach.
+    radii = [1.75 * z / 2 * math.cos(math.radians(20)) for z in (19, 23)]
+    uniform = 6 * 20000.0 * time
+    moved = [np.radians(angles[0] - uniform) * radii[0], np.radians(angles[1] + uniform * 19 / 23) * radii[1]]
+    assert 1000 * (moved[0] + moved[1]) == pytest.approx(approach, abs=1e-5)
+    shares = [radius**2 / inertia for radius, inertia in zip(radii, (1.7399409e-5, 3.7362114e-5), strict=True)]
+    assert moved[0] * shares[1] == pytest.approx(moved[1] * shares[0], abs=1e-3 * max(shares) * 1e-6)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
+        (PAIR.replace("speeds = 40", "zone = 'two pairs'"), "line 17: dynamics.zone = 'two pairs': must be one of"),
+        (TRAIN.replace("speeds = 160", "zone = 'one pair'"), "dynamics.zone: unknown key"),
         (PAIR.replace("torque = 50.0", "torque = 0.0"), "load.torque = 0: must be given"),
         ("[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 10.0\n", "must be a pair or a train"),
         (PAIR.replace("potential-energy", "iso6336"), "line 16: dynamics.stiffness = 'iso6336': must be one of"),

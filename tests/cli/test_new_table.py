@@ -66,6 +66,7 @@ def test_new_lists_tables_beside_specs() -> None:
         "train-1-stage",
         "train-2-stage",
         "uhlir-19-23",
+        "uhlir-19-23-simple",
         "volvo-13-44",
     ]
     assert lines[3:5] == [

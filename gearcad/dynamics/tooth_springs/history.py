@@ -90,16 +90,28 @@ class TimeHistory:
     @property
     def pinion_angle(self) -> Floats:
         """(n,) turn of the pinion since time 0 in degrees."""
-        moved = self.model.pinion_share * 1e-3 * (self.approach - self.approach[0])
-        angle: Floats = 6 * self.speed * self.time + np.degrees(moved / self.model.base_radii.pinion)
+        angle: Floats = 6 * self.speed * self.time + self.pinion_deviation
         return angle
 
     @property
     def wheel_angle(self) -> Floats:
         """(n,) turn of the wheel since time 0 in degrees."""
         pinion, wheel = self.model.base_radii
+        angle: Floats = -6 * self.speed * self.time * pinion / wheel + self.wheel_deviation
+        return angle
+
+    @property
+    def pinion_deviation(self) -> Floats:
+        """(n,) turn of the pinion since time 0 beyond the uniform one, in degrees: its share of the approach."""
+        moved = self.model.pinion_share * 1e-3 * (self.approach - self.approach[0])
+        angle: Floats = np.degrees(moved / self.model.base_radii.pinion)
+        return angle
+
+    @property
+    def wheel_deviation(self) -> Floats:
+        """(n,) the same of the wheel."""
         moved = (1 - self.model.pinion_share) * 1e-3 * (self.approach - self.approach[0])
-        angle: Floats = -6 * self.speed * self.time * pinion / wheel + np.degrees(moved / wheel)
+        angle: Floats = np.degrees(moved / self.model.base_radii.wheel)
         return angle
 
     @property

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.side_by_side import SideBySide
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
-from gearcad.plots.campbell import plot_campbell, plot_motion, plot_spectrum
+from gearcad.plots.campbell import plot_campbell
+from gearcad.plots.history import MOTION_INCHES, plot_angles, plot_motion, plot_spectrum
 from gearcad.plots.speeds import (
     course_inches,
     plot_course,
@@ -142,7 +143,9 @@ def _pair_html(study: PairStudy, name: str) -> str:
 
 @dynamics_html.register
 def _contact_html(study: ContactStudy, name: str) -> str:
-    diagram = picture_address(partial(plot_campbell, study.study, highest=study.study.frequency[-1] / 2), "svg", _TALL)
+    highest, history = study.study.frequency[-1] / 2, study.history
+    diagram = picture_address(partial(plot_campbell, study.study, highest=highest), "svg", _TALL)
+    spectrum = picture_address(partial(plot_spectrum, history, highest=highest), "svg")
     return page_html(
         "dynamics_contact.html",
         name,
@@ -154,7 +157,9 @@ def _contact_html(study: ContactStudy, name: str) -> str:
         speeds=speed_table(study.study),
         figures=[
             Picture("Campbell diagram", diagram, _said("campbell", study)),
-            _figure("Motion at one speed", partial(_draw_history, study), _TALL, _said("history", study)),
+            _figure("Speeds over time", partial(plot_motion, history), MOTION_INCHES, _said("motion", study)),
+            _figure("Angles over time", partial(plot_angles, history), MOTION_INCHES, _said("angles", study)),
+            Picture("Spectrum at one speed", spectrum, _said("spectrum", study)),
         ],
         warnings=study.warnings,
     )
@@ -173,13 +178,6 @@ def _speed_figures(study: TrainStudy) -> list[Picture]:
 
 def _figure(title: str, draw: Callable[[Figure], object], inches: tuple[float, float], caption: str) -> Picture:
     return Picture(title, figure_address(draw, "svg", inches), caption)
-
-
-def _draw_history(study: ContactStudy, figure: Figure) -> None:
-    above, below = figure.subplots(2, 1)
-    plot_motion(study.history, above)
-    plot_spectrum(study.history, below, study.study.frequency[-1] / 2)
-    below.set_ylabel("amplitude in rad/s")  # of the speed above
 
 
 def _said(macro: str, *values: object) -> str:

@@ -55,7 +55,7 @@ def contact_rows(study: ContactStudy) -> list[Row]:
     of = study.model
     radii = tuple(map(short, of.base_radii))
     whole = of.contact_ratio
-    return [
+    rows = [
         Row("moment of inertia", "J", tuple(map(short, of.inertias)), "kg·m²", ""),
         Row("base radius", "R_b", radii, "mm", ""),
         Row("reduced mass", "m", (short(of.reduced_mass),), "kg", "of J over squared base radius"),
@@ -67,5 +67,7 @@ def contact_rows(study: ContactStudy) -> list[Row]:
         Row("approach at rest, one pair", "y_0", (short(of.static_approach),), "µm", "F/k"),
         Row("pairs that carry, on the mean", "", (short(whole),), "", of.zone.value),
         Row("natural frequency, one pair", "", (short(of.natural_frequency()),), "Hz", "√(k/m)/(2π)"),
-        Row("natural frequency, mean stiffness", "", (short(of.natural_frequency(whole)),), "Hz", "at high speed"),
     ]
+    if whole != 1.0:
+        rows.append(Row("natural frequency, mean stiffness", "", (short(of.natural_frequency(whole)),), "Hz", "at high speed"))
+    return rows
