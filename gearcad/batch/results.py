@@ -5,18 +5,16 @@ Beside it, columns.csv says what its columns hold.
 
 from __future__ import annotations
 
-import csv
 import importlib.util
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from enum import Enum
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import Any, Protocol
 
 from gearcad.batch.row import Record
-from gearcad.designs.cells import guarded_text
 from gearcad.designs.columns import column_of_train, column_symbol
+from gearcad.designs.csv_cells import Decimal, cell_text, write_csv
 from gearcad.designs.table import Row
 from gearcad.output import staged_files
 from gearcad.symbols import Symbol
@@ -33,30 +31,6 @@ _ROWS_PER_GROUP = 300
 """What Parquet holds in memory before it writes: more rows make smaller files, fewer a smaller process."""
 
 
-class Decimal(Enum):
-    """The decimal sign of the CSV files: one that a spreadsheet of the reader's country opens by a double click."""
-
-    POINT = "point"
-    """Cells between commas."""
-
-    COMMA = "comma"
-    """Cells between semicolons, and a mark in front by which Excel knows UTF-8."""
-
-    @property
-    def separator(self) -> str:
-        """What stands between cells."""
-        return ";" if self is Decimal.COMMA else ","
-
-    @property
-    def encoding(self) -> str:
-        """That of the file, as Python calls it."""
-        return "utf-8-sig" if self is Decimal.COMMA else "utf-8"
-
-    def number(self, text: str) -> str:
-        """A number, written with a point, as it stands in a cell."""
-        return text.replace(".", ",") if self is Decimal.COMMA else text
-
-
 class Results(Protocol):
     """Something that yields every row with its record, again on each call."""
 
@@ -69,12 +43,12 @@ def write_results(journal: Results, folder: Path, workspace: Path, decimal: Deci
     Texts that a spreadsheet would run as a formula get an apostrophe in front. Raises OutputError.
     """
     columns = _columns(journal)
-    lines = ([_text(_cells(*pair).get(heading), decimal) for heading in columns] for pair in journal.results())
+    lines = ([cell_text(_cells(*pair).get(heading), decimal) for heading in columns] for pair in journal.results())
     with staged_files(folder, workspace) as staging:
-        _write_csv(lines, columns, staging / RESULTS, decimal)
+        write_csv(lines, columns, staging / RESULTS, decimal)
         of_trains = any(heading.startswith("planetary.") for heading in columns)
         explained = map(partial(_explained, column_of_train if of_trains else column_symbol), columns)
-        _write_csv(explained, _EXPLAINED, staging / COLUMNS, decimal)
+        write_csv(explained, _EXPLAINED, staging / COLUMNS, decimal)
         if importlib.util.find_spec("pyarrow") is not None:
             _write_parquet(journal, columns, staging / PARQUET)
         return [folder / name for name in FILES if (staging / name).exists()]
@@ -133,26 +107,6 @@ def _explained(symbol_of: Callable[[str], tuple[str, Symbol] | None], heading: s
     return heading, symbol.symbol, symbol.unit, owner, symbol.words, symbol.source
 
 
-def _write_csv(lines: Iterable[Sequence[str]], headings: Iterable[str], path: Path, decimal: Decimal) -> None:
-    with path.open("w", encoding=decimal.encoding, newline="") as file:
-        writer = csv.writer(file, delimiter=decimal.separator, lineterminator="\n")
-        writer.writerow(headings)
-        writer.writerows(lines)
-
-
-def _text(value: Any, decimal: Decimal) -> str:
-    """A cell of the CSV: a number with all its digits, a text made harmless."""
-    if value is None:
-        return ""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return guarded_text(value)
-    if isinstance(value, tuple):
-        return " ".join(_text(item, decimal) for item in value)
-    return decimal.number(repr(value))
-
-
 def _write_parquet(journal: Results, columns: Mapping[str, type], path: Path) -> None:
     import pyarrow
     from pyarrow.parquet import ParquetWriter
@@ -171,5 +125,5 @@ def _write_parquet(journal: Results, columns: Mapping[str, type], path: Path) ->
 
 def _as(kind: type, value: Any) -> Any:
     if isinstance(value, tuple):
-        return _text(value, Decimal.POINT)
+        return cell_text(value)
     return None if value is None else kind(value)

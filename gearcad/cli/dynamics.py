@@ -35,7 +35,8 @@ def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> Non
     A train has its natural frequencies and modes, and the overload of its meshes and shafts over speed, for shafts that are
     left out, springs or continua (model). A pair by itself has its dynamic factor K_v beside that of ISO 6336-1, with flanks
     that part; with model "contact" in [dynamics] its Campbell diagram. Inertias come from the gears' own solids, mesh stiffness
-    from one of the methods of `gearcad stiffness`. Writes dynamics.json, dynamics.npz (the arrays) and dynamics.html.
+    from one of the methods of `gearcad stiffness`. Writes dynamics.html, dynamics.json, dynamics.npz (the arrays)
+    and a CSV for every chart and table.
     """
     from gearcad.jobs.dynamics import Dynamics
 

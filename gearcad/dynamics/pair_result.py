@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.tables import Tables, campbell_columns, cycle_columns, history_columns, spectrum_columns
 from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.tooth_springs.contact_model import ContactModel
 from gearcad.dynamics.tooth_springs.history import TimeHistory
@@ -98,6 +99,10 @@ class PairStudy:
         """As the .npz file has them."""
         return self.study.arrays()
 
+    def tables(self) -> Tables:
+        """As the CSV files have them."""
+        return {**self.study.tables(), "mesh stiffness": cycle_columns(self.cycle)}
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ContactStudy:
@@ -157,4 +162,12 @@ class ContactStudy:
             "history_wheel_speed": self.history.wheel_speed,
             "history_pinion_angle": self.history.pinion_angle,
             "history_wheel_angle": self.history.wheel_angle,
+        }
+
+    def tables(self) -> Tables:
+        """As the CSV files have them."""
+        return {
+            "campbell": campbell_columns(self.study),
+            "history": history_columns(self.history),
+            "spectrum": spectrum_columns(self.history, float(self.study.frequency[-1])),
         }

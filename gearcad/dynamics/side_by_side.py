@@ -11,6 +11,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.dynamics.same import Peak, joined_peaks, peaks_of
+from gearcad.dynamics.tables import Tables, stacked
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.errors import ParameterError
 from gearcad.notice import Notice, joined, texts
@@ -174,3 +175,7 @@ class SideBySide:
             for label, study in zip(self.labels, self.studies, strict=True)
             for key, array in study.arrays().items()
         }
+
+    def tables(self) -> Tables:
+        """As the CSV files have them: those of the studies under each other."""
+        return stacked(self.what, self.labels, [study.tables() for study in self.studies])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -26,6 +27,7 @@ from gearcad.dynamics.charts.findings import (
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.direction import Direction
+from gearcad.dynamics.tables import Columns, Tables, chart_columns, mode_columns, named_columns
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train, TrainModel
@@ -53,6 +55,16 @@ class Course:
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it."""
         return {name: value if isinstance(value, float) else value.tolist() for name, value in vars(self).items()}
+
+    def columns(self, meshes: Sequence[str], shafts: Sequence[str], teeth: int) -> Columns:
+        """As a table; `teeth` are those of the first mesh's pinion."""
+        return {
+            "turn (tooth periods)": self.turn,
+            "time (s)": self.turn * 60 / (self.speed * teeth),
+            **named_columns("approach", meshes, self.approach, "µm"),
+            **named_columns("force", meshes, self.force, "N"),
+            **named_columns("shaft_torque", shafts, self.shaft_torque, "N·m"),
+        }
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -90,6 +102,10 @@ class ModalStudy:
     def arrays(self) -> dict[str, Floats]:
         """As the .npz file has them."""
         return _mode_arrays(self.modes)
+
+    def tables(self) -> Tables:
+        """As the CSV files have them."""
+        return {"modes": mode_columns(self.modes)}
 
 
 def _missed(train: Train, modes: NaturalModes) -> tuple[Notice, ...]:
@@ -235,3 +251,12 @@ class TrainStudy:
         if self.up.standard is not None:
             found["kv_iso6336"] = self.up.standard
         return found
+
+    def tables(self) -> Tables:
+        """As the CSV files have them."""
+        up = self.up
+        return {
+            "chart": chart_columns(self.charts),
+            "modes": mode_columns(self.modes),
+            "course": self.course.columns(up.mesh_names, up.shaft_names, self.train.meshes[0].teeth),
+        }

@@ -24,6 +24,7 @@ from gearcad.geometry import GearPair
 from gearcad.geometry.halves import refuse_halves
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
+from gearcad.jobs.tables import file_name, table_files
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
@@ -44,6 +45,9 @@ _PAIR = {
     PairModel.CONTACT: ("inertias", "mesh stiffness", "campbell", "history"),
 }
 
+_TABLES = ("chart", "modes", "course", "mesh stiffness", "campbell", "history", "spectrum")
+"""Of any result."""
+
 _FIGURES = (
     "model stiffness_method mesh_stiffness_mean mesh_stiffness_tangent_mean pinion_inertia wheel_inertia tooth_stiffness"
     " tooth_damping natural_frequency damping_ratio static_approach contact_ratio resonance_speed_iso6336"
@@ -58,6 +62,7 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
     verb = "dynamics"
     accepts = (PairDesign, TrainDesign)
     why = "a single gear has no mesh"
+    sometimes = tuple(file_name("dynamics", name) for name in _TABLES)
 
     def _run(self, design: PairDesign | TrainDesign, progress: Progress | None) -> Study:
         if isinstance(design, TrainDesign):
@@ -92,11 +97,12 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
         return {**found, "warnings": document["campbell"]["warnings"]}
 
     def files(self, result: Study) -> dict[str, Writer]:
-        """The report, the document, the arrays."""
+        """The report, the document, the arrays, and the tables."""
         return {
             "dynamics.html": partial(_write_report, result),
             "dynamics.json": partial(self.write_document, result),
             "dynamics.npz": partial(_write_arrays, result),
+            **table_files(self.verb, result.tables()),
         }
 
 

@@ -12,8 +12,8 @@ from support.batches import GEARS, MIXED, PAIRS, read_results, rows_of, write_ta
 
 from gearcad.batch import Decimal, Summary, run_table
 from gearcad.batch import run as run_module
-from gearcad.batch.results import _text
 from gearcad.designs import read_spec
+from gearcad.designs.csv_cells import cell_text
 from gearcad.designs.table import open_table
 from gearcad.errors import OutputError, ParameterError
 from gearcad.jobs.build import Build
@@ -194,8 +194,8 @@ def test_decimal_comma_is_what_excel_opens_in_europe(tmp_path: Path) -> None:
 
 
 def test_lists_have_the_decimal_comma_too() -> None:
-    assert _text((40.0, 82.5), Decimal.COMMA) == "40,0 82,5"
-    assert _text((40.0, 82.5), Decimal.POINT) == "40.0 82.5"
+    assert cell_text((40.0, 82.5), Decimal.COMMA) == "40,0 82,5"
+    assert cell_text((40.0, 82.5), Decimal.POINT) == "40.0 82.5"
 
 
 def test_columns_csv_has_symbol_and_unit_of_every_column(mixed: Path) -> None:
