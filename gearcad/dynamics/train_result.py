@@ -241,13 +241,12 @@ class TrainStudy:
         """As the .npz file has them."""
         found = {
             "speed": self.speeds,
-            "kv": self.up.factors,
-            "shaft_overload": self.up.shaft_factors,
+            **self.up.arrays(),
             **_mode_arrays(self.modes),
             **{f"course_{name}": np.asarray(value) for name, value in vars(self.course).items()},
         }
         if self.down is not None:
-            found["kv_down"] = self.down.factors
+            found |= {f"{name}_down": values for name, values in self.down.arrays().items()}
         if self.up.standard is not None:
             found["kv_iso6336"] = self.up.standard
         return found

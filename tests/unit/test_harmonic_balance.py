@@ -15,7 +15,6 @@ from support.floquet import floquet_multipliers
 from support.responses import MOMENT, VARIATION, cosine, isolated, oscillator, two_stages
 from support.transient import integrate
 
-from gearcad.dynamics.charts.chart import ForceDefinition
 from gearcad.dynamics.charts.kv import kv_chart
 from gearcad.dynamics.excitation.deviations import ToothDeviations, TransmissionError, random_deviations, tooth_errors
 from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, CurveStiffness, cycle_stiffness, square_stiffness
@@ -367,7 +366,7 @@ def test_definitions_of_k_v() -> None:
     response = periodic_response(isolated(), cosine(VARIATION), [9000.0, 19000.0], harmonics=10)
     force = response.spring_forces() + response.damping_forces()
     static = response.system.stiffness * response.static.approach
-    assert kv_chart(response, definition=ForceDefinition.WITH_DAMPING).factors == pytest.approx(force.max(axis=1) / static)
+    assert kv_chart(response).damped == pytest.approx(force.max(axis=1) / static)
     order = response.harmonics[:, None]
     rate = (1j * order * response.frequencies[:, None, None]) ** 2 * response.approach_coefficients
     acceleration = np.fft.irfft(np.pad(rate, ((0, 0), (0, 129 - 11), (0, 0))) * 256, 256, axis=1)

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.charts.displacements import BearingLoads, Displacements
+from gearcad.dynamics.charts.transmission import TransmissionErrors
 from gearcad.notice import Notice, texts
 
 __all__ = ["FactorPeak", "ForceDefinition", "KvChart"]
@@ -39,20 +41,24 @@ class FactorPeak(NamedTuple):
 class KvChart:
     """Overload over `frequencies` (s,): circular tooth frequencies of the first mesh (1/s).
 
-    `factors` (s, m) is K_v of each mesh: greatest force over a period, by the `definition`, over the `static_forces` (m,) in N,
-    both of the flanks that carry; `least` (s, m) is the least over the static one, negative where flanks pull or those behind
-    them touch. `shaft_factors` (s, n) is the
+    `factors` (s, m) is K_v of each mesh: greatest force of the springs over a period over the `static_forces` (m,) in N,
+    both of the flanks that carry, and `damped` (s, m) the same with the force of the dampers; `least` (s, m) is the least
+    without it over the static one, negative where flanks pull or those behind them touch. `shaft_factors` (s, n) is the
     greatest torque, in the sense of the static one, over the `shaft_references` (n,) in N·m; nan in shafts that are neither
-    loaded at rest nor have a reference. `standard` (s,) is K_v of ISO 6336-1:2006, Method B, of the pair of the first mesh.
+    loaded at rest nor have a reference. `displacements`, errors of `transmission` and loads of `bearings` are those of the same
+    motions. `standard` (s,) is K_v of ISO 6336-1:2006, Method B, of the pair of the first mesh.
     """
 
     frequencies: Floats
-    definition: ForceDefinition
     factors: Floats
+    damped: Floats
     least: Floats
     static_forces: Floats
     shaft_factors: Floats
     shaft_references: Floats
+    displacements: Displacements
+    transmission: TransmissionErrors
+    bearings: BearingLoads | None
     standard: Floats | None
     stable: NDArray[np.bool_]
     mesh_names: tuple[str, ...]
@@ -87,17 +93,31 @@ class KvChart:
         kept = self.referred_shafts
         return [name for shaft, name in enumerate(self.shaft_names) if shaft not in kept]
 
+    def arrays(self) -> dict[str, Floats]:
+        """As the .npz file has them."""
+        return {
+            "kv": self.factors,
+            "kv_with_damping": self.damped,
+            "shaft_overload": self.shaft_factors,
+            **self.displacements.arrays(),
+            **self.transmission.arrays(),
+            **({} if self.bearings is None else self.bearings.arrays()),
+        }
+
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it: 1/s, N, N·m; no value (null) where a shaft has no factor."""
         shafts = [[None if np.isnan(value) else float(value) for value in row] for row in self.shaft_factors.T]
         return {
             "frequency": self.frequencies.tolist(),
-            "definition": self.definition.value,
+            "definition": ForceDefinition.SPRING.value,
             "kv": dict(zip(self.mesh_names, self.factors.T.tolist(), strict=True)),
+            "kv_with_damping": dict(zip(self.mesh_names, self.damped.T.tolist(), strict=True)),
             "least_force": dict(zip(self.mesh_names, (self.least * self.static_forces).T.tolist(), strict=True)),
             "static_force": dict(zip(self.mesh_names, self.static_forces.tolist(), strict=True)),
             "shaft_overload": dict(zip(self.shaft_names, shafts, strict=True)),
             "peaks": {name: [each._asdict() for each in self.peaks(j)] for j, name in enumerate(self.mesh_names)},
+            "displacements": self.displacements.to_dict(),
+            "bearings": None if self.bearings is None else self.bearings.to_dict(),
             "kv_iso6336": None if self.standard is None else self.standard.tolist(),
             "stable": self.stable.tolist(),
             "warnings": list(self.warnings),

@@ -7,20 +7,20 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.arrays import Floats
-from gearcad.dynamics.charts.chart import ForceDefinition, KvChart
+from gearcad.arrays import Floats, Indices
+from gearcad.dynamics.charts.chart import KvChart
+from gearcad.dynamics.charts.displacements import bearing_loads, displacements
+from gearcad.dynamics.charts.extremes import Extremes, extremes
+from gearcad.dynamics.charts.transmission import transmission_errors
 from gearcad.dynamics.response.flexibility import StaticState
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.trains.system import System
-from gearcad.errors import GeometryError, ParameterError, as_choice
+from gearcad.errors import GeometryError, ParameterError
 from gearcad.notice import Notice
 from gearcad.rating.dynamic_factor import DynamicFactor
 
-__all__ = ["chart_of", "extremes", "idle_shafts", "kv_chart", "torque_references"]
+__all__ = ["chart_of", "idle_shafts", "kv_chart", "torque_references"]
 
-
-_BLOCK = 2_000_000
-"""Samples that one block of speeds may have at a time."""
 
 _IDLE, _IDLE_MOSTLY = 50.0, 3.0
 """A shaft whose torque exceeds its static one so many times, and at half of the speeds still so many times, carries nothing at
@@ -30,7 +30,6 @@ rest that a factor could refer to: one that only resonates is quiet at most spee
 def kv_chart(
     response: PeriodicResponse,
     *,
-    definition: ForceDefinition = ForceDefinition.SPRING,
     shaft_references: Sequence[float | None] | None = None,
     method_b: DynamicFactor | None = None,
 ) -> KvChart:
@@ -39,15 +38,15 @@ def kv_chart(
     `shaft_references` (N·m), one per shaft, replace the static torque where given: for shafts that carry none. `method_b` are
     the data of the pair of the first mesh. Raises GeometryError where a mesh carries no static load that K_v could refer to.
     """
-    definition = as_choice("definition", definition, ForceDefinition)
-    means = response.static.others[response.system.inertias.shape[1] :]
+    means = response.static.others[response.system.torque_outputs]
     _, signs = torque_references(means, shaft_references)
     return chart_of(
         response.system,
         response.static,
         response.frequencies,
-        extremes(response, definition, signs),
-        definition=definition,
+        extremes(response, signs, response.harmonics[1:]),
+        response.harmonics[1:],
+        orders_per_tooth=response.excitation.orders[0],
         shaft_references=shaft_references,
         method_b=method_b,
         stable=response.stable,
@@ -59,32 +58,35 @@ def chart_of(
     system: System,
     static: StaticState,
     frequencies: Floats,
-    loads: tuple[Floats, Floats, Floats],
+    found: Extremes,
+    orders: Indices,
     *,
-    definition: ForceDefinition = ForceDefinition.SPRING,
+    orders_per_tooth: int,
     shaft_references: Sequence[float | None] | None = None,
     method_b: DynamicFactor | None = None,
     stable: NDArray[np.bool_],
     notices: tuple[Notice, ...],
 ) -> KvChart:
-    """The chart of `extremes` that were found somehow."""
+    """The chart of `extremes` that were found somehow, their lines at `orders` (k,), so many of them for a tooth frequency."""
     forces = np.abs(system.stiffness * static.approach)
     if forces.min() <= 1e-9 * forces.max():
         name = system.names[0][int(forces.argmin())]
         raise GeometryError("static_force", float(forces.min()), f"of mesh {name} must not be 0 N: K_v refers to it", "N")
-    means = static.others[system.inertias.shape[1] :]
+    means = static.others[system.torque_outputs]
     references, _ = torque_references(means, shaft_references)
-    factors, least, torques = loads
     given = np.array([value is not None for value in shaft_references or [None] * len(means)], bool)
-    references = np.where(given | ~idle_shafts(torques, references), references, np.nan)
+    references = np.where(given | ~idle_shafts(found.torques, references), references, np.nan)
     return KvChart(
         frequencies=frequencies,
-        definition=definition,
-        factors=factors / forces,
-        least=least / forces,
+        factors=found.most / forces,
+        damped=found.damped / forces,
+        least=found.least / forces,
         static_forces=forces,
-        shaft_factors=torques / references,
+        shaft_factors=found.torques / references,
         shaft_references=references,
+        displacements=displacements(system, found),
+        transmission=transmission_errors(orders / orders_per_tooth, found.lines),
+        bearings=bearing_loads(system, static, found),
         standard=None if method_b is None else method_b.values(frequencies * 30 / (np.pi * method_b.teeth)),
         stable=stable,
         mesh_names=system.names[0],
@@ -114,24 +116,3 @@ def torque_references(means: Floats, given: Sequence[float | None] | None = None
                 raise ParameterError("shaft_references", value, "must be above 0 N·m", "N·m")
             references[i] = value
     return references, np.where(loaded, np.sign(means), 0.0)
-
-
-def extremes(
-    response: PeriodicResponse, definition: ForceDefinition, signs: Floats, samples: int | None = None
-) -> tuple[Floats, Floats, Floats]:
-    """Greatest and least forces (s, m) and greatest torques (s, n) in the sense of `signs` (n,), block by block of speeds."""
-    count = samples or response.samples
-    wide = count * max(response.approach_coefficients.shape[2], response.torque_coefficients.shape[2])
-    block = max(1, _BLOCK // wide)
-    most, least, torques = [], [], []
-    for i in range(0, len(response.frequencies), block):
-        which = slice(i, i + block)
-        force = response.spring_forces(which, count)
-        if definition is ForceDefinition.WITH_DAMPING:
-            force = force + response.damping_forces(which, count)
-        force = response.senses * force
-        torque = response.shaft_torques(which, count)
-        most.append(force.max(axis=1))
-        least.append(force.min(axis=1))
-        torques.append(np.where(signs, torque * signs, np.abs(torque)).max(axis=1))
-    return np.concatenate(most), np.concatenate(least), np.concatenate(torques)

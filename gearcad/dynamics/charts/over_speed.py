@@ -130,7 +130,7 @@ def _curves(system: System, excitation: Excitation, frequencies: Floats, harmoni
         return curves
     pilots = frequencies[np.unique(np.linspace(0, len(frequencies) - 1, _PILOTS).astype(int))]
     few = 2 * max(excitation.orders)
-    torques = [curves.loads(each)[2] for each in curves.balance(few).solve(excitation.fundamental * pilots)]
+    torques = [curves.loads(each).torques for each in curves.balance(few).solve(excitation.fundamental * pilots)]
     return SpeedCurves(system, excitation, harmonics, idle_shafts(np.concatenate(torques), curves.references[0]))
 
 
@@ -173,7 +173,9 @@ def _chart(curves: SpeedCurves, told: Told, stable: Bools, method_b: DynamicFact
         curves.system,
         curves.static,
         told.frequencies,
-        (told.most, told.least, told.torques),
+        told,
+        curves.tracked,
+        orders_per_tooth=curves.excitation.orders[0],
         method_b=method_b,
         stable=stable,
         notices=(*instability(told.frequencies, stable, parting=parting), *left_out(curves, told)),

@@ -10,8 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gearcad.arrays import Bools, Floats, Indices
-from gearcad.dynamics.charts.chart import ForceDefinition
-from gearcad.dynamics.charts.kv import extremes
+from gearcad.dynamics.charts.extremes import extremes
 from gearcad.dynamics.charts.refine import speeds_between
 from gearcad.dynamics.charts.speed_curves import SpeedCurves, Told
 from gearcad.dynamics.response.branch import Branch, trace
@@ -135,8 +134,8 @@ def loads(branch: Branch, curves: SpeedCurves) -> Told:
     astray = np.flatnonzero(np.isinf(told.left_out))
     if not len(astray):
         return told
-    own = extremes(branch.response(astray), ForceDefinition.SPRING, curves.references[1])
-    instead = Told(frequencies[astray], *own, np.full(len(astray), np.inf))
+    own = extremes(branch.response(astray), curves.references[1], curves.tracked)
+    instead = Told.of(own, frequencies[astray], np.full(len(astray), np.inf))
     rows = np.arange(len(frequencies))
     rows[astray] = len(frequencies) + np.arange(len(astray))
     return Told.joined(told, instead).at(rows)

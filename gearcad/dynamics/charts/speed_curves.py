@@ -6,17 +6,17 @@ SI units, frequencies are circular tooth frequencies of the first mesh (1/s) unl
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from gearcad.arrays import Bools, Complexes, Floats, Indices
-from gearcad.dynamics.charts.chart import ForceDefinition
-from gearcad.dynamics.charts.kv import extremes, torque_references
+from gearcad.dynamics.charts.extremes import Extremes, extremes
+from gearcad.dynamics.charts.kv import torque_references
 from gearcad.dynamics.charts.resonances import FELT, Resonances, quasi_static_forces, resonances, settled
 from gearcad.dynamics.response.driven import Driven
-from gearcad.dynamics.response.flexibility import turns_and_torques
+from gearcad.dynamics.response.flexibility import told_by
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.response.resolved import Motions, Resolution
 
@@ -43,31 +43,25 @@ both: of the fourth, third and second power, and of such as hardly fall."""
 HIGHEST_SOUGHT = 64
 """Harmonic up to which resonances between speeds are looked for: there are so many of higher ones, each hardly felt."""
 
+_TRACKED, _MOST_TRACKED = 64, 1024
+"""Harmonics of the tooth frequencies, and orders of the common period, up to which amplitudes of the approach are told."""
+
 _APART = 0.5
 """Half widths of resonances of neighbouring orders, over their distance, from which on they merge."""
 
 
 @dataclass(frozen=True, eq=False)
-class Told:
-    """At `frequencies` (s,): `most` and `least` (s, m) forces (N) of the flanks that carry, `torques` (s, n) in N·m.
-
-    `left_out` (s,) bounds the share that harmonics left out have in them: infinite where no balance was found.
-    """
+class Told(Extremes):
+    """The same at `frequencies` (s,); `left_out` (s,) bounds the share that harmonics left out have in the forces and torques:
+    infinite where no balance was found."""
 
     frequencies: Floats
-    most: Floats
-    least: Floats
-    torques: Floats
     left_out: Floats
 
     @staticmethod
-    def joined(*parts: Told) -> Told:
-        """All parts, one after the other."""
-        return Told(*(np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(Told)))
-
-    def at(self, rows: Indices) -> Told:
-        """Some of them, in this order."""
-        return Told(*(getattr(self, each.name)[rows] for each in fields(Told)))
+    def of(found: Extremes, frequencies: Floats, left_out: Floats) -> Told:
+        """What was found, and where."""
+        return Told(**vars(found), frequencies=frequencies, left_out=left_out)
 
     def rising(self) -> Told:
         """The same by rising frequencies."""
@@ -87,7 +81,7 @@ class SpeedCurves(Driven):
     @cached_property
     def references(self) -> tuple[Floats, Floats]:
         """Torques of the shafts at rest, nan where they carry none, and the sense in which they act."""
-        references, senses = torque_references(self.static.others[self.system.inertias.shape[1] :])
+        references, senses = torque_references(self.static.others[self.system.torque_outputs])
         return references if self.idle is None else np.where(self.idle, np.nan, references), senses
 
     @cached_property
@@ -184,27 +178,33 @@ class SpeedCurves(Driven):
         """Of so many orders of the common period."""
         return Resolution(self.system, self.excitation, orders, self.tolerance)
 
-    def loads(self, motions: Motions) -> tuple[Floats, Floats, Floats]:
-        """Greatest and least forces (s, m), and greatest torques (s, n)."""
-        return extremes(self.response(motions), ForceDefinition.SPRING, self.references[1], 16 * motions.orders)
+    @cached_property
+    def tracked(self) -> Indices:
+        """(k,): orders of the common period whose amplitudes are told."""
+        return np.arange(1, min(_TRACKED * max(self.excitation.orders), _MOST_TRACKED) + 1)
+
+    def loads(self, motions: Motions) -> Extremes:
+        """Greatest and least of all that moves."""
+        return extremes(self.response(motions), self.references[1], self.tracked, 16 * motions.orders)
 
     def response(self, motions: Motions) -> PeriodicResponse:
         """The same with turns and torques."""
-        turns, torques = turns_and_torques(self.system, self.static, motions.flexible, motions.forces)
+        outputs = told_by(self.system, self.static, motions.flexible, motions.forces)
         return PeriodicResponse(
             system=self.system,
             excitation=self.excitation,
             frequencies=motions.omega / self.excitation.fundamental,
             harmonics=np.arange(2 * motions.orders + 1),
             approach_coefficients=motions.approach,
-            inertia_coefficients=turns,
-            torque_coefficients=torques,
+            inertia_coefficients=outputs.turns,
+            torque_coefficients=outputs.torques,
+            travel_coefficients=outputs.travels,
             stable=np.ones(len(motions.omega), bool),
         )
 
     def _left_out(self, motions: Motions) -> Floats:
         """(s,): waves of orders beyond those known, all crests at once, over the greatest wave or the load at rest."""
-        others = motions.flexible.others[:, :, self.system.inertias.shape[1] :]
+        others = motions.flexible.others[:, :, self.system.torque_outputs]
         at_rest = (np.abs(self.system.stiffness * self.static.approach) / self._stiffest, self.references[0])
         torques = np.einsum("shij,shj->shi", others, motions.forces)
         result, start, middle = np.zeros(len(motions.omega)), motions.orders, motions.orders * 3 // 2
@@ -228,7 +228,7 @@ class SpeedCurves(Driven):
         """Loads at frequencies (s,), and frequencies (x,) of resonances between these that a chart would not show."""
         order, parts, narrow = [np.zeros(0, np.intp)], [], [np.zeros(0)]
         for which, motions, left in self.motions(frequencies, start):
-            parts.append(Told(frequencies[which], *self.loads(motions), left))
+            parts.append(Told.of(self.loads(motions), frequencies[which], left))
             narrow.append(self._narrow(motions, frequencies))
             order.append(which)
         return Told.joined(*parts).at(np.argsort(np.concatenate(order))), np.concatenate(narrow)

@@ -265,9 +265,12 @@ def _of_each(over: OverSpeed, alike: int, system: System, excitation: Excitation
         return replace(
             chart,
             factors=chart.factors[:, columns],
+            damped=chart.damped[:, columns],
             least=chart.least[:, columns],
             static_forces=chart.static_forces[columns] / alike,
             mesh_names=system.names[0],
+            displacements=chart.displacements.of_meshes(columns, system.names[0]),
+            transmission=chart.transmission.of_meshes(columns),
             stable=chart.stable & lasting,
             notices=(*chart.notices, *planets_differ(chart.frequencies, chart.stable & ~lasting)),
         )

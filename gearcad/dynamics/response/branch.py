@@ -16,7 +16,7 @@ from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.response.balance import Balance
 from gearcad.dynamics.response.continuation import Arc, follow
 from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.response.flexibility import at_orders, both_sides, turns_and_torques
+from gearcad.dynamics.response.flexibility import at_orders, both_sides, told_by
 from gearcad.dynamics.response.floquet import UNSTABLE, growth
 from gearcad.dynamics.response.linear import checked_frequencies, harmonic_orders, periodic_response
 from gearcad.dynamics.response.notices import instability
@@ -105,15 +105,16 @@ class Branch:
         approach, stable = self.approach[chosen], self.stable[chosen]
         flexible = at_orders(self.system, balance.static, self.excitation.fundamental * frequencies, self.harmonics)
         forces = balance.forces(both_sides(approach), self.excitation.fundamental * frequencies)[0]
-        turns, torques = turns_and_torques(self.system, balance.static, flexible, forces[:, len(self.harmonics) - 1 :])
+        outputs = told_by(self.system, balance.static, flexible, forces[:, len(self.harmonics) - 1 :])
         return PeriodicResponse(
             system=self.system,
             excitation=self.excitation,
             frequencies=frequencies,
             harmonics=self.harmonics,
             approach_coefficients=approach,
-            inertia_coefficients=turns,
-            torque_coefficients=torques,
+            inertia_coefficients=outputs.turns,
+            torque_coefficients=outputs.torques,
+            travel_coefficients=outputs.travels,
             stable=stable,
             jumps=np.zeros(0) if jumps is None else jumps,
             notices=instability(frequencies, stable, parting=self.excitation.parting),

@@ -6,6 +6,7 @@ SI units. The lines' modes are uncoupled, so everything is a sum over them; only
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,13 +16,14 @@ from gearcad.errors import GeometryError, SolverError
 
 __all__ = [
     "Flexibility",
+    "Outputs",
     "StaticState",
     "at_orders",
     "both_sides",
     "flexibility",
     "senses",
     "static_state",
-    "turns_and_torques",
+    "told_by",
 ]
 
 
@@ -36,9 +38,10 @@ _NO_DAMPING = "no finite periodic motion: a harmonic of one of the frequencies m
 
 @dataclass(frozen=True, eq=False)
 class StaticState:
-    """At rest under the mean load, meshes at their mean stiffness: `modal` (n,), `approach` (m,), `others` (i + s,).
+    """At rest under the mean load, meshes at their mean stiffness: `modal` (n,), `approach` (m,), `others` (o,) outputs.
 
-    `unit_mesh` (m, m) and `unit_others` (i + s, m) are the same per force at the meshes, without the load.
+    `unit_mesh` (m, m) and `unit_others` (o, m) are the same per force at the meshes, without the load; the outputs are those of
+    the System.
     """
 
     modal: Floats
@@ -63,7 +66,7 @@ def static_state(system: System) -> StaticState:
             "load", part, "is the part of the torques that would speed up a train which is free to turn: they must balance"
         )
     inverse = (vectors[:, ~free] / values[~free]) @ vectors[:, ~free].T
-    rows = np.hstack([system.inertias, system.shaft_torques])
+    rows = system.outputs
     modal, unit = inverse @ system.load, inverse @ system.mesh
     return StaticState(modal, system.mesh.T @ modal, rows.T @ modal, system.mesh.T @ unit, rows.T @ unit)
 
@@ -79,7 +82,7 @@ def senses(system: System) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Flexibility:
-    """Per force along the line of action: `mesh` (..., m, m) approaches, `others` (..., i + s, m) turns, then shaft torques."""
+    """Per force along the line of action: `mesh` (..., m, m) approaches, `others` (..., o, m) outputs of the System."""
 
     mesh: Complexes
     others: Complexes
@@ -90,7 +93,7 @@ def flexibility(system: System, frequencies: Floats) -> Flexibility:
 
     With P = V^T a^-1 V of the lines alone, a = squares - w^2 + i w damping, and meshes K, that of the whole is P (1 + K P)^-1.
     """
-    rows = np.hstack([system.inertias, system.shaft_torques])
+    rows = system.outputs
     count, others = system.mesh.shape[1], rows.shape[1]
     w = frequencies[..., None]
     modes = system.squares - w**2 + 1j * w * system.damping
@@ -110,14 +113,20 @@ def flexibility(system: System, frequencies: Floats) -> Flexibility:
     return result
 
 
-def turns_and_torques(
-    system: System, static: StaticState, flexible: Flexibility, forces: Complexes
-) -> tuple[Complexes, Complexes]:
-    """Coefficients (s, q, i) of inertias' turns and (s, q, n) of shaft torques, from forces (s, q, m) at the mean system."""
+class Outputs(NamedTuple):
+    """Coefficients of turns (s, q, i) in rad, of shaft torques (s, q, n) in N·m, and of travels of the axes (s, q, t) in m."""
+
+    turns: Complexes
+    torques: Complexes
+    travels: Complexes
+
+
+def told_by(system: System, static: StaticState, flexible: Flexibility, forces: Complexes) -> Outputs:
+    """What forces (s, q, m) at the mean system do to it, besides the approach of its flanks."""
     others = np.einsum("shij,shj->shi", flexible.others, forces)
     others[:, 0] += static.others
-    count = system.inertias.shape[1]
-    return others[..., :count], others[..., count:]
+    torques = system.torque_outputs
+    return Outputs(others[..., : torques.start], others[..., torques], others[..., torques.stop :])
 
 
 def at_orders(system: System, static: StaticState, omega: Floats, orders: Indices) -> Flexibility:

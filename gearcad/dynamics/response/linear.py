@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from gearcad.arrays import Complexes, Floats, Indices
 from gearcad.dynamics.excitation.meshes import Excitation
-from gearcad.dynamics.response.flexibility import StaticState, at_orders, both_sides, static_state, turns_and_torques
+from gearcad.dynamics.response.flexibility import Outputs, StaticState, at_orders, both_sides, static_state, told_by
 from gearcad.dynamics.response.floquet import UNSTABLE, growth
 from gearcad.dynamics.response.notices import instability, parting
 from gearcad.dynamics.response.periodic import PeriodicResponse
@@ -74,7 +74,8 @@ def periodic_response(
     per_class = 1 + 2 * len(orders) // int(np.gcd.reduce(excitation.orders))
     block = max(1, _BLOCK // (len(orders) * meshes * (system.size + 2 * meshes + rows) + 2 * (per_class * meshes) ** 2))
     parts = [_solve(system, excitation, static, speeds[i : i + block], orders) for i in range(0, len(speeds), block)]
-    approach, inertias, torques = (np.concatenate(each) for each in zip(*parts, strict=True))
+    approach = np.concatenate([part[0] for part in parts])
+    outputs = Outputs(*(np.concatenate(each) for each in zip(*(part[1] for part in parts), strict=True)))
     stable = growth(system, excitation, speeds) <= UNSTABLE if stability else np.ones(len(speeds), bool)
     result = PeriodicResponse(
         system=system,
@@ -82,8 +83,9 @@ def periodic_response(
         frequencies=speeds,
         harmonics=orders,
         approach_coefficients=approach,
-        inertia_coefficients=inertias,
-        torque_coefficients=torques,
+        inertia_coefficients=outputs.turns,
+        torque_coefficients=outputs.torques,
+        travel_coefficients=outputs.travels,
         stable=stable,
         notices=instability(speeds, stable),
     )
@@ -92,8 +94,8 @@ def periodic_response(
 
 def _solve(
     system: System, excitation: Excitation, static: StaticState, speeds: Floats, orders: Indices
-) -> tuple[Complexes, Complexes, Complexes]:
-    """Coefficients (s, q, ...) of approaches, turns and torques."""
+) -> tuple[Complexes, Outputs]:
+    """Coefficients (s, q, ...) of approaches, and of all else."""
     omega = excitation.fundamental * speeds
     flexible = at_orders(system, static, omega, orders)
     signed = np.concatenate([-orders[:0:-1], orders])
@@ -105,8 +107,7 @@ def _solve(
     if not np.isfinite(approach).all():
         raise SolverError("no finite periodic motion at one of the frequencies: it is at the limit of parametric instability")
     half = slice(len(orders) - 1, None)
-    turns, torques = turns_and_torques(system, static, flexible, forces[:, half])
-    return approach[:, half], turns, torques
+    return approach[:, half], told_by(system, static, flexible, forces[:, half])
 
 
 def _driving(system: System, excitation: Excitation, omega: Floats, signed: Indices) -> Complexes:

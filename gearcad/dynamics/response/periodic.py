@@ -19,8 +19,8 @@ class PeriodicResponse(Driven):
 
     Coefficients over the common period belong to the orders `harmonics` (q,), from 0 on: `approach_coefficients` (s, q, m) of
     the approach y of the flanks (m), `inertia_coefficients` (s, q, i) of turns (rad), `torque_coefficients` (s, q, n) of shaft
-    torques (N·m). `stable` (s,): whether a small disturbance dies away. `jumps`: frequencies at which a sweep went over to
-    another branch. `notices` say what to know before trusting it.
+    torques (N·m), `travel_coefficients` (s, q, t) of axes on bearings (m). `stable` (s,): whether a small disturbance dies
+    away. `jumps`: frequencies at which a sweep went over to another branch. `notices` say what to know before trusting it.
     """
 
     frequencies: Floats
@@ -28,6 +28,7 @@ class PeriodicResponse(Driven):
     approach_coefficients: Complexes
     inertia_coefficients: Complexes
     torque_coefficients: Complexes
+    travel_coefficients: Complexes
     stable: Bools
     jumps: Floats = field(default_factory=lambda: np.zeros(0))
     notices: tuple[Notice, ...] = ()
@@ -53,10 +54,27 @@ class PeriodicResponse(Driven):
         """Torques in the shafts (s, t, n) in N·m."""
         return self._course(self.torque_coefficients[which], count)
 
+    def travels(self, which: slice = slice(None), count: int | None = None) -> Floats:
+        """Travels of the axes (s, t, 2g) in m: of each, along the line of action and across it."""
+        return self._course(self.travel_coefficients[which], count)
+
+    def bearing_forces(self, which: slice = slice(None), count: int | None = None) -> Floats:
+        """What the axes press their bearings with (s, t, 2g) in N, the bearings' damping with it."""
+        travels, bearings = self.travel_coefficients[which], self.system.bearings
+        if bearings is None:
+            return self._course(travels, count)
+        speed = self.excitation.fundamental * self.frequencies[which]
+        rates = travels * 1j * speed[:, None, None] * self.harmonics[:, None]
+        return self._course(travels @ bearings.stiffness.T + rates @ bearings.damping.T, count)
+
     def spring_forces(self, which: slice = slice(None), count: int | None = None) -> Floats:
         """k(t) g(y - e) (s, t, m) in N: what the teeth carry, without damping."""
-        theta = self.phases(count)
-        gap = self.approach(which, count) - self.excitation.error_course(len(theta))
+        return self.carried(self.approach(which, count))
+
+    def carried(self, approach: Floats) -> Floats:
+        """The same of approaches (s, t, m) over the common period."""
+        theta = self.phases(approach.shape[1])
+        gap = approach - self.excitation.error_course(len(theta))
         return self.excitation.ratios(theta) * self.system.stiffness * pressed(gap, self.excitation.backlashes, self.senses)
 
     def damping_forces(self, which: slice = slice(None), count: int | None = None) -> Floats:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearcad.dynamics.trains.system import System
+from gearcad.dynamics.trains.system import Bearings, System
 from gearcad.errors import plain_numbers, require_number
 from gearcad.per_gear import PerGear
 
@@ -80,7 +80,19 @@ class PairOnBearings:
             stiffness=np.array([1e6 * self.mesh_stiffness]),
             mesh_damping=np.array([self.mesh_damping]),
             names=(("mesh",), ("pinion", "wheel"), ()),
+            bearings=self._bearings(),
         )
+
+    def _bearings(self) -> Bearings:
+        """Seen along the line of action and across it."""
+        sine, cosine = math.sin(angle := math.radians(self.working_transverse_pressure_angle)), math.cos(angle)
+        turned = np.array([[sine, cosine], [cosine, -sine]])
+        travel, stiffness = np.zeros((6, 4)), np.zeros((4, 4))
+        for gear, (mass, bearing) in enumerate(zip(self.masses, self.bearing_stiffness, strict=True)):
+            own = slice(2 * gear, 2 * gear + 2)
+            travel[3 * gear : 3 * gear + 2, own] = turned.T / math.sqrt(mass)
+            stiffness[own, own] = 1e6 * (turned * bearing) @ turned.T
+        return Bearings(("pinion", "wheel"), travel, stiffness, self.bearing_damping * np.eye(4))
 
     def frequencies(self) -> tuple[float, ...]:
         """The six natural frequencies (Hz), lowest first; that of the gears' free turning is 0."""

@@ -11,7 +11,20 @@ import numpy as np
 
 from gearcad.arrays import Floats
 
-__all__ = ["System"]
+__all__ = ["Bearings", "System"]
+
+
+@dataclass(frozen=True, eq=False)
+class Bearings:
+    """What holds the axes of `gears` (g) that travel: `travel` (n, 2g) of each (m), along the line of action and across it.
+
+    `stiffness` (2g, 2g) in N/m and `damping` (2g, 2g) in N·s/m are those of the travels.
+    """
+
+    gears: tuple[str, ...]
+    travel: Floats
+    stiffness: Floats
+    damping: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,11 +47,25 @@ class System:
     mesh_damping: Floats
     names: tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]
     """Of meshes, inertias and shafts."""
+    bearings: Bearings | None = None
+    """Of axes that travel, where some do."""
 
     @property
     def size(self) -> int:
         """How many coordinates there are."""
         return len(self.squares)
+
+    @property
+    def outputs(self) -> Floats:
+        """(n, i + s + t): turns of the inertias, torques in the shafts, travels of the axes, per coordinate."""
+        travels = [] if self.bearings is None else [self.bearings.travel]
+        return np.hstack([self.inertias, self.shaft_torques, *travels])
+
+    @property
+    def torque_outputs(self) -> slice:
+        """Which of the outputs are torques in the shafts."""
+        first = self.inertias.shape[1]
+        return slice(first, first + self.shaft_torques.shape[1])
 
     def stiffness_matrix(self, stiffness: Floats | None = None) -> Floats:
         """(n, n), with the meshes at their mean stiffness or another (m,) in N/m."""
