@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
+from gearcad.dynamics.compiled import compiled
 from gearcad.dynamics.tooth_springs.event_exact import (
     Motion,
     MotionOutcome,
@@ -16,7 +17,6 @@ from gearcad.dynamics.tooth_springs.event_exact import (
     Zone,
     accelerated,
     advanced,
-    compiled,
     next_turn,
     run,
 )

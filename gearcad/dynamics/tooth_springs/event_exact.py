@@ -11,17 +11,14 @@ function to see whether the code that it keeps on disk is still good, not at tho
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple
 
-import numba
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.compiled import compiled
 
-__all__ = ["Motion", "MotionOutcome", "Spring", "Zone", "accelerated", "advanced", "compiled", "next_turn", "run"]
-
-Function = TypeVar("Function", bound=Callable[..., Any])
+__all__ = ["Motion", "MotionOutcome", "Spring", "Zone", "accelerated", "advanced", "next_turn", "run"]
 
 _ANCHORED = 64
 """Samples taken by one step matrix in a row before the closed form is evaluated again, so that rounding does not add up."""
@@ -34,16 +31,6 @@ _LASTING = 500.0
 
 _ITERATIONS = 200
 """Newton's steps, or halvings: a double has room for far fewer."""
-
-
-def compiled(function: Function) -> Function:
-    """Machine code that lets other threads run and rounds as written; kept on disk where that can be written."""
-    options = {"nogil": True, "error_model": "numpy"}
-    try:
-        made: Function = numba.njit(cache=True, **options)(function)
-    except RuntimeError:  # no folder for it
-        made = numba.njit(**options)(function)
-    return made
 
 
 class Spring(NamedTuple):
