@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
-__all__ = ["Agenda", "Expected", "Progress", "Share", "unheard"]
+__all__ = ["Agenda", "Expected", "Progress", "Share", "onwards", "part", "unheard"]
 
 Progress = Callable[[str, float, float], None]
 """Called with what is being done, how much of the job is done, and how much there is (0: nobody knows yet).
@@ -19,6 +19,23 @@ Share = Callable[[float], None]
 
 def unheard(_share: float) -> None:
     """A Share for those who do not ask."""
+
+
+def part(share: Share, begin: float, end: float) -> Share:
+    """What tells the share of a part that begins and ends at these shares of the whole."""
+    return lambda done: share(begin + done * (end - begin))
+
+
+def onwards(share: Share) -> Share:
+    """Never backwards, where a part may have to be done again."""
+    most = 0.0
+
+    def tell(done: float) -> None:
+        nonlocal most
+        most = max(most, min(done, 1.0))
+        share(most)
+
+    return tell
 
 
 class Expected(NamedTuple):

@@ -24,6 +24,7 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.per_gear import PerGear
+from gearcad.progress import Share, unheard
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 from gearcad.stiffness.methods import METHODS
@@ -49,6 +50,7 @@ def study_pair(
     rating: RatingOptions | None = None,
     masses: PerGear[float] | None = None,
     tell: Callable[[str], None] = lambda _step: None,
+    share: Share = unheard,
 ) -> PairStudy:
     """K_v over speed of a pair by itself, beside ISO 6336-1 Method B, and the course at the load's speed.
 
@@ -64,7 +66,7 @@ def study_pair(
     excitation = pair_excitation(train, cycle, errors)
     factor, unrated = _method_b(pair, material, load, inertias, rating)
     bearings = _on_bearings(train, pair, options, masses)
-    study = study_train(train, options, excitation=excitation, method_b=factor, bearings=bearings, tell=tell)
+    study = study_train(train, options, excitation=excitation, method_b=factor, bearings=bearings, tell=tell, share=share)
     return PairStudy(
         pair=pair,
         cycle=cycle,
@@ -117,6 +119,7 @@ def study_contact(
     options: DynamicsOptions,
     *,
     tell: Callable[[str], None] = lambda _step: None,
+    counted: Callable[[int, int], None] = lambda _done, _count: None,
 ) -> ContactStudy:
     """The Campbell study of a spur pair's contact model, and the time history at the load's speed (or at a middle one).
 
@@ -147,7 +150,9 @@ def study_contact(
     speeds = np.linspace(options.speed_from or 0.0, last, options.campbell_speeds)
     tell("campbell")
     top = max(_HIGHEST * resonance * pair.pinion.teeth / 60, _HIGHEST * last * pair.pinion.teeth / 60)
-    study = campbell(model, speeds, duration=options.duration, sampling=options.sampling, highest_frequency=top)
+    study = campbell(
+        model, speeds, duration=options.duration, sampling=options.sampling, highest_frequency=top, counted=counted
+    )
     tell("history")
     speed = abs(load.speed) or float(speeds[len(speeds) // 2])
     history = time_history(model, speed, duration=options.duration, sampling=options.sampling)

@@ -21,6 +21,7 @@ from gearcad.dynamics.trains.six_dof import PairOnBearings
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import GeometryError
 from gearcad.notice import Notice
+from gearcad.progress import Share, unheard
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 
@@ -54,11 +55,13 @@ def study_train(
     method_b: DynamicFactor | None = None,
     bearings: PairOnBearings | None = None,
     tell: Callable[[str], None] = lambda _step: None,
+    share: Share = unheard,
 ) -> TrainStudy:
     """Modes, charts and the course at the train's speed (or at its highest resonance).
 
     `excitation` is that of the train's own meshes unless given; `method_b` is K_v by ISO 6336-1 of the first mesh.
-    With `bearings` the charts are those of the same mesh between gears that travel as well.
+    With `bearings` the charts are those of the same mesh between gears that travel as well. `tell` hears what is being done,
+    `share` how much of the chart is.
     Raises ParameterError, GeometryError and SolverError.
     """
     if not train.meshes:
@@ -72,7 +75,7 @@ def study_train(
     excitation = excitation or _own_excitation(train, options)
     frequencies, asked = _frequencies(train, options, modes)
     tell("chart")
-    over = over_speed(charted, excitation, frequencies, harmonics=options.harmonics, method_b=method_b)
+    over = over_speed(charted, excitation, frequencies, harmonics=options.harmonics, method_b=method_b, share=share)
     tell("course")
     course, more = _course(train, over, asked)
     return TrainStudy(

@@ -39,10 +39,12 @@ __all__ = ["Dynamics", "Study", "dynamics"]
 
 Study = TrainStudy | ModalStudy | SideBySide | PairStudy | ContactStudy
 
-_TRAIN = ("modes", "chart", "course")
+_TRAIN = {"modes": 1.0, "chart": 20.0, "course": 2.0}
+"""Steps with a guess of what each takes."""
+
 _PAIR = {
-    PairModel.MESH: ("inertias", "mesh stiffness", *_TRAIN),
-    PairModel.CONTACT: ("inertias", "mesh stiffness", "campbell", "history"),
+    PairModel.MESH: {"inertias": 1.0, "mesh stiffness": 10.0, **_TRAIN},
+    PairModel.CONTACT: {"inertias": 1.0, "mesh stiffness": 5.0, "campbell": 40.0, "history": 1.0},
 }
 
 _TABLES = ("chart", "modes", "course", "mesh stiffness", "campbell", "history", "spectrum")
@@ -68,7 +70,8 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
         if isinstance(design, TrainDesign):
             if not design.train.meshes:
                 return study_modes(design.train, design.dynamics)
-            return study_train(design.train, design.dynamics, tell=Agenda(progress, dict.fromkeys(_TRAIN, 1.0)))
+            agenda = Agenda(progress, _TRAIN)
+            return study_train(design.train, design.dynamics, tell=agenda, share=agenda.within("chart"))
         return _of_pair(design, progress)
 
     def document(self, result: Study) -> dict[str, Any]:
@@ -128,16 +131,29 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
     if contact and pair.pinion.helix_angle:
         permitted = 'must be 0 for model "contact": its pairs of teeth touch over their whole width at once'
         raise GeometryError("pair.helix_angle", pair.pinion.helix_angle, permitted, "deg")
-    agenda = Agenda(progress, dict.fromkeys(_PAIR[options.pair_model], 1.0))
+    agenda = Agenda(progress, _PAIR[options.pair_model])
     agenda("inertias")
     inertias = PerGear.each(lambda role: _inertia(role, pair, material, options))
     agenda("mesh stiffness")
     if contact:
         cycle = _mesh_cycle(design, design.load, options) if options.tooth_stiffness is None else None
-        return study_contact(pair, design.load, cycle, inertias, options, tell=agenda)
+        return study_contact(
+            pair, design.load, cycle, inertias, options, tell=agenda, counted=agenda.counted("campbell", "speed")
+        )
     cycle = _mesh_cycle(design, design.load, options)
     masses = _masses(pair, material) if options.pinion_bearing_stiffness is not None else None
-    return study_pair(pair, material, design.load, cycle, inertias, options, rating=design.rating, masses=masses, tell=agenda)
+    return study_pair(
+        pair,
+        material,
+        design.load,
+        cycle,
+        inertias,
+        options,
+        rating=design.rating,
+        masses=masses,
+        tell=agenda,
+        share=agenda.within("chart"),
+    )
 
 
 def _mesh_cycle(design: PairDesign, load: Load, options: DynamicsOptions) -> MeshCycle:

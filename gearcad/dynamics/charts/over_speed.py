@@ -26,6 +26,7 @@ from gearcad.dynamics.response.resolved import Motions
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import SolverError
 from gearcad.notice import Notice
+from gearcad.progress import Share, onwards, part, unheard
 from gearcad.rating.dynamic_factor import DynamicFactor
 
 __all__ = ["OverSpeed", "over_speed"]
@@ -36,6 +37,9 @@ _PILOTS = 48
 
 _DRAWN = 256
 """Harmonics of a motion that is drawn: flanks that touch again do so within a hundredth of a tooth."""
+
+_LINEAR, _ASKED = 0.2, 0.5
+"""Shares of the work: of linear motions where flanks may part, and of the speeds asked for. No more than a guess."""
 
 _CLOSE = 0.01
 """Relative: speeds so near to a resonance of a low harmonic are looked at, however many high ones there are."""
@@ -87,27 +91,32 @@ def over_speed(
     *,
     harmonics: int | None = None,
     method_b: DynamicFactor | None = None,
+    share: Share = unheard,
 ) -> OverSpeed:
     """Charts that hold rising `frequencies` and as many between them as their curves need.
 
     `harmonics` of the tooth frequencies at most; else as many as leave out less than a hundredth of the load at rest.
+    `share` hears how much is done.
     """
+    share = onwards(share)
     excitation.fits(system)
     linear = _curves(system, excitation.bonded, frequencies, harmonics)
     if not linear.resolvable:
         return _few(linear, excitation, frequencies, method_b)
-    told, skipped = _refined(linear, frequencies)
+    told, skipped = _refined(linear, frequencies, part(share, 0.0, _LINEAR if excitation.parting else 1.0))
     stable = growth(system, linear.excitation, told.frequencies) <= UNSTABLE
     apart = np.asarray((told.least <= 0).any(axis=1), bool)
     branch, notices = None, (*standstill(linear), *hardly_damped(linear, told.frequencies), *not_looked_for(skipped))
     if excitation.parting and (apart | ~stable).any():
         curves = SpeedCurves(system, excitation, harmonics, linear.idle)
         try:
-            branch = parted(curves, frequencies, told.frequencies[apart | ~stable])
+            rest = part(share, _LINEAR, 1.0)
+            branch = parted(curves, frequencies, told.frequencies[apart | ~stable], share=rest)
         except SolverError as error:
             notices = (*notices, stuck(error))
     elif apart.any():
         notices = (*notices, parting(told.frequencies, apart))
+    share(1.0)
     sides = [(told, stable, np.zeros(0))]
     if branch is not None:
         sides = [_together(told, stable, branch, direction) for direction in (Direction.UP, Direction.DOWN)]
@@ -134,21 +143,26 @@ def _curves(system: System, excitation: Excitation, frequencies: Floats, harmoni
     return SpeedCurves(system, excitation, harmonics, idle_shafts(np.concatenate(torques), curves.references[0]))
 
 
-def _refined(curves: SpeedCurves, frequencies: Floats) -> tuple[Told, Floats]:
+def _refined(curves: SpeedCurves, frequencies: Floats, share: Share) -> tuple[Told, Floats]:
     """At the frequencies, where resonances are narrower than their distance, and where maxima are sharper.
 
     Also frequencies (x,) at which there might be sharper ones, but that are too low to look for them.
     """
-    told, narrow = curves.told(frequencies)
+    told, narrow = curves.told(frequencies, share=part(share, 0.0, _ASKED))
     skipped, more = np.zeros(0), narrow
-    for _ in range(MOST_ROUNDS):
+    for number in range(MOST_ROUNDS):
         more = np.setdiff1d(np.union1d(more, speeds_between(told.frequencies, curves.curves(told))), told.frequencies)
         searched = curves.searched(more) | _near(more, narrow)
         skipped, more = np.union1d(skipped, more[~searched]), more[searched]
         if not len(more):
             break
-        told, more = Told.joined(told, curves.told(more)[0]).rising(), np.zeros(0)
+        told, more = Told.joined(told, curves.told(more, share=_round_of(share, number))[0]).rising(), np.zeros(0)
     return told, skipped
+
+
+def _round_of(share: Share, number: int) -> Share:
+    """The share of a round of speeds between: each takes half of what is left."""
+    return part(share, 1 - (1 - _ASKED) / 2**number, 1 - (1 - _ASKED) / 2 ** (number + 1))
 
 
 def _near(frequencies: Floats, places: Floats) -> Bools:

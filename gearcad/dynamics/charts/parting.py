@@ -17,6 +17,7 @@ from gearcad.dynamics.response.branch import Branch, trace
 from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.response.linear import harmonic_orders
 from gearcad.errors import SolverError
+from gearcad.progress import Share, part, unheard
 
 __all__ = ["MOST_ROUNDS", "Parted", "parted"]
 
@@ -36,6 +37,9 @@ _MARGIN = 0.9
 _LOWER = 0.75
 """Where that does not do, or flanks are still parted at its end, so much of the frequency is tried; the end, over as much."""
 
+_TRACED, _TOLD = 0.4, 0.8
+"""Shares of the work: until the branch is followed, and until the loads of its motions are known. No more than a guess."""
+
 _BESIDE = 1e-6
 """Relative: how near to a fold the motions on both sides of a jump are shown."""
 
@@ -53,10 +57,11 @@ class Parted:
         chosen, jumps = self._chosen(direction)
         return self.told.at(chosen), self.branch.stable[chosen], jumps
 
-    def refined(self) -> Parted:
+    def refined(self, share: Share) -> Parted:
         """With speeds between, until both directions show every maximum."""
         of = self._with(_beside(self.branch))
-        for _ in range(MOST_ROUNDS):
+        for number in range(MOST_ROUNDS):
+            share(1 - 0.5**number)
             curves = [of.curves.curves(of.seen(direction)[0]) for direction in Direction]
             more = speeds_between(of.branch.frequencies, np.hstack(curves), 4 * _BESIDE)
             if not len(more):
@@ -91,7 +96,7 @@ class Parted:
         return replace(self.branch, stable=self.branch.stable & found).seen(direction)
 
 
-def parted(curves: SpeedCurves, frequencies: Floats, apart: Floats) -> Parted:
+def parted(curves: SpeedCurves, frequencies: Floats, apart: Floats, *, share: Share = unheard) -> Parted:
     """Over rising frequencies (s,), through all at which flanks are `apart` (x,) in the linear motion, or that does not last.
 
     Raises SolverError where there is no such branch.
@@ -103,15 +108,15 @@ def parted(curves: SpeedCurves, frequencies: Floats, apart: Floats) -> Parted:
     while True:
         along, harmonics = frequencies[low : high + 1], _harmonics(curves, float(frequencies[low]))
         try:
-            branch = trace(curves.system, curves.excitation, along, harmonics=harmonics)
+            branch = trace(curves.system, curves.excitation, along, harmonics=harmonics, share=part(share, 0.0, _TRACED))
         except SolverError:
             if low == 0:
                 raise
             low = max(0, int(np.searchsorted(frequencies, _LOWER * frequencies[low])) - 1)
             continue
-        found = Parted(branch, loads(branch, curves), curves)
+        found = Parted(branch, loads(branch, curves, part(share, _TRACED, _TOLD)), curves)
         if high == len(frequencies) - 1 or found.seen(Direction.UP)[0].least[-1].min() > 0:
-            return found.refined()
+            return found.refined(part(share, _TOLD, 1.0))
         high = min(int(np.searchsorted(frequencies, frequencies[high] / _LOWER)), len(frequencies) - 1)
 
 
@@ -127,10 +132,10 @@ def _harmonics(curves: SpeedCurves, frequency: float) -> int:
     raise SolverError(f"motions in which they part would have {unknowns} harmonics here; leave tooth errors out to see them")
 
 
-def loads(branch: Branch, curves: SpeedCurves) -> Told:
+def loads(branch: Branch, curves: SpeedCurves, share: Share = unheard) -> Told:
     """Of every motion of a branch, with as many harmonics as it needs; with its own where these lead astray."""
     start, frequencies = branch.coefficients(), branch.frequencies[branch.index]
-    told = curves.told(frequencies, start)[0]
+    told = curves.told(frequencies, start, share)[0]
     astray = np.flatnonzero(np.isinf(told.left_out))
     if not len(astray):
         return told

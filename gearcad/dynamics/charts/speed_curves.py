@@ -19,6 +19,7 @@ from gearcad.dynamics.response.driven import Driven
 from gearcad.dynamics.response.flexibility import told_by
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.response.resolved import Motions, Resolution
+from gearcad.progress import Share, unheard
 
 __all__ = ["HIGHEST_SOUGHT", "LEFT_OUT", "MOST_ORDERS", "SpeedCurves", "Told"]
 
@@ -224,13 +225,16 @@ class SpeedCurves(Driven):
 
     # ------------------------------------------------------------------ what is told of them
 
-    def told(self, frequencies: Floats, start: Complexes | None = None) -> tuple[Told, Floats]:
+    def told(self, frequencies: Floats, start: Complexes | None = None, share: Share = unheard) -> tuple[Told, Floats]:
         """Loads at frequencies (s,), and frequencies (x,) of resonances between these that a chart would not show."""
+        done = 0
         order, parts, narrow = [np.zeros(0, np.intp)], [], [np.zeros(0)]
         for which, motions, left in self.motions(frequencies, start):
             parts.append(Told.of(self.loads(motions), frequencies[which], left))
             narrow.append(self._narrow(motions, frequencies))
             order.append(which)
+            done += len(which)
+            share(done / len(frequencies))
         return Told.joined(*parts).at(np.argsort(np.concatenate(order))), np.concatenate(narrow)
 
     def curves(self, told: Told) -> Floats:

@@ -23,6 +23,7 @@ from gearcad.dynamics.response.notices import instability
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.trains.system import System
 from gearcad.errors import ParameterError, SolverError, as_choice
+from gearcad.progress import Share, unheard
 
 __all__ = ["Branch", "sweep", "trace"]
 
@@ -133,7 +134,9 @@ def sweep(
     return trace(system, excitation, frequencies, harmonics=harmonics).sweep(direction)
 
 
-def trace(system: System, excitation: Excitation, frequencies: ArrayLike, *, harmonics: int = 16) -> Branch:
+def trace(
+    system: System, excitation: Excitation, frequencies: ArrayLike, *, harmonics: int = 16, share: Share = unheard
+) -> Branch:
     """The branch of periodic motions over rising frequencies (1/s), from the lowest to the highest.
 
     Motions of twice the period, and branches that do not hang together with the one at the lowest frequency, are not looked
@@ -146,7 +149,7 @@ def trace(system: System, excitation: Excitation, frequencies: ArrayLike, *, har
     balance = Balance(system, excitation, harmonic_orders(excitation, harmonics))
     begin = periodic_response(system, excitation, speeds[:1], harmonics=harmonics, stability=False)
     omegas = speeds * excitation.fundamental
-    arc = follow(balance, both_sides(begin.approach_coefficients)[0], float(omegas[0]), float(omegas[-1]))
+    arc = follow(balance, both_sides(begin.approach_coefficients)[0], float(omegas[0]), float(omegas[-1]), share)
     branch = _crossed(arc, speeds)
     missing = np.setdiff1d(speeds, branch.frequencies)
     if len(missing):

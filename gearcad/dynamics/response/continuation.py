@@ -11,6 +11,7 @@ import numpy as np
 from gearcad.arrays import Complexes, Floats, Indices
 from gearcad.dynamics.response.balance import TOLERANCE, Balance, real_course
 from gearcad.errors import SolverError
+from gearcad.progress import Share, unheard
 
 __all__ = ["Arc", "follow"]
 
@@ -53,7 +54,7 @@ class Arc:
         return which[found], np.array(runs, np.intp)[found], approach[found]
 
 
-def follow(balance: Balance, approach: Complexes, low: float, high: float) -> Arc:
+def follow(balance: Balance, approach: Complexes, low: float, high: float, share: Share = unheard) -> Arc:
     """The branch from the motion near `approach` (q, m) at `low` to beyond `high`. Raises SolverError where it ends before."""
     (started,), (found,) = balance.solve(approach[None], np.array([low]))
     if not found:
@@ -77,6 +78,7 @@ def follow(balance: Balance, approach: Complexes, low: float, high: float) -> Ar
         direction = _tangent(balance, state, scales, direction)
         points.append(((state * scales)[:-1].reshape(approach.shape), float((state * scales)[-1].real)))
         step = min(longest, step * 1.5) if needed <= 4 else step
+        share(max((points[-1][1] - low) / (high - low), len(points) / _MOST_POINTS))
     if points[-1][1] < low:
         raise SolverError("the branch of periodic motions turns back to the lowest speed: begin lower")
     return Arc(balance, tuple(_with_folds(balance, points, scales)))

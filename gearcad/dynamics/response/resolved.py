@@ -6,6 +6,7 @@ quasi-static motion needs few steps at low speed, where that is nearly all. SI u
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -99,15 +100,13 @@ class Resolution(Driven):
         course = np.asarray(np.linalg.solve(matrix, right[:, :, None])[:, :, 0], float)
         return self._spectrum(course)[: self.orders + 1]
 
-    def solve(self, omega: Floats, start: Complexes | None = None) -> list[Motions]:
+    def solve(self, omega: Floats, start: Complexes | None = None) -> Iterator[Motions]:
         """At frequencies of the common period (s,), from coefficients (s, q, m) if given; block by block."""
         count, size = self.system.mesh.shape[1], self.system.size
         rows = count + self.system.inertias.shape[1] + self.system.shaft_torques.shape[1]
         block = max(1, _NUMBERS // (2 * (self.orders + 1) * (count * (60 + 2 * rows) + 2 * size)))
-        return [
-            self._solve(omega[i : i + block], None if start is None else start[i : i + block])
-            for i in range(0, len(omega), block)
-        ]
+        for i in range(0, len(omega), block):
+            yield self._solve(omega[i : i + block], None if start is None else start[i : i + block])
 
     def _solve(self, omega: Floats, start: Complexes | None) -> Motions:
         orders = np.arange(2 * self.orders + 1)

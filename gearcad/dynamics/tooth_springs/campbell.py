@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
@@ -46,8 +46,12 @@ def campbell(
     sampling: float = 200000.0,
     highest_frequency: float = HIGHEST_FREQUENCY,
     start: Start | None = None,
+    counted: Callable[[int, int], None] = lambda _done, _count: None,
 ) -> CampbellStudy:
-    """The motion at each speed (rpm, rising, not negative) from the same start, on all cores; each speed by itself."""
+    """The motion at each speed (rpm, rising, not negative) from the same start, on all cores; each speed by itself.
+
+    `counted` hears how many speeds are done, and of how many.
+    """
     checked = _checked_speeds(np.atleast_1d(np.asarray(speeds, float)).tolist())
     checked_samples(duration, sampling)
     require_number("highest_frequency", highest_frequency, "Hz", above=0)
@@ -68,8 +72,15 @@ def campbell(
         )
 
     # Integration and FFT leave the interpreter to other threads: no motion is held longer than its row takes.
+    rows: list[_SpeedRow] = []
     with ThreadPoolExecutor(_cores()) as pool:
-        rows = list(pool.map(row, checked))
+        try:
+            for done, found in enumerate(pool.map(row, checked)):
+                rows.append(found)
+                counted(min(done + 1, len(checked) - 1), len(checked))
+        except BaseException:
+            pool.shutdown(cancel_futures=True)  # what is raised, such as Ctrl-C, waits for none that has not begun
+            raise
     columns = {name: np.array(values) for name, values in zip(_SpeedRow._fields, zip(*rows, strict=True), strict=True)}
     frequency = np.arange(columns["approach"].shape[1]) * (sampling / checked_samples(duration, sampling))
     arrays = {"speeds": np.array(checked), "frequency": frequency, **columns}
