@@ -9,11 +9,11 @@ import click
 
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
+from gearcad.cli.side_by_side import beside_lines
 
 if TYPE_CHECKING:
     from gearcad.dynamics.charts.chart import KvChart
     from gearcad.dynamics.pair_result import ContactStudy
-    from gearcad.dynamics.side_by_side import SideBySide
     from gearcad.dynamics.train_result import TrainStudy
     from gearcad.dynamics.trains.eigenmodes import NaturalModes
     from gearcad.jobs.dynamics import Study
@@ -59,7 +59,7 @@ def _lines(study: Study) -> list[str]:
     if isinstance(study, ModalStudy):
         return _mode_lines(study.modes)
     if isinstance(study, SideBySide):
-        return _beside_lines(study)
+        return beside_lines(study)
     if not isinstance(study, PairStudy):
         return _train_lines(study)
     lines = [
@@ -101,29 +101,6 @@ def _peaks(study: TrainStudy, chart: KvChart, mesh: int) -> str:
     peaks = sorted(chart.peaks(mesh), key=lambda peak: -peak.factor)[:_MOST_PEAKS]
     listed = ", ".join(f"{peak.factor:.3f} at {float(study.rpm(peak.frequency)):.5g} rpm" for peak in peaks)
     return listed or "no resonance in the chart"
-
-
-def _beside_lines(study: SideBySide) -> list[str]:
-    """The greatest loads of each study, and the highest resonances of all."""
-    wide = max(len(label) for label in (study.what, *study.labels))
-    lines = []
-    for mesh in study.mesh_names:
-        lines.append(f"K_v of {mesh}")
-        lines += [f"  {label:<{wide}}  {_resonance_line(study, mesh, at)}" for at, label in enumerate(study.labels)]
-    for shaft in study.shaft_names:
-        lines.append(f"overload of {shaft}")
-        own = [each for each in study.shaft_overloads if each.shaft == shaft]
-        lines += [f"  {each.label:<{wide}}  {each.factor:.3f} at {each.speed:.5g} rpm" for each in own]
-    return lines
-
-
-def _resonance_line(study: SideBySide, mesh: str, at: int) -> str:
-    """The resonances of a mesh in one study, under those of the others; else its greatest K_v."""
-    shown = [each.shown[at] for each in study.resonances if each.mesh == mesh]
-    if not any(shown):
-        (found,) = (each for each in study.greatest if each.mesh == mesh and each.label == study.labels[at])
-        return f"at most {found.factor:.3f}, at {found.speed:.5g} rpm: no resonance in the chart"
-    return " ".join(f"{'' if peak is None else f'{peak.factor:.3f} at {peak.speed:.5g} rpm':<21}" for peak in shown).rstrip()
 
 
 def _contact_lines(study: ContactStudy) -> list[str]:

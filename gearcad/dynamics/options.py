@@ -60,6 +60,10 @@ class DynamicsOptions:
     that of K_v by ISO 6336-1 and, with `tooth_errors` "on", of random pitch deviations of the pinions' teeth, drawn with
     `seed`.
 
+    Of trains with several models side by side: the train runs under load from `operating_from` to `operating_to` (rpm of the
+    first pinion; None: from the first speed of the chart up to the train's own, or else to the last of the chart), and a model
+    is enough if its loads agree there within `level_tolerance` (part of the load at rest).
+
     Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh; "auto" is plane
     strain for spur gears, whose teeth come into mesh by and by under load, and potential energy for helical ones, strain energy
     where one of these is a ring.
@@ -80,6 +84,9 @@ class DynamicsOptions:
     accuracy_grade: Annotated[int | None, Whole(0, 12), Words("accuracy grade", "", "ISO 1328-1")] = None
     tooth_errors: Annotated[str, Choice(tuple(_SWITCH)), Words("whether teeth have deviations")] = "off"
     seed: Annotated[int, Whole(0, 2**32 - 1), Words("seed of the deviations")] = 0
+    operating_from: Annotated[float | None, _SPEED._replace(least=0.0), Words("least operating speed", "n_1")] = None
+    operating_to: Annotated[float | None, _SPEED, Words("greatest operating speed", "n_1")] = None
+    level_tolerance: Annotated[float, Range("", 1e-4, 1.0), Words("how far models may differ, in parts of the load")] = 0.05
     model: Annotated[str, Member(PairModel), Words("what the teeth are: mesh or contact"), OF_PAIRS] = PairModel.MESH.value
     stiffness: Annotated[str, Words("method of the mesh stiffness"), OF_PAIRS] = AUTO
     damping_ratio: Annotated[float, Range("", 0.0, 1.0, ends="()"), Words("damping ratio of the pair", "ζ"), OF_PAIRS] = 0.07
@@ -106,6 +113,9 @@ class DynamicsOptions:
             raise GeometryError(f"{role.value}_bearing_stiffness", stiffness, permitted + "bearings, or neither", "N/µm")
         if self.speed_from is not None and self.speed_to is not None and self.speed_to <= self.speed_from:
             raise GeometryError("speed_to", self.speed_to, f"must be above speed_from, {self.speed_from:g} rpm", "rpm")
+        if self.operating_from is not None and self.operating_to is not None and self.operating_to <= self.operating_from:
+            permitted = f"must be above operating_from, {self.operating_from:g} rpm"
+            raise GeometryError("operating_to", self.operating_to, permitted, "rpm")
         if self.duration * self.sampling > 5e7:
             permitted = f"must be at most {5e7 / self.sampling:g} s at this sampling: 50 million samples a speed"
             raise ParameterError("duration", self.duration, permitted, "s")

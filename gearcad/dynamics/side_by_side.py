@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.dynamics.same import Peak, joined_peaks, peaks_of
+from gearcad.dynamics.same import Peak, joined_modes, joined_peaks, peaks_of
 from gearcad.dynamics.tables import Tables, stacked
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.errors import ParameterError
@@ -129,6 +129,17 @@ class SideBySide:
             found += [SameResonance(name, group) for group in kept]
         return tuple(found)
 
+    @cached_property
+    def natural_frequencies(self) -> tuple[tuple[float | None, ...], ...]:
+        """Of elastic modes in 1/s, one that moves alike of each study; None where a study has none."""
+        return tuple(
+            tuple(
+                None if mode is None else float(study.modes.circular[mode])
+                for study, mode in zip(self.studies, group, strict=True)
+            )
+            for group in joined_modes(self.studies, self.reference)
+        )
+
     # ------------------------------------------------------------------ documents
 
     @property
@@ -156,6 +167,7 @@ class SideBySide:
             "greatest": [each._asdict() for each in self.greatest],
             "shaft_overloads": [each._asdict() for each in self.shaft_overloads],
             "resonances": [self._resonance_dict(each) for each in self.resonances],
+            "natural_frequencies": [dict(zip(self.labels, each, strict=True)) for each in self.natural_frequencies],
             "studies": [study.to_dict() for study in self.studies],
             "warnings": list(self.warnings),
             "notices": [notice.to_dict() for notice in self.notices],

@@ -25,7 +25,7 @@ from gearcad.progress import Share, unheard
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 
-__all__ = ["study_modes", "study_train"]
+__all__ = ["chart_speeds", "study_modes", "study_train"]
 
 
 _BEYOND = 1.5
@@ -51,6 +51,7 @@ def study_train(
     train: Train,
     options: DynamicsOptions | None = None,
     *,
+    speeds: Floats | None = None,
     excitation: Excitation | None = None,
     method_b: DynamicFactor | None = None,
     bearings: PairOnBearings | None = None,
@@ -59,9 +60,9 @@ def study_train(
 ) -> TrainStudy:
     """Modes, charts and the course at the train's speed (or at its highest resonance).
 
-    `excitation` is that of the train's own meshes unless given; `method_b` is K_v by ISO 6336-1 of the first mesh.
-    With `bearings` the charts are those of the same mesh between gears that travel as well. `tell` hears what is being done,
-    `share` how much of the chart is.
+    `speeds` (rpm, rising) are those of the chart, at least, in place of the options'. `excitation` is that of the train's own
+    meshes unless given; `method_b` is K_v by ISO 6336-1 of the first mesh. With `bearings` the charts are those of the same
+    mesh between gears that travel as well. `tell` hears what is being done, `share` how much of the chart is.
     Raises ParameterError, GeometryError and SolverError.
     """
     if not train.meshes:
@@ -73,7 +74,7 @@ def study_train(
     modes = natural_modes(train, count=options.frequencies)
     charted = system(train) if bearings is None else bearings.system()
     excitation = excitation or _own_excitation(train, options)
-    frequencies, asked = _frequencies(train, options, modes)
+    frequencies, asked = _frequencies(train, chart_speeds(train, options, modes) if speeds is None else speeds)
     tell("chart")
     over = over_speed(charted, excitation, frequencies, harmonics=options.harmonics, method_b=method_b, share=share)
     tell("course")
@@ -99,14 +100,14 @@ def _own_excitation(train: Train, options: DynamicsOptions) -> Excitation:
     return train_excitation(train, grade=options.accuracy_grade if options.errors else None, seed=options.seed)
 
 
-def _frequencies(train: Train, options: DynamicsOptions, modes: NaturalModes) -> tuple[Floats, float]:
+def _frequencies(train: Train, speeds: Floats) -> tuple[Floats, float]:
     """Tooth frequencies of the first mesh (1/s) for the chart, and at the speed asked for, which is among them if it can be."""
     frequency = math.pi * train.meshes[0].teeth / 30
-    charted, asked = _speeds(train, options, modes) * frequency, abs(train.speed) * frequency
+    charted, asked = speeds * frequency, abs(train.speed) * frequency
     return np.union1d(charted, asked) if charted[0] <= asked <= charted[-1] else charted, asked
 
 
-def _speeds(train: Train, options: DynamicsOptions, modes: NaturalModes) -> Floats:
+def chart_speeds(train: Train, options: DynamicsOptions, modes: NaturalModes) -> Floats:
     """Of the chart (rpm of the first pinion)."""
     last = options.speed_to
     if last is None:

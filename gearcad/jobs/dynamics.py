@@ -12,6 +12,8 @@ import numpy as np
 
 from gearcad.check.options import CheckOptions
 from gearcad.designs import Design, Inputs, PairDesign, TrainDesign
+from gearcad.dynamics.levels.result import finest_first
+from gearcad.dynamics.levels.study import study_levels
 from gearcad.dynamics.options import DynamicsOptions, PairModel
 from gearcad.dynamics.pair import study_contact, study_pair
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
@@ -70,6 +72,10 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
         if isinstance(design, TrainDesign):
             if not design.train.meshes:
                 return study_modes(design.train, design.dynamics)
+            if design.other_models:
+                every = finest_first(design.models)
+                agenda = Agenda(progress, {f"{each.value}: {step}": took for each in every for step, took in _TRAIN.items()})
+                return study_levels(design.train, design.models, design.dynamics, tell=agenda)
             agenda = Agenda(progress, _TRAIN)
             return study_train(design.train, design.dynamics, tell=agenda, share=agenda.within("chart"))
         return _of_pair(design, progress)

@@ -9,10 +9,12 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.dynamics.charts.chart import KvChart
+from gearcad.dynamics.levels.operating import OperatingRange
+from gearcad.dynamics.levels.result import LevelStudy
 from gearcad.dynamics.side_by_side import SideBySide
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.plots.labels import plain
-from gearcad.plots.paper import FIGURE_INCHES, SERIES, legend_above, new_figure, prepared
+from gearcad.plots.paper import FIGURE_INCHES, MARKED, SERIES, legend_above, new_figure, prepared
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -85,9 +87,18 @@ def _panels(
                     panel.plot(study.speeds, values, style, color=colour, linewidth=1.3, label=words_of)
                     shown.append(values)
         panel.set_xlim(min(speeds), max(speeds))
+        if isinstance(of, LevelStudy):
+            _mark_range(panel, of.over)
         _set_scale(panel, np.concatenate(shown))
     legend_above(panels[0], _ROW)
     return drawn
+
+
+def _mark_range(axes: Axes, over: OperatingRange) -> None:
+    """Both ends of the operating range, where the chart goes on."""
+    for end in (over.first, over.last):
+        if axes.get_xlim()[0] < end < axes.get_xlim()[1]:
+            axes.axvline(end, color=MARKED, linewidth=1.0, linestyle="--")
 
 
 def _set_scale(axes: Axes, values: Floats) -> None:

@@ -5,15 +5,15 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from gearcad.designs.design import Design, DesignKind, require_plain_name
 from gearcad.designs.files import Where
 from gearcad.dynamics.options import OF_PAIRS, DynamicsOptions
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
-from gearcad.dynamics.trains.train import Train
-from gearcad.errors import InputError, SpecError, format_number, shown
+from gearcad.dynamics.trains.train import Train, TrainModel
+from gearcad.errors import InputError, ParameterError, SpecError, as_choice, format_number, shown
 from gearcad.schema import schema_of
 
 if TYPE_CHECKING:
@@ -33,7 +33,26 @@ class TrainDesign(Design):
     elsewhere: ClassVar[str] = "a train is for `gearcad dynamics`"
 
     train: Train
+    other_models: tuple[TrainModel, ...] = ()
+    """Beside the train's own: all of them are studied side by side."""
     dynamics: DynamicsOptions = field(default=DynamicsOptions())
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        others = tuple(as_choice("model", each, TrainModel) for each in self.other_models)
+        object.__setattr__(self, "other_models", others)
+        twice = next((each for number, each in enumerate(self.models) if each in self.models[:number]), None)
+        if twice is not None:
+            raise ParameterError("model", twice, "stands twice in the list: models side by side must differ")
+        if others and not self.train.meshes:
+            listed = ", ".join(each.value for each in self.models)
+            permitted = "must be one model for a train without meshes: there is no load over speed to compare"
+            raise ParameterError("model", listed, permitted)
+
+    @property
+    def models(self) -> tuple[TrainModel, ...]:
+        """What is studied: the model of `train` first."""
+        return (self.train.model, *self.other_models)
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
@@ -42,16 +61,18 @@ class TrainDesign(Design):
             if table not in ("train", "dynamics"):
                 raise SpecError(f"{where(table)}: [{shown(table)}] cannot stand beside [train]: permitted is [dynamics]")
         reader = _Reader(where)
-        train = reader.train(tables["train"], default_name)
-        return cls(name=train.name, train=train, dynamics=reader.dynamics(tables.get("dynamics", {})))
+        train, others = reader.train(tables["train"], default_name)
+        dynamics = reader.dynamics(tables.get("dynamics", {}))
+        with reader.blame("train"):
+            return cls(name=train.name, train=train, other_models=others, dynamics=dynamics)
 
 
 @dataclass(frozen=True)
 class _Reader:
     where: Where
 
-    def train(self, content: Any, default_name: str) -> Train:
-        """The train of [train] and its parts."""
+    def train(self, content: Any, default_name: str) -> tuple[Train, tuple[TrainModel, ...]]:
+        """The train of [train] and its parts, and the models beside its own."""
         given = self._table(content, "train", (*schema_of(Train), *_LISTS))
         for plural in _LISTS.values():
             if plural in given:
@@ -60,15 +81,21 @@ class _Reader:
         parts: dict[str, Any] = {plural: self._parts(given.pop(key, []), key) for key, plural in _LISTS.items()}
         name = given.pop("name", default_name)
         given["torques"] = self._torques(given.pop("torques", {}))
-        with self._blame("train"):
+        with self.blame("train"):
             require_plain_name(name)
-            return Train(name=name, **_numbers(Train, given), **parts)
+            models = _models(given.get("model"))
+            if models:
+                given["model"] = models[0]
+            train = Train(name=name, **_numbers(Train, given), **parts)
+            for model in models[1:]:
+                replace(train, model=model)  # whether the train can be of this model, too
+            return train, models[1:]
 
     def dynamics(self, content: Any) -> DynamicsOptions:
         """The options of [dynamics]."""
         permitted = tuple(key for key, field in schema_of(DynamicsOptions).items() if OF_PAIRS not in field.marks)
         chosen = self._table(content, "dynamics", permitted)
-        with self._blame("dynamics"):
+        with self.blame("dynamics"):
             return DynamicsOptions(**_numbers(DynamicsOptions, chosen))
 
     def _parts(self, listed: Any, key: str) -> tuple[Any, ...]:
@@ -80,7 +107,7 @@ class _Reader:
         for number, each in enumerate(listed):
             owner = f"train.{key}[{number}]"
             given = self._table(each, owner, tuple(schema))
-            with self._blame(owner, str(given.get("name", ""))):
+            with self.blame(owner, str(given.get("name", ""))):
                 missing = [name for name, field in schema.items() if field.required and name not in given]
                 if missing:
                     raise SpecError(f"{self.where(owner)}: {missing[0]} is missing in [[train.{key}]]")
@@ -106,7 +133,7 @@ class _Reader:
         return dict(content)
 
     @contextmanager
-    def _blame(self, owner: str, name: str = "") -> Iterator[None]:
+    def blame(self, owner: str, name: str = "") -> Iterator[None]:
         """Turn an InputError about a part into a SpecError about the line that holds it."""
         try:
             yield
@@ -116,6 +143,15 @@ class _Reader:
             key = shown(f"{owner}.{field}" if not name else f"{name}.{field}")
             text = f"{self.where(f'{owner}.{field}')}: {key} = {format_number(error.value)}{unit}: {error.permitted}"
             raise SpecError(text, f"{owner}.{field}") from error
+
+
+def _models(given: Any) -> tuple[TrainModel, ...]:
+    """Those of a list; none of a single word. Raises ParameterError."""
+    if not isinstance(given, list):
+        return ()
+    if not given:
+        raise ParameterError("model", given, f"must hold one at least of {', '.join(each.value for each in TrainModel)}")
+    return tuple(as_choice("model", each, TrainModel) for each in given)
 
 
 def _numbers(kind: type[DataclassInstance], given: Mapping[str, Any]) -> dict[str, Any]:

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearcad.arrays import Bools, Floats
+from gearcad.arrays import Bools, Complexes, Floats
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.response.flexibility import StaticState
 from gearcad.dynamics.trains.system import System
 
-__all__ = ["FELT", "LEAST_RATIO", "Resonances", "quasi_static_forces", "resonances", "settled"]
+__all__ = ["FELT", "LEAST_RATIO", "Resonances", "quasi_static_forces", "quasi_static_spectrum", "resonances", "settled"]
 
 
 LEAST_RATIO = 5e-4
@@ -63,8 +63,8 @@ def settled(system: System, static: StaticState, stiffness: Floats, errors: Floa
     return np.asarray(np.linalg.solve(matrix, right[:, :, None])[:, :, 0], float)
 
 
-def quasi_static_forces(system: System, excitation: Excitation, static: StaticState) -> Floats:
-    """(q, m) in N: what drives vibrations of each order of the common period, or any higher one, at the least speeds."""
+def quasi_static_spectrum(system: System, excitation: Excitation, static: StaticState) -> Complexes:
+    """(q, m) in N: amplitudes of what drives vibrations of each order of the common period at the least speeds."""
     count = _SAMPLES * max(excitation.orders)
     stiffness, errors = (
         excitation.ratios(2 * np.pi * np.arange(count) / count) * system.stiffness,
@@ -72,6 +72,12 @@ def quasi_static_forces(system: System, excitation: Excitation, static: StaticSt
     )
     approach = settled(system, static, stiffness, errors)
     forces = system.stiffness * approach - stiffness * (approach - errors)
-    spectrum = 2 * np.abs(np.fft.rfft(forces, axis=0, norm="forward"))
+    spectrum = 2 * np.fft.rfft(forces, axis=0, norm="forward")
     spectrum[0] = 0.0
+    return np.asarray(spectrum, complex)
+
+
+def quasi_static_forces(system: System, excitation: Excitation, static: StaticState) -> Floats:
+    """(q, m) in N: what drives vibrations of each order of the common period, or any higher one, at the least speeds."""
+    spectrum = np.abs(quasi_static_spectrum(system, excitation, static))
     return np.asarray(np.maximum.accumulate(spectrum[::-1], axis=0)[::-1], float)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial, singledispatch
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from gearcad.dynamics.levels.result import LevelStudy
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.side_by_side import SideBySide
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
@@ -22,8 +23,15 @@ from gearcad.plots.speeds import (
 from gearcad.plots.trains import MOST_SHAPES, energies_inches, plot_energies, plot_shapes, shapes_inches
 from gearcad.report.check.figures import Picture, figure_address, pair_picture, picture_address
 from gearcad.report.check.tables import gear_rows, pair_rows
+from gearcad.report.dynamics.levels import deciding_table, level_resonance_table, unjudged_table, verdict_table
 from gearcad.report.dynamics.rows import contact_rows, pair_dynamics_rows
-from gearcad.report.dynamics.side_by_side import beside_figures, greatest_table, overload_table, resonance_table
+from gearcad.report.dynamics.side_by_side import (
+    beside_figures,
+    frequency_table,
+    greatest_table,
+    overload_table,
+    resonance_table,
+)
 from gearcad.report.dynamics.tables import (
     MOST_PEAKS,
     inertia_table,
@@ -103,20 +111,39 @@ def _train_html(study: TrainStudy, name: str) -> str:
 
 @dynamics_html.register
 def _side_by_side_html(study: SideBySide, name: str) -> str:
+    return page_html("dynamics_side_by_side.html", name, **_beside(study))
+
+
+@dynamics_html.register
+def _levels_html(study: LevelStudy, name: str) -> str:
     first = study.studies[study.reference]
-    train = first.train
     return page_html(
-        "dynamics_side_by_side.html",
+        "dynamics_levels.html",
         name,
-        of=study,
-        first=first,
-        parts=[inertia_table(first), *([shaft_table(first)] if train.shafts else []), mesh_table(first)],
-        greatest=greatest_table(study),
-        overloads=overload_table(study),
-        resonances=resonance_table(study),
-        figures=beside_figures(study),
-        warnings=study.warnings,
+        **_beside(study),
+        verdicts=verdict_table(study),
+        level_resonances=level_resonance_table(study),
+        deciding=deciding_table(study),
+        unjudged=unjudged_table(study),
+        modes=mode_table(first.modes),
+        shape_figures=_shape_figures(first),
     )
+
+
+def _beside(study: SideBySide) -> dict[str, Any]:
+    """What both pages of several studies show."""
+    first = study.studies[study.reference]
+    return {
+        "of": study,
+        "first": first,
+        "parts": [inertia_table(first), *([shaft_table(first)] if first.train.shafts else []), mesh_table(first)],
+        "greatest": greatest_table(study),
+        "overloads": overload_table(study),
+        "resonances": resonance_table(study),
+        "frequencies": frequency_table(study),
+        "figures": beside_figures(study),
+        "warnings": study.warnings,
+    }
 
 
 @dynamics_html.register

@@ -11,7 +11,7 @@ from gearcad.report.check.figures import Picture, figure_address
 from gearcad.report.dynamics.tables import WordTable, factor_text
 from gearcad.report.sentences import sentences
 
-__all__ = ["beside_figures", "greatest_table", "overload_table", "resonance_table"]
+__all__ = ["beside_figures", "frequency_table", "greatest_table", "overload_table", "resonance_table"]
 
 _NONE = "–"  # an en dash where there is no value
 
@@ -61,3 +61,12 @@ def beside_figures(of: SideBySide) -> list[Picture]:
         )
         for title, plot, macro, panels in drawn
     ]
+
+
+def frequency_table(of: SideBySide) -> WordTable:
+    """Natural frequencies in 1/s, those of modes that move alike in a row."""
+    rows = [
+        (str(number), *(_NONE if each is None else short(each) for each in group))
+        for number, group in enumerate(of.natural_frequencies, 1)
+    ]
+    return WordTable(("", *of.labels), rows)

@@ -1,0 +1,38 @@
+"""What the screen shows of a train several times side by side."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gearcad.dynamics.side_by_side import SideBySide
+
+__all__ = ["beside_lines"]
+
+
+def beside_lines(study: SideBySide) -> list[str]:
+    """The greatest loads of each study, and the highest resonances of all."""
+    from gearcad.dynamics.levels.result import LevelStudy
+
+    wide = max(len(label) for label in (study.what, *study.labels))
+    lines = [f"natural frequencies in 1/s, those that move alike below each other; {study.what}:"]
+    for at, label in enumerate(study.labels):
+        shown = ("–" if group[at] is None else f"{group[at]:.6g}" for group in study.natural_frequencies)
+        lines.append(f"  {label:<{wide}}  {' '.join(f'{each:<9}' for each in shown)}".rstrip())
+    for mesh in study.mesh_names:
+        lines.append(f"K_v of {mesh}")
+        lines += [f"  {label:<{wide}}  {_resonance_line(study, mesh, at)}" for at, label in enumerate(study.labels)]
+    for shaft in study.shaft_names:
+        lines.append(f"overload of {shaft}")
+        own = [each for each in study.shaft_overloads if each.shaft == shaft]
+        lines += [f"  {each.label:<{wide}}  {each.factor:.3f} at {each.speed:.5g} rpm" for each in own]
+    return [*lines, *study.sentences] if isinstance(study, LevelStudy) else lines
+
+
+def _resonance_line(study: SideBySide, mesh: str, at: int) -> str:
+    """The resonances of a mesh in one study, under those of the others; else its greatest K_v."""
+    shown = [each.shown[at] for each in study.resonances if each.mesh == mesh]
+    if not any(shown):
+        (found,) = (each for each in study.greatest if each.mesh == mesh and each.label == study.labels[at])
+        return f"at most {found.factor:.3f}, at {found.speed:.5g} rpm: no resonance in the chart"
+    return " ".join(f"{'' if peak is None else f'{peak.factor:.3f} at {peak.speed:.5g} rpm':<21}" for peak in shown).rstrip()
