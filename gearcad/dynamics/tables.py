@@ -11,7 +11,7 @@ from gearcad.arrays import Bools, Floats, Wholes
 from gearcad.dynamics.charts.findings import Charts
 from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.tooth_springs.history import TimeHistory
-from gearcad.dynamics.trains.eigenmodes import NaturalModes
+from gearcad.dynamics.trains.eigenmodes import ComponentModes, NaturalModes
 from gearcad.mesh_cycle import MeshCycle
 
 __all__ = [
@@ -19,8 +19,10 @@ __all__ = [
     "Tables",
     "campbell_columns",
     "chart_columns",
+    "component_columns",
     "cycle_columns",
     "history_columns",
+    "modal_tables",
     "mode_columns",
     "named_columns",
     "spectrum_columns",
@@ -73,6 +75,7 @@ def mode_columns(modes: NaturalModes) -> Columns:
         "frequency (1/s)": modes.circular,
         **named_columns("met_at", modes.meshes, modes.rpm, "rpm"),
         **named_columns("shape", modes.inertias, modes.shape, "rad"),
+        **named_columns("unit_shape", modes.inertias, modes.unit_shape),
         **named_columns("approach", modes.meshes, modes.approach, "mm"),
         **named_columns("kinetic_inertias", modes.inertias, modes.kinetic_inertias),
         **named_columns("kinetic_shafts", modes.shafts, modes.kinetic_shafts),
@@ -80,6 +83,25 @@ def mode_columns(modes: NaturalModes) -> Columns:
         **named_columns("potential_meshes", modes.meshes, modes.potential_meshes),
         "most_in": [" and ".join(names) for names in modes.leading_parts],
     }
+
+
+def component_columns(modes: ComponentModes) -> Columns:
+    """Modes of the lines of which the model "modes" is made."""
+    return {
+        "component_mode": np.arange(1, len(modes.circular) + 1),
+        "frequency (Hz)": modes.circular / (2 * np.pi),
+        "frequency (1/s)": modes.circular,
+        **named_columns("shape", modes.inertias, modes.shape, "rad"),
+        **named_columns("middle", modes.shafts, modes.middle, "rad"),
+    }
+
+
+def modal_tables(modes: NaturalModes) -> Tables:
+    """Natural modes, and those of the components where the model has some."""
+    found: Tables = {"modes": mode_columns(modes)}
+    if modes.component_modes is not None:
+        found["component modes"] = component_columns(modes.component_modes)
+    return found
 
 
 def cycle_columns(cycle: MeshCycle) -> Columns:

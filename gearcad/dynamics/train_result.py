@@ -27,7 +27,7 @@ from gearcad.dynamics.charts.findings import (
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.tables import Columns, Tables, chart_columns, mode_columns, named_columns
+from gearcad.dynamics.tables import Columns, Tables, chart_columns, modal_tables, named_columns
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train, TrainModel
@@ -105,7 +105,7 @@ class ModalStudy:
 
     def tables(self) -> Tables:
         """As the CSV files have them."""
-        return {"modes": mode_columns(self.modes)}
+        return modal_tables(self.modes)
 
 
 def _missed(train: Train, modes: NaturalModes) -> tuple[Notice, ...]:
@@ -256,6 +256,6 @@ class TrainStudy:
         up = self.up
         return {
             "chart": chart_columns(self.charts),
-            "modes": mode_columns(self.modes),
+            **modal_tables(self.modes),
             "course": self.course.columns(up.mesh_names, up.shaft_names, self.train.meshes[0].teeth),
         }

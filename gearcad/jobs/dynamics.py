@@ -49,7 +49,7 @@ _PAIR = {
     PairModel.CONTACT: {"inertias": 1.0, "mesh stiffness": 5.0, "campbell": 40.0, "history": 1.0},
 }
 
-_TABLES = ("chart", "modes", "course", "mesh stiffness", "campbell", "history", "spectrum")
+_TABLES = ("chart", "modes", "component modes", "course", "mesh stiffness", "campbell", "history", "spectrum")
 """Of any result."""
 
 _FIGURES = (

@@ -77,6 +77,18 @@ def test_component_modes_of_the_paper() -> None:
     assert np.prod(first) > 0 > np.prod(second)
     assert abs(lines.system.inertias[2, 1]) == pytest.approx(2.1184, abs=6e-5)
     # As printed, without the sign and decimal points that were lost.
+    found = modes.component_modes
+    assert found is not None and found.circular == pytest.approx(np.sqrt(lines.system.squares))
+    # The rows of (2.7) are modes, its columns the middle of the first shaft and its gear; the last is the second gear.
+    assert [found.middle[1, 0], found.shape[1, 0]] == pytest.approx([-17.42, 5.06], abs=6e-3)
+    assert [found.middle[0, 0], found.shape[0, 0]] == pytest.approx([6.16, 11.17], abs=6e-3)
+    assert found.shape[2].tolist() == pytest.approx([0, 2.12], abs=6e-3)
+    # A shaft clamped at one end with an inertia J at the other: beta tan beta = J_s/J, its middle turns as sin(beta/2).
+    stiffness, inertia = train.shafts[0].stiffness, train.shafts[0].inertia
+    beta = found.circular[:2] * math.sqrt(inertia / stiffness)
+    assert beta * np.tan(beta) == pytest.approx([inertia / 0.0058] * 2, rel=1e-8)
+    assert found.middle[:2, 0] / found.shape[:2, 0] == pytest.approx(np.sin(beta / 2) / np.sin(beta), rel=1e-7)
+    assert natural_modes(one_stage("massless")).component_modes is None
     assert np.abs([*second, *first, lines.system.inertias[2, 1]]) == pytest.approx([17.42, 5.06, 6.16, 11.17, 2.12], abs=6e-3)
 
 
@@ -113,8 +125,7 @@ def test_two_stages(between: float, computed: tuple[float], printed: tuple[float
     modes = natural_modes(two_stages(between))
     assert modes.circular == pytest.approx(computed, abs=0.06)
     assert modes.circular == pytest.approx(printed, abs=0.5)
-    for shape, expected in zip(modes.shape, shapes, strict=True):
-        unit = shape / np.linalg.norm(shape)
+    for unit, expected in zip(modes.unit_shape, shapes, strict=True):
         assert unit * math.copysign(1, unit[2] * expected[2]) == pytest.approx(expected, abs=1e-4)
     isolated = natural_modes(two_stages(between, "isolated"))
     assert isolated.circular == pytest.approx([0, 0, 16542, 16542], abs=0.5)

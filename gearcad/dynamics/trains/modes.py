@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.dynamics.trains.eigenmodes import NaturalModes
+from gearcad.dynamics.trains.components import component_modes
+from gearcad.dynamics.trains.eigenmodes import ComponentModes, NaturalModes, positive
 from gearcad.dynamics.trains.exact import SPLIT, DynamicTrain, dynamic_train, natural_frequencies, natural_shapes
 from gearcad.dynamics.trains.lines import Lines, lines_of
 from gearcad.dynamics.trains.parts import parts_of
@@ -95,6 +96,7 @@ def _line_system_modes(train: Train, count: int, limit: float, places: Floats) -
         kinetic_shafts=_stacked([each[:, None] for each in kinetic], len(omega), 1)[kept, :, 0],
         potential_shafts=(energy * per_square).T[kept],
         potential_meshes=(meshes * per_square).T[kept],
+        components=component_modes(lines) if train.model is TrainModel.MODES else None,
     )
 
 
@@ -190,10 +192,17 @@ def _stacked(each: list[Floats], modes: int, points: int) -> Floats:
     return np.stack(each, axis=1) if each else np.zeros((modes, 0, points))
 
 
-def _natural_modes(train: Train, inertias: tuple[Any, ...], *, omega: Floats, shape: Floats, **arrays: Floats) -> NaturalModes:
+def _natural_modes(
+    train: Train,
+    inertias: tuple[Any, ...],
+    *,
+    omega: Floats,
+    shape: Floats,
+    components: ComponentModes | None = None,
+    **arrays: Floats,
+) -> NaturalModes:
     """The result: signs set, units of the house, and a count of what is missing."""
-    far = np.abs(shape) >= 0.5 * np.abs(shape).max(axis=1, keepdims=True)
-    sign = np.where(shape[np.arange(len(shape)), far.argmax(axis=1)] < 0, -1.0, 1.0)[:, None]
+    sign = positive(shape)[:, None]
     ratios = train.speed_ratios
     per_turn = np.array([abs(ratios[mesh.pinion]) * mesh.teeth for mesh in train.meshes])
     shafts = () if train.model is TrainModel.ISOLATED else train.shafts
@@ -210,5 +219,6 @@ def _natural_modes(train: Train, inertias: tuple[Any, ...], *, omega: Floats, sh
         meshes=tuple(mesh.name for mesh in train.meshes),
         rigid=int((omega == 0).sum()),
         missed=max(0, _count(train, omega[-1] * _NEXT) - len(omega)) if len(omega) and omega[-1] > 0 else 0,
+        component_modes=components,
         **arrays,
     )

@@ -11,6 +11,7 @@ from gearcad.dynamics.levels.result import LevelStudy
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.side_by_side import SideBySide
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
+from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.plots.campbell import plot_campbell
 from gearcad.plots.history import MOTION_INCHES, plot_angles, plot_motion, plot_spectrum
 from gearcad.plots.speeds import (
@@ -34,11 +35,14 @@ from gearcad.report.dynamics.side_by_side import (
 )
 from gearcad.report.dynamics.tables import (
     MOST_PEAKS,
+    WordTable,
+    component_table,
     inertia_table,
     mesh_table,
     mode_table,
     peak_table,
     shaft_table,
+    shape_table,
     speed_table,
 )
 from gearcad.report.page import page_html
@@ -77,9 +81,16 @@ def _modes_html(study: ModalStudy, name: str) -> str:
         of=study,
         parts=[inertia_table(study), *([shaft_table(study)] if study.train.shafts else [])],
         modes=mode_table(study.modes),
+        **_shapes(study.modes),
         shape_figures=_shape_figures(study),
         warnings=study.warnings,
     )
+
+
+def _shapes(modes: NaturalModes) -> dict[str, WordTable | None]:
+    """Tables of shapes: of the natural modes, and of the components of which the model is made."""
+    components = modes.component_modes
+    return {"shapes": shape_table(modes), "components": None if components is None else component_table(components)}
 
 
 def _shape_figures(study: TrainStudy | ModalStudy) -> list[Picture]:
@@ -101,6 +112,7 @@ def _train_html(study: TrainStudy, name: str) -> str:
         parts=[inertia_table(study), *([shaft_table(study)] if train.shafts else []), mesh_table(study)],
         greatest=_said("greatest", study),
         modes=mode_table(modes),
+        **_shapes(modes),
         most=MOST_PEAKS,
         peaks=peak_table(study),
         shape_figures=_shape_figures(study),

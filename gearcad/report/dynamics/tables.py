@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
 from gearcad.dynamics.charts.findings import MetMode
 from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
-from gearcad.dynamics.trains.eigenmodes import NaturalModes
+from gearcad.dynamics.trains.eigenmodes import ComponentModes, NaturalModes
 from gearcad.dynamics.trains.members import Mesh, Shaft, StiffnessWave
 from gearcad.dynamics.trains.train import TrainModel
 from gearcad.plots.paper import short
@@ -16,12 +17,14 @@ from gearcad.plots.paper import short
 __all__ = [
     "MOST_PEAKS",
     "WordTable",
+    "component_table",
     "factor_text",
     "inertia_table",
     "mesh_table",
     "mode_table",
     "peak_table",
     "shaft_table",
+    "shape_table",
     "speed_table",
 ]
 
@@ -138,6 +141,27 @@ def mode_table(modes: NaturalModes) -> WordTable:
         name = f"{mode + 1}, turns as a whole" if rigid else f"{mode + 1}, most in {' and '.join(modes.leading_parts[mode])}"
         rows.append((name, short(modes.frequency[mode]), short(modes.circular[mode]), *speeds, *shares))
     return WordTable(tuple(heads), rows)
+
+
+def shape_table(modes: NaturalModes) -> WordTable:
+    """Turns of the inertias in every mode, their squares summing up to 1."""
+    heads = ("turns in mode", "1/s", *modes.inertias)
+    rows = [
+        (str(number), short(circular), *(f"{turn:.4f}" for turn in shape))
+        for number, (circular, shape) in enumerate(zip(modes.circular, modes.unit_shape, strict=True), 1)
+    ]
+    return WordTable(heads, rows)
+
+
+def component_table(modes: ComponentModes) -> WordTable:
+    """Modes of the lines of which the model is made: turns of the inertias and of the middles of the shafts."""
+    heads = ("component mode", "Hz", "1/s", *modes.inertias, *(f"middle of {name}" for name in modes.shafts))
+    rows = []
+    for number, circular in enumerate(modes.circular.tolist(), 1):
+        turns = (*modes.shape[number - 1], *modes.middle[number - 1])
+        cells = (f"{turn:.2f}" if turn else _NONE for turn in turns)
+        rows.append((str(number), short(circular / (2 * math.pi)), short(circular), *cells))
+    return WordTable(heads, rows)
 
 
 def peak_table(study: TrainStudy) -> WordTable:
