@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -170,6 +170,14 @@ class MeshCycle:
     def pitch_angle(self) -> float:
         """Roll angle of the pinion over one base pitch (deg)."""
         return float(self.roll_angle[-1] - self.roll_angle[0])
+
+    @property
+    def backwards(self) -> MeshCycle:
+        """The same as it is met where the wheel drives: contact moves from tip to root of the pinion."""
+        curves = {name: getattr(self, name)[::-1] for name in ("mesh_stiffness", "tangent_stiffness", "transmission_error")}
+        parts = {name: part[::-1] for name, part in self.compliance_parts.items()}
+        shares = self.load_share[::-1]
+        return replace(self, roll_angle=-self.roll_angle[::-1], load_share=shares, compliance_parts=parts, **curves)
 
     def stiffness_at(self, roll_angle: ArrayLike, *, tangent: bool = False) -> Floats:
         """Secant (or tangent) stiffness (N/µm) at any roll angles (deg): the curve goes on from base pitch to base pitch."""

@@ -20,9 +20,13 @@ from gearcad.symbols import Symbol
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
-__all__ = ["FieldSchema", "InPlaceOf", "NamedPart", "Words", "require_fields", "schema_of", "symbols_of"]
+__all__ = ["ELSEWHERE", "FieldSchema", "InPlaceOf", "NamedPart", "Words", "require_fields", "schema_of", "symbols_of"]
 
 Permitted = Range | Whole | Choice | Member
+
+
+ELSEWHERE = "written elsewhere"
+"""The mark of a field whose own fields are not written with the others: they have tables, or a file, of their own."""
 
 
 class Words(NamedTuple):
@@ -83,6 +87,8 @@ class FieldSchema:
     @cached_property
     def part(self) -> type[DataclassInstance] | None:
         """The type of a field that has fields of its own."""
+        if ELSEWHERE in self.marks:
+            return None
         return next((member for member in self.members if isinstance(member, type) and is_dataclass(member)), None)
 
     def require(self, instance: DataclassInstance, owner: str) -> None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from gearcad.cli.group import debug_option, spec_argument
-from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
+from gearcad.cli.job import echo_warnings, folder_of, json_option, output_option, perform, quiet_option
 from gearcad.cli.side_by_side import beside_lines
 
 if TYPE_CHECKING:
@@ -36,11 +37,22 @@ def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> Non
     left out, springs or continua (model). A pair by itself has its dynamic factor K_v beside that of ISO 6336-1, with flanks
     that part; with model "contact" in [dynamics] its Campbell diagram. Inertias come from the gears' own solids, mesh stiffness
     from one of the methods of `gearcad stiffness`. Writes dynamics.html, dynamics.json, dynamics.npz (the arrays)
-    and a CSV for every chart and table.
+    and a CSV for every chart and table; of a train whose meshes are those of pairs also a spec of each pair under its load.
     """
     from gearcad.jobs.dynamics import Dynamics
 
-    perform(Dynamics(), spec, output, _show, as_json=as_json, quiet=quiet)
+    study = perform(Dynamics(), spec, output, _show, as_json=as_json, quiet=quiet)
+    if not (quiet or as_json):
+        _echo_next(study, output)
+
+
+def _echo_next(study: Study, output: Path | None) -> None:
+    """What takes the specs of a train's pairs, if it has any."""
+    from gearcad.jobs.dynamics import specs_of
+
+    folder = folder_of(output, study.name)
+    if files := [shlex.quote(str(folder / name)) for name in specs_of(study)]:
+        click.echo(f"Next: gearcad check {files[0]}", err=True)
 
 
 def _show(_name: str, study: Study) -> None:

@@ -23,7 +23,10 @@ _MOST_WHOLE = 10**15
 
 
 def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
-    """The tables of a TOML spec as they are written, and what locates a key of theirs for messages. Raises SpecError."""
+    """The tables of a TOML spec as they are written, and what locates a key of theirs for messages. Raises SpecError.
+
+    Only the files that it names are named as they are found from here.
+    """
     path, file = Path(path), printable(str(path))
     try:
         text = path.read_bytes().decode("utf-8-sig")
@@ -50,7 +53,17 @@ def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
         return f"{file} line {line}" if line else file
 
     require_sane_tables(tables, where)
+    _find_pairs(tables, path.parent)
     return tables, where
+
+
+def _find_pairs(tables: Mapping[str, Any], folder: Path) -> None:
+    """Let the files of pairs that a train names, which are seen from its own folder, be found from here."""
+    train = tables.get("train")
+    meshes = train.get("mesh") if isinstance(train, Mapping) else None
+    for mesh in meshes if isinstance(meshes, list) else ():
+        if isinstance(mesh, dict) and isinstance(mesh.get("pair"), str):
+            mesh["pair"] = str(folder / mesh["pair"])
 
 
 def _refuse_table(path: Path) -> None:

@@ -36,7 +36,7 @@ def find_lines(text: str) -> dict[str, int]:
             closing = "" if closing in line else closing
             continue
         if header := _HEADER.match(line):
-            table = _plain(header[1])
+            table = _inside(_plain(header[1]), lists)
             lines.setdefault(table, number)
             if line.lstrip().startswith("[["):
                 lists[table] += 1
@@ -51,6 +51,14 @@ def find_lines(text: str) -> dict[str, int]:
                     lines.setdefault(f"{key}.{_plain(inner[1])}", number)
             closing = next((quotes for quotes in _MULTILINE_QUOTES if value.count(quotes) == 1), "")
     return lines
+
+
+def _inside(table: str, lists: Counter[str]) -> str:
+    """A table's name, with the number of the table in a list that it stands in: `mesh[0].pair` below [[mesh]]."""
+    for name in sorted(lists, key=len, reverse=True):
+        if table.startswith(f"{name}."):
+            return f"{name}[{lists[name] - 1}]{table.removeprefix(name)}"
+    return table
 
 
 def nearest_line(lines: dict[str, int], key: str) -> int | None:

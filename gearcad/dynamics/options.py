@@ -15,13 +15,16 @@ from gearcad.rating.options import RatingOptions
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
 
-__all__ = ["OF_PAIRS", "DynamicsOptions", "PairModel"]
+__all__ = ["OF_PAIRS", "OF_TRAINS_OF_PAIRS", "DynamicsOptions", "PairModel"]
 
 _CHART, _CAMPBELL = 1000, 41
 """Speeds where none are given."""
 
 OF_PAIRS = "of pairs"
 """Marks what a train has in its own parts, or has no use for."""
+
+OF_TRAINS_OF_PAIRS = "of trains of pairs"
+"""Marks what of that a train has use for whose meshes are those of pairs."""
 
 _SPEED = SPEED._replace(signed=False)
 
@@ -67,7 +70,8 @@ class DynamicsOptions:
     Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh; "auto" is plane
     strain for spur gears, whose teeth come into mesh by and by under load, and potential energy for helical ones, strain energy
     where one of these is a ring.
-    `damping_ratio` is that of the pair alone, `pinion_inertia` and `wheel_inertia` are in kg·m² (None: of their own solids).
+    `damping_ratio` is that of the pair alone; both are also those of the pairs of a train, whose meshes may have damping of
+    their own. `pinion_inertia` and `wheel_inertia` are in kg·m² (None: of their own solids).
     With `pinion_bearing_stiffness` and `wheel_bearing_stiffness` (N/µm across the axis) and a `bearing_damping` (N·s/m) the
     gears travel as well as turn: six degrees of freedom.
 
@@ -88,8 +92,10 @@ class DynamicsOptions:
     operating_to: Annotated[float | None, _SPEED, Words("greatest operating speed", "n_1")] = None
     level_tolerance: Annotated[float, Range("", 1e-4, 1.0), Words("how far models may differ, in parts of the load")] = 0.05
     model: Annotated[str, Member(PairModel), Words("what the teeth are: mesh or contact"), OF_PAIRS] = PairModel.MESH.value
-    stiffness: Annotated[str, Words("method of the mesh stiffness"), OF_PAIRS] = AUTO
-    damping_ratio: Annotated[float, Range("", 0.0, 1.0, ends="()"), Words("damping ratio of the pair", "ζ"), OF_PAIRS] = 0.07
+    stiffness: Annotated[str, Words("method of the mesh stiffness"), OF_PAIRS, OF_TRAINS_OF_PAIRS] = AUTO
+    damping_ratio: Annotated[
+        float, Range("", 0.0, 1.0, ends="()"), Words("damping ratio of the pair", "ζ"), OF_PAIRS, OF_TRAINS_OF_PAIRS
+    ] = 0.07
     pinion_inertia: Annotated[float | None, INERTIA, Words("inertia of the pinion", "J_1"), OF_PAIRS] = None
     wheel_inertia: Annotated[float | None, INERTIA, Words("inertia of the wheel", "J_2"), OF_PAIRS] = None
     pinion_bearing_stiffness: Annotated[float | None, STIFFNESS, Words("stiffness of the pinion's bearings"), OF_PAIRS] = None

@@ -9,6 +9,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.dynamics.charts.over_speed import OverSpeed, over_speed
+from gearcad.dynamics.engagement import engaged, pair_notices
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.excitation.sources import train_excitation
 from gearcad.dynamics.options import DynamicsOptions
@@ -44,6 +45,7 @@ _LOWER, _RUN_UP = 3.0, 60
 def study_modes(train: Train, options: DynamicsOptions | None = None) -> ModalStudy:
     """The natural modes alone, of any train. Raises ParameterError."""
     options = options or DynamicsOptions()
+    train = engaged(train, options)
     return ModalStudy(train=train, options=options, modes=natural_modes(train, count=options.frequencies))
 
 
@@ -69,6 +71,7 @@ def study_train(
         raise GeometryError(
             "meshes", 0, "must be one at least: without teeth nothing shakes a train; study_modes has its modes"
         )
+    train = engaged(train, options)
     options = (options or DynamicsOptions()).graded(RatingOptions())
     tell("modes")
     modes = natural_modes(train, count=options.frequencies)
@@ -90,7 +93,7 @@ def study_train(
         down=over.down,
         jumps=over.jumps,
         course=course,
-        found=(*over.notices, *more),
+        found=(*pair_notices(train), *over.notices, *more),
         method_b=method_b,
     )
 

@@ -27,14 +27,19 @@ from gearcad.dynamics.charts.findings import (
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.tables import Columns, Tables, chart_columns, modal_tables, named_columns
+from gearcad.dynamics.tables import Columns, Tables, chart_columns, cycle_columns, modal_tables, named_columns, stacked
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
+from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
 from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.notice import Notice, texts
 from gearcad.rating.dynamic_factor import DynamicFactor
 
 __all__ = ["Course", "ModalStudy", "TrainStudy"]
+
+
+_CYCLES = "mesh stiffness"
+"""The table of a pair's curves over one base pitch."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -168,6 +173,11 @@ class TrainStudy:
         return result
 
     @property
+    def pairs(self) -> dict[str, EngagedMesh]:
+        """The meshes of pairs, by name."""
+        return {mesh.name: mesh for mesh in self.train.meshes if isinstance(mesh, EngagedMesh)}
+
+    @property
     def jump_speeds(self) -> dict[Direction, Floats]:
         """Speeds (rpm) at which vibration jumps, running up and running down."""
         return {direction: self.rpm(jumps) for direction, jumps in zip(Direction, self.jumps, strict=True)}
@@ -233,6 +243,7 @@ class TrainStudy:
             "greatest": self.greatest.to_dict(),
             "resonances": [each.to_dict() for each in self.resonances],
             "shaft_overloads": [each._asdict() for each in self.shaft_overloads.values()],
+            **({"pairs": {name: mesh.pair_document() for name, mesh in self.pairs.items()}} if self.pairs else {}),
             "warnings": list(self.warnings),
             "notices": [notice.to_dict() for notice in self.notices],
         }
@@ -258,4 +269,5 @@ class TrainStudy:
             "chart": chart_columns(self.charts),
             **modal_tables(self.modes),
             "course": self.course.columns(up.mesh_names, up.shaft_names, self.train.meshes[0].teeth),
+            **stacked("mesh", list(self.pairs), [{_CYCLES: cycle_columns(mesh.course.cycle)} for mesh in self.pairs.values()]),
         }

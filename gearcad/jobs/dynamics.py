@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, Unpack
@@ -12,7 +12,9 @@ import numpy as np
 
 from gearcad.check.options import CheckOptions
 from gearcad.designs import Design, Inputs, PairDesign, TrainDesign
-from gearcad.dynamics.levels.result import finest_first
+from gearcad.designs.loaded_pairs import pair_specs
+from gearcad.dynamics.engagement import engaged
+from gearcad.dynamics.levels.result import LevelStudy, finest_first
 from gearcad.dynamics.levels.study import study_levels
 from gearcad.dynamics.options import DynamicsOptions, PairModel
 from gearcad.dynamics.pair import study_contact, study_pair
@@ -37,7 +39,7 @@ from gearcad.progress import Agenda, Progress
 from gearcad.stiffness.methods import METHODS
 from gearcad.version import __version__
 
-__all__ = ["Dynamics", "Study", "dynamics"]
+__all__ = ["Dynamics", "Study", "dynamics", "specs_of"]
 
 Study = TrainStudy | ModalStudy | SideBySide | PairStudy | ContactStudy
 
@@ -70,14 +72,7 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
 
     def _run(self, design: PairDesign | TrainDesign, progress: Progress | None) -> Study:
         if isinstance(design, TrainDesign):
-            if not design.train.meshes:
-                return study_modes(design.train, design.dynamics)
-            if design.other_models:
-                every = finest_first(design.models)
-                agenda = Agenda(progress, {f"{each.value}: {step}": took for each in every for step, took in _TRAIN.items()})
-                return study_levels(design.train, design.models, design.dynamics, tell=agenda)
-            agenda = Agenda(progress, _TRAIN)
-            return study_train(design.train, design.dynamics, tell=agenda, share=agenda.within("chart"))
+            return _of_train(design, progress)
         return _of_pair(design, progress)
 
     def document(self, result: Study) -> dict[str, Any]:
@@ -106,13 +101,24 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
         return {**found, "warnings": document["campbell"]["warnings"]}
 
     def files(self, result: Study) -> dict[str, Writer]:
-        """The report, the document, the arrays, and the tables."""
+        """The report, the document, the arrays, the tables, and the specs of a train's pairs."""
         return {
             "dynamics.html": partial(_write_report, result),
             "dynamics.json": partial(self.write_document, result),
             "dynamics.npz": partial(_write_arrays, result),
             **table_files(self.verb, result.tables()),
+            **{name: partial(_write_text, text) for name, text in specs_of(result).items()},
         }
+
+
+def specs_of(result: Study) -> dict[str, str]:
+    """Those of a train's pairs; of a train that was looked at several times, by the study that others are held against."""
+    first = result.studies[result.reference] if isinstance(result, SideBySide) else result
+    return pair_specs(first) if isinstance(first, TrainStudy) else {}
+
+
+def _write_text(text: str, path: Path) -> None:
+    path.write_text(text, encoding="utf-8")
 
 
 def _write_report(study: Study, path: Path) -> None:
@@ -124,6 +130,23 @@ def _write_report(study: Study, path: Path) -> None:
 def _write_arrays(study: Study, path: Path) -> None:
     with path.open("wb") as file:
         np.savez_compressed(file, allow_pickle=False, **study.arrays())
+
+
+def _of_train(design: TrainDesign, progress: Progress | None) -> TrainStudy | ModalStudy | LevelStudy:
+    """By one model, or by several side by side."""
+    train, options, before = design.train, design.dynamics, dict[str, float]()
+    if not train.meshes:
+        return study_modes(train, options)
+    every = finest_first(design.models)
+    if any(mesh.pair is not None for mesh in train.meshes):
+        before = {"mesh stiffness": 10.0}
+        Agenda(progress, {**before, **_TRAIN})("mesh stiffness")
+        train = engaged(replace(train, model=every[0]), options)
+    if design.other_models:
+        agenda = Agenda(progress, before | {f"{each.value}: {step}": took for each in every for step, took in _TRAIN.items()})
+        return study_levels(train, design.models, options, tell=agenda)
+    agenda = Agenda(progress, {**before, **_TRAIN})
+    return study_train(train, options, tell=agenda, share=agenda.within("chart"))
 
 
 def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | ContactStudy:

@@ -8,13 +8,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from gearcad.designs.design import Design, DesignKind, require_plain_name
+from gearcad.designs.design import Accepted, Design, DesignKind, require_plain_name
 from gearcad.designs.files import Where
-from gearcad.dynamics.options import OF_PAIRS, DynamicsOptions
-from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
+from gearcad.designs.kinds.train_pairs import read_pair
+from gearcad.dynamics.options import OF_PAIRS, OF_TRAINS_OF_PAIRS, DynamicsOptions
+from gearcad.dynamics.trains.members import BESIDE_PAIR, Inertia, Mesh, Shaft
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.errors import InputError, ParameterError, SpecError, as_choice, format_number, shown
-from gearcad.schema import schema_of
+from gearcad.schema import FieldSchema, InPlaceOf, schema_of
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -22,6 +23,12 @@ if TYPE_CHECKING:
 __all__ = ["TrainDesign"]
 
 _PARTS: dict[str, type[DataclassInstance]] = {"inertia": Inertia, "shaft": Shaft, "mesh": Mesh}
+_TOLD_BY_PAIR = ("base_radii", "teeth", "internal", "stiffness", "variation", "shape", "contact_ratio")
+"""Keys of a mesh that its pair has in their place."""
+
+_NEVER_PART = "off"
+"""As a backlash: that of flanks that stay together whatever pulls them."""
+
 _LISTS = {"inertia": "inertias", "shaft": "shafts", "mesh": "meshes"}
 
 
@@ -62,9 +69,18 @@ class TrainDesign(Design):
                 raise SpecError(f"{where(table)}: [{shown(table)}] cannot stand beside [train]: permitted is [dynamics]")
         reader = _Reader(where)
         train, others = reader.train(tables["train"], default_name)
-        dynamics = reader.dynamics(tables.get("dynamics", {}))
+        dynamics = reader.dynamics(tables.get("dynamics", {}), train)
         with reader.blame("train"):
             return cls(name=train.name, train=train, other_models=others, dynamics=dynamics)
+
+    def accepted(self, *kinds: type[Accepted], why: str) -> Accepted:
+        """The design, if it is of one of these kinds. Raises ParameterError: jobs of pairs take the specs of its pairs."""
+        if not isinstance(self, kinds) and any(mesh.pair is not None for mesh in self.train.meshes):
+            permitted = (
+                "must be a pair: `gearcad dynamics` writes the specs of the pairs of its meshes for that, under their loads"
+            )
+            raise ParameterError("kind", self.kind.words, permitted)
+        return super().accepted(*kinds, why=why)
 
 
 @dataclass(frozen=True)
@@ -91,9 +107,11 @@ class _Reader:
                 replace(train, model=model)  # whether the train can be of this model, too
             return train, models[1:]
 
-    def dynamics(self, content: Any) -> DynamicsOptions:
-        """The options of [dynamics]."""
-        permitted = tuple(key for key, field in schema_of(DynamicsOptions).items() if OF_PAIRS not in field.marks)
+    def dynamics(self, content: Any, train: Train) -> DynamicsOptions:
+        """The options of [dynamics]: some are of trains only whose meshes are those of pairs."""
+        also = {OF_TRAINS_OF_PAIRS} if any(mesh.pair is not None for mesh in train.meshes) else set[str]()
+        schema = schema_of(DynamicsOptions)
+        permitted = tuple(key for key, field in schema.items() if OF_PAIRS not in field.marks or also & {*field.marks})
         chosen = self._table(content, "dynamics", permitted)
         with self.blame("dynamics"):
             return DynamicsOptions(**_numbers(DynamicsOptions, chosen))
@@ -107,12 +125,26 @@ class _Reader:
         for number, each in enumerate(listed):
             owner = f"train.{key}[{number}]"
             given = self._table(each, owner, tuple(schema))
+            if kind is Mesh:
+                self._read_pair(given, owner)
             with self.blame(owner, str(given.get("name", ""))):
-                missing = [name for name, field in schema.items() if field.required and name not in given]
+                missing = [name for name, field in schema.items() if name not in given and _needed(field, given)]
                 if missing:
                     raise SpecError(f"{self.where(owner)}: {missing[0]} is missing in [[train.{key}]]")
                 found.append(kind(**_numbers(kind, given)))
         return tuple(found)
+
+    def _read_pair(self, given: dict[str, Any], owner: str) -> None:
+        """The pair of a mesh in place of how it is written; what it tells must not stand beside it."""
+        name = shown(str(given.get("name", "mesh")))
+        if given.get("backlash") == _NEVER_PART:
+            given["backlash"] = None
+        if "pair" not in given:
+            return
+        for key in _TOLD_BY_PAIR:
+            if key in given:
+                raise SpecError(f"{self.where(f'{owner}.{key}')}: {name}.{key} = {format_number(given[key])}: {BESIDE_PAIR}")
+        given["pair"] = read_pair(given["pair"], self.where, f"{owner}.pair", name)
 
     def _torques(self, given: Any) -> dict[str, float]:
         if not isinstance(given, Mapping):
@@ -152,6 +184,11 @@ def _models(given: Any) -> tuple[TrainModel, ...]:
     if not given:
         raise ParameterError("model", given, f"must hold one at least of {', '.join(each.value for each in TrainModel)}")
     return tuple(as_choice("model", each, TrainModel) for each in given)
+
+
+def _needed(field: FieldSchema, given: Mapping[str, Any]) -> bool:
+    """Whether a key must be given, what else is given being so."""
+    return field.required or any(isinstance(mark, InPlaceOf) and mark.other not in given for mark in field.marks)
 
 
 def _numbers(kind: type[DataclassInstance], given: Mapping[str, Any]) -> dict[str, Any]:

@@ -11,8 +11,10 @@ import numpy as np
 from gearcad.dynamics.excitation.deviations import ToothDeviations, TransmissionError, random_deviations, tooth_errors
 from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, StiffnessShape, square_stiffness
 from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation, cycle_excitation
+from gearcad.dynamics.trains.engaged_mesh import EngagedMesh, require_known
 from gearcad.dynamics.trains.graph import turning_pieces
 from gearcad.dynamics.trains.members import Inertia, Mesh, StiffnessWave
+from gearcad.dynamics.trains.mesh_pair import line_backlash
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair
@@ -36,12 +38,17 @@ _HARMONICS = 12
 def train_excitation(train: Train, *, grade: int | None = None, seed: int = 0) -> Excitation:
     """Stiffness waves, backlashes and pitch deviations of a train's meshes; random ones of an ISO 1328 `grade`, if given.
 
-    The deviations are those of the pinions' teeth, drawn with `seed` where a mesh has none given: with the wheels' the period
-    would be that of both.
+    A mesh of a pair has the course of its teeth, and their rating's grade in place of `grade`. The deviations are those of the
+    pinions' teeth, drawn with `seed` where a mesh has none given: with the wheels' the period would be that of both.
     """
     ratios = _tooth_ratios(train)
     meshes = []
     for number, (mesh, ratio) in enumerate(zip(train.meshes, ratios, strict=True)):
+        require_known(mesh)
+        if isinstance(mesh, EngagedMesh):
+            errors = _errors_of_pair(mesh, seed + number) if mesh.pitch_deviations or grade is not None else None
+            meshes.append(replace(_course_of_pair(mesh, errors), frequency_ratio=ratio))
+            continue
         error = _mesh_errors(mesh, grade, seed + number) if mesh.pitch_deviations or grade is not None else None
         meshes.append(
             MeshExcitation(
@@ -49,6 +56,29 @@ def train_excitation(train: Train, *, grade: int | None = None, seed: int = 0) -
             )
         )
     return Excitation(meshes=tuple(meshes))
+
+
+def _course_of_pair(mesh: EngagedMesh, errors: TransmissionError | None) -> MeshExcitation:
+    """Stiffness and transmission error of the pair's cycle, in the order of time, with the errors of its teeth."""
+    found = cycle_excitation(mesh.course.in_time, phase=-360 * mesh.phase, backlash=mesh.backlash)
+    assert found.error is not None and found.error.line is not None  # a cycle has one
+    line = replace(found.error.line, height=found.error.line.height - mesh.course.offset)
+    return replace(found, error=replace(errors or TransmissionError(), line=line))
+
+
+def _errors_of_pair(mesh: EngagedMesh, seed: int) -> TransmissionError:
+    """Of the pinion's teeth: as given, or random ones of the pair's accuracy grade."""
+    pair = mesh.teeth_of.mounted
+    if mesh.pitch_deviations:
+        return _given_errors(mesh.pitch_deviations, max(pair.transverse_contact_ratio, 1.001))
+    return pair_errors(pair, mesh.teeth_of.rating, seed)
+
+
+def _given_errors(deviations: tuple[float, ...], contact_ratio: float) -> TransmissionError:
+    """Of pitch deviations (µm); what would be left after a turn would be no pitch deviation."""
+    pitches = np.array(deviations)
+    position = -np.cumsum(pitches - pitches.mean())
+    return tooth_errors(ToothDeviations(position=position), contact_ratio=contact_ratio, harmonics=_HARMONICS)
 
 
 def _wave(mesh: Mesh) -> StiffnessShape:
@@ -61,10 +91,7 @@ def _wave(mesh: Mesh) -> StiffnessShape:
 def _mesh_errors(mesh: Mesh, grade: int | None, seed: int) -> TransmissionError:
     """Of the pinion's teeth: as given, or random ones of a gear taken to have a pressure angle of 20 degrees."""
     if mesh.pitch_deviations:
-        pitches = np.array(mesh.pitch_deviations)
-        # What is left after a turn would be no pitch deviation.
-        given = ToothDeviations(position=-np.cumsum(pitches - pitches.mean()))
-        return tooth_errors(given, contact_ratio=mesh.contact_ratio or _CONTACT_RATIO, harmonics=_HARMONICS)
+        return _given_errors(mesh.pitch_deviations, mesh.contact_ratio or _CONTACT_RATIO)
     assert grade is not None  # one of the two is there
     diameter = 2 * mesh.base_radii.pinion / math.cos(math.radians(_PRESSURE_ANGLE))
     tolerances = flank_tolerances(grade, diameter, diameter / mesh.teeth)
@@ -81,8 +108,8 @@ def _tooth_ratios(train: Train) -> list[Fraction]:
             pinion=mesh.pinion,
             wheel=mesh.wheel,
             base_radii=PerGear(float(mesh.teeth), float(wheel)),
-            stiffness=mesh.stiffness,
-            teeth=mesh.teeth,
+            stiffness=float(mesh.stiffness),
+            teeth=int(mesh.teeth),
             internal=mesh.internal,
         )
         for mesh, wheel in zip(train.meshes, whole, strict=True)
@@ -113,7 +140,6 @@ def pair_train(
     A ring turns with its pinion, so the torque on it is negative.
     """
     radii = pair.gears.map(lambda gear: gear.base_diameter / 2)
-    across = math.cos(math.radians(pair.working_transverse_pressure_angle))
     return Train(
         name=pair.name,
         model=TrainModel.ISOLATED,
@@ -127,7 +153,7 @@ def pair_train(
                 stiffness=cycle.tangent_mean,
                 teeth=pair.pinion.teeth,
                 damping_ratio=damping_ratio,
-                backlash=max(1000 * pair.circumferential_backlash * across, 0.0),
+                backlash=line_backlash(pair),
                 internal=pair.internal,
             ),
         ),

@@ -9,6 +9,7 @@ from functools import partial
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.engagement import engaged
 from gearcad.dynamics.levels.agreement import SHIFT, Agreement, CurveName, agreement
 from gearcad.dynamics.levels.deciding import Decision, decision
 from gearcad.dynamics.levels.operating import OperatingRange, operating_range
@@ -48,6 +49,7 @@ def study_levels(
     """
     options = options or DynamicsOptions()
     finest, *coarser = finest_first(models)
+    train = engaged(replace(train, model=finest), options)
     speeds, over = _speeds(replace(train, model=finest), options)
     studies: dict[TrainModel, TrainStudy] = {}
     for model in (finest, *coarser):

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Annotated, Any
 
+from gearcad.dynamics.trains.mesh_pair import MeshPair
 from gearcad.errors import GeometryError, ParameterError
+from gearcad.geometry import GearPair
+from gearcad.geometry.derived import NOT_GIVEN, Derived, DerivedCount, is_given
 from gearcad.per_gear import PerGear
 from gearcad.ranges import (
     ANGULAR_DAMPING,
@@ -26,12 +29,24 @@ from gearcad.ranges import (
     Whole,
 )
 from gearcad.reprs import concise
-from gearcad.schema import NamedPart, Words
+from gearcad.schema import ELSEWHERE, InPlaceOf, NamedPart, Words
 
-__all__ = ["GROUND", "Inertia", "Mesh", "Shaft", "StiffnessWave"]
+__all__ = ["BESIDE_PAIR", "GROUND", "Inertia", "Mesh", "Shaft", "StiffnessWave"]
 
 GROUND = "ground"
 """The end of a shaft that does not turn."""
+
+BESIDE_PAIR = "not beside pair: it is that of its teeth"
+"""The end of a message about what a mesh's pair tells."""
+
+
+class _DerivedRadii(PerGear[float]):
+    """Base radii that follow from a pair, as Derived numbers do."""
+
+    derived = True
+
+
+_NO_RADII, _NO_TEETH = _DerivedRadii(math.nan, math.nan), DerivedCount(0)
 
 
 class StiffnessWave(Enum):
@@ -134,25 +149,28 @@ class Mesh(NamedPart):
 
     `base_radii` of both in mm; `teeth` of the pinion; `internal` for a ring gear as the wheel. `stiffness` along the line of
     action in N/µm is the mean, about which it varies by `variation` (relative amplitude) in a `shape`, delayed by `phase` (in
-    tooth periods); `contact_ratio` says how long a square wave stays high. `damping` in N·s/m, or `damping_ratio` of the pair
-    alone on its two inertias. `preload` (N) presses the flanks by opposite torques on both gears, beside the train's torques.
-    `backlash` in µm along the line of action; None: flanks never part. `pitch_deviations` f_pt (µm, ISO 1328-1) of the pinion's
-    teeth, one each, in the order in which they come into mesh. Raises ParameterError, GeometryError.
+    tooth periods); `contact_ratio` says how long a square wave stays high. A `pair` in their place - a GearPair, or a MeshPair,
+    which has its material and mounting - knows all of these but the phase: at phase 0 its pitch point is in contact.
+    `damping` in N·s/m, or `damping_ratio` of the pair alone on its two inertias. `preload` (N) presses the flanks by opposite
+    torques on both gears, beside the train's torques. `backlash` in µm along the line of action, by default that of the pair;
+    None: flanks never part. `pitch_deviations` f_pt (µm, ISO 1328-1) of the pinion's teeth, one each, in the order in which
+    they come into mesh. Raises ParameterError, GeometryError.
     """
 
     name: str
     pinion: str
     wheel: str
-    base_radii: Annotated[PerGear[float], LENGTH, Words("base radii of pinion and wheel", "r_b")]
-    stiffness: Annotated[float, STIFFNESS, Words("mean stiffness along the line of action")]
-    teeth: Annotated[int, Whole(1, 100_000), Words("number of teeth of the pinion", "z_1")]
+    pair: Annotated[MeshPair | GearPair | None, Words("pair of gears whose teeth these are"), ELSEWHERE] = None
+    base_radii: Annotated[PerGear[float], LENGTH, Words("base radii of pinion and wheel", "r_b"), InPlaceOf("pair")] = _NO_RADII
+    stiffness: Annotated[float, STIFFNESS, Words("mean stiffness along the line of action"), InPlaceOf("pair")] = NOT_GIVEN
+    teeth: Annotated[int, Whole(1, 100_000), Words("number of teeth of the pinion", "z_1"), InPlaceOf("pair")] = _NO_TEETH
     damping: Annotated[float | None, DAMPING, Words("damping along the line of action")] = None
     damping_ratio: Annotated[float | None, DAMPING_RATIO, Words("damping ratio of the pair alone", "ζ")] = None
     variation: Annotated[float, Range("", 0, 1, ends="[)"), Words("relative amplitude of the stiffness")] = 0.0
     shape: Annotated[StiffnessWave, Words("how the stiffness varies over a tooth")] = StiffnessWave.COSINE
     contact_ratio: Annotated[float | None, Range("", 1.0, 100.0), Words("contact ratio of a square wave", "ε_α")] = None
     phase: Annotated[float, Range("", -1.0, 1.0), Words("delay of the stiffness, in tooth periods")] = 0.0
-    backlash: Annotated[float | None, BACKLASH, Words("backlash along the line of action")] = None
+    backlash: Annotated[float | None, BACKLASH, Words("backlash along the line of action")] = NOT_GIVEN
     preload: Annotated[float, PRELOAD, Words("force that presses the flanks beside the load's")] = 0.0
     pitch_deviations: Annotated[tuple[float, ...], DEVIATION, Words("pitch deviations of the pinion's teeth", "f_pt")] = ()
     internal: Annotated[bool, Words("whether the wheel is a ring gear")] = False
@@ -160,11 +178,56 @@ class Mesh(NamedPart):
     __repr__ = concise
 
     def __post_init__(self) -> None:
+        if self.pair is not None:
+            self._take_from_pair()
+        else:
+            self._take_none()
         self._check_fields()
         object.__setattr__(self, "base_radii", _two_radii(self.name, self.base_radii))
         object.__setattr__(self, "pitch_deviations", _deviations(self.name, self.pitch_deviations, self.teeth))
         if not isinstance(self.internal, bool):
             raise ParameterError(f"{self.name}.internal", self.internal, "must be true or false")
+        self._check_damping_and_wave()
+
+    def _take_none(self) -> None:
+        """Without a pair flanks never part unless a backlash is given. Raises ParameterError without base radii."""
+        if not is_given(self.backlash):
+            object.__setattr__(self, "backlash", None)
+        if self.base_radii is _NO_RADII:
+            permitted = "must be two lengths in mm: of pinion and wheel, or give pair instead"
+            raise ParameterError(f"{self.name}.base_radii", None, permitted)
+
+    def _take_from_pair(self) -> None:
+        """What the pair knows, derived. Raises ParameterError for what is no pair, and GeometryError for what is given too."""
+        pair = MeshPair(pair=self.pair) if isinstance(self.pair, GearPair) else self.pair
+        if not isinstance(pair, MeshPair):
+            raise ParameterError(f"{self.name}.pair", pair, "must be a GearPair, or a MeshPair, which has its material too")
+        self._require_nothing_beside()
+        mounted = pair.mounted
+        radii = (abs(gear.base_diameter) / 2 for gear in mounted.gears)
+        found = {"pair": pair, "base_radii": _DerivedRadii(*radii), "teeth": DerivedCount(mounted.pinion.teeth)}
+        found |= {"internal": mounted.internal, "stiffness": Derived(self._stiffness_of_pair)}
+        if self.backlash is not None and not is_given(self.backlash):
+            found["backlash"] = Derived(pair.backlash)
+        for name, value in found.items():
+            object.__setattr__(self, name, value)
+
+    def _require_nothing_beside(self) -> None:
+        """Raise GeometryError where something is given too that the pair tells."""
+        derived, plain = ("base_radii", "stiffness", "teeth"), ("variation", "shape", "contact_ratio")
+        given = {name: not getattr(getattr(self, name), "derived", False) for name in derived}
+        given |= {name: getattr(self, name) != getattr(Mesh, name) for name in plain}
+        for name, beside in given.items():
+            if beside:
+                raise GeometryError(f"{self.name}.{name}", getattr(self, name), BESIDE_PAIR)
+
+    @property
+    def _stiffness_of_pair(self) -> float:
+        """Mean stiffness of the pair's teeth: unknown before their load is."""
+        return math.nan
+
+    def _check_damping_and_wave(self) -> None:
+        """What does not stand beside each other."""
         if self.damping is not None and self.damping_ratio is not None:
             raise GeometryError(f"{self.name}.damping_ratio", self.damping_ratio, "not beside damping: one says the other")
         if self.shape is StiffnessWave.SQUARE and self.variation:
@@ -199,4 +262,4 @@ def _two_radii(name: str, values: Any) -> PerGear[float]:
     """Base radii: two of them."""
     if not isinstance(values, list | tuple) or len(values) != 2:
         raise ParameterError(f"{name}.base_radii", values, "must be two lengths in mm: of pinion and wheel")
-    return PerGear(*map(float, values))
+    return values if isinstance(values, _DerivedRadii) else PerGear(*map(float, values))

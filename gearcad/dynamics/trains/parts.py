@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.trains.engaged_mesh import require_known
 from gearcad.dynamics.trains.graph import turning_pieces
 from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
 from gearcad.dynamics.trains.train import Train, TrainModel
 
-__all__ = ["Parts", "parts_of", "static_forces"]
+__all__ = ["Parts", "parts_of", "pressing_forces", "static_forces"]
 
 
 _NO_FORCE = 1e-9
@@ -75,11 +76,20 @@ def static_forces(train: Train) -> Floats:
     return np.abs(_mesh_forces(parts_of(train)))
 
 
+def pressing_forces(train: Train) -> Floats:
+    """(m,) the same with their signs: positive where a torque that is counter-clockwise on the pinion presses the flanks."""
+    parts = parts_of(train)
+    places = [inertia.name for inertia in parts.inertias]
+    turned = [parts.approach[places.index(mesh.pinion), column] for column, mesh in enumerate(parts.meshes)]
+    return np.copysign(_mesh_forces(parts), turned)
+
+
 def _parts(train: Train) -> Parts:
     """The whole train under its torques alone; approach as both gears turn counter-clockwise."""
     names = [inertia.name for inertia in train.inertias]
     approach = np.zeros((len(names), len(train.meshes)))
     for column, mesh in enumerate(train.meshes):
+        require_known(mesh)
         for gear, radius in zip(mesh.gears, mesh.radii, strict=True):
             approach[names.index(gear), column] = radius
     return Parts(

@@ -40,6 +40,7 @@ from gearcad.report.dynamics.tables import (
     inertia_table,
     mesh_table,
     mode_table,
+    pair_table,
     peak_table,
     shaft_table,
     shape_table,
@@ -104,21 +105,38 @@ def _shape_figures(study: TrainStudy | ModalStudy) -> list[Picture]:
 
 @dynamics_html.register
 def _train_html(study: TrainStudy, name: str) -> str:
-    train, modes = study.train, study.modes
     return page_html(
         "dynamics_train.html",
         name,
         of=study,
-        parts=[inertia_table(study), *([shaft_table(study)] if train.shafts else []), mesh_table(study)],
+        parts=_parts(study),
         greatest=_said("greatest", study),
-        modes=mode_table(modes),
-        **_shapes(modes),
+        modes=mode_table(study.modes),
+        **_shapes(study.modes),
         most=MOST_PEAKS,
         peaks=peak_table(study),
         shape_figures=_shape_figures(study),
+        pair_figures=_pair_figures(study),
         speed_figures=_speed_figures(study),
         warnings=study.warnings,
     )
+
+
+def _parts(study: TrainStudy) -> list[WordTable]:
+    """What the train is made of."""
+    shafts = [shaft_table(study)] if study.train.shafts else []
+    return [inertia_table(study), *shafts, mesh_table(study), *([pair_table(study)] if study.pairs else [])]
+
+
+def _pair_figures(study: TrainStudy) -> list[Picture]:
+    """The stiffness of each pair over one base pitch."""
+    courses = {name: mesh.course for name, mesh in study.pairs.items()}
+    return [
+        Picture(
+            f"Mesh stiffness of {name}", picture_address(partial(plot_cycle, course.cycle), "svg"), _said("pair_course", course)
+        )
+        for name, course in courses.items()
+    ]
 
 
 @dynamics_html.register
@@ -148,7 +166,7 @@ def _beside(study: SideBySide) -> dict[str, Any]:
     return {
         "of": study,
         "first": first,
-        "parts": [inertia_table(first), *([shaft_table(first)] if first.train.shafts else []), mesh_table(first)],
+        "parts": _parts(first),
         "greatest": greatest_table(study),
         "overloads": overload_table(study),
         "resonances": resonance_table(study),

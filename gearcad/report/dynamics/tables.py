@@ -10,6 +10,7 @@ from gearcad.dynamics.charts.findings import MetMode
 from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
 from gearcad.dynamics.trains.eigenmodes import ComponentModes, NaturalModes
+from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
 from gearcad.dynamics.trains.members import Mesh, Shaft, StiffnessWave
 from gearcad.dynamics.trains.train import TrainModel
 from gearcad.plots.paper import short
@@ -22,6 +23,7 @@ __all__ = [
     "inertia_table",
     "mesh_table",
     "mode_table",
+    "pair_table",
     "peak_table",
     "shaft_table",
     "shape_table",
@@ -116,8 +118,30 @@ def mesh_table(study: TrainStudy) -> WordTable:
     return WordTable(heads, rows, 3)
 
 
+def pair_table(study: TrainStudy) -> WordTable:
+    """What the pairs of meshes are and carry, by which method their stiffness was found, and what it came to."""
+    heads = (
+        "mesh",
+        "pair",
+        "method",
+        "drives",
+        "torque on the pinion, N·m",
+        "secant, N/µm",
+        "tangent",
+        "error, peak to peak, µm",
+    )
+    rows = []
+    for name, mesh in study.pairs.items():
+        course, cycle = mesh.course, mesh.course.cycle
+        numbers = (course.torque, cycle.mean, cycle.tangent_mean, cycle.error_peak_to_peak)
+        rows.append((name, mesh.teeth_of.pair.name, course.title, mesh.gears.pick(course.driver), *map(short, numbers)))
+    return WordTable(heads, rows, 4)
+
+
 def _wave(mesh: Mesh) -> str:
-    if mesh.shape is StiffnessWave.SQUARE and mesh.contact_ratio is not None:
+    if isinstance(mesh, EngagedMesh):
+        words = "of its pair"
+    elif mesh.shape is StiffnessWave.SQUARE and mesh.contact_ratio is not None:
         words = f"square, contact ratio {short(mesh.contact_ratio)}"
     else:
         words = f"cosine, ± {short(100 * mesh.variation)} %" if mesh.variation else "constant"

@@ -1,0 +1,176 @@
+"""The pairs of a train under what the train gives them: static forces, the flanks that carry, and the course of each mesh."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields, replace
+from functools import lru_cache
+
+import numpy as np
+
+from gearcad.arrays import Floats
+from gearcad.contact.shared.bodies import BodyModel
+from gearcad.dynamics.options import DynamicsOptions
+from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
+from gearcad.dynamics.trains.members import Mesh
+from gearcad.dynamics.trains.mesh_pair import MeshCourse, MeshPair
+from gearcad.dynamics.trains.parts import pressing_forces
+from gearcad.dynamics.trains.train import Train
+from gearcad.errors import InputError, ParameterError, SolverError
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.material import Material
+from gearcad.mesh_cycle import MeshCycle
+from gearcad.mounting import Mounting
+from gearcad.notice import Notice
+from gearcad.per_gear import Role
+from gearcad.stiffness.method import StiffnessMethod
+
+__all__ = ["engaged", "pair_notices"]
+
+
+_FIRST_GUESS = 15.0
+"""Mean stiffness per face width (N/(mm·µm)) with which static forces are first looked for."""
+
+_SAME = 1e-7
+"""Relative change of the static forces from which on they stand."""
+
+_MOST_ROUNDS = 30
+
+_NO_FORCE = 1e-9
+"""Of the greatest mesh force: none."""
+
+_OTHER = 1e-3
+"""Relative difference from which on a load is another."""
+
+
+def engaged(train: Train, options: DynamicsOptions | None = None) -> Train:
+    """The train with its pairs under their static loads: each such mesh an EngagedMesh, with the course of its stiffness.
+
+    By the method of the options, which have the damping ratio and the accuracy grade of meshes and pairs that have none. Where
+    static forces depend on the stiffness - in a train that is held at several places - both are found in turns until the forces
+    stand. Without a speed the first pinion turns the way in which it drives. Raises ParameterError where a mesh of a pair
+    carries nothing, SolverError where the forces do not settle, and what the methods raise.
+    """
+    places = [j for j, mesh in enumerate(train.meshes) if mesh.pair is not None and not isinstance(mesh, EngagedMesh)]
+    if not places:
+        return train
+    options = options or DynamicsOptions()
+    try:
+        forces, cycles, rounds = _settled(train, options, places)
+    finally:
+        # Bodies of finite elements are large; the curves are kept.
+        _method.cache_clear()
+    direction = math.copysign(1.0, train.speed or forces[0])
+    meshes = list(train.meshes)
+    for j in places:
+        turning = direction * train.speed_ratios[meshes[j].pinion]
+        driver = Role.PINION if forces[j] * turning > 0 else Role.WHEEL
+        meshes[j] = _engaged(meshes[j], cycles[j], _torque(meshes[j], forces[j]), driver, rounds, options)
+    return replace(train, meshes=tuple(meshes))
+
+
+def _settled(train: Train, options: DynamicsOptions, places: Sequence[int]) -> tuple[Floats, dict[int, MeshCycle], int]:
+    """Signed forces (m,) in N, cycles of the pairs under them, and how often these were found."""
+    first = {j: _FIRST_GUESS * _pair(train.meshes[j]).mounted.common_width.width for j in places}
+    forces = pressing_forces(_lumped(train, first))
+    for rounds in range(1, _MOST_ROUNDS + 1):
+        cycles = {j: _cycle_of(train.meshes[j], float(forces[j]), np.abs(forces).max(), options) for j in places}
+        before, forces = forces, pressing_forces(_lumped(train, {j: cycle.tangent_mean for j, cycle in cycles.items()}))
+        if np.abs(forces - before).max() <= _SAME * np.abs(before).max():
+            return before, cycles, rounds
+    raise SolverError(f"the static forces in the meshes of {train.name} and the stiffness of their pairs do not settle")
+
+
+def _lumped(train: Train, stiffness: Mapping[int, float]) -> Train:
+    """The train with springs of a stiffness (N/µm) in place of its pairs."""
+    meshes = list(train.meshes)
+    for j, each in stiffness.items():
+        mesh = meshes[j]
+        meshes[j] = Mesh(
+            name=mesh.name,
+            pinion=mesh.pinion,
+            wheel=mesh.wheel,
+            base_radii=mesh.base_radii.map(float),
+            stiffness=float(each),
+            teeth=int(mesh.teeth),
+            preload=mesh.preload,
+            internal=mesh.internal,
+        )
+    return replace(train, meshes=tuple(meshes))
+
+
+def _pair(mesh: Mesh) -> MeshPair:
+    assert isinstance(mesh.pair, MeshPair)  # a GearPair became one when the mesh was made
+    return mesh.pair
+
+
+def _torque(mesh: Mesh, force: float) -> float:
+    """On the pinion (N·m), of a force along the line of action (N)."""
+    return float(force) * mesh.base_radii.pinion / 1000
+
+
+def _cycle_of(mesh: Mesh, force: float, greatest: float, options: DynamicsOptions) -> MeshCycle:
+    """Of a mesh under a force (N), of the `greatest` of all. Raises ParameterError without one."""
+    if abs(force) <= _NO_FORCE * greatest or not force:
+        permitted = "carries nothing at rest, and its stiffness depends on the load: give torques that reach it, or a preload"
+        raise ParameterError(f"{mesh.name}.pair", _pair(mesh).pair.name, permitted)
+    of = _pair(mesh)
+    try:
+        return _cycle(options.method_for(of.mounted), of.pair, of.material, of.body, of.mounting, _torque(mesh, force))
+    except InputError as error:
+        raise error.within(mesh.name) from error
+
+
+@lru_cache(128)
+def _cycle(name: str, pair: GearPair, material: Material, body: BodyModel, mounting: Mounting, torque: float) -> MeshCycle:
+    """Under a torque on the pinion (N·m); known for the last ones, for trains are looked at again and again."""
+    return _method(name, pair, material, body, mounting)(Load(torque=torque))
+
+
+@lru_cache(None)
+def _method(name: str, pair: GearPair, material: Material, body: BodyModel, mounting: Mounting) -> StiffnessMethod:
+    from gearcad.stiffness.methods import METHODS  # only here: trains without pairs do not need them
+
+    return METHODS[name](pair=pair, material=material, body=body, mounting=mounting)
+
+
+def _engaged(mesh: Mesh, cycle: MeshCycle, torque: float, driver: Role, rounds: int, options: DynamicsOptions) -> EngagedMesh:
+    from gearcad.stiffness.methods import METHODS
+
+    given = {each.name: getattr(mesh, each.name) for each in fields(Mesh)}
+    if mesh.damping is None and mesh.damping_ratio is None:
+        given["damping_ratio"] = options.damping_ratio
+    if options.accuracy_grade is not None:
+        rating = replace(_pair(mesh).rating, accuracy_grade=options.accuracy_grade)
+        given["pair"] = replace(_pair(mesh), rating=rating)
+    # One round: the force does not depend on the stiffness, nor on how far the flanks have approached.
+    offset = cycle.mean_of(cycle.transmission_error) - cycle.force / cycle.tangent_mean if rounds > 1 else 0.0
+    title = METHODS[cycle.method].title
+    course = MeshCourse(cycle=cycle, title=title, torque=torque, driver=driver, rounds=rounds, offset=offset)
+    return EngagedMesh(**given, course=course)
+
+
+def pair_notices(train: Train) -> tuple[Notice, ...]:
+    """What to know of a train's pairs before trusting it."""
+    engaged_meshes = [mesh for mesh in train.meshes if isinstance(mesh, EngagedMesh)]
+    return tuple(notice.within(mesh.name) for mesh in engaged_meshes for notice in _notices(train, mesh))
+
+
+def _notices(train: Train, mesh: EngagedMesh) -> Iterator[Notice]:
+    """Those of the method; that the pair's own load is not that of the train."""
+    yield from mesh.course.cycle.notices
+    own, torque = mesh.teeth_of.load, abs(mesh.course.torque)
+    if own is None:
+        return
+    speed = abs(train.speed * train.speed_ratios[mesh.pinion])
+    other_speed = bool(own.speed and speed) and not math.isclose(abs(own.speed), speed, rel_tol=_OTHER)
+    if other_speed or not math.isclose(abs(own.torque), torque, rel_tol=_OTHER):
+        at = f" at {speed:.6g} rpm" if speed else ""
+        own_at = f" at {abs(own.speed):.6g} rpm" if own.speed else ""
+        text = f"the train gives its pinion {torque:.6g} N·m{at}, not {abs(own.torque):.6g} N·m{own_at} of the pair's own load"
+        yield Notice("other-load", text)
+    if own.application_factor != 1:
+        text = f"the application factor {own.application_factor:g} of the pair's own load is for its rating: the train has none"
+        yield Notice("no-application-factor", text)
