@@ -88,7 +88,7 @@ def study_train(
         system=charted,
         excitation=excitation,
         modes=modes,
-        other_frequencies=() if bearings is None else bearings.frequencies(),
+        on_bearings=None if bearings is None else bearings.modes(),
         up=over.up,
         down=over.down,
         jumps=over.jumps,

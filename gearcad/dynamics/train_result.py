@@ -28,6 +28,7 @@ from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.tables import Columns, Tables, chart_columns, cycle_columns, modal_tables, named_columns, stacked
+from gearcad.dynamics.trains.bearing_modes import BearingModes
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
 from gearcad.dynamics.trains.system import System
@@ -137,7 +138,7 @@ def _mode_arrays(modes: NaturalModes) -> dict[str, Floats]:
 class TrainStudy:
     """What was found out about a train: `up` and, where flanks may part, `down` are charts over the same rising speeds.
 
-    `other_frequencies` (Hz) are those of the system of the charts, where it has others than the modes; `method_b` is K_v by
+    `on_bearings` are the modes of the system of the charts, where its gears travel as well; `method_b` is K_v by
     ISO 6336-1. `found` is what the calculation itself has to say: `notices` are also those of the charts and modes.
     """
 
@@ -146,7 +147,7 @@ class TrainStudy:
     system: System
     excitation: Excitation
     modes: NaturalModes
-    other_frequencies: tuple[float, ...]
+    on_bearings: BearingModes | None
     up: KvChart
     down: KvChart | None
     jumps: tuple[Floats, Floats]
@@ -198,8 +199,7 @@ class TrainStudy:
     @cached_property
     def resonances(self) -> tuple[ChartResonance, ...]:
         """Maxima of K_v in the charts, mesh by mesh, with the natural frequencies that they meet."""
-        others = 2 * np.pi * np.array(self.other_frequencies)
-        return chart_resonances(self.charts, others if self.other_frequencies else self.modes.circular)
+        return chart_resonances(self.charts, self.modes.circular if self.on_bearings is None else self.on_bearings.excited)
 
     @cached_property
     def shaft_overloads(self) -> dict[str, ShaftOverload]:
@@ -209,7 +209,8 @@ class TrainStudy:
     @property
     def mode_speeds(self) -> tuple[ModeSpeed, ...]:
         """Speeds at which tooth frequencies are natural ones, or half of those that bend teeth."""
-        return mode_speeds(self.modes, self.train.meshes[0].teeth, self.other_frequencies)
+        others = () if self.on_bearings is None else tuple((self.on_bearings.excited / (2 * np.pi)).tolist())
+        return mode_speeds(self.modes, self.train.meshes[0].teeth, others)
 
     @property
     def course_lasts(self) -> bool:
@@ -234,6 +235,7 @@ class TrainStudy:
         return {
             "model": self.train.model.value,
             "modes": self.modes.to_dict(),
+            "modes_on_bearings": None if self.on_bearings is None else self.on_bearings.to_dict(),
             "speed": self.speeds.tolist(),
             "chart": self.up.to_dict(),
             "chart_down": None if self.down is None else self.down.to_dict(),

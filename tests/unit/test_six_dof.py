@@ -66,6 +66,66 @@ def test_stiff_bearings_leave_the_torsional_pair() -> None:
     assert stiff.frequencies()[1] == pytest.approx(isolated, rel=1e-6)
 
 
+def test_modes_across_the_line_of_action_are_each_gear_s_own() -> None:
+    """omega = sqrt(k/m), all of it in one bearing: teeth do not shake them."""
+    modes = PAIR.modes()
+    assert modes.frequency == pytest.approx(PAIR.frequencies(), rel=1e-9, abs=1e-3)
+    for words, (stiffness, mass) in {"pinion": (300, 0.8), "wheel": (450, 3.1)}.items():
+        mode = modes.words.index(f"{words} travels across the line of action")
+        assert modes.circular[mode] == pytest.approx(math.sqrt(1e6 * stiffness / mass), rel=1e-12)
+        assert not modes.shaken[mode] and modes.potential[mode].tolist() == [0.0, *np.eye(2)[int(words == "wheel")]]
+    assert modes.shaken.sum() == 3
+    assert modes.kinetic.sum(axis=1) == pytest.approx(np.ones(6)) and modes.potential[1:].sum(axis=1) == pytest.approx(
+        np.ones(5)
+    )
+
+
+def test_modes_of_two_alike_gears() -> None:
+    """Together along the line of action the mesh does nothing; against each other half of the pair is a chain of two masses."""
+    m, j, r, k, kb = 1.0, 5e-4, 0.03, 3e8, 2e8
+    alike = replace(
+        PAIR,
+        masses=(m, m),
+        inertias=(j, j),
+        base_radii=(30.0, 30.0),
+        mesh_stiffness=300.0,
+        bearing_stiffness=((200.0,) * 2,) * 2,
+    )
+    modes = alike.modes()
+    alone, words = math.sqrt(kb / m), list(modes.words)
+    together = words.index("both gears travel together, along the line of action")
+    assert modes.circular[2:5] == pytest.approx([alone] * 3, rel=1e-9) and together in (2, 3, 4)
+    assert sorted(words[2:5]) == sorted(
+        ["pinion travels across the line of action", "wheel travels across the line of action", words[together]]
+    )
+    assert not modes.shaken[[0, 2, 3, 4]].any()
+    # y = 2 (u + s), s = r phi: m u'' + kb u + k y = 0, j/r^2 s'' + k y = 0.
+    chain = np.array([[(kb + 2 * k) / m, 2 * k / m], [2 * k * r**2 / j, 2 * k * r**2 / j]])
+    squares, shapes = np.linalg.eig(chain)
+    order = np.argsort(squares)
+    assert modes.circular[[1, 5]] == pytest.approx(np.sqrt(squares[order]), rel=1e-9)
+    assert [words[1], words[5]] == [
+        "both gears travel against each other, along the line of action",
+        "gears turn against each other",
+    ]
+    for mode, (u, s) in zip((1, 5), shapes.T[order], strict=True):
+        assert modes.potential[mode, 0] == pytest.approx(
+            4 * k * (u + s) ** 2 / (4 * k * (u + s) ** 2 + 2 * kb * u**2), rel=1e-9
+        )
+
+
+@pytest.mark.parametrize("stiffness", [1e9, 1e-6])
+def test_modes_at_the_limits(stiffness: float) -> None:
+    """Rigid bearings leave the torsional mode; none leave two bodies that float."""
+    modes = replace(PAIR, bearing_stiffness=((stiffness,) * 2,) * 2).modes()
+    r1, r2 = 0.028, 0.066
+    compliance = r1**2 / 4e-4 + r2**2 / 7e-3 + (0 if stiffness > 1 else 1 / 0.8 + 1 / 3.1)
+    (mode,) = np.flatnonzero(modes.potential[:, 0] > 0.5)
+    assert modes.circular[mode] == pytest.approx(math.sqrt(240e6 * compliance), rel=1e-6)
+    assert modes.words[mode] == "gears turn against each other" and modes.potential[mode, 0] == pytest.approx(1.0, abs=1e-6)
+    assert mode == (1 if stiffness > 1 else 5)
+
+
 def test_static_deflection() -> None:
     """Bearings carry the normal force, and the mesh is pressed by it."""
     system = PAIR.system()

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gearcad.dynamics.trains.bearing_modes import BearingModes, modes_on_bearings
 from gearcad.dynamics.trains.system import Bearings, System
 from gearcad.errors import plain_numbers, require_number
 from gearcad.per_gear import PerGear
@@ -93,6 +94,22 @@ class PairOnBearings:
             travel[3 * gear : 3 * gear + 2, own] = turned.T / math.sqrt(mass)
             stiffness[own, own] = 1e6 * (turned * bearing) @ turned.T
         return Bearings(("pinion", "wheel"), travel, stiffness, self.bearing_damping * np.eye(4))
+
+    def modes(self) -> BearingModes:
+        """The six natural modes, seen along the line of action and across it."""
+        sine, cosine = math.sin(angle := math.radians(self.working_transverse_pressure_angle)), math.cos(angle)
+        first, second = (radius / 1000 for radius in self.base_radii)
+        approach = np.array([1.0, 0.0, first, -1.0, 0.0, second])
+        springs = np.zeros((3, 6, 6))
+        springs[0] = 1e6 * self.mesh_stiffness * np.outer(approach, approach)
+        for gear, (x, y) in enumerate(self.bearing_stiffness):
+            along, across = 3 * gear, 3 * gear + 1
+            # Sums that are exact where both are alike: then nothing couples along and across.
+            springs[1 + gear, along, along] = 1e6 * (y + (x - y) * sine**2)
+            springs[1 + gear, across, across] = 1e6 * (y + (x - y) * cosine**2)
+            springs[1 + gear, along, across] = springs[1 + gear, across, along] = 1e6 * (x - y) * sine * cosine
+        masses = [value for mass, turn in zip(self.masses, self.inertias, strict=True) for value in (mass, mass, turn)]
+        return modes_on_bearings(springs.sum(axis=0), np.array(masses), springs, (first, second))
 
     def frequencies(self) -> tuple[float, ...]:
         """The six natural frequencies (Hz), lowest first; that of the gears' free turning is 0."""
