@@ -19,6 +19,7 @@ __all__ = [
     "Tables",
     "campbell_columns",
     "chart_columns",
+    "chart_tables",
     "component_columns",
     "cycle_columns",
     "history_columns",
@@ -59,11 +60,46 @@ def chart_columns(charts: Charts) -> Columns:
     for direction, chart in charts.directions():
         ending = "" if chart is up else f"_{direction.value}"
         found |= named_columns(f"kv{ending}", chart.mesh_names, chart.factors)
+        found |= named_columns(f"kv_with_damping{ending}", chart.mesh_names, chart.damped)
         found |= named_columns(f"least_force{ending}", chart.mesh_names, chart.least * chart.static_forces, "N")
         found |= named_columns(f"shaft_overload{ending}", chart.shaft_names, chart.shaft_factors)
         found[f"stable{ending}"] = chart.stable
     if up.standard is not None:
         found["kv_iso6336"] = up.standard
+    return found
+
+
+def chart_tables(charts: Charts) -> Tables:
+    """All that is known over speed: overload, displacements, lines of the transmission error, and what bearings carry."""
+    found: Tables = {"chart": chart_columns(charts)}
+    speeds = {"speed (rpm)": charts.speeds}
+    for direction, chart in charts.directions():
+        ending = "" if chart is charts.up else f" {direction.value}"
+        moved, lines, bearings = chart.displacements, chart.transmission, chart.bearings
+        found[f"displacements{ending}"] = {
+            **speeds,
+            **named_columns("turn_amplitude", moved.inertia_names, moved.turns, "arcsec"),
+            **named_columns("turn_greatest", moved.inertia_names, moved.farthest, "arcsec"),
+            **named_columns("approach_amplitude", moved.mesh_names, moved.approaches, "µm"),
+            **named_columns("approach_greatest", moved.mesh_names, moved.deepest, "µm"),
+        }
+        orders = [f"order {order:.12g}" for order in lines.orders.tolist()]
+        found[f"transmission error{ending}"] = speeds | {
+            heading: column
+            for mesh, name in enumerate(chart.mesh_names)
+            for heading, column in named_columns(name, orders, lines.amplitudes[:, :, mesh], "µm").items()
+        }
+        if bearings is not None:
+            found[f"bearings{ending}"] = {
+                **speeds,
+                **named_columns("greatest_force", bearings.gears, bearings.greatest, "N"),
+                **named_columns("greatest_along", bearings.gears, bearings.along[:, 0], "N"),
+                **named_columns("least_along", bearings.gears, bearings.along[:, 1], "N"),
+                **named_columns("greatest_across", bearings.gears, bearings.across[:, 0], "N"),
+                **named_columns("least_across", bearings.gears, bearings.across[:, 1], "N"),
+                **named_columns("travel_along", bearings.gears, bearings.travels_along, "µm"),
+                **named_columns("travel_across", bearings.gears, bearings.travels_across, "µm"),
+            }
     return found
 
 

@@ -27,7 +27,7 @@ from gearcad.dynamics.charts.findings import (
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.tables import Columns, Tables, chart_columns, cycle_columns, modal_tables, named_columns, stacked
+from gearcad.dynamics.tables import Columns, Tables, chart_tables, cycle_columns, modal_tables, named_columns, stacked
 from gearcad.dynamics.trains.bearing_modes import BearingModes
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
@@ -268,7 +268,7 @@ class TrainStudy:
         """As the CSV files have them."""
         up = self.up
         return {
-            "chart": chart_columns(self.charts),
+            **chart_tables(self.charts),
             **modal_tables(self.modes),
             "course": self.course.columns(up.mesh_names, up.shaft_names, self.train.meshes[0].teeth),
             **stacked("mesh", list(self.pairs), [{_CYCLES: cycle_columns(mesh.course.cycle)} for mesh in self.pairs.values()]),

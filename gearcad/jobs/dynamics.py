@@ -51,7 +51,11 @@ _PAIR = {
     PairModel.CONTACT: {"inertias": 1.0, "mesh stiffness": 5.0, "campbell": 40.0, "history": 1.0},
 }
 
-_TABLES = ("chart", "modes", "component modes", "course", "mesh stiffness", "campbell", "history", "spectrum")
+_OVER_SPEED = ("displacements", "transmission error", "bearings")
+_TABLES = (
+    *("chart", *_OVER_SPEED, *(f"{name} down" for name in _OVER_SPEED), "modes", "component modes", "course", "mesh stiffness"),
+    *("campbell", "history", "spectrum"),
+)
 """Of any result."""
 
 _FIGURES = (

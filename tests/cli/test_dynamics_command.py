@@ -37,7 +37,10 @@ speeds = 40
 TRAIN = (TEMPLATES / "train-1-stage.toml").read_text(encoding="utf-8") + "speeds = 160\n"
 FILES = [
     *(f"dynamics.{kind}" for kind in ("html", "json", "npz")),
-    *(f"dynamics-{table}.csv" for table in ("chart", "modes", "component-modes", "course")),
+    *(
+        f"dynamics-{table}.csv"
+        for table in ("chart", "displacements", "transmission-error", "modes", "component-modes", "course")
+    ),
 ]
 
 
@@ -60,7 +63,7 @@ def test_a_train(here: Path) -> None:
     """Osinski's one stage: component modes of the paper, and the peak that an isolated pair does not have."""
     result = run("dynamics", spec(TRAIN), "--quiet")
     assert result.exit_code == 0, result.output
-    assert result.stdout.splitlines()[-7:] == [f"output/train-1-stage/{file}" for file in FILES]
+    assert result.stdout.splitlines()[-9:] == [f"output/train-1-stage/{file}" for file in FILES]
     document = json.loads(Path("output/train-1-stage/dynamics.json").read_text(encoding="utf-8"))
     assert (document["kind"], document["model"]) == ("dynamics", "modes")
     assert document["modes"]["circular"] == pytest.approx([1641.941, 12752.092, 19861.483], abs=1e-3)

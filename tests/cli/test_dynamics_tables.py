@@ -60,6 +60,13 @@ def test_tables_of_a_train_are_its_document(here: Path) -> None:
         assert numbers(chart[f"least_force.{stage} (N)"]) == of["least_force"][stage]
     assert numbers(chart["shaft_overload.middle"]) == of["shaft_overload"]["middle"]
     assert chart["stable"] == [str(each).lower() for each in of["stable"]]
+    moved = read(folder / "dynamics-displacements.csv")
+    assert numbers(moved["approach_amplitude.stage 2 (µm)"]) == of["displacements"]["approach_amplitude"]["stage 2"]
+    assert numbers(moved["turn_greatest.third (arcsec)"]) == of["displacements"]["turn_greatest"]["third"]
+    lines = read(folder / "dynamics-transmission-error.csv")
+    with np.load(folder / "dynamics.npz", allow_pickle=False) as arrays:
+        first = arrays["transmission_error_order"].tolist().index(1.0)
+        assert numbers(lines["stage 2.order 1 (µm)"]) == arrays["transmission_error"][:, first, 1].tolist()
     modes = read(folder / "dynamics-modes.csv")
     assert numbers(modes["frequency (1/s)"]) == document["modes"]["circular"]
     shapes = [numbers(modes[f"shape.{name} (rad)"]) for name in ("first", "second", "third", "fourth")]
@@ -91,7 +98,7 @@ def test_tables_of_the_contact_model_and_none_of_another(here: Path) -> None:
     mesh = text.replace('model = "contact"', 'stiffness = "potential-energy"').replace("speed_to = 20000.0", "speed_to = 9e4")
     run(mesh.replace("speed_from = 0.0", "speed_from = 8e4"))
     assert sorted(path.name for path in folder.glob("*.csv")) == [
-        f"dynamics-{name}.csv" for name in ("chart", "course", "mesh-stiffness", "modes")
+        f"dynamics-{name}.csv" for name in ("chart", "course", "displacements", "mesh-stiffness", "modes", "transmission-error")
     ]
 
 
