@@ -84,10 +84,10 @@ def test_a_list_of_one_is_the_plain_study(here: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (with_models("[]"), r"line 9: train.model = \[\]: must hold one at least of isolated, massless"),
-        (with_models('["exact", "exact"]'), r"line 9: train.model = 'exact': stands twice in the list"),
-        (with_models('["exact", "heavy"]'), r"line 9: train.model = 'heavy': must be one of 'isolated'"),
-        (with_models('["exact", 3]'), r"line 9: train.model = 3: must be one of"),
+        (with_models("[]"), r"line 10: train.model = \[\]: must hold one at least of isolated, massless"),
+        (with_models('["exact", "exact"]'), r"line 10: train.model = 'exact': stands twice in the list"),
+        (with_models('["exact", "heavy"]'), r"line 10: train.model = 'heavy': must be one of 'isolated'"),
+        (with_models('["exact", 3]'), r"line 10: train.model = 3: must be one of"),
         (with_models('[["exact"], "isolated"]'), r"train.model = \['exact'\]: must be one of"),
         (COUPLED, r"line 3: train.model = 'massless, exact': must be one model for a train without meshes"),
         (with_models('["exact", "isolated"]', COUPLED), r"line 3: train.model = 'isolated': a train without meshes"),

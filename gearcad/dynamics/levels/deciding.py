@@ -1,8 +1,8 @@
 """Which shafts and neighbouring stages a coarse model lacks where it fails: by the energies of the reference's natural modes.
 
-What vibrates at a speed is the mode by which the forces of the teeth load a mesh or a shaft most there. What of its energy is
-in parts that the coarse model does not have decides: the mass of shafts where they have none, and without shafts also their
-springs, and the inertias and meshes behind them.
+At a speed the forces of the teeth load a mesh or a shaft by several modes. What decides is the mode with the most load in a
+part that the coarse model does not have, by its share in the energy of that mode: the mass of shafts where they have none, and
+without shafts also their springs, and the inertias and meshes behind them.
 """
 
 from __future__ import annotations
@@ -31,6 +31,9 @@ _NAMED, _OF_GREATEST = 0.05, 1 / 3
 
 _HARMONICS = 16
 """Of the tooth frequencies that are asked what they shake."""
+
+_HARDLY = 0.02
+"""Of the greatest load of a mode: those with less do not decide."""
 
 _RIGID = 1e-9
 """Of the greatest square of a natural frequency: what is below turns as a whole."""
@@ -92,16 +95,24 @@ class Decision(NamedTuple):
 
 
 def decision(reference: TrainStudy, level: TrainModel, curve: CurveName, speed: float) -> Decision:
-    """What the level lacks at a speed (rpm) where its curve is off that of the reference."""
-    order, omega, teeth = _shaken(reference, curve, speed)
-    modes = natural_modes(reference.train, up_to=omega / (2 * np.pi) * (1 + 1e-6))
-    mode = int(np.abs(modes.circular - omega).argmin())
-    lacking = sorted(_lacking(reference.train, modes, mode, level, curve), key=lambda each: -each.share)
+    """What the level lacks at a speed (rpm) where its curve is off that of the reference.
+
+    Of the modes that load the curve it is the one with the most load in a part that the level does not have.
+    """
+    shaken = _shaken(reference, curve, speed)
+    highest = max(each.omega for each in shaken)
+    modes = natural_modes(reference.train, up_to=highest / (2 * np.pi) * (1 + 1e-6))
+    found = []
+    for each in shaken:
+        mode = int(np.abs(modes.circular - each.omega).argmin())
+        lacking = sorted(_lacking(reference.train, modes, mode, level, curve), key=lambda share: -share.share)
+        found.append((each.load * (lacking[0].share if lacking else 0.0), mode, each, lacking))
+    _, mode, most, lacking = max(found, key=lambda each: each[0])
     return Decision(
         curve=curve,
         speed=speed,
-        teeth=reference.up.mesh_names[teeth],
-        harmonic=order / reference.excitation.orders[teeth],
+        teeth=reference.up.mesh_names[most.teeth],
+        harmonic=most.order / reference.excitation.orders[most.teeth],
         mode=mode + 1,
         frequency=float(modes.frequency[mode]),
         shares=_named(lacking),
@@ -117,8 +128,18 @@ def _named(shares: list[Share]) -> tuple[Share, ...]:
 # ---------------------------------------------------------------------- what vibrates
 
 
-def _shaken(study: TrainStudy, curve: CurveName, speed: float) -> tuple[int, float, int]:
-    """The order of the common period and the natural frequency (1/s) that load a curve most, and the mesh that shakes it so.
+class _Shaken(NamedTuple):
+    """A mode of natural frequency `omega` (1/s): how far it loads a curve, at which order of the common period, and the mesh
+    that shakes it so."""
+
+    omega: float
+    load: float
+    order: int
+    teeth: int
+
+
+def _shaken(study: TrainStudy, curve: CurveName, speed: float) -> list[_Shaken]:
+    """The modes that load a curve, but those that hardly do.
 
     Forces are those with which the changing stiffness and the errors of the teeth act on a train that does not vibrate; what
     they would load at rest is left out.
@@ -135,8 +156,11 @@ def _shaken(study: TrainStudy, curve: CurveName, speed: float) -> tuple[int, flo
     damped = np.maximum(damping, 2 * LEAST_RATIO * np.sqrt(squares))
     receptance = 1 / (squares - omega**2 + 1j * damped * omega) - 1 / squares
     load = np.abs(driven.sum(axis=2) * receptance) * np.abs(shapes.T @ _loaded(study, curve))
-    order, mode = np.unravel_index(int(load.argmax()), load.shape)
-    return int(order) + 1, float(np.sqrt(squares[mode])), int(np.abs(driven[order, mode]).argmax())
+    orders, most = load.argmax(axis=0), load.max(axis=0)
+    return [
+        _Shaken(float(np.sqrt(squares[r])), float(most[r]), int(orders[r]) + 1, int(np.abs(driven[orders[r], r]).argmax()))
+        for r in np.flatnonzero(most >= _HARDLY * most.max())
+    ]
 
 
 def _loaded(study: TrainStudy, curve: CurveName) -> Floats:

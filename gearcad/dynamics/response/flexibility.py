@@ -33,6 +33,9 @@ _LOSS = 1e-9
 _MOST_AMPLIFIED = 1e9
 """Deflection over the static one beyond which rounding decides: resonance without damping."""
 
+_BALANCED, _ROUNDING = 1e-8, 1e-15
+"""Part of the load that may be left for free turns; relative error of squares of natural frequencies, of the greatest."""
+
 _NO_DAMPING = "no finite periodic motion: a harmonic of one of the frequencies meets a resonance without damping"
 
 
@@ -60,7 +63,9 @@ def static_state(system: System) -> StaticState:
         raise SolverError("the system has no stable state at rest: some stiffness is negative")
     free = values <= limit
     rest = vectors[:, free].T @ system.load
-    if np.abs(rest).max(initial=0.0) > 1e-8 * np.linalg.norm(system.load):
+    # Free turns are known as well as they stand out from the softest elastic mode, beside stiff ones that rounding refers to.
+    known = max(_BALANCED, _ROUNDING * values.max() / values[~free].min(initial=np.inf))
+    if np.abs(rest).max(initial=0.0) > known * np.linalg.norm(system.load):
         part = float(np.linalg.norm(rest) / np.linalg.norm(system.load))
         raise GeometryError(
             "load", part, "is the part of the torques that would speed up a train which is free to turn: they must balance"
