@@ -6,7 +6,7 @@ what it can be (its type, and a Range, a Whole or a Choice), and how it is writt
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from enum import Enum
 from functools import cache, cached_property
@@ -90,6 +90,11 @@ class FieldSchema:
         if ELSEWHERE in self.marks:
             return None
         return next((member for member in self.members if isinstance(member, type) and is_dataclass(member)), None)
+
+    def needed(self, given: Collection[str]) -> bool:
+        """Whether it must be given and is not, where these fields are."""
+        stands_in = any(isinstance(mark, InPlaceOf) and mark.other not in given for mark in self.marks)
+        return self.name not in given and (self.required or stands_in)
 
     def require(self, instance: DataclassInstance, owner: str) -> None:
         """Check the value that a frozen instance has, and turn the name of an enum's member into it. Raises ParameterError."""

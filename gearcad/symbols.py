@@ -288,8 +288,37 @@ DYNAMICS = {
     "kv": Symbol("K_v", "", "ISO 6336-1, 6", "dynamic factor at that speed"),
     "kv_highest": Symbol("K_v", "", "ISO 6336-1, 6", "highest dynamic factor of the chart"),
     "kv_highest_speed": Symbol("n_1", "rpm", "", "speed of the highest dynamic factor"),
+    "kv_highest_mesh": Symbol("", "", "", "mesh of the highest dynamic factor"),
+} | {f"frequency_{n}": Symbol(f"f_{n}", "Hz", "", f"natural frequency {n} of those that twist the train") for n in range(1, 7)}
+"""Of a pair or a train, beside what its options have."""
+
+TRAIN = {"held": Symbol("", "", "", "whether a shaft holds the train")}
+
+TRAIN_PARTS = {
+    "inertia": {
+        "speed_ratio": Symbol("", "", "", "turns per turn of the first mesh's pinion"),
+        "speed": Symbol("n", "rpm", "", "speed"),
+        "torque": Symbol("T", "N·m", "", "torque from outside"),
+    },
+    "shaft": {"inertia": Symbol("J", "kg·m²", "", "inertia about the axis")},
+    "mesh": {
+        "gear_ratio": Symbol("u", "", "", "base radius of the wheel over that of the pinion"),
+        "reduced_mass": Symbol("m_red", "kg", "", "reduced mass of both gears"),
+        "natural_frequency": Symbol("f", "Hz", "", "natural frequency of both gears by themselves"),
+        "tooth_frequency": Symbol("f_z", "Hz", "", "tooth frequency at the train's speed"),
+        "static_force": Symbol("F", "N", "", "mean force between the flanks"),
+    },
 }
-"""Of a pair, beside what its options have."""
+"""Of a train and its parts, beside what is given of them, as data.json has them."""
+
+TRAIN_DYNAMICS = {
+    "kv": DYNAMICS["kv"],
+    "kv_highest": DYNAMICS["kv_highest"],
+    "kv_highest_speed": DYNAMICS["kv_highest_speed"],
+    "shaft_overload": Symbol("", "", "", "greatest torque of the chart over the static one"),
+    "shaft_overload_speed": Symbol("n_1", "rpm", "", "speed of that torque"),
+}
+"""Of each mesh or shaft of a train, whose name stands behind."""
 
 MESH = {
     "passed": Symbol("", "", "", "whether the gates of the meshes are passed"),

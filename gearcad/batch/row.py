@@ -126,7 +126,9 @@ def _read(folder: Path, verb: str) -> dict[str, Any]:
 def _warnings(document: dict[str, Any]) -> Iterator[str]:
     """Each led by what it is about."""
     for part, of in document.items():
-        yield from (f"{part}: {text}" for text in (of.get("warnings", ()) if isinstance(of, dict) else ()))
+        texts = of.get("warnings") if isinstance(of, dict) else None
+        # A part of a train may be called so, too.
+        yield from (f"{part}: {text}" for text in (texts if isinstance(texts, list) else ()))
 
 
 class _Update(NamedTuple):
@@ -139,7 +141,7 @@ class _Update(NamedTuple):
 def _update(task: Task, folder: Path, job: Job[Any, Any]) -> _Update:
     """Make what is missing of a job's parts."""
     row, wanted = task.row, job.parts
-    inputs = inputs_hash({"name": row.name} | row.values)
+    inputs = inputs_hash(row.inputs)
     before = read_manifest(folder)
     kept = _kept(before, inputs, folder)
     missing = [name for name, options in wanted.items() if task.fresh or name not in kept or kept[name].options != options]

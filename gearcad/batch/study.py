@@ -8,20 +8,21 @@ from __future__ import annotations
 import csv
 import itertools
 import math
+import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from gearcad.batch.variations import MOST_ROWS, Choices, Span, read_variation
 from gearcad.designs.cells import guarded_text, list_text
-from gearcad.designs.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES
+from gearcad.designs.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES, DesignKind
 from gearcad.designs.keys import Cell
 from gearcad.designs.reader import spec_values
 from gearcad.designs.table import open_table
+from gearcad.designs.train_values import names_pair
+from gearcad.designs.variations import MOST_ROWS, Choices, Span, read_variations, without_varied
 from gearcad.errors import ParameterError, require_whole
-from gearcad.geometry.diametral import MODULE_OR_PITCH
 from gearcad.output import staged_files
 
 if TYPE_CHECKING:
@@ -42,9 +43,6 @@ class Method(Enum):
 
 
 _METHOD_WORDS = {Method.LATIN_HYPERCUBE: "a Latin hypercube", Method.SOBOL: "a scrambled Sobol sequence"}
-
-_SIZES_OF_RACKS = ("teeth", "length")
-"""One of them is given."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,6 +76,7 @@ class Study:
     """A base of values under their keys, and what varies; `sample` None stands for every combination."""
 
     source: str
+    kind: DesignKind
     name: str
     base: dict[str, Cell]
     variations: tuple[Choices | Span, ...]
@@ -108,15 +107,16 @@ class Study:
                 *(variation.at(column) for variation, column in zip(self.variations, block, strict=True)), strict=True
             )
 
-    def lines(self) -> Iterator[list[str]]:
-        """The cells of every row, its name first."""
+    def lines(self, folder: Path = Path()) -> Iterator[list[str]]:
+        """The cells of every row, its name first; files of pairs as they are found from the `folder` of the table."""
         width = len(str(self.rows))
         stem = self.name.encode()[: LONGEST_NAME_IN_BYTES - width - 1].decode(errors="ignore")[: LONGEST_NAME - width - 1]
         cells = {key: _cell_text(self.base[key]) if key in self.base else "" for key in self.keys}
-        varied = [variation.key for variation in self.variations]
+        varied, files = [variation.key for variation in self.variations], [key for key in self.keys if names_pair(key)]
         for number, point in enumerate(self.points(), 1):
             cells.update(zip(varied, map(_cell_text, point), strict=True))
-            yield [_cell_text(f"{stem}-{number:0{width}}"), *cells.values()]
+            seen = {key: _cell_text(os.path.relpath(cells[key], folder)) for key in files if cells[key]}
+            yield [_cell_text(f"{stem}-{number:0{width}}"), *(cells | seen).values()]
 
     def comments(self, table: str) -> Iterator[str]:
         """What the head of the table says about it."""
@@ -127,38 +127,32 @@ class Study:
             yield f"# Drawn as {_METHOD_WORDS[self.sample.method]} (seed {self.sample.seed}) from:"
         for variation in self.variations:
             yield f"#   {variation.key} = {variation.text}"
-        yield f"# Next: gearcad batch {table}"
+        yield f"# Next: {self.next_command(table)}"
+
+    def next_command(self, table: Path | str) -> str:
+        """What makes the rows of the table: nothing is built of a train."""
+        return f"gearcad batch {table}{' --do dynamics' if self.kind is DesignKind.TRAIN else ''}"
 
 
 def plan_study(spec: Path | str, variations: Sequence[str], sample: Sample | None = None) -> Study:
     """The study of a spec (TOML) with keys varied as texts such as "helix_angle=10,20,28" or "pinion.teeth=12:20:9" say.
 
-    A key without a table is one of [pair] or [gear]. FIRST:LAST:COUNT gives evenly spaced values; a sample takes FIRST:LAST
-    without a count. Raises SpecError for the spec, ParameterError for a variation.
+    A key without a table is one of [pair], [gear] or [train]; shaft.*.KEY varies that of all shafts of a train.
+    FIRST:LAST:COUNT gives evenly spaced values; a sample takes FIRST:LAST without a count. Raises SpecError for the spec,
+    ParameterError for a variation.
     """
     kind, name, base = spec_values(spec)
     if name.startswith("#"):
         raise ParameterError("name", name, "must not begin with #, which makes a comment of a row; give the spec another name")
     if not variations:
         raise ParameterError("vary", "", "must be given, such as helix_angle=10,20,28 or pinion.profile_shift=-0.2:0.6:9")
-    read = tuple(read_variation(text, kind, sampled=sample is not None) for text in variations)
-    keys = [variation.key for variation in read]
-    for text, key in zip(variations, keys, strict=True):
-        if keys.count(key) > 1:
-            raise ParameterError("vary", text, f"{key} is varied more than once; put all its values in one --vary")
-    base = {key: value for key, value in base.items() if not _replaced(key, keys)}
-    study = Study(source=Path(spec).name, name=name, base=base, variations=read, sample=sample)
+    read = read_variations(variations, kind, base, sampled=sample is not None)
+    read = tuple(variation.found_from(Path(spec).parent) for variation in read)
+    base = without_varied(base, [variation.key for variation in read])
+    study = Study(source=Path(spec).name, kind=kind, name=name, base=base, variations=read, sample=sample)
     if study.rows > MOST_ROWS:
         raise ParameterError("rows", study.rows, f"must be at most {MOST_ROWS}; take fewer values, or a sample")
     return study
-
-
-def _replaced(key: str, varied: Sequence[str]) -> bool:
-    """Whether a module gives way to a diametral pitch of its table that varies, or that to it; so a rack's teeth and length."""
-    table, _, field = key.partition(".")
-    if table == "rack" and field in _SIZES_OF_RACKS:
-        return any(f"rack.{other}" in varied for other in _SIZES_OF_RACKS)
-    return field in MODULE_OR_PITCH and any(f"{table}.{other}" in varied for other in MODULE_OR_PITCH)
 
 
 def write_study(study: Study, path: Path) -> None:
@@ -167,7 +161,7 @@ def write_study(study: Study, path: Path) -> None:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerows([comment] for comment in study.comments(path.name))
         writer.writerow(["name", *study.keys])
-        writer.writerows(study.lines())
+        writer.writerows(study.lines(path.parent))
 
 
 class TableCheck(NamedTuple):

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import starmap
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearcad import symbols
+from gearcad.cli.train_sheet import train_lines
 from gearcad.designs.design import Design, DesignKind
 from gearcad.designs.keys import FIELDS, PLANETARY
 from gearcad.designs.kinds.planetary import PlanetaryDesign
+from gearcad.designs.kinds.train import TrainDesign
 from gearcad.errors import format_number
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.geometry.derived import is_given
@@ -121,6 +124,10 @@ def print_datasheet(design: Design, console: Console) -> None:
 
 def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
     document = design.to_dict()
+    if isinstance(design, TrainDesign):
+        yield from starmap(_Line, train_lines(document))
+        yield from _warnings(design)
+        return
     gears = {name: _flat(document[name] | _in_use(gear)) for name, gear in design.gears.items()}
     pair = _flat(document.get("pair", {})) | document.get("drive", {})
     yield _Line(f"{design.name}: {_title(design)}", "bold")

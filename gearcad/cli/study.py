@@ -11,7 +11,7 @@ from gearcad.cli.group import debug_option, require_new_file, spec_argument
 from gearcad.errors import ParameterError, as_choice
 
 if TYPE_CHECKING:
-    from gearcad.batch.study import Sample
+    from gearcad.batch.study import Sample, Study
 
 __all__ = ["study"]
 
@@ -45,6 +45,7 @@ def study(
     --vary helix_angle=10,20,28             these values
     --vary pinion.profile_shift=-0.2:0.6:9  from -0.2 to 0.6 in 9 values
     --vary wheel.profile_shift=auto         one value for all rows
+    --vary "shaft.*.damping_ratio=0.01,0.1" of all shafts of a train, shaft.NAME. of one
     With --sample the rows are drawn instead, and a range has no count:
     --vary pinion.profile_shift=-0.2:0.6 --sample lhs --n 200
     """
@@ -57,7 +58,7 @@ def study(
         raise ParameterError("output", str(path), "must end in .csv")
     write_study(planned, path)
     click.echo(path)
-    _echo_prospects(path, planned.rows)
+    _echo_prospects(planned, path)
 
 
 def _sample(method: str | None, rows: int | None, seed: int | None) -> Sample | None:
@@ -77,13 +78,15 @@ def _sample(method: str | None, rows: int | None, seed: int | None) -> Sample | 
     return Sample(method=chosen, rows=rows, seed=seed or 0)
 
 
-def _echo_prospects(path: Path, rows: int) -> None:
+def _echo_prospects(planned: Study, path: Path) -> None:
     """Say how many rows make no gear, if they are few enough to try, and how to go on."""
     from gearcad.batch.study import check_table
+    from gearcad.designs.design import DesignKind
 
+    rows, of_train = planned.rows, planned.kind is DesignKind.TRAIN
     faulty, first = check_table(path) if rows <= MOST_CHECKED else (0, "")
     if faulty:
-        click.echo(f"{faulty} of {rows} rows make no gear. The first: {first}", err=True)
-    keep_going = " --keep-going    # builds the others" if 0 < faulty < rows else ""
+        click.echo(f"{faulty} of {rows} rows make no {'train' if of_train else 'gear'}. The first: {first}", err=True)
+    keep_going = f" --keep-going    # {'does' if of_train else 'builds'} the others" if 0 < faulty < rows else ""
     if faulty < rows:
-        click.echo(f"Next: gearcad batch {path}{keep_going}", err=True)
+        click.echo(f"Next: {planned.next_command(path)}{keep_going}", err=True)

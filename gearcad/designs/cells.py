@@ -9,6 +9,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from gearcad.designs.keys import COUNTS, LISTS, TEXTS, Cell
+from gearcad.designs.train_keys import general_key
 from gearcad.errors import ParameterError
 
 __all__ = ["CellReader", "Layout", "RawCell", "Unreadable", "guarded_text", "is_blank", "is_comment", "list_text", "plain_text"]
@@ -109,11 +110,12 @@ class CellReader:
             raise ParameterError(key, text, cell.fault)
         if _is_error(text):
             raise ParameterError(key, text, "is an error of the spreadsheet; mend the formula and save again")
-        if key in TEXTS or key == "name":
+        general = general_key(key)
+        if general in TEXTS or key == "name":
             return text
         if not isinstance(cell, str):
             return _checked(key, text, cell)
-        if key not in LISTS or len(text.split()) < 2:
+        if general not in LISTS or len(text.split()) < 2:
             return self._number_or_text(key, text, row)
         numbers = tuple(number for item in text.split() if isinstance(number := self._number_or_text(key, item, row), float))
         return numbers if len(numbers) == len(text.split()) else text
@@ -153,7 +155,7 @@ class CellReader:
 
 def _checked(key: str, text: str, number: float) -> int | float:
     """A finite float, or a whole number where a count is meant: pandas and spreadsheets write 20.0."""
-    if key in COUNTS and abs(number) <= _MOST_EXACT and float(number).is_integer():
+    if general_key(key) in COUNTS and abs(number) <= _MOST_EXACT and float(number).is_integer():
         return int(number)
     try:
         number = float(number)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from gearcad import symbols
 from gearcad.designs.keys import FIELDS, PLANETARY, Fields
+from gearcad.designs.train_keys import ALL, PARTS, TrainKey
 from gearcad.per_gear import Role
 from gearcad.planetary import Carrier, Central, PairStage, Rim
 from gearcad.schema import schema_of
@@ -93,9 +94,11 @@ def _found(owner: str, field: str, known: Mapping[str, Symbol]) -> tuple[str, Sy
 
 
 def column_symbol(heading: str) -> tuple[str, Symbol] | None:
-    """Whose the quantity of a column of results is ("pinion", "wheel" or ""), and how it is written; None for an unknown one.
+    """Whose the quantity of a column of results is ("pinion", "wheel", the name of a train's part, or ""), and how it is
+    written; None for an unknown one.
 
-    Columns are `pinion.tip_diameter`, `pair.tip_clearances.wheel`, `check.root_tension_pinion` or `check.rating.wheel.Y_F`.
+    Columns are `pinion.tip_diameter`, `pair.tip_clearances.wheel`, `check.root_tension_pinion`, `check.rating.wheel.Y_F` or
+    `shaft.input.length`.
     """
     for table, known in _TABLES.items():
         if table and not heading.startswith(f"{table}."):
@@ -108,4 +111,18 @@ def column_symbol(heading: str) -> tuple[str, Symbol] | None:
             name = field[: -len(owner) - 1]
             if field.endswith((f".{owner}", f"_{owner}")) and name in known:
                 return owner, known[name]
-    return None
+    return _of_part(heading)
+
+
+def _of_part(heading: str) -> tuple[str, Symbol] | None:
+    """Of a train: whose it is by the name of its part."""
+    table, _, rest = heading.partition(".")
+    if table == "train" and rest in symbols.TRAIN:
+        return "", symbols.TRAIN[rest]
+    if table == "dynamics":
+        key, _, name = rest.partition(".")
+        return (name, symbols.TRAIN_DYNAMICS[key]) if name and key in symbols.TRAIN_DYNAMICS else None
+    if (found := TrainKey.of(heading)) is not None:
+        return "" if found.name == ALL else found.name, found.schema.symbol
+    name, _, key = rest.rpartition(".")
+    return (name, symbols.TRAIN_PARTS[table][key]) if table in PARTS and key in symbols.TRAIN_PARTS[table] else None

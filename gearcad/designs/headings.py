@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from gearcad.designs.cells import RawCell, plain_text
 from gearcad.designs.design import DesignKind
 from gearcad.designs.keys import COLUMNS, MAIN_TABLES, OF_SETS, PLANETARY, SPEEDS, explain_unknown_column, nearest_table
+from gearcad.designs.train_keys import TrainKey
 from gearcad.errors import SpecError, shown
 
 __all__ = ["column_letter", "kinds_of", "read_headings"]
@@ -26,6 +27,7 @@ def column_letter(index: int) -> str:
 
 def kinds_of(keys: Iterable[str]) -> set[DesignKind]:
     """What full keys can make; none of [material] and [load] makes anything. A pinion may have a wheel or a rack."""
+    keys = tuple(keys)
     owners = {key.partition(".")[0] for key in keys}
     planetary = {"planetary", *OF_SETS}
     paired = bool(owners & {"pair", "pinion"})
@@ -34,9 +36,16 @@ def kinds_of(keys: Iterable[str]) -> set[DesignKind]:
         DesignKind.PAIR: "wheel" in owners or (paired and "rack" not in owners),
         DesignKind.RACK: "rack" in owners and not paired,
         DesignKind.RACK_PAIR: "rack" in owners and paired,
+        DesignKind.TRAIN: any(map(_of_train, keys)),
         DesignKind.PLANETARY: bool(owners & planetary),
     }
     return {kind for kind, made in makes.items() if made}
+
+
+def _of_train(key: str) -> bool:
+    """Whether a key is of a train: that of a mesh has a name between its table and itself, which no key of [mesh] has."""
+    table, _, rest = key.partition(".")
+    return table in ("train", "inertia", "shaft") or (table == "mesh" and "." in rest)
 
 
 def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
@@ -49,7 +58,7 @@ def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
     while headings and not headings[-1]:
         headings.pop()
     dotted = (heading for heading in headings if "." in heading and heading not in COLUMNS["gear"])
-    kinds = kinds_of(nearest_table(heading.partition(".")[0]) or "" for heading in dotted)
+    kinds = kinds_of(f"{nearest_table(first) or ''}.{rest}" for first, _, rest in (each.partition(".") for each in dotted))
     places: dict[str, int] = {}
     columns, faults = [], []
     for index, heading in enumerate(headings):
@@ -72,10 +81,12 @@ def _key_of(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
     """The full key of a heading, and what is wrong with it."""
     if heading == "name":
         return heading, ""
-    if heading in ("pair.name", "gear.name", "rack.name", "planetary.name"):
+    if heading in ("pair.name", "gear.name", "rack.name", "train.name", "planetary.name"):
         return "", "is the name of the design; write name"
-    if DesignKind.PLANETARY in kinds:
+    if DesignKind.TRAIN in kinds:
         return _key_of_train(heading, kinds)
+    if DesignKind.PLANETARY in kinds:
+        return _key_of_planetary(heading, kinds)
     table, _, field = heading.partition(".")
     if table in COLUMNS and field in COLUMNS[table]:
         return heading, ""
@@ -92,6 +103,17 @@ def _key_of(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
 
 
 def _key_of_train(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
+    """The full key of a heading in a table of trains, whose bare keys are those of [train]; and what is wrong with it."""
+    for key in (heading, f"train.{heading}"):
+        if TrainKey.of(key) is not None:
+            return key, ""
+    table = heading.partition(".")[0]
+    if len(kinds) > 1 and (table in (*COLUMNS, *PLANETARY) or heading in COLUMNS["gear"]):
+        return "", "cannot stand beside keys of trains: a table holds these, or gears and pairs, or planetary trains"
+    return "", explain_unknown_column(heading, "train")
+
+
+def _key_of_planetary(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
     """The full key of a heading in a table of planetary trains, whose bare keys are those of [planetary]; and what is wrong."""
     table, _, field = heading.partition(".")
     if field in PLANETARY.get(table, ()) or (table == _MAIN and field.startswith(f"{SPEEDS}.")):

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from gearcad.check.options import CheckOptions
 from gearcad.designs.design import DesignKind
+from gearcad.designs.train_keys import ALL, TRAIN, explain_unknown_key_of_train
+from gearcad.designs.train_keys import PARTS as TRAIN_PARTS
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.geometry import Gear, GearPair, Rack, RackPair, ShiftSplit
 from gearcad.geometry.diametral import MODULE_OR_PITCH
@@ -19,7 +21,7 @@ from gearcad.mounting import Mounting
 from gearcad.per_gear import Role
 from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad
 from gearcad.rating.options import RatingOptions
-from gearcad.schema import FieldSchema, Words, schema_of
+from gearcad.schema import ELSEWHERE, FieldSchema, Words, schema_of
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -38,13 +40,14 @@ __all__ = [
     "PRE_STAGE",
     "SHARED",
     "SPEEDS",
+    "SWITCHES",
     "TEXTS",
     "Cell",
     "Fields",
     "explain_unknown_column",
     "explain_unknown_key",
+    "explain_unknown_planetary_column",
     "explain_unknown_table",
-    "explain_unknown_train_column",
     "nearest_key",
     "nearest_table",
 ]
@@ -63,6 +66,7 @@ MAIN_TABLES = {
     DesignKind.PAIR: ("pair", *(role.value for role in Role)),
     DesignKind.RACK: ("rack",),
     DesignKind.RACK_PAIR: ("pair", "pinion", "rack"),
+    DesignKind.TRAIN: ("train",),
     DesignKind.PLANETARY: ("planetary",),
 }
 """The tables without which a spec makes no gear, no rack, no pair of them, no train; the first is what bare keys are of."""
@@ -177,11 +181,17 @@ PLANETARY: dict[str, dict[str, FieldSchema]] = {
 
 _EACH = {
     f"{table}.{key}": field for kind in (PLANETARY, FIELDS) for table, fields in kind.items() for key, field in fields.items()
+} | {
+    f"{table}.{ALL}.{key}" if table in TRAIN_PARTS else f"{table}.{key}": field
+    for table, fields in TRAIN.items()
+    for key, field in fields.items()
 }
 COUNTS = frozenset(key for key, field in _EACH.items() if field.whole)
 LISTS = frozenset(key for key, field in _EACH.items() if field.several)
-TEXTS = frozenset(key for key, field in _EACH.items() if field.text)
-"""Full keys of whole numbers, of what may be several numbers (in a cell there is space between them), and of words."""
+TEXTS = frozenset(key for key, field in _EACH.items() if field.text or ELSEWHERE in field.marks)
+SWITCHES = frozenset(key for key, field in _EACH.items() if field.members == (bool,))
+"""Full keys of whole numbers, of what may be several numbers (in a cell there is space between them), of words, and of
+true and false; of a train's parts those of all (`general_key`)."""
 
 _MOVED = {
     "check.pinion_tip_relief": "write pinion.modification.tip_relief and pinion.modification.tip_relief_length (mm)",
@@ -239,11 +249,13 @@ def _nearest(key: str, fields: Mapping[str, FieldSchema], known: tuple[str, ...]
 
 def nearest_table(name: str) -> str | None:
     """The table that was meant by `name`, if any."""
+    if name.lower() in TRAIN:
+        return name.lower()
     near = difflib.get_close_matches(name.lower(), (*KEYS, *OF_SETS, "planetary"), n=1, cutoff=0.75)
     return near[0] if near else None
 
 
-def explain_unknown_train_column(heading: str) -> str:
+def explain_unknown_planetary_column(heading: str) -> str:
     """The end of the message about a heading of a table of planetary trains that is no key."""
     first, dot, rest = heading.partition(".")
     near = difflib.get_close_matches(first.lower(), PLANETARY, n=1, cutoff=0.75) if dot else []
@@ -260,8 +272,10 @@ def explain_unknown_train_column(heading: str) -> str:
 
 def explain_unknown_column(heading: str, main: str) -> str:
     """The end of the message about a heading of a design table that is no key; bare keys are those of the table `main`."""
+    if main == "train":
+        return explain_unknown_key_of_train(heading)
     if main == "planetary":
-        return explain_unknown_train_column(heading)
+        return explain_unknown_planetary_column(heading)
     if heading.lower() == "name":
         return "unknown column; did you mean name?"
     if (moved := _MOVED.get(heading)) is not None:

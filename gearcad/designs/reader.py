@@ -9,18 +9,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from gearcad.designs.design import Design, DesignKind, not_accepted
+from gearcad.designs.design import Design, DesignKind
 from gearcad.designs.files import Where, read_tables
-from gearcad.designs.keys import LISTS, MAIN_TABLES, OF_SETS, Cell
+from gearcad.designs.keys import LISTS, MAIN_TABLES, OF_SETS, SWITCHES, Cell
 from gearcad.designs.kinds import type_of
-from gearcad.designs.kinds.gear import GearDesign
-from gearcad.designs.kinds.pair import PairDesign
 from gearcad.designs.kinds.toothed import ToothedDesign
+from gearcad.designs.kinds.train import TrainDesign
+from gearcad.designs.spec import Given, Spec
+from gearcad.designs.train_keys import general_key
+from gearcad.designs.train_values import names_pair, tables_of, values_of
 from gearcad.errors import SpecError, format_number
 
-__all__ = ["design_from_tables", "read_spec", "spec_values"]
+__all__ = ["SpecValues", "design_from_tables", "design_from_values", "read_spec", "read_values", "spec_values"]
 
 
 def read_spec(path: Path | str) -> Design:
@@ -40,27 +42,70 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
     return type_of(_kind(tables)).read(tables, where, default_name)
 
 
+def design_from_values(values: Mapping[str, Any], kind: DesignKind, *, where: Where, default_name: str) -> Design:
+    """The design that values under the keys of a design table describe. Raises SpecError."""
+    if kind is DesignKind.TRAIN:
+        tables, names = tables_of(values, where)
+        return TrainDesign.read(tables, where, default_name, names)
+    return design_from_tables(nested(values, kind), where=where, default_name=default_name)
+
+
+def nested(values: Mapping[str, Any], kind: DesignKind) -> dict[str, dict[str, Any]]:
+    """Values under their full keys as one mapping per table of a spec; the tables of the kind are there even if empty."""
+    tables: dict[str, dict[str, Any]] = {owner: {} for owner in MAIN_TABLES[kind]}
+    for key, value in values.items():
+        owner, _, field = key.partition(".")
+        tables.setdefault(owner, {})[field] = value
+    return tables
+
+
+class SpecValues(NamedTuple):
+    """What a spec says: its kind and name, and its other values under their keys, each with the key that the user wrote."""
+
+    kind: DesignKind
+    name: str
+    values: dict[str, Given]
+    where: Where
+
+
+def read_values(path: Path | str) -> SpecValues:
+    """The values of a spec, which need not make a design. Raises SpecError."""
+    tables, where = read_tables(path)
+    kind = _kind(tables)
+    made, main = type_of(kind), MAIN_TABLES[kind][0]
+    spec = made.spec(tables, where) if issubclass(made, ToothedDesign) else Spec(values_of(tables, where), where)
+    name = spec.name(main, Path(path).stem)
+    return SpecValues(kind, name, {key: given for key, given in spec.values.items() if key != f"{main}.name"}, where)
+
+
 def spec_values(path: Path | str) -> tuple[DesignKind, str, dict[str, Cell]]:
     """Kind and name of a spec, and its other values under their dotted keys as a design table holds them: "auto" is a text.
 
-    The values need not make a gear. Raises SpecError, for a value that no cell can hold too, and ParameterError for a kind that
-    no table holds.
+    The values need not make a gear. Raises SpecError, for a value that no cell can hold too.
     """
-    tables, where = read_tables(path)
-    made = type_of(_kind(tables))
-    if not issubclass(made, ToothedDesign):
-        raise not_accepted(made, (GearDesign, PairDesign), "no table holds another")
-    spec, main = made.spec(tables, where), MAIN_TABLES[made.kind][0]
-    name = spec.name(main, Path(path).stem)
-    values = {key: given.value for key, given in spec.values.items() if key != f"{main}.name"}
-    if listed := next((key for key in values if "[" in key), None):
+    kind, name, values, where = read_values(path)
+    listed = next((key for key in values if "[" in key), None) if kind is DesignKind.PLANETARY else None
+    if listed is not None:
         raise SpecError(f"{where(listed)}: {listed}: no table holds lists of tables", listed)
-    for key, value in values.items():
-        if key in LISTS and isinstance(value, list | tuple) and all(type(item) in (int, float) for item in value):
-            values[key] = tuple(float(item) for item in value)
-        elif isinstance(value, bool) or not isinstance(value, int | float | str):
-            raise SpecError(f"{where(key)}: {key} = {format_number(value)}: must be a number or a text")
-    return made.kind, name, values
+    return kind, name, {key: _cell(key, given, where) for key, given in values.items()}
+
+
+def _cell(key: str, given: Given, where: Where) -> Cell:
+    """A value as a cell can hold it."""
+    value = given.value
+    if general_key(key) in LISTS and isinstance(value, list | tuple) and all(type(item) in (int, float) for item in value):
+        return tuple(float(item) for item in value)
+    if key == "train.model" and isinstance(value, tuple):
+        raise SpecError(
+            f"{where(key)}: {key} = {format_number(value)}: no cell of a table holds several models: give one word", key
+        )
+    if isinstance(value, Mapping) and names_pair(key):
+        raise SpecError(f"{where(given.key)}: {given.key}: no table holds a pair: write it to a file, and its name here", key)
+    if isinstance(value, bool) and general_key(key) in SWITCHES:
+        return "true" if value else "false"
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        raise SpecError(f"{where(given.key)}: {given.key} = {format_number(value)}: must be a number or a text")
+    return value
 
 
 def _kind(tables: Mapping[str, Any]) -> DesignKind:

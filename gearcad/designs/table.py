@@ -9,14 +9,17 @@ from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from gearcad.designs.cells import CellReader, Layout, RawCell, is_blank, is_comment, plain_text
 from gearcad.designs.design import Design, DesignKind, require_plain_name
 from gearcad.designs.headings import column_letter, kinds_of, read_headings
 from gearcad.designs.keys import Cell
-from gearcad.designs.reader import design_from_tables
+from gearcad.designs.reader import design_from_values
 from gearcad.designs.sheets import Record, Sheet, open_sheet
-from gearcad.designs.trials import fault_alone, missing_faults, nested, permitted_alone
+from gearcad.designs.train_keys import general_key
+from gearcad.designs.train_values import names_pair, with_pairs_found
+from gearcad.designs.trials import fault_alone, missing_faults, permitted_alone
 from gearcad.errors import ParameterError, SpecError, format_number, printable, shown
 
 __all__ = ["Row", "Table", "open_table"]
@@ -51,8 +54,15 @@ class Row:
         if self.faults:
             raise SpecError(self.faults[0], "".join(self.unread[:1]))
         self._require_name()
-        kind = self._kind()
-        return design_from_tables(nested(self.values, kind), where=self.where, default_name=self.name)
+        values = with_pairs_found(self.values, Path(self.table).parent)
+        return design_from_values(values, self._kind(), where=self.where, default_name=self.name)
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """All that decides what it makes: its name and values, and what stands in the files of pairs that they name."""
+        files = {key: each for key, each in self.values.items() if names_pair(key)}
+        found = with_pairs_found(files, Path(self.table).parent)
+        return {"name": self.name, **self.values, **{f"{key}: text": _text_of(Path(str(file))) for key, file in found.items()}}
 
     def all_faults(self) -> list[str]:
         """Every fault of the row that does not depend on another, from left to right; [] for a good row.
@@ -80,10 +90,10 @@ class Row:
                 self._require_name()
             except SpecError as error:
                 yield error
-        of_train = DesignKind.PLANETARY in kinds_of(self.columns)
+        kinds = kinds_of(self.columns)
+        of = next((kind for kind in (DesignKind.TRAIN, DesignKind.PLANETARY) if kind in kinds), None)
         for key, value in self.values.items():
-            alone = permitted_alone(key, value, of_train=of_train)
-            if not alone and (fault := fault_alone(key, value, self.where, of_train=of_train)):
+            if not permitted_alone(key, value, of=of) and (fault := fault_alone(key, value, self.where, of=of)):
                 yield fault
         try:
             kind = self._kind()
@@ -118,9 +128,9 @@ class Row:
         return SpecError(f"{self.where(key)}: {key}: cannot stand beside keys of {other}: a row makes {made}", key)
 
     def _index(self, key: str) -> int:
-        """Place from 0 of the column with the key, else with what both gears share; or -1."""
+        """Place from 0 of the column with the key, else with what both gears or all parts of a train share; or -1."""
         owner, _, field = key.partition(".")
-        homes = (key, f"pair.{field}") if owner in ("pinion", "wheel", "rack") else (key,)
+        homes = (key, f"pair.{field}" if owner in ("pinion", "wheel", "rack") else general_key(key))
         return next((self.columns.index(home) for home in homes if home and home in self.columns), -1)
 
 
@@ -192,6 +202,14 @@ def open_table(path: Path | str) -> Table:
         raise SpecError(f"{path}: has no heading; `gearcad new pairs` makes a table that has one")
     number, cells = heading
     return Table(path, read_headings(cells, f"{path} row {number}"), sheet)
+
+
+def _text_of(file: Path) -> str:
+    """What a file holds; nothing where it cannot be read, which its reader will say."""
+    try:
+        return file.read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return ""
 
 
 @contextmanager

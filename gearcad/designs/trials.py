@@ -7,11 +7,13 @@ from functools import lru_cache
 
 from gearcad.designs.design import DesignKind
 from gearcad.designs.keys import FIELDS, MAIN_TABLES, OF_SETS, SHARED, Cell
-from gearcad.designs.reader import design_from_tables
+from gearcad.designs.reader import design_from_values
+from gearcad.designs.train_keys import ALL, TrainKey
+from gearcad.designs.train_values import missing_fault, missing_keys
 from gearcad.errors import GeometryError, SpecError
 from gearcad.geometry.diametral import MODULE_OR_PITCH
 
-__all__ = ["fault_alone", "missing_faults", "nested", "permitted_alone"]
+__all__ = ["fault_alone", "missing_faults", "permitted_alone"]
 
 Where = Callable[[str], str]
 
@@ -52,20 +54,30 @@ def _sound_set(owner: str) -> dict[str, Cell]:
     return made
 
 
-def nested(values: Mapping[str, Cell], kind: DesignKind) -> dict[str, dict[str, Cell]]:
-    """Values under their full keys as one mapping per table of a spec; the tables of the kind are there even if empty."""
-    tables: dict[str, dict[str, Cell]] = {owner: {} for owner in MAIN_TABLES[kind]}
-    for key, value in values.items():
-        owner, _, field = key.partition(".")
-        tables.setdefault(owner, {})[field] = value
-    return tables
+def _sound_train(key: str, value: Cell) -> dict[str, Cell]:
+    """Values of a train among which one is tried, on parts of its key's name."""
+    found = TrainKey.of(key)
+    name = "part" if found is None or found.name in ("", ALL) else found.name
+    gear = f"other than {name}"
+    teeth = len(value) if isinstance(value, tuple) else 20  # deviations are as many
+    mesh: dict[str, Cell] = {"pinion": name, "wheel": gear, "base_radii": (50.0, 100.0), "stiffness": 500.0, "teeth": teeth}
+    made: dict[str, Cell] = {f"inertia.{each}.inertia": 0.1 for each in (name, gear)}
+    made |= {f"shaft.{name}.{field}": each for field, each in {"start": name, "end": "ground"}.items()}
+    made[f"shaft.{name}.torsional_stiffness"] = 1e4
+    made |= {f"mesh.{name}.{field}": each for field, each in mesh.items()}
+    return made
 
 
-def fault_alone(key: str, value: Cell, where: Where, *, of_train: bool = False) -> SpecError | None:
-    """What is wrong with a value whatever the others are; `where` locates a key for the message."""
+def fault_alone(key: str, value: Cell, where: Where, *, of: DesignKind | None = None) -> SpecError | None:
+    """What is wrong with a value whatever the others are; `where` locates a key for the message.
+
+    `of` is the kind of design where it is a train or a planetary train.
+    """
+    if of is DesignKind.TRAIN:
+        return _fault_in_train(key, value, where)
     owner, _, field = key.partition(".")
-    kind = DesignKind.PLANETARY if of_train else _home(key)
-    others = (_sound_set(owner) if of_train else _SOUND[kind]) | ({"load.torque": 1.0} if owner == "load" else {})
+    kind = of or _home(key)
+    others = (_sound_set(owner) if of else _SOUND[kind]) | ({"load.torque": 1.0} if owner == "load" else {})
     if owner in ("pair", DesignKind.PLANETARY.value):
         # What the gears have of their own would win.
         others = {other: given for other, given in others.items() if not other.endswith(f".{field}")}
@@ -73,6 +85,21 @@ def fault_alone(key: str, value: Cell, where: Where, *, of_train: bool = False) 
         others = {other: given for other, given in others.items() if other.partition(".")[2] not in MODULE_OR_PITCH}
     for ring in ({}, *(rings for name, rings in _RINGS.items() if name == owner or (name == "wheel" and owner == "pair"))):
         error = _fault({**others, **ring, key: value}, kind, where)
+        if error is None or error.key != key or isinstance(error.__cause__, GeometryError):
+            return None
+    return error
+
+
+def _fault_in_train(key: str, value: Cell, where: Where) -> SpecError | None:
+    """The same in a train: names of other parts are for the whole row to judge."""
+    found = TrainKey.of(key)
+    if found is None or found.schema.members == (str,) or found.name == ALL:
+        return None
+    sound = _sound_train(key, value)
+    shaped = {other: given for other, given in sound.items() if not other.endswith(".torsional_stiffness")}
+    shaped |= {f"shaft.{found.name or 'part'}.{field}": 1.0 for field in ("length", "diameter")}
+    for rest in (sound, shaped):
+        error = _fault({**rest, key: value}, DesignKind.TRAIN, where)
         if error is None or error.key != key or isinstance(error.__cause__, GeometryError):
             return None
     return error
@@ -89,15 +116,18 @@ def _home(key: str) -> DesignKind:
 
 
 @lru_cache(maxsize=4096, typed=True)
-def permitted_alone(key: str, value: Cell, *, of_train: bool = False) -> bool:
+def permitted_alone(key: str, value: Cell, *, of: DesignKind | None = None) -> bool:
     """True if a value is not wrong by itself. The rows of a table share many of theirs."""
-    return fault_alone(key, value, where=str, of_train=of_train) is None
+    return fault_alone(key, value, where=str, of=of) is None
 
 
 def missing_faults(given: Collection[str], kind: DesignKind, where: Where) -> Iterator[SpecError]:
     """The faults of values that are not among the keys `given`; what both gears may share is missed once."""
+    if kind is DesignKind.TRAIN:
+        yield from (missing_fault(key, where) for key in missing_keys(given))
+        return
     if kind is DesignKind.PLANETARY:
-        yield from _missing_of_train(given, where)
+        yield from _missing_of_set(given, where)
         return
     for field in _REQUIRED:
         fields = MODULE_OR_PITCH if field in MODULE_OR_PITCH else ("teeth", "length") if field == "teeth" else (field,)
@@ -110,7 +140,7 @@ def missing_faults(given: Collection[str], kind: DesignKind, where: Where) -> It
         yield from _fault_without("load.torque", _SOUND[kind] | {"load.speed": 0.0}, kind, where)
 
 
-def _missing_of_train(given: Collection[str], where: Where) -> Iterator[SpecError]:
+def _missing_of_set(given: Collection[str], where: Where) -> Iterator[SpecError]:
     """Those of a planetary train; which gears its set lacks is said where it is read."""
     kind, main = DesignKind.PLANETARY, DesignKind.PLANETARY.value
     for table in OF_SETS:
@@ -129,7 +159,7 @@ def _fault_without(key: str, values: Mapping[str, Cell], kind: DesignKind, where
 
 def _fault(values: Mapping[str, Cell], kind: DesignKind, where: Where) -> SpecError | None:
     try:
-        design_from_tables(nested(values, kind), where=where, default_name="trial")
+        design_from_values(values, kind, where=where, default_name="trial")
     except SpecError as error:
         return error
     return None

@@ -26,6 +26,7 @@ from gearcad.dynamics.trains.train import Train
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.geometry.halves import refuse_halves
+from gearcad.jobs.dynamics_columns import dynamics_columns
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
 from gearcad.jobs.tables import file_name, table_files
@@ -58,12 +59,6 @@ _TABLES = (
 )
 """Of any result."""
 
-_FIGURES = (
-    "model stiffness_method mesh_stiffness_mean mesh_stiffness_tangent_mean pinion_inertia wheel_inertia tooth_stiffness"
-    " tooth_damping natural_frequency damping_ratio static_approach contact_ratio resonance_speed_iso6336"
-).split()
-"""What a line of a table takes from the document as it is."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Dynamics(Job[PairDesign | TrainDesign, Study]):
@@ -87,22 +82,8 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
         return result.notices
 
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
-        """What a line can hold of a pair: inertias and stiffness, its natural frequency, K_v at the speed and the highest."""
-        found = {name: document[name] for name in _FIGURES if name in document}
-        if document["model"] == PairModel.MESH.value:
-            modes, course = document["modes"], document["course"]
-            (kv,) = course["kv"]
-            (over_speed,) = document["chart"]["kv"].values()
-            highest = max(range(len(over_speed)), key=over_speed.__getitem__)
-            found |= {
-                "natural_frequency": modes["frequency"][modes["rigid"]],
-                "course_speed": course["speed"],
-                "kv": kv,
-                "kv_highest": over_speed[highest],
-                "kv_highest_speed": document["speed"][highest],
-            }
-            return {**found, "warnings": document["warnings"]}
-        return {**found, "warnings": document["campbell"]["warnings"]}
+        """What a line of a table has of it."""
+        return dynamics_columns(document)
 
     def files(self, result: Study) -> dict[str, Writer]:
         """The report, the document, the arrays, the tables, and the specs of a train's pairs."""

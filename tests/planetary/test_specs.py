@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from scipy.optimize import brentq
 
-from gearcad.batch.variations import read_variation
 from gearcad.designs import DesignKind, PlanetaryDesign, Row, open_table, read_spec
 from gearcad.designs.columns import column_of_train
 from gearcad.designs.keys import PLANETARY
 from gearcad.designs.reader import spec_values
+from gearcad.designs.variations import read_variation
 from gearcad.errors import ParameterError, SpecError
 
 PLAIN = """

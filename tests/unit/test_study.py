@@ -257,7 +257,7 @@ def test_a_table_that_cannot_be_finished_leaves_what_was_there(
     path = tmp_path / "table.csv"
     path.write_text("precious")
 
-    def interrupted(_: Study) -> Iterator[list[str]]:
+    def interrupted(_study: Study, _folder: Path) -> Iterator[list[str]]:
         yield ["x"]
         raise KeyboardInterrupt
 

@@ -5,24 +5,27 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from gearcad.designs.design import Accepted, Design, DesignKind, require_plain_name
 from gearcad.designs.files import Where
 from gearcad.designs.kinds.train_pairs import read_pair
+from gearcad.designs.train_keys import PARTS, TRAIN, TrainKey
+from gearcad.designs.train_values import missing_fault
 from gearcad.dynamics.options import OF_PAIRS, OF_TRAINS_OF_PAIRS, DynamicsOptions
-from gearcad.dynamics.trains.members import BESIDE_PAIR, Inertia, Mesh, Shaft
+from gearcad.dynamics.trains.document import train_document
+from gearcad.dynamics.trains.members import BESIDE_PAIR, Mesh
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.errors import InputError, ParameterError, SpecError, as_choice, format_number, shown
-from gearcad.schema import FieldSchema, InPlaceOf, schema_of
+from gearcad.schema import schema_of
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
 __all__ = ["TrainDesign"]
 
-_PARTS: dict[str, type[DataclassInstance]] = {"inertia": Inertia, "shaft": Shaft, "mesh": Mesh}
 _TOLD_BY_PAIR = ("base_radii", "teeth", "internal", "stiffness", "variation", "shape", "contact_ratio")
 """Keys of a mesh that its pair has in their place."""
 
@@ -37,7 +40,7 @@ class TrainDesign(Design):
     """A train of shafts and meshes, and what the study of its dynamics looks at."""
 
     kind: ClassVar[DesignKind] = DesignKind.TRAIN
-    elsewhere: ClassVar[str] = "a train is for `gearcad dynamics`"
+    elsewhere: ClassVar[str] = "a train is for `gearcad dynamics` and `gearcad data`"
 
     train: Train
     other_models: tuple[TrainModel, ...] = ()
@@ -62,12 +65,14 @@ class TrainDesign(Design):
         return (self.train.model, *self.other_models)
 
     @classmethod
-    def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
-        """That of [train]; beside it there is [dynamics]. Raises SpecError."""
+    def read(
+        cls, tables: Mapping[str, Any], where: Where, default_name: str, names: Mapping[str, str] = MappingProxyType({})
+    ) -> Self:
+        """That of [train]; beside it there is [dynamics]. `names`: what the user calls tables of lists. Raises SpecError."""
         for table in tables:
             if table not in ("train", "dynamics"):
                 raise SpecError(f"{where(table)}: [{shown(table)}] cannot stand beside [train]: permitted is [dynamics]")
-        reader = _Reader(where)
+        reader = _Reader(where, names)
         train, others = reader.train(tables["train"], default_name)
         dynamics = reader.dynamics(tables.get("dynamics", {}), train)
         with reader.blame("train"):
@@ -82,10 +87,19 @@ class TrainDesign(Design):
             raise ParameterError("kind", self.kind.words, permitted)
         return super().accepted(*kinds, why=why)
 
+    def to_dict(self) -> dict[str, Any]:
+        """The document of `data.json`: the train and its parts, each kind under its table, and the options."""
+        options = {key: value for key, value in asdict(self.dynamics).items() if key in TRAIN["dynamics"]}
+        document = super().to_dict() | train_document(self.train) | {"dynamics": options}
+        if self.other_models:
+            document["train"]["model"] = [each.value for each in self.models]
+        return document
+
 
 @dataclass(frozen=True)
 class _Reader:
     where: Where
+    names: Mapping[str, str]
 
     def train(self, content: Any, default_name: str) -> tuple[Train, tuple[TrainModel, ...]]:
         """The train of [train] and its parts, and the models beside its own."""
@@ -120,7 +134,7 @@ class _Reader:
         """The inertias, shafts or meshes of a train."""
         if not isinstance(listed, list):
             raise SpecError(f"{self.where(f'train.{key}')}: train.{key}: must be headed [[train.{key}]], once for each")
-        kind, found = _PARTS[key], []
+        kind, found = PARTS[key], []
         schema = schema_of(kind)
         for number, each in enumerate(listed):
             owner = f"train.{key}[{number}]"
@@ -128,11 +142,17 @@ class _Reader:
             if kind is Mesh:
                 self._read_pair(given, owner)
             with self.blame(owner, str(given.get("name", ""))):
-                missing = [name for name, field in schema.items() if name not in given and _needed(field, given)]
+                missing = [name for name, field in schema.items() if field.needed(given)]
                 if missing:
-                    raise SpecError(f"{self.where(owner)}: {missing[0]} is missing in [[train.{key}]]")
+                    raise self._missing(owner, missing[0])
                 found.append(kind(**_numbers(kind, given)))
         return tuple(found)
+
+    def _missing(self, owner: str, field: str) -> SpecError:
+        """What a part must have, and has not."""
+        if owner in self.names:
+            return missing_fault(f"{self.names[owner]}.{field}", self.where)
+        return SpecError(f"{self.where(owner)}: {field} is missing in [[{owner.partition('[')[0]}]]")
 
     def _read_pair(self, given: dict[str, Any], owner: str) -> None:
         """The pair of a mesh in place of how it is written; what it tells must not stand beside it."""
@@ -143,8 +163,9 @@ class _Reader:
             return
         for key in _TOLD_BY_PAIR:
             if key in given:
-                raise SpecError(f"{self.where(f'{owner}.{key}')}: {name}.{key} = {format_number(given[key])}: {BESIDE_PAIR}")
-        given["pair"] = read_pair(given["pair"], self.where, f"{owner}.pair", name)
+                written = self._written(owner, key)
+                raise SpecError(f"{self.where(written)}: {name}.{key} = {format_number(given[key])}: {BESIDE_PAIR}", written)
+        given["pair"] = read_pair(given["pair"], self.where, self._written(owner, "pair"), name)
 
     def _torques(self, given: Any) -> dict[str, float]:
         if not isinstance(given, Mapping):
@@ -172,23 +193,29 @@ class _Reader:
         except InputError as error:
             field = error.parameter.removeprefix(f"{name}.") if name else error.parameter
             unit = f" {error.unit}" if error.unit else ""
-            key = shown(f"{owner}.{field}" if not name else f"{name}.{field}")
-            text = f"{self.where(f'{owner}.{field}')}: {key} = {format_number(error.value)}{unit}: {error.permitted}"
-            raise SpecError(text, f"{owner}.{field}") from error
+            key = self._written(owner, field)
+            words = shown(f"{name}.{field}" if name and owner not in self.names else key)
+            raise SpecError(
+                f"{self.where(key)}: {words} = {format_number(error.value)}{unit}: {error.permitted}", key
+            ) from error
+
+    def _written(self, owner: str, field: str) -> str:
+        """The key under which the user writes a field; what a train says of a part's field is about the part's table."""
+        if owner in self.names:
+            return f"{self.names[owner]}.{field}"
+        for found in (TrainKey.of(f"{table}.{field}") for table in PARTS) if owner == "train" else ():
+            if found is not None and f"{found.table}.{found.name}" in self.names.values():
+                return str(found)
+        return f"{owner}.{field}"
 
 
 def _models(given: Any) -> tuple[TrainModel, ...]:
     """Those of a list; none of a single word. Raises ParameterError."""
-    if not isinstance(given, list):
+    if not isinstance(given, list | tuple):
         return ()
     if not given:
         raise ParameterError("model", given, f"must hold one at least of {', '.join(each.value for each in TrainModel)}")
     return tuple(as_choice("model", each, TrainModel) for each in given)
-
-
-def _needed(field: FieldSchema, given: Mapping[str, Any]) -> bool:
-    """Whether a key must be given, what else is given being so."""
-    return field.required or any(isinstance(mark, InPlaceOf) and mark.other not in given for mark in field.marks)
 
 
 def _numbers(kind: type[DataclassInstance], given: Mapping[str, Any]) -> dict[str, Any]:

@@ -82,8 +82,8 @@ class Shaft(NamedPart):
     """
 
     name: str
-    start: str
-    end: str
+    start: Annotated[str, Words("where it begins")]
+    end: Annotated[str, Words("where it ends")]
     torsional_stiffness: Annotated[float | None, TORSIONAL_STIFFNESS, Words("torsional stiffness")] = None
     length: Annotated[float | None, LENGTH, Words("length")] = None
     diameter: Annotated[float | None, LENGTH, Words("diameter")] = None
@@ -158,8 +158,8 @@ class Mesh(NamedPart):
     """
 
     name: str
-    pinion: str
-    wheel: str
+    pinion: Annotated[str, Words("inertia that its pinion is")]
+    wheel: Annotated[str, Words("inertia that its wheel is")]
     pair: Annotated[MeshPair | GearPair | None, Words("pair of gears whose teeth these are"), ELSEWHERE] = None
     base_radii: Annotated[PerGear[float], LENGTH, Words("base radii of pinion and wheel", "r_b"), InPlaceOf("pair")] = _NO_RADII
     stiffness: Annotated[float, STIFFNESS, Words("mean stiffness along the line of action"), InPlaceOf("pair")] = NOT_GIVEN
