@@ -234,7 +234,7 @@ def test_a_key_twice(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('name = "input"', 'name = "*"', "line 23: train.shaft[0].name = '*': must be a text without space around it"),
+        ('name = "input"', 'name = "*"', ": train.shaft[0].name = '*': must be a text without space around it"),
         ('name = "input"', 'name = " input"', "must be a text without space around it"),
         ('name = "input"', 'name = "output"', "names must differ"),
         ('name = "input"', 'nmae = "input"', "name is missing in [[train.shaft]]"),
