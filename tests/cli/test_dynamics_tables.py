@@ -35,7 +35,9 @@ def numbers(cells: list[str]) -> list[float]:
 
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder, and no pictures: they take most of the time."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, path: path.touch())
     return tmp_path
 
 
