@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from gearcad.dynamics.pair_result import ContactStudy
     from gearcad.dynamics.train_result import TrainStudy
     from gearcad.dynamics.trains.eigenmodes import NaturalModes
+    from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
     from gearcad.jobs.dynamics import Study
 
 __all__ = ["dynamics"]
@@ -95,7 +96,7 @@ def _mode_lines(modes: NaturalModes) -> list[str]:
 
 
 def _train_lines(study: TrainStudy) -> list[str]:
-    lines = _mode_lines(study.modes)
+    lines = [*map(_pair_line, study.pairs.values()), *_mode_lines(study.modes)]
     for mesh, name in enumerate(study.up.mesh_names):
         up = _peaks(study, study.up, mesh)
         down = up if study.down is None else _peaks(study, study.down, mesh)
@@ -106,6 +107,15 @@ def _train_lines(study: TrainStudy) -> list[str]:
         )
     factors = ", ".join(f"{factor:.3f} of {name}" for name, factor in zip(study.up.mesh_names, study.course.kv, strict=True))
     return [*lines, f"K_v at {study.course.speed:.6g} rpm: {factors}"]
+
+
+def _pair_line(mesh: EngagedMesh) -> str:
+    """What a pair carries, and how stiff its teeth are then."""
+    course, cycle = mesh.course, mesh.course.cycle
+    carried = f"{course.torque:.6g} N·m on its pinion, {mesh.gears.pick(course.driver)} drives"
+    return (
+        f"pair of {mesh.name}: {carried}; {cycle.mean:.5g} N/µm mean secant, {cycle.tangent_mean:.5g} tangent ({cycle.method})"
+    )
 
 
 def _peaks(study: TrainStudy, chart: KvChart, mesh: int) -> str:

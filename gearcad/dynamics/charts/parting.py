@@ -129,7 +129,9 @@ def _harmonics(curves: SpeedCurves, frequency: float) -> int:
         unknowns = meshes * len(harmonic_orders(curves.excitation, count))
         if unknowns <= _MOST_UNKNOWNS:
             return count
-    raise SolverError(f"motions in which they part would have {unknowns} harmonics here; leave tooth errors out to see them")
+    errors = any(mesh.error is not None and mesh.error.teeth > 1 for mesh in curves.excitation.meshes)
+    fewer = "leave tooth errors out" if errors else "give tooth numbers with which all comes again sooner"
+    raise SolverError(f"motions in which they part would have {unknowns} harmonics here; {fewer} to see them")
 
 
 def loads(branch: Branch, curves: SpeedCurves, share: Share = unheard) -> Told:

@@ -125,10 +125,10 @@ def pair_table(study: TrainStudy) -> WordTable:
         "pair",
         "method",
         "drives",
-        "torque on the pinion, N·m",
+        "on its pinion, N·m",
         "secant, N/µm",
-        "tangent",
-        "error, peak to peak, µm",
+        "tangent, N/µm",
+        "error, µm peak to peak",
     )
     rows = []
     for name, mesh in study.pairs.items():
