@@ -18,7 +18,7 @@ from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.levels.operating import OperatingRange
 from gearcad.dynamics.train_result import TrainStudy
 
-__all__ = ["SHIFT", "Agreement", "CurveName", "Difference", "NotJudged", "Reason", "agreement", "percent"]
+__all__ = ["SHIFT", "Agreement", "CurveName", "Difference", "Doubt", "NotJudged", "Reason", "agreement", "percent"]
 
 
 SHIFT = 0.025
@@ -43,6 +43,26 @@ class Reason(Enum):
     BEYOND = "beyond the last speed of the chart"
     UNSTABLE = "no steady motion lasts"
     APART = "flanks would part, but are taken to stick"
+
+
+_DOUBTS = {
+    "long-period": "resonances between the speeds are not looked for",
+    "low-resonances": "resonances at low speeds are not looked for",
+    "hardly-damped": "resonances of modes that are hardly damped are higher than shown",
+    "harmonics-left-out": "at some speeds more harmonics would be needed",
+}
+"""What notices of a chart mean for who holds it against another one."""
+
+
+class Doubt(NamedTuple):
+    """What may be missing in the `charts` of one of both, or of both."""
+
+    words: str
+    charts: tuple[str, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it."""
+        return {"words": self.words, "charts": list(self.charts)}
 
 
 class NotJudged(NamedTuple):
@@ -87,7 +107,7 @@ class Agreement:
     """Loads of `curves` (c) at `speeds` (s,) in the range, rpm: `reference` (s, c) and `level` (s, c), and the greatest that
     each of both has near those speeds: `near_reference` and `near_level` (s, c). Some speeds (s,) are `judged`.
 
-    `unheld` are shafts that have an overload in one of both only.
+    `unheld` are shafts that have an overload in one of both only; `doubts` say what the charts may not show.
     """
 
     curves: tuple[CurveName, ...]
@@ -99,6 +119,7 @@ class Agreement:
     judged: Bools
     not_judged: tuple[NotJudged, ...]
     unheld: tuple[str, ...]
+    doubts: tuple[Doubt, ...]
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -178,7 +199,16 @@ def agreement(reference: TrainStudy, level: TrainStudy, labels: tuple[str, str],
     near = [_highest(each.loads, window)[inside] for each in (of, to)]
     found = _outside(over, float(first), float(last), labels) + _not_judged(speeds, inside, faults, labels)
     return Agreement(
-        tuple(names), speeds[inside], of.loads[inside], to.loads[inside], near[0], near[1], judged[inside], found, unheld
+        curves=tuple(names),
+        speeds=speeds[inside],
+        reference=of.loads[inside],
+        level=to.loads[inside],
+        near_reference=near[0],
+        near_level=near[1],
+        judged=judged[inside],
+        not_judged=found,
+        unheld=unheld,
+        doubts=_doubts((reference, level), labels),
     )
 
 
@@ -261,6 +291,16 @@ def _not_judged(
             charts = tuple(label for label, each in zip(labels, faults, strict=True) if each[reason][start:end].any())
             found.append(NotJudged(float(speeds[start]), float(speeds[end - 1]), reason, charts))
     return tuple(found)
+
+
+def _doubts(studies: tuple[TrainStudy, TrainStudy], labels: tuple[str, str]) -> tuple[Doubt, ...]:
+    """What the notices of both charts say of them."""
+    found: dict[str, list[str]] = {}
+    for label, study in zip(labels, studies, strict=True):
+        for code in dict.fromkeys(notice.code for notice in study.notices):
+            if code in _DOUBTS:
+                found.setdefault(_DOUBTS[code], []).append(label)
+    return tuple(Doubt(words, tuple(charts)) for words, charts in found.items())
 
 
 def percent(share: float) -> str:

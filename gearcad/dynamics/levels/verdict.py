@@ -71,7 +71,8 @@ class LevelVerdict:
         """Open where nothing is wrong, but not all can be judged."""
         if self.too_little is not None or self.too_much is not None:
             return LevelStatus.NOT_ENOUGH
-        unjudged = self.agreement.not_judged or self.agreement.unheld or not self.agreement.under
+        found = self.agreement
+        unjudged = found.not_judged or found.unheld or found.doubts or not found.under
         return LevelStatus.OPEN if unjudged else LevelStatus.ENOUGH
 
     @property
@@ -148,6 +149,8 @@ class LevelVerdict:
             yield f"not judged from {each.first:.5g} to {each.last:.5g} rpm: {each.reason.value}{charts}"
         if self.agreement.unheld:
             yield f"not judged: the overload of {', '.join(self.agreement.unheld)}, which only one of both has"
+        for doubt in self.agreement.doubts:
+            yield f"not sure: {doubt.words}, in {' and '.join(doubt.charts)}"
 
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it."""
@@ -160,6 +163,7 @@ class LevelVerdict:
             "missed": [each.to_dict() for each in self.missed],
             "not_judged": [each.to_dict() for each in self.agreement.not_judged],
             "shafts_not_judged": list(self.agreement.unheld),
+            "doubts": [each.to_dict() for each in self.agreement.doubts],
             "deciding": [each.to_dict() for each in self.decisions],
             "sentence": self.sentence,
         }

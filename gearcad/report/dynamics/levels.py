@@ -79,5 +79,7 @@ def unjudged_table(of: LevelStudy) -> WordTable:
             rows.append((verdict.model.value, each.reason.value + charts, short(each.first), short(each.last)))
         for shaft in verdict.agreement.unheld:
             rows.append((verdict.model.value, f"shaft {shaft} has an overload in one of both only", _NONE, _NONE))
+        for doubt in verdict.agreement.doubts:
+            rows.append((verdict.model.value, f"{doubt.words}, in {' and '.join(doubt.charts)}", _NONE, _NONE))
     rows += [("all", f"shaft {shaft} carries next to nothing at rest", _NONE, _NONE) for shaft in of.idle_shafts]
-    return WordTable(("model", "not judged", "from rpm", "to rpm"), rows, 2)
+    return WordTable(("model", "not judged, or not sure", "from rpm", "to rpm"), rows, 2)
