@@ -106,7 +106,23 @@ def _train_lines(study: TrainStudy) -> list[str]:
             else [f"K_v of {name}, running up: {up}", f"K_v of {name}, running down: {down}"]
         )
     factors = ", ".join(f"{factor:.3f} of {name}" for name, factor in zip(study.up.mesh_names, study.course.kv, strict=True))
-    return [*lines, f"K_v at {study.course.speed:.6g} rpm: {factors}"]
+    return [*lines, f"K_v at {study.course.speed:.6g} rpm: {factors}", *_error_lines(study)]
+
+
+def _error_lines(study: TrainStudy) -> list[str]:
+    """K_v with tooth errors that were drawn."""
+    of = study.errors
+    if of is None:
+        return []
+    if of.grade is None:
+        return [f"K_v of {each.mesh}, single teeth: {each.most:.3f} at {each.most_speed:.5g} rpm" for each in of.greatest]
+    many = f"{of.samples} samples" if of.samples > 1 else "1 sample"
+    return [
+        f"K_v of {each.mesh}, tooth errors of grade {of.grade}, {many}: median up to {each.median:.3f} at "
+        f"{each.median_speed:.5g} rpm, 95 % quantile {each.upper:.3f} at {each.upper_speed:.5g} rpm, greatest "
+        f"{each.most:.3f} at {each.most_speed:.5g} rpm"
+        for each in of.greatest
+    ]
 
 
 def _pair_line(mesh: EngagedMesh) -> str:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Annotated
 
+from gearcad.dynamics.excitation.deviations import ErrorDistribution
 from gearcad.dynamics.tooth_springs.contact_model import EngagedPairs
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
@@ -17,7 +18,7 @@ from gearcad.schema import Words, require_fields
 
 __all__ = ["OF_PAIRS", "OF_TRAINS_OF_PAIRS", "DynamicsOptions", "PairModel"]
 
-_CHART, _CAMPBELL = 1000, 41
+_CHART, _CAMPBELL, _DRAWN = 1000, 41, 200
 """Speeds where none are given."""
 
 OF_PAIRS = "of pairs"
@@ -29,6 +30,8 @@ OF_TRAINS_OF_PAIRS = "of trains of pairs"
 _SPEED = SPEED._replace(signed=False)
 
 _SWITCH = {"on": True, "off": False}
+
+_UNIFORM = ErrorDistribution.UNIFORM.value
 
 AUTO = "auto"
 
@@ -61,7 +64,9 @@ class DynamicsOptions:
     its maxima need; with at most so many `harmonics` of the tooth frequency (None: as many as leave out less than a hundredth
     of the load); `frequencies` natural frequencies of a train; `accuracy_grade` (ISO 1328-1; None: that of the rating) is
     that of K_v by ISO 6336-1 and, with `tooth_errors` "on", of random pitch deviations of the pinions' teeth, drawn with
-    `seed`.
+    `seed` by an `error_distribution`, "uniform" or "normal". With `error_samples` or `premature_engagement` "on" errors are
+    drawn so often, for both gears, in a study of their own in time, over `speeds` speeds (None: 200): K_v as it lies over many
+    gears. Premature engagement: each pair of teeth is a spring by itself, and carries where bent teeth reach each other.
 
     Of trains with several models side by side: the train runs under load from `operating_from` to `operating_to` (rpm of the
     first pinion; None: from the first speed of the chart up to the train's own, or else to the last of the chart), and a model
@@ -91,6 +96,9 @@ class DynamicsOptions:
     operating_from: Annotated[float | None, _SPEED._replace(least=0.0), Words("least operating speed", "n_1")] = None
     operating_to: Annotated[float | None, _SPEED, Words("greatest operating speed", "n_1")] = None
     level_tolerance: Annotated[float, Range("", 1e-4, 1.0), Words("how far models may differ, in parts of the load")] = 0.05
+    error_distribution: Annotated[str, Member(ErrorDistribution), Words("distribution of the deviations")] = _UNIFORM
+    error_samples: Annotated[int, Whole(1, 10_000), Words("samples of the deviations")] = 1
+    premature_engagement: Annotated[str, Choice(tuple(_SWITCH)), Words("whether teeth may meet before their path")] = "off"
     model: Annotated[str, Member(PairModel), Words("what the teeth are: mesh or contact"), OF_PAIRS] = PairModel.MESH.value
     stiffness: Annotated[str, Words("method of the mesh stiffness"), OF_PAIRS, OF_TRAINS_OF_PAIRS] = AUTO
     damping_ratio: Annotated[
@@ -122,6 +130,9 @@ class DynamicsOptions:
         if self.operating_from is not None and self.operating_to is not None and self.operating_to <= self.operating_from:
             permitted = f"must be above operating_from, {self.operating_from:g} rpm"
             raise GeometryError("operating_to", self.operating_to, permitted, "rpm")
+        if self.error_samples > 1 and not self.errors:
+            permitted = 'must be 1 unless tooth_errors is "on": teeth without errors are all alike'
+            raise ParameterError("error_samples", self.error_samples, permitted)
         if self.duration * self.sampling > 5e7:
             permitted = f"must be at most {5e7 / self.sampling:g} s at this sampling: 50 million samples a speed"
             raise ParameterError("duration", self.duration, permitted, "s")
@@ -159,6 +170,26 @@ class DynamicsOptions:
     def errors(self) -> bool:
         """Whether teeth have deviations."""
         return _SWITCH[self.tooth_errors]
+
+    @property
+    def premature(self) -> bool:
+        """Whether each pair of teeth is a spring by itself, and may meet before its path of contact begins."""
+        return _SWITCH[self.premature_engagement]
+
+    @property
+    def drawn(self) -> bool:
+        """Whether errors of teeth are a study of their own, in time: else they are part of the excitation of the charts."""
+        return self.premature or self.error_samples > 1
+
+    @property
+    def distribution(self) -> ErrorDistribution:
+        """Of deviations, as an enum."""
+        return ErrorDistribution(self.error_distribution)
+
+    @property
+    def error_speeds(self) -> int:
+        """How many speeds tooth errors are drawn for."""
+        return self.speeds or _DRAWN
 
     def method_for(self, pair: GearPair) -> str:
         """Name of the method for a pair's mesh stiffness."""

@@ -8,9 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from gearcad.dynamics.excitation.deviations import TransmissionError
 from gearcad.dynamics.excitation.sources import pair_errors, pair_excitation, pair_train
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
+from gearcad.dynamics.tooth_errors.sources import pair_teeth
+from gearcad.dynamics.tooth_errors.teeth import MeshTeeth
 from gearcad.dynamics.tooth_springs.campbell import campbell
 from gearcad.dynamics.tooth_springs.contact_model import ContactModel, EngagedPairs
 from gearcad.dynamics.tooth_springs.motion import time_history
@@ -51,6 +54,7 @@ def study_pair(
     masses: PerGear[float] | None = None,
     tell: Callable[[str], None] = lambda _step: None,
     share: Share = unheard,
+    drawn: Share = unheard,
 ) -> PairStudy:
     """K_v over speed of a pair by itself, beside ISO 6336-1 Method B, and the course at the load's speed.
 
@@ -62,11 +66,21 @@ def study_pair(
     assert options.accuracy_grade is not None  # it has one now
     rating = replace(rating, accuracy_grade=options.accuracy_grade)
     train = pair_train(pair, cycle, inertias, torque=cycle.torque, speed=load.speed, damping_ratio=options.damping_ratio)
-    errors = pair_errors(pair, rating, options.seed) if options.errors else None
-    excitation = pair_excitation(train, cycle, errors)
+    excitation = pair_excitation(train, cycle, _smooth_errors(pair, rating, options))
+    teeth = _single_teeth(pair, cycle, rating, options) if options.drawn else None
     factor, unrated = _method_b(pair, material, load, inertias, rating)
     bearings = _on_bearings(train, pair, options, masses)
-    study = study_train(train, options, excitation=excitation, method_b=factor, bearings=bearings, tell=tell, share=share)
+    study = study_train(
+        train,
+        options,
+        excitation=excitation,
+        method_b=factor,
+        bearings=bearings,
+        teeth=teeth,
+        tell=tell,
+        share=share,
+        drawn=drawn,
+    )
     return PairStudy(
         pair=pair,
         cycle=cycle,
@@ -76,6 +90,19 @@ def study_pair(
         bearings=bearings,
         unrated=unrated,
     )
+
+
+def _smooth_errors(pair: GearPair, rating: RatingOptions, options: DynamicsOptions) -> TransmissionError | None:
+    """Those of one chart, None where there are none or they are drawn in a study of their own."""
+    if not options.errors or options.drawn:
+        return None
+    return pair_errors(pair, rating, options.seed, options.distribution)
+
+
+def _single_teeth(pair: GearPair, cycle: MeshCycle, rating: RatingOptions, options: DynamicsOptions) -> tuple[MeshTeeth, ...]:
+    """Of the one mesh, for errors that are drawn."""
+    source = METHODS[cycle.method].title
+    return (pair_teeth(pair, cycle, rating if options.errors else None, single=options.premature, source=source),)
 
 
 def _method_b(

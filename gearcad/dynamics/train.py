@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -14,10 +14,16 @@ from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.excitation.sources import train_excitation
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.periodic import PeriodicResponse
+from gearcad.dynamics.tooth_errors.result import ToothLaw
+from gearcad.dynamics.tooth_errors.sources import engaged_teeth, mesh_teeth
+from gearcad.dynamics.tooth_errors.study import ErrorPlan, study_errors
+from gearcad.dynamics.tooth_errors.teeth import MeshTeeth
 from gearcad.dynamics.train_result import Course, ModalStudy, TrainStudy
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
+from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
 from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.modes import natural_modes
+from gearcad.dynamics.trains.parts import static_forces
 from gearcad.dynamics.trains.six_dof import PairOnBearings
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import GeometryError
@@ -57,14 +63,17 @@ def study_train(
     excitation: Excitation | None = None,
     method_b: DynamicFactor | None = None,
     bearings: PairOnBearings | None = None,
+    teeth: Sequence[MeshTeeth] | None = None,
     tell: Callable[[str], None] = lambda _step: None,
     share: Share = unheard,
+    drawn: Share = unheard,
 ) -> TrainStudy:
     """Modes, charts and the course at the train's speed (or at its highest resonance).
 
     `speeds` (rpm, rising) are those of the chart, at least, in place of the options'. `excitation` is that of the train's own
     meshes unless given; `method_b` is K_v by ISO 6336-1 of the first mesh. With `bearings` the charts are those of the same
-    mesh between gears that travel as well. `tell` hears what is being done, `share` how much of the chart is.
+    mesh between gears that travel as well. `teeth` are those of the meshes, for errors that are drawn, unless the train's own.
+    `tell` hears what is being done, `share` how much of the chart is, `drawn` how much of the errors.
     Raises ParameterError, GeometryError and SolverError.
     """
     if not train.meshes:
@@ -77,11 +86,18 @@ def study_train(
     modes = natural_modes(train, count=options.frequencies)
     charted = system(train) if bearings is None else bearings.system()
     excitation = excitation or _own_excitation(train, options)
-    frequencies, asked = _frequencies(train, chart_speeds(train, options, modes) if speeds is None else speeds)
+    charted_speeds = chart_speeds(train, options, modes) if speeds is None else speeds
+    frequencies, asked = _frequencies(train, charted_speeds)
     tell("chart")
     over = over_speed(charted, excitation, frequencies, harmonics=options.harmonics, method_b=method_b, share=share)
     tell("course")
     course, more = _course(train, over, asked)
+    errors = None
+    if options.drawn:
+        tell("tooth errors")
+        own = _own_teeth(train, options) if teeth is None else teeth
+        places = _error_speeds(train, options, charted_speeds)
+        errors = study_errors(charted, excitation, own, places, train.meshes[0].teeth, _plan(options), drawn)
     return TrainStudy(
         train=train,
         options=options,
@@ -95,12 +111,44 @@ def study_train(
         course=course,
         found=(*pair_notices(train), *over.notices, *more),
         method_b=method_b,
+        errors=errors,
     )
 
 
 def _own_excitation(train: Train, options: DynamicsOptions) -> Excitation:
-    """Of the train's own meshes, with random errors of the teeth if the options ask for them."""
-    return train_excitation(train, grade=options.accuracy_grade if options.errors else None, seed=options.seed)
+    """Of the train's own meshes, with random errors of the teeth if the options ask for them, but for a study of their own."""
+    grade = options.accuracy_grade if options.errors and not options.drawn else None
+    return train_excitation(train, grade=grade, seed=options.seed, distribution=options.distribution)
+
+
+def _own_teeth(train: Train, options: DynamicsOptions) -> list[MeshTeeth]:
+    """Of the train's own meshes: those of pairs have the teeth of these."""
+    grade, single = options.accuracy_grade if options.errors else None, options.premature
+    forces = static_forces(train).tolist()
+    return [
+        engaged_teeth(mesh, number, errors=options.errors, single=single)
+        if isinstance(mesh, EngagedMesh)
+        else mesh_teeth(mesh, number, force, grade, single=single)
+        for number, (mesh, force) in enumerate(zip(train.meshes, forces, strict=True))
+    ]
+
+
+def _plan(options: DynamicsOptions) -> ErrorPlan:
+    return ErrorPlan(
+        law=ToothLaw.SINGLE if options.premature else ToothLaw.SMOOTH,
+        samples=options.error_samples,
+        distribution=options.distribution,
+        seed=options.seed,
+        grade=options.accuracy_grade if options.errors else None,
+    )
+
+
+def _error_speeds(train: Train, options: DynamicsOptions, charted: Floats) -> Floats:
+    """Speeds (rpm) at which errors are drawn: evenly over the chart, and that asked for."""
+    asked = abs(train.speed)
+    first = options.speed_from or charted[-1] / options.error_speeds
+    even = np.linspace(first, charted[-1], options.error_speeds)
+    return np.union1d(even, asked) if even[0] <= asked <= even[-1] else even
 
 
 def _frequencies(train: Train, speeds: Floats) -> tuple[Floats, float]:

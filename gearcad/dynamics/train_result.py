@@ -28,6 +28,7 @@ from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.tables import Columns, Tables, chart_tables, cycle_columns, modal_tables, named_columns, stacked
+from gearcad.dynamics.tooth_errors.result import ErrorStudy
 from gearcad.dynamics.trains.bearing_modes import BearingModes
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
@@ -139,7 +140,8 @@ class TrainStudy:
     """What was found out about a train: `up` and, where flanks may part, `down` are charts over the same rising speeds.
 
     `on_bearings` are the modes of the system of the charts, where its gears travel as well; `method_b` is K_v by
-    ISO 6336-1. `found` is what the calculation itself has to say: `notices` are also those of the charts and modes.
+    ISO 6336-1. `found` is what the calculation itself has to say: `notices` are also those of the charts and modes. `errors` is
+    K_v with tooth errors that were drawn: the charts are then those of teeth without.
     """
 
     train: Train
@@ -154,6 +156,7 @@ class TrainStudy:
     course: Course
     found: tuple[Notice, ...]
     method_b: DynamicFactor | None
+    errors: ErrorStudy | None = None
 
     def __repr__(self) -> str:
         return f"<TrainStudy of {self.train.name!r}: {len(self.speeds)} speeds up to {self.speeds.max():.6g} rpm>"
@@ -223,7 +226,8 @@ class TrainStudy:
     def notices(self) -> tuple[Notice, ...]:
         """What to know before trusting it."""
         down = self.down.notices if self.down is not None else ()
-        return tuple(dict.fromkeys((*self.found, *self.up.notices, *down, *_missed(self.train, self.modes))))
+        drawn = self.errors.notices if self.errors is not None else ()
+        return tuple(dict.fromkeys((*self.found, *self.up.notices, *down, *drawn, *_missed(self.train, self.modes))))
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -242,6 +246,7 @@ class TrainStudy:
             **{f"jumps_{direction.value}": speeds.tolist() for direction, speeds in self.jump_speeds.items()},
             "resonance_speed_iso6336": None if self.method_b is None else self.method_b.resonance_speed,
             "course": self.course.to_dict(),
+            "tooth_errors": None if self.errors is None else self.errors.to_dict(),
             "greatest": self.greatest.to_dict(),
             "resonances": [each.to_dict() for each in self.resonances],
             "shaft_overloads": [each._asdict() for each in self.shaft_overloads.values()],
@@ -262,14 +267,15 @@ class TrainStudy:
             found |= {f"{name}_down": values for name, values in self.down.arrays().items()}
         if self.up.standard is not None:
             found["kv_iso6336"] = self.up.standard
-        return found
+        return found if self.errors is None else found | self.errors.arrays()
 
     def tables(self) -> Tables:
         """As the CSV files have them."""
         up = self.up
-        return {
+        found: Tables = {
             **chart_tables(self.charts),
             **modal_tables(self.modes),
             "course": self.course.columns(up.mesh_names, up.shaft_names, self.train.meshes[0].teeth),
             **stacked("mesh", list(self.pairs), [{_CYCLES: cycle_columns(mesh.course.cycle)} for mesh in self.pairs.values()]),
         }
+        return found if self.errors is None else {**found, "tooth errors": self.errors.columns()}

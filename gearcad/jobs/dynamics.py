@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -52,10 +52,13 @@ _PAIR = {
     PairModel.CONTACT: {"inertias": 1.0, "mesh stiffness": 5.0, "campbell": 40.0, "history": 1.0},
 }
 
+_ERRORS = "tooth errors"
+"""A step of those that draw them, and their table."""
+
 _OVER_SPEED = ("displacements", "transmission error", "bearings")
 _TABLES = (
     *("chart", *_OVER_SPEED, *(f"{name} down" for name in _OVER_SPEED), "modes", "component modes", "course", "mesh stiffness"),
-    *("campbell", "history", "spectrum"),
+    *("campbell", "history", "spectrum", _ERRORS),
 )
 """Of any result."""
 
@@ -122,16 +125,16 @@ def _of_train(design: TrainDesign, progress: Progress | None) -> TrainStudy | Mo
     train, options, before = design.train, design.dynamics, dict[str, float]()
     if not train.meshes:
         return study_modes(train, options)
-    every = finest_first(design.models)
+    every, steps = finest_first(design.models), _steps(_TRAIN, options)
     if any(mesh.pair is not None for mesh in train.meshes):
         before = {"mesh stiffness": 10.0}
-        Agenda(progress, {**before, **_TRAIN})("mesh stiffness")
+        Agenda(progress, {**before, **steps})("mesh stiffness")
         train = engaged(replace(train, model=every[0]), options)
     if design.other_models:
-        agenda = Agenda(progress, before | {f"{each.value}: {step}": took for each in every for step, took in _TRAIN.items()})
+        agenda = Agenda(progress, before | {f"{each.value}: {step}": took for each in every for step, took in steps.items()})
         return study_levels(train, design.models, options, tell=agenda)
-    agenda = Agenda(progress, {**before, **_TRAIN})
-    return study_train(train, options, tell=agenda, share=agenda.within("chart"))
+    agenda = Agenda(progress, {**before, **steps})
+    return study_train(train, options, tell=agenda, share=agenda.within("chart"), drawn=agenda.within(_ERRORS))
 
 
 def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | ContactStudy:
@@ -145,7 +148,7 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
     if contact and pair.pinion.helix_angle:
         permitted = 'must be 0 for model "contact": its pairs of teeth touch over their whole width at once'
         raise GeometryError("pair.helix_angle", pair.pinion.helix_angle, permitted, "deg")
-    agenda = Agenda(progress, _PAIR[options.pair_model])
+    agenda = Agenda(progress, _steps(_PAIR[options.pair_model], options))
     agenda("inertias")
     inertias = PerGear.each(lambda role: _inertia(role, pair, material, options))
     agenda("mesh stiffness")
@@ -167,7 +170,15 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
         masses=masses,
         tell=agenda,
         share=agenda.within("chart"),
+        drawn=agenda.within(_ERRORS),
     )
+
+
+def _steps(steps: Mapping[str, float], options: DynamicsOptions) -> Mapping[str, float]:
+    """With that of tooth errors where they are drawn."""
+    if not options.drawn or options.pair_model is not PairModel.MESH:
+        return steps
+    return {**steps, _ERRORS: 2.0 * options.error_samples}
 
 
 def _mesh_cycle(design: PairDesign, load: Load, options: DynamicsOptions) -> MeshCycle:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,17 +20,21 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = [
+    "SPEED_WORDS",
     "course_inches",
+    "finish_speeds",
+    "mark_modes",
     "mark_parting",
     "plot_course",
     "plot_cycle",
     "plot_factors",
     "plot_shaft_overload",
     "shade_unstable",
+    "speed_ranges",
 ]
 
 
-_SPEED = "speed of the pinion in rpm"
+SPEED_WORDS = "speed of the pinion in rpm"
 
 _TOP_AXIS = 36.0
 """Points that a second axis above takes."""
@@ -54,7 +57,7 @@ _LEAST_TEETH, _MOST_TEETH = 3.0, 24.0
 
 def plot_factors(study: TrainStudy, ax: Axes | None = None) -> Axes:
     """K_v of every mesh over speed: running up, down dashed, with jumps; where tooth frequencies meet natural ones."""
-    axes = prepared(ax, _SPEED, "dynamic factor $K_{\\mathrm{v}}$")
+    axes = prepared(ax, SPEED_WORDS, "dynamic factor $K_{\\mathrm{v}}$")
     up, down = study.up, study.down
     if up.standard is not None:
         axes.plot(study.speeds, up.standard, color=MARKED, linewidth=2.2, label="ISO 6336-1, Method B")
@@ -69,16 +72,16 @@ def plot_factors(study: TrainStudy, ax: Axes | None = None) -> Axes:
     _set_height(axes, [chart for chart in (up, down) if chart is not None])
     shade_unstable(axes, study.speeds, study.up)
     mark_parting(axes, study.speeds, study.up, parting=study.excitation.parting)
-    _mark_modes(axes, _mode_lines(study))
+    mark_modes(axes, study)
     if study.speeds[0] <= abs(study.train.speed) <= study.speeds[-1]:
         axes.plot(abs(study.train.speed), 0, "^", color=DARK, transform=axes.get_xaxis_transform(), label="speed asked for")
-    _finish(axes, study)
+    finish_speeds(axes, study)
     return axes
 
 
 def plot_shaft_overload(study: TrainStudy, ax: Axes | None = None) -> Axes:
     """Greatest torque of every shaft over its static one, where it has one, over speed."""
-    axes = prepared(ax, _SPEED, "greatest torque over the static one")
+    axes = prepared(ax, SPEED_WORDS, "greatest torque over the static one")
     kept = study.up.referred_shafts
     for shaft in kept:
         colour, words = SERIES[shaft % len(SERIES)], plain(study.up.shaft_names[shaft])
@@ -89,7 +92,7 @@ def plot_shaft_overload(study: TrainStudy, ax: Axes | None = None) -> Axes:
     axes.set_xlim(float(study.speeds[0]), float(study.speeds[-1]))
     if factors.size and factors.max() > _WIDE * factors.min() > 0:
         axes.set_yscale("log")
-    _finish(axes, study)
+    finish_speeds(axes, study)
     return axes
 
 
@@ -119,7 +122,7 @@ def _draw_jumps(axes: Axes, study: TrainStudy, mesh: int) -> None:
 def shade_unstable(axes: Axes, speeds: Floats, chart: KvChart) -> None:
     """Ranges in which no periodic motion lasts."""
     label = "unstable"
-    for start, end in _ranges(speeds, ~chart.stable):
+    for start, end in speed_ranges(speeds, ~chart.stable):
         axes.axvspan(start, end, color=PALE, alpha=0.45, linewidth=0, label=label, zorder=0)
         label = ""
 
@@ -127,12 +130,12 @@ def shade_unstable(axes: Axes, speeds: Floats, chart: KvChart) -> None:
 def mark_parting(axes: Axes, speeds: Floats, chart: KvChart, *, parting: bool) -> None:
     """A bar along the axis where flanks part, or would if they could."""
     label = "flanks part" if parting else "flanks would part"
-    for start, end in _ranges(speeds, chart.apart):
+    for start, end in speed_ranges(speeds, chart.apart):
         axes.plot([start, end], [0.012, 0.012], color=DARK, linewidth=3, transform=axes.get_xaxis_transform(), label=label)
         label = ""
 
 
-def _ranges(speeds: Floats, marked: NDArray[np.bool_]) -> list[tuple[float, float]]:
+def speed_ranges(speeds: Floats, marked: NDArray[np.bool_]) -> list[tuple[float, float]]:
     """Runs of marked speeds, each with half the way to its neighbours."""
     edges = np.concatenate([speeds[:1], (speeds[1:] + speeds[:-1]) / 2, speeds[-1:]])
     turns = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]]).astype(int)))
@@ -150,11 +153,11 @@ def _mode_lines(study: TrainStudy) -> dict[float, tuple[str, str]]:
     return found
 
 
-def _mark_modes(axes: Axes, lines: Mapping[float, tuple[str, str]]) -> None:
-    """Thin lines, named where there is room."""
+def mark_modes(axes: Axes, study: TrainStudy) -> None:
+    """Thin lines where tooth frequencies meet natural ones, named where there is room."""
     first, last = axes.get_xlim()
     ends = [-math.inf, -math.inf]
-    for speed, (words, colour) in sorted(lines.items()):
+    for speed, (words, colour) in sorted(_mode_lines(study).items()):
         if not first <= speed <= last:
             continue
         axes.axvline(speed, color=colour, linewidth=0.8, linestyle="--" if words.endswith("/2") else "-", zorder=0)
@@ -165,7 +168,7 @@ def _mark_modes(axes: Axes, lines: Mapping[float, tuple[str, str]]) -> None:
             axes.annotate(words, place, (3, 0), across, "offset points", va="top", fontsize=8, color=DARK, bbox=_PAPER)
 
 
-def _finish(axes: Axes, study: TrainStudy) -> None:
+def finish_speeds(axes: Axes, study: TrainStudy) -> None:
     """The tooth frequency on a second axis, and a legend above it."""
     teeth = study.train.meshes[0].teeth
     functions = (lambda speed: np.asarray(speed) * teeth / 60, lambda hertz: np.asarray(hertz) * 60 / teeth)

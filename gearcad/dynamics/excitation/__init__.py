@@ -4,7 +4,13 @@ from __future__ import annotations
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from gearcad.dynamics.excitation.deviations import ToothDeviations, TransmissionError, random_deviations, tooth_errors
+    from gearcad.dynamics.excitation.deviations import (
+        ErrorDistribution,
+        ToothDeviations,
+        TransmissionError,
+        random_deviations,
+        tooth_errors,
+    )
     from gearcad.dynamics.excitation.mesh_curves import (
         CosineStiffness,
         CurveStiffness,
@@ -21,6 +27,7 @@ else:
 __all__ = [
     "CosineStiffness",
     "CurveStiffness",
+    "ErrorDistribution",
     "Excitation",
     "MeshExcitation",
     "Polyline",

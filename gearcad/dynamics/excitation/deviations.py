@@ -1,14 +1,15 @@
 """Tooth errors as excitation: deviations of each tooth, given or random within the tolerances of ISO 1328-1.
 
 Deviations in µm. They are smooth along the line of action here: every pair of teeth takes over its part of the load
-gradually, so that the error of the mesh is continuous. Teeth that meet too early (before the line of action) are left to the
-transmission error of a MeshCycle.
+gradually, so that the error of the mesh is continuous. Teeth that meet too early (before the line of action) are those of
+`dynamics/tooth_errors`.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from enum import Enum
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +19,20 @@ from gearcad.dynamics.excitation.polyline import Polyline
 from gearcad.errors import ParameterError, plain_numbers, require_number, require_whole
 from gearcad.rating.iso1328 import FlankTolerances
 
-__all__ = ["ToothDeviations", "TransmissionError", "random_deviations", "tooth_errors"]
+__all__ = ["ErrorDistribution", "ToothDeviations", "TransmissionError", "random_deviations", "tooth_errors"]
+
+
+_SIGMAS = 3.0
+"""Of a normal distribution, within a tolerance: what lies beyond is drawn again."""
+
+
+class ErrorDistribution(Enum):
+    """How deviations lie within their tolerance."""
+
+    UNIFORM = "uniform"
+    """All alike."""
+    NORMAL = "normal"
+    """The tolerance is three standard deviations, beyond which nothing lies."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -95,21 +109,39 @@ class ToothDeviations:
             object.__setattr__(self, name, array)
 
 
-def random_deviations(teeth: int, tolerances: FlankTolerances, seed: int) -> ToothDeviations:
-    """Deviations of a gear that just keeps its tolerances: single pitches and profile slopes, evenly distributed.
+def random_deviations(
+    teeth: int,
+    tolerances: FlankTolerances,
+    seed: int,
+    *,
+    distribution: ErrorDistribution = ErrorDistribution.UNIFORM,
+    gear: tuple[int, ...] = (),
+) -> ToothDeviations:
+    """Deviations of a gear that just keeps its tolerances: single pitches and profile slopes, distributed within them.
 
     Single pitch deviations lie within f_pT and sum up to 0 around the gear; where the sum on the way leaves F_pT, all are
-    made smaller. One seed gives one gear.
+    made smaller. One seed gives one gear, and others for the numbers of another `gear`.
     """
     require_whole("teeth", teeth, at_least=2, at_most=100_000)
     require_whole("seed", seed, at_least=0, at_most=2**63 - 1)
-    generator = np.random.default_rng(seed)
-    pitches = generator.uniform(-1, 1, teeth) * tolerances.single_pitch
+    generator = np.random.default_rng((seed, *gear) if gear else seed)
+    pitches = _within_one(generator, teeth, distribution) * tolerances.single_pitch
     pitches -= pitches.mean()
     position = -np.cumsum(pitches)
     position -= position.mean()
     excess = max(np.abs(pitches).max() / tolerances.single_pitch, np.ptp(position) / tolerances.cumulative_pitch, 1.0)
-    return ToothDeviations(position=position / excess, slope=generator.uniform(-1, 1, teeth) * tolerances.profile_slope)
+    slope = _within_one(generator, teeth, distribution) * tolerances.profile_slope
+    return ToothDeviations(position=position / excess, slope=slope)
+
+
+def _within_one(generator: np.random.Generator, count: int, distribution: ErrorDistribution) -> Floats:
+    """Random numbers (count,) from -1 to 1."""
+    if distribution is ErrorDistribution.UNIFORM:
+        return generator.uniform(-1, 1, count)
+    drawn = generator.standard_normal(count)
+    while (beyond := np.abs(drawn) > _SIGMAS).any():
+        drawn[beyond] = generator.standard_normal(int(beyond.sum()))
+    return np.asarray(drawn / _SIGMAS, float)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 
-from gearcad.dynamics.excitation.deviations import ToothDeviations, TransmissionError, random_deviations, tooth_errors
+from gearcad.dynamics.excitation.deviations import (
+    ErrorDistribution,
+    ToothDeviations,
+    TransmissionError,
+    random_deviations,
+    tooth_errors,
+)
 from gearcad.dynamics.excitation.mesh_curves import CosineStiffness, StiffnessShape, square_stiffness
 from gearcad.dynamics.excitation.meshes import Excitation, MeshExcitation, cycle_excitation
 from gearcad.dynamics.trains.engaged_mesh import EngagedMesh, require_known
@@ -23,19 +30,33 @@ from gearcad.per_gear import PerGear
 from gearcad.rating.iso1328 import flank_tolerances
 from gearcad.rating.options import RatingOptions
 
-__all__ = ["pair_errors", "pair_excitation", "pair_train", "train_excitation"]
+__all__ = [
+    "CONTACT_RATIO",
+    "given_deviations",
+    "pair_errors",
+    "pair_excitation",
+    "pair_train",
+    "train_excitation",
+    "wheel_teeth",
+]
 
 _PRESSURE_ANGLE = 20.0
 """Of gears of which a train tells only base radii and teeth (deg)."""
 
-_CONTACT_RATIO = 1.6
+CONTACT_RATIO = 1.6
 """Of such gears, where no square wave tells it."""
 
 _HARMONICS = 12
 """Of the tooth frequency, in the errors of teeth: they fall with the square, to thousandths of a step of one tooth."""
 
 
-def train_excitation(train: Train, *, grade: int | None = None, seed: int = 0) -> Excitation:
+def train_excitation(
+    train: Train,
+    *,
+    grade: int | None = None,
+    seed: int = 0,
+    distribution: ErrorDistribution = ErrorDistribution.UNIFORM,
+) -> Excitation:
     """Stiffness waves, backlashes and pitch deviations of a train's meshes; random ones of an ISO 1328 `grade`, if given.
 
     A mesh of a pair has the course of its teeth, and their rating's grade in place of `grade`. The deviations are those of the
@@ -46,10 +67,10 @@ def train_excitation(train: Train, *, grade: int | None = None, seed: int = 0) -
     for number, (mesh, ratio) in enumerate(zip(train.meshes, ratios, strict=True)):
         require_known(mesh)
         if isinstance(mesh, EngagedMesh):
-            errors = _errors_of_pair(mesh, seed + number) if mesh.pitch_deviations or grade is not None else None
+            errors = _errors_of_pair(mesh, seed + number, distribution) if mesh.pitch_deviations or grade is not None else None
             meshes.append(replace(_course_of_pair(mesh, errors), frequency_ratio=ratio))
             continue
-        error = _mesh_errors(mesh, grade, seed + number) if mesh.pitch_deviations or grade is not None else None
+        error = _mesh_errors(mesh, grade, seed + number, distribution) if mesh.pitch_deviations or grade is not None else None
         meshes.append(
             MeshExcitation(
                 stiffness=_wave(mesh), phase=-360 * mesh.phase, frequency_ratio=ratio, error=error, backlash=mesh.backlash
@@ -66,19 +87,17 @@ def _course_of_pair(mesh: EngagedMesh, errors: TransmissionError | None) -> Mesh
     return replace(found, error=replace(errors or TransmissionError(), line=line))
 
 
-def _errors_of_pair(mesh: EngagedMesh, seed: int) -> TransmissionError:
+def _errors_of_pair(mesh: EngagedMesh, seed: int, distribution: ErrorDistribution) -> TransmissionError:
     """Of the pinion's teeth: as given, or random ones of the pair's accuracy grade."""
     pair = mesh.teeth_of.mounted
     if mesh.pitch_deviations:
         return _given_errors(mesh.pitch_deviations, max(pair.transverse_contact_ratio, 1.001))
-    return pair_errors(pair, mesh.teeth_of.rating, seed)
+    return pair_errors(pair, mesh.teeth_of.rating, seed, distribution)
 
 
 def _given_errors(deviations: tuple[float, ...], contact_ratio: float) -> TransmissionError:
-    """Of pitch deviations (µm); what would be left after a turn would be no pitch deviation."""
-    pitches = np.array(deviations)
-    position = -np.cumsum(pitches - pitches.mean())
-    return tooth_errors(ToothDeviations(position=position), contact_ratio=contact_ratio, harmonics=_HARMONICS)
+    """Of pitch deviations (µm)."""
+    return tooth_errors(given_deviations(deviations), contact_ratio=contact_ratio, harmonics=_HARMONICS)
 
 
 def _wave(mesh: Mesh) -> StiffnessShape:
@@ -88,20 +107,27 @@ def _wave(mesh: Mesh) -> StiffnessShape:
     return square_stiffness(mesh.contact_ratio)
 
 
-def _mesh_errors(mesh: Mesh, grade: int | None, seed: int) -> TransmissionError:
+def _mesh_errors(mesh: Mesh, grade: int | None, seed: int, distribution: ErrorDistribution) -> TransmissionError:
     """Of the pinion's teeth: as given, or random ones of a gear taken to have a pressure angle of 20 degrees."""
     if mesh.pitch_deviations:
-        return _given_errors(mesh.pitch_deviations, mesh.contact_ratio or _CONTACT_RATIO)
+        return _given_errors(mesh.pitch_deviations, mesh.contact_ratio or CONTACT_RATIO)
     assert grade is not None  # one of the two is there
     diameter = 2 * mesh.base_radii.pinion / math.cos(math.radians(_PRESSURE_ANGLE))
     tolerances = flank_tolerances(grade, diameter, diameter / mesh.teeth)
-    ratio = mesh.contact_ratio or _CONTACT_RATIO
-    return tooth_errors(random_deviations(mesh.teeth, tolerances, seed), contact_ratio=ratio, harmonics=_HARMONICS)
+    ratio = mesh.contact_ratio or CONTACT_RATIO
+    drawn = random_deviations(mesh.teeth, tolerances, seed, distribution=distribution)
+    return tooth_errors(drawn, contact_ratio=ratio, harmonics=_HARMONICS)
+
+
+def given_deviations(pitch_deviations: Sequence[float]) -> ToothDeviations:
+    """Of pitch deviations f_pt (µm); what would be left after a turn would be none of them."""
+    pitches = np.array(pitch_deviations)
+    return ToothDeviations(position=-np.cumsum(pitches - pitches.mean()))
 
 
 def _tooth_ratios(train: Train) -> list[Fraction]:
     """Tooth frequency of every mesh over that of the first, by whole numbers of teeth: z3/z2 for a second stage."""
-    whole = [_wheel_teeth(mesh) for mesh in train.meshes]
+    whole = [wheel_teeth(mesh) for mesh in train.meshes]
     exact = [
         Mesh(
             name=mesh.name,
@@ -123,7 +149,7 @@ def _tooth_ratios(train: Train) -> list[Fraction]:
     ]
 
 
-def _wheel_teeth(mesh: Mesh) -> int:
+def wheel_teeth(mesh: Mesh) -> int:
     """z_2 = z_1 r_b2/r_b1. Raises GeometryError where that is far from a whole number."""
     teeth = mesh.teeth * mesh.base_radii.wheel / mesh.base_radii.pinion
     if abs(teeth - round(teeth)) > 0.2 or round(teeth) < 1:
@@ -171,9 +197,11 @@ def pair_excitation(train: Train, cycle: MeshCycle, errors: TransmissionError | 
     return Excitation(meshes=(mesh,))
 
 
-def pair_errors(pair: GearPair, rating: RatingOptions, seed: int) -> TransmissionError:
+def pair_errors(
+    pair: GearPair, rating: RatingOptions, seed: int, distribution: ErrorDistribution = ErrorDistribution.UNIFORM
+) -> TransmissionError:
     """Random pitch deviations of the rating's accuracy grade on the pinion's teeth, drawn with `seed`."""
     gear = pair.pinion
     tolerances = flank_tolerances(rating.accuracy_grade, gear.reference_diameter, gear.normal_module, rating.accuracy)
-    deviations = random_deviations(gear.teeth, tolerances, seed)
+    deviations = random_deviations(gear.teeth, tolerances, seed, distribution=distribution)
     return tooth_errors(deviations, contact_ratio=max(pair.transverse_contact_ratio, 1.001), harmonics=_HARMONICS)

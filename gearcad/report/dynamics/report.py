@@ -21,6 +21,7 @@ from gearcad.plots.speeds import (
     plot_factors,
     plot_shaft_overload,
 )
+from gearcad.plots.tooth_errors import plot_tooth_errors
 from gearcad.plots.trains import MOST_SHAPES, energies_inches, plot_energies, plot_shapes, shapes_inches
 from gearcad.report.check.figures import Picture, figure_address, pair_picture, picture_address
 from gearcad.report.check.tables import gear_rows, pair_rows
@@ -46,6 +47,7 @@ from gearcad.report.dynamics.tables import (
     shape_table,
     speed_table,
 )
+from gearcad.report.dynamics.tooth_errors import error_table
 from gearcad.report.page import page_html
 from gearcad.report.sentences import sentences
 
@@ -115,6 +117,7 @@ def _train_html(study: TrainStudy, name: str) -> str:
         **_shapes(study.modes),
         most=MOST_PEAKS,
         peaks=peak_table(study),
+        errors=error_table(study),
         shape_figures=_shape_figures(study),
         pair_figures=_pair_figures(study),
         speed_figures=_speed_figures(study),
@@ -193,6 +196,7 @@ def _pair_html(study: PairStudy, name: str) -> str:
         curve=Picture("Mesh stiffness", curve, _said("cycle", study)),
         most=MOST_PEAKS,
         peaks=peak_table(of),
+        errors=error_table(of),
         speed_figures=_speed_figures(of),
         warnings=study.warnings,
     )
@@ -229,6 +233,9 @@ def _speed_figures(study: TrainStudy) -> list[Picture]:
     if study.up.referred_shafts:
         address = picture_address(partial(plot_shaft_overload, study), "svg", _WIDE)
         found.append(Picture("Overload of the shafts over speed", address, _said("shaft_overload", study)))
+    if study.errors is not None:
+        address = picture_address(partial(plot_tooth_errors, study), "svg", _WIDE)
+        found.append(Picture("Dynamic factor with tooth errors", address, _said("tooth_errors", study)))
     found.append(_figure("Course at one speed", partial(plot_course, study), course_inches(study), _said("course", study)))
     return found
 
