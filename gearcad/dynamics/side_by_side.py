@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -144,14 +143,15 @@ class SideBySide:
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What to know before trusting it, and of which studies."""
-        several = joined(self._own_notices())
-        everywhere = ", ".join(self.labels)
-        return tuple(Notice(each.code, each.text) if each.where == everywhere else each for each in several)
-
-    def _own_notices(self) -> Iterator[Notice]:
-        for label, study in zip(self.labels, self.studies, strict=True):
-            yield from (notice.within(label) for notice in study.notices)
+        """What to know before trusting it: what is true of all studies, then what of some, and of which."""
+        every = [notice for notice in self.studies[0].notices if all(notice in study.notices for study in self.studies)]
+        some = [
+            notice.within(label)
+            for label, study in zip(self.labels, self.studies, strict=True)
+            for notice in study.notices
+            if notice not in every
+        ]
+        return (*dict.fromkeys(every), *joined(some))
 
     @property
     def warnings(self) -> tuple[str, ...]:

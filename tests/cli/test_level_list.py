@@ -72,6 +72,15 @@ def test_a_list(here: Path) -> None:
     assert "is not enough: it misses the resonance" in page.text_content()
 
 
+def test_a_list_of_one_is_one_word(here: Path) -> None:
+    designs = []
+    for models in ('"modes"', '["modes"]'):
+        Path("it.toml").write_text(with_models(models), encoding="utf-8")
+        designs.append(read_spec(Path("it.toml")))
+    assert designs[0] == designs[1]
+
+
+@pytest.mark.long
 def test_a_list_of_one_is_the_plain_study(here: Path) -> None:
     """Byte for byte."""
     files = {}

@@ -15,6 +15,7 @@ from gearcad.dynamics.side_by_side import SideBySide
 from gearcad.dynamics.train import study_train
 from gearcad.dynamics.trains.train import TrainModel
 from gearcad.errors import ParameterError
+from gearcad.notice import Notice
 from gearcad.plots.paper import short
 from gearcad.plots.side_by_side import plot_factors_beside, plot_overloads_beside
 from gearcad.report import write_dynamics_report
@@ -72,3 +73,10 @@ def test_pictures_have_a_line_for_each_study(both: SideBySide) -> None:
 def test_labels_must_differ(both: SideBySide) -> None:
     with pytest.raises(ParameterError, match="one for each of 2 studies"):
         replace(both, labels=("exact", "exact"))
+
+
+def test_what_all_have_to_say_is_said_once(both: SideBySide) -> None:
+    common, own = Notice("a", "of all"), Notice("b", "of one", where="mesh")
+    exact, isolated = (replace(study, found=(common,)) for study in both.studies)
+    found = replace(both, studies=(exact, replace(isolated, found=(common, own)))).warnings
+    assert found == ("of all", "isolated <1>: mesh: of one")

@@ -21,7 +21,7 @@ FOUR = (TrainModel.ISOLATED, TrainModel.MASSLESS, TrainModel.MODES, TrainModel.E
 
 
 def study(train: Train, *models: TrainModel, **options: float) -> LevelStudy:
-    return study_levels(train, models, DynamicsOptions(speeds=300, **options))  # type: ignore[arg-type]
+    return study_levels(train, models, DynamicsOptions(speeds=200, **options))  # type: ignore[arg-type]
 
 
 def two_stages(between: float) -> Train:
@@ -69,10 +69,10 @@ def test_heavy_shafts(heavy: LevelStudy) -> None:
     assert heavy.idle_shafts == ("input",) and heavy.to_dict()["enough"] == "modes"
 
 
-def test_any_order_gives_the_same_verdict(heavy: LevelStudy) -> None:
-    back = study(one_stage("massless"), *(FOUR[place] for place in (3, 1, 0, 2)), speed_to=16000.0, operating_to=12000.0)
-    assert back.labels == ("exact", "massless", "isolated", "modes") and back.sentence == heavy.sentence
-    assert back.to_dict()["verdicts"] == heavy.to_dict()["verdicts"]
+def test_any_order_gives_the_same_verdict() -> None:
+    one, other = (study(one_stage(first), *FOUR[::way], speed_to=9000.0) for way, first in ((3, "exact"), (-3, "massless")))
+    assert one.labels == other.labels[::-1] == ("isolated", "exact")
+    assert one.sentence == other.sentence and one.to_dict()["verdicts"] == other.to_dict()["verdicts"]
 
 
 def test_short_shafts() -> None:
