@@ -9,16 +9,17 @@ from typing import TYPE_CHECKING
 import click
 
 from gearcad.cli.group import debug_option, spec_argument
-from gearcad.cli.job import echo_warnings, folder_of, json_option, output_option, perform, quiet_option
+from gearcad.cli.job import echo_warnings, folder_of, json_option, output_option, perform_on, quiet_option
 from gearcad.cli.side_by_side import beside_lines
 
 if TYPE_CHECKING:
+    from gearcad.designs import Design
     from gearcad.dynamics.charts.chart import KvChart
     from gearcad.dynamics.pair_result import ContactStudy
     from gearcad.dynamics.train_result import TrainStudy
     from gearcad.dynamics.trains.eigenmodes import NaturalModes
     from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
-    from gearcad.jobs.dynamics import Study
+    from gearcad.jobs.dynamics import Dynamics, Study
 
 __all__ = ["dynamics"]
 
@@ -27,11 +28,14 @@ _MOST_PEAKS = 8
 
 @click.command(short_help="Natural frequencies, dynamic factors and spectra of SPEC's pair or train.")
 @spec_argument
+@click.option(
+    "--vary", "variations", multiple=True, metavar="KEY=VALUES", help="Another value, or several side by side; repeatable."
+)
 @output_option
 @json_option
 @quiet_option
 @debug_option
-def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
+def dynamics(spec: Path, variations: tuple[str, ...], output: Path | None, as_json: bool, quiet: bool) -> None:
     """Dynamics of the pair of SPEC, under its [load], or of its [train]: what the stiffness of the teeth does to the machine.
 
     A train has its natural frequencies and modes, and the overload of its meshes and shafts over speed, for shafts that are
@@ -39,12 +43,32 @@ def dynamics(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> Non
     that part; with model "contact" in [dynamics] its Campbell diagram. Inertias come from the gears' own solids, mesh stiffness
     from one of the methods of `gearcad stiffness`. Writes dynamics.html, dynamics.json, dynamics.npz (the arrays)
     and a CSV for every chart and table; of a train whose meshes are those of pairs also a spec of each pair under its load.
-    """
-    from gearcad.jobs.dynamics import Dynamics
 
-    study = perform(Dynamics(), spec, output, _show, as_json=as_json, quiet=quiet)
+    \b
+    --vary train.model=exact                       this value in place of the spec's
+    --vary "shaft.*.damping_ratio=0.01,0.05,0.1"   all over each other in one chart and table
+    """
+    if variations:
+        job, design = _varied(spec, variations)
+    else:
+        from gearcad.designs import read_spec
+        from gearcad.jobs.dynamics import Dynamics
+
+        job, design = Dynamics(), read_spec(spec)
+    study = perform_on(job, design, output, _show, as_json=as_json, quiet=quiet)
     if not (quiet or as_json):
         _echo_next(study, output)
+
+
+def _varied(spec: Path, variations: tuple[str, ...]) -> tuple[Dynamics, Design]:
+    """What is done with the variants of a spec, and the first of them."""
+    from gearcad.designs.variants import read_variants
+    from gearcad.jobs.dynamics import Dynamics
+    from gearcad.jobs.dynamics_beside import DynamicsBeside
+
+    variants = read_variants(spec, variations)
+    job = DynamicsBeside(variants=variants) if len(variants.designs) > 1 else Dynamics()
+    return job, variants.designs[0]
 
 
 def _echo_next(study: Study, output: Path | None) -> None:

@@ -13,9 +13,10 @@ from gearcad.cli.progress import file_progress, job_progress
 from gearcad.notice import Notice, texts
 
 if TYPE_CHECKING:
+    from gearcad.designs import Design
     from gearcad.jobs.job import Job
 
-__all__ = ["echo_warnings", "folder_of", "json_option", "output_option", "perform", "quiet_option"]
+__all__ = ["echo_warnings", "folder_of", "json_option", "output_option", "perform", "perform_on", "quiet_option"]
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Result = TypeVar("Result")
@@ -44,13 +45,25 @@ def folder_of(output: Path | None, name: str) -> Path:
 def perform(
     job: Job[Any, Result], spec: Path, output: Path | None, show: Callable[[str, Result], None], *, as_json: bool, quiet: bool
 ) -> Result:
-    """Do a job on the design of a spec, write its files, and print its document, or what `show` prints and the files.
+    """Do a job on the design of a spec as `perform_on` does."""
+    from gearcad.designs import read_spec
+
+    return perform_on(job, read_spec(spec), output, show, as_json=as_json, quiet=quiet)
+
+
+def perform_on(
+    job: Job[Any, Result],
+    design: Design,
+    output: Path | None,
+    show: Callable[[str, Result], None],
+    *,
+    as_json: bool,
+    quiet: bool,
+) -> Result:
+    """Do a job on a design, write its files, and print its document, or what `show` prints and the files.
 
     Warnings about the design that the result does not have itself follow on stderr.
     """
-    from gearcad.designs import read_spec
-
-    design = read_spec(spec)
     with job_progress(shown=not quiet, expected=None if quiet else job.expected(design)) as progress:
         result = job.run(design, progress)
     with file_progress(shown=not quiet and job.writes_long) as progress:
