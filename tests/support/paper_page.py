@@ -39,7 +39,8 @@ def sections() -> list[Section]:
     found = []
     for part in re.split(r"^## ", PAGE.read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]:
         blocks = re.findall(r"^```sh\n(.*?)^```$", part, re.DOTALL | re.MULTILINE)
-        commands = tuple(line for block in blocks for line in block.splitlines() if line.strip())
+        whole = "".join(blocks).replace("\\\n", "")  # a command that goes on in the next line
+        commands = tuple(line for line in whole.splitlines() if line.strip())
         if commands:
             found.append(Section(part.partition("\n")[0], commands, tuple(_claims(part))))
     return found
