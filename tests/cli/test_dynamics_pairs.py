@@ -166,13 +166,6 @@ def test_other_commands_are_told_where_the_pairs_are() -> None:
         )
 
 
-def test_names_of_specs_do_not_clash() -> None:
-    text = train().replace('"stage 1"', '"A/b"').replace('"stage 2"', '"a:B"')
-    result = run("dynamics", spec(text), "--quiet")
-    assert result.exit_code == 0, result.output
-    assert result.stdout.splitlines()[-2:] == ["output/drive/A-b.toml", "output/drive/a-B-2.toml"]
-
-
 RACK = "[pair]\nnormal_module = 2.0\n[pinion]\nteeth = 20\nface_width = 10.0\n[rack]\nlength = 100.0\nface_width = 10.0\n"
 DOUBLE = PAIR.replace("[pinion]", "helix_angle = 20.0\ndouble_helix.gap_width = 3.0\n[pinion]")
 
