@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
-__all__ = ["Agenda", "Expected", "Progress", "Share", "onwards", "part", "unheard"]
+__all__ = ["Agenda", "Expected", "Progress", "Share", "Tell", "onwards", "part", "unheard", "untold"]
 
 Progress = Callable[[str, float, float], None]
 """Called with what is being done, how much of the job is done, and how much there is (0: nobody knows yet).
@@ -36,6 +36,16 @@ def onwards(share: Share) -> Share:
         share(most)
 
     return tell
+
+
+class Tell(Protocol):
+    """Called with what is being done, and how much of it is."""
+
+    def __call__(self, step: str, share: float = 0.0) -> None: ...
+
+
+def untold(step: str, share: float = 0.0) -> None:
+    """A Tell for those who do not ask."""
 
 
 class Expected(NamedTuple):

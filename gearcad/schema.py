@@ -20,7 +20,17 @@ from gearcad.symbols import Symbol
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
-__all__ = ["ELSEWHERE", "FieldSchema", "InPlaceOf", "NamedPart", "Words", "require_fields", "schema_of", "symbols_of"]
+__all__ = [
+    "ELSEWHERE",
+    "FieldSchema",
+    "InPlaceOf",
+    "NamedPart",
+    "Words",
+    "parts_of",
+    "require_fields",
+    "schema_of",
+    "symbols_of",
+]
 
 Permitted = Range | Whole | Choice | Member
 
@@ -142,6 +152,11 @@ def schema_of(kind: type[DataclassInstance]) -> Mapping[str, FieldSchema]:
     """What a type says of its fields, by their names, in their order."""
     hints = get_type_hints(kind, include_extras=True)
     return MappingProxyType({each.name: _schema(each, hints[each.name]) for each in fields(kind)})
+
+
+def parts_of(kind: type[DataclassInstance]) -> dict[str, type[DataclassInstance]]:
+    """The fields of a type that have fields of their own, and their types."""
+    return {name: field.part for name, field in schema_of(kind).items() if field.part is not None}
 
 
 def _schema(field: Any, hint: Any) -> FieldSchema:

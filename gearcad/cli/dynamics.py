@@ -130,7 +130,7 @@ def _train_lines(study: TrainStudy) -> list[str]:
             else [f"K_v of {name}, running up: {up}", f"K_v of {name}, running down: {down}"]
         )
     factors = ", ".join(f"{factor:.3f} of {name}" for name, factor in zip(study.up.mesh_names, study.course.kv, strict=True))
-    return [*lines, f"K_v at {study.course.speed:.6g} rpm: {factors}", *_error_lines(study)]
+    return [*lines, f"K_v at {study.course.speed:.6g} rpm: {factors}", *_error_lines(study), *_transient_lines(study)]
 
 
 def _error_lines(study: TrainStudy) -> list[str]:
@@ -156,6 +156,32 @@ def _pair_line(mesh: EngagedMesh) -> str:
     return (
         f"pair of {mesh.name}: {carried}; {cycle.mean:.5g} N/µm mean secant, {cycle.tangent_mean:.5g} tangent ({cycle.method})"
     )
+
+
+def _transient_lines(study: TrainStudy) -> list[str]:
+    """The greatest loads of a run with changing speed or torque."""
+    run = study.transient
+    if run is None:
+        return []
+    (begin, end), options = run.speeds, run.options
+    given = [f"{begin:.6g} to {end:.6g} rpm" if begin != end else f"{begin:.6g} rpm"]
+    if options.torque_from != 1 or options.final_torque != 1:
+        given.append(f"torques times {options.torque_from:g} to {options.final_torque:g}")
+    lines = [f"in time: {', '.join(given)}, {options.duration:g} s by {1e6 * run.step:.3g} µs"]
+    for mesh, each in enumerate(run.greatest):
+        lasting = study.lasting(mesh)
+        more = "" if lasting is None else f"; what lasts at these speeds: {lasting:.3f}"
+        lines.append(f"greatest force of {each.name}: {each.factor:.3f} at {each.time:.4g} s, {each.speed:.5g} rpm{more}")
+    lines += [
+        f"greatest torque of {each.name}: {each.factor:.3f} at {each.time:.4g} s, {each.speed:.5g} rpm"
+        for each in run.greatest_of_shafts
+    ]
+    times = {name: [each for each in run.partings if each.mesh == name] for name in run.names[0]}
+    return lines + [
+        f"flanks of {name} part first at {each[0].begin:.4g} s, last at {each[-1].end:.4g} s"
+        for name, each in times.items()
+        if each
+    ]
 
 
 def _peaks(study: TrainStudy, chart: KvChart, mesh: int) -> str:

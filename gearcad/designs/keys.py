@@ -21,7 +21,7 @@ from gearcad.mounting import Mounting
 from gearcad.per_gear import Role
 from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad
 from gearcad.rating.options import RatingOptions
-from gearcad.schema import ELSEWHERE, FieldSchema, Words, schema_of
+from gearcad.schema import ELSEWHERE, FieldSchema, Words, parts_of, schema_of
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -36,6 +36,7 @@ __all__ = [
     "MAIN_TABLES",
     "OF_SETS",
     "PARTS",
+    "PARTS_BESIDE",
     "PLANETARY",
     "PRE_STAGE",
     "SHARED",
@@ -58,7 +59,7 @@ Fields = Mapping[str, Mapping[str, FieldSchema]]
 Cell = int | float | str | tuple[float, ...]
 """What a spec and a cell of a design table can both hold."""
 
-PARTS = {name: field.part for name, field in schema_of(Gear).items() if field.part is not None}
+PARTS = parts_of(Gear)
 """Fields of a gear that have fields of their own, and their types."""
 
 MAIN_TABLES = {
@@ -81,6 +82,9 @@ BESIDE: dict[str, type[DataclassInstance]] = {
     "rating": RatingOptions,
 }
 """The tables that stand beside those of the gears, and what they make."""
+
+PARTS_BESIDE = {table: parts_of(kind) for table, kind in BESIDE.items()}
+"""Fields of these that have fields of their own, and their types."""
 
 
 @dataclass(frozen=True)

@@ -42,7 +42,9 @@ def _values(instance: Any, keys: Any, always: Sequence[str] = ()) -> Iterator[tu
     """The fields under flattened keys, without those that are derived, or that have their default."""
     for key in keys:
         *parts, name = key.split(".")
-        owner = reduce(getattr, parts, instance)
+        owner = reduce(lambda of, part: getattr(of, part, None), parts, instance)
+        if owner is None:  # a part that is not given
+            continue
         value = getattr(owner, name)
         if is_dataclass(value) or value is None or not (isinstance(value, str | Enum | tuple) or is_given(value)):
             continue

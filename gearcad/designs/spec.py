@@ -14,7 +14,7 @@ from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 from gearcad.designs.auto import AUTO, CLEAR
 from gearcad.designs.design import require_plain_name
 from gearcad.designs.files import Where, require_sane_tables
-from gearcad.designs.keys import COUNTS, FIELDS, KEYS, PARTS, SHARED, explain_unknown_key
+from gearcad.designs.keys import COUNTS, FIELDS, KEYS, PARTS, PARTS_BESIDE, SHARED, explain_unknown_key
 from gearcad.errors import GeometryError, InputError, ParameterError, SpecError, format_number, shown
 from gearcad.geometry import NAMED_RACKS, BasicRack
 from gearcad.per_gear import Role
@@ -69,7 +69,7 @@ class Spec:
         """Every value under its dotted key, whole numbers turned into floats where floats are meant. Raises SpecError."""
         values = {}
         for table, content in tables.items():
-            for field, value in _entries(content):
+            for field, value in _entries(content, PARTS_BESIDE.get(table, PARTS)):
                 key = f"{table}.{field}"
                 if field not in KEYS[table]:
                     raise SpecError(f"{where(key)}: {shown(key)}: {explain_unknown_key(table, field)}")
@@ -163,7 +163,7 @@ class Spec:
         with self.blame(owner):
             if not isinstance(values.get("name", ""), str):
                 raise ParameterError("name", values["name"], "must be a text")
-            return kind(**_missing(owner) | values)
+            return kind(**_missing(owner) | _with_parts(values, PARTS_BESIDE.get(owner, {})))
 
     def gear_inputs(self, owner: str) -> dict[str, Any]:
         """Keyword arguments of Gear; "auto" not yet resolved, what is missing as None for Gear to complain about."""
@@ -204,15 +204,26 @@ def _within(part: str) -> Iterator[None]:
         raise error.within(part) from error
 
 
+def _with_parts(values: Mapping[str, Any], kinds: Mapping[str, type[Any]]) -> dict[str, Any]:
+    """The values of a table, those of its parts made into these; none of those of which nothing is given."""
+    found = {key: value for key, value in values.items() if "." not in key}
+    for part, kind in kinds.items():
+        given = {key.removeprefix(f"{part}."): value for key, value in values.items() if key.startswith(f"{part}.")}
+        if given:
+            with _within(part):
+                found[part] = kind(**given)
+    return found
+
+
 def _missing(table: str) -> dict[str, Any]:
     """None for every field that must be given: its type complains about it."""
     return {key: None for key, field in FIELDS[table].items() if field.required}
 
 
-def _entries(content: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
-    """Keys and values of one table, those of `rack`, `body` and `modification` joined to them with a dot."""
+def _entries(content: Mapping[str, Any], parts: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Keys and values of one table, those of its parts, such as `rack` and `body`, joined to them with a dot."""
     for field, value in content.items():
-        if field in PARTS and isinstance(value, Mapping):
+        if field in parts and isinstance(value, Mapping):
             yield from ((f"{field}.{inner}", item) for inner, item in value.items())
         else:
             yield field, value

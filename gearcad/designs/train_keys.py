@@ -46,13 +46,19 @@ def _but(kind: type[DataclassInstance], *others: str) -> dict[str, FieldSchema]:
     return {name: field for name, field in schema_of(kind).items() if name not in others}
 
 
+def _flat(name: str, field: FieldSchema) -> dict[str, FieldSchema]:
+    """A field, or those of its part with a dot."""
+    return {name: field} if field.part is None else {f"{name}.{key}": each for key, each in schema_of(field.part).items()}
+
+
 TRAIN: dict[str, dict[str, FieldSchema]] = {
     MAIN: _but(Train, *_ELSEWHERE),
     **{table: _but(kind, "name") for table, kind in PARTS.items()},
     "dynamics": {
-        name: field
+        key: each
         for name, field in schema_of(DynamicsOptions).items()
         if OF_PAIRS not in field.marks or OF_TRAINS_OF_PAIRS in field.marks
+        for key, each in _flat(name, field).items()
     },
 }
 """What the keys of each table say of themselves; those of parts without the names."""

@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 from gearcad.designs.files import Where
 from gearcad.designs.spec import Given
 from gearcad.designs.train_keys import ALL, MAIN, PARTS, TORQUES, TRAIN, TrainKey, explain_unknown_key_of_train, general_key
+from gearcad.dynamics.options import DynamicsOptions
 from gearcad.errors import SpecError, format_number, shown
-from gearcad.schema import FieldSchema
+from gearcad.schema import FieldSchema, parts_of
 
 __all__ = [
     "TrainTables",
@@ -56,7 +57,10 @@ def values_of(tables: Mapping[str, Any], where: Where) -> dict[str, Given]:
             for key, value in content.items():
                 found |= _value(TrainKey(table, name, key), value, f"{owner}.{key}", where) if key != "name" else {}
     for key, value in _table(tables.get("dynamics", {}), "dynamics", where).items():
-        found |= _value(TrainKey("dynamics", "", key), value, None, where)
+        inner = _table(value, f"dynamics.{key}", where) if key in parts_of(DynamicsOptions) else None
+        each = {key: value} if inner is None else {f"{key}.{name}": its for name, its in inner.items()}
+        for name, its in each.items():
+            found |= _value(TrainKey("dynamics", "", name), its, None, where)
     return found
 
 
@@ -134,7 +138,9 @@ def tables_of(values: Mapping[str, Any], where: Where) -> TrainTables:
         if found.field == TORQUES:
             main.setdefault(TORQUES, {})[found.name] = values[key]
         elif not found.name:
-            (main if found.table == MAIN else other)[found.field] = _typed(values[key], found.schema)
+            owner, *part = found.field.split(".")
+            content = main if found.table == MAIN else other
+            (content.setdefault(owner, {}) if part else content)[part[0] if part else owner] = _typed(values[key], found.schema)
         else:
             chosen = names[found.table] if found.name == ALL else (found.name,)
             if not chosen:

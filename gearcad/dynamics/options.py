@@ -7,6 +7,7 @@ from enum import Enum
 from typing import Annotated
 
 from gearcad.dynamics.excitation.deviations import ErrorDistribution
+from gearcad.dynamics.in_time.transient_options import TransientOptions
 from gearcad.dynamics.tooth_springs.contact_model import EngagedPairs
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
@@ -72,6 +73,8 @@ class DynamicsOptions:
     first pinion; None: from the first speed of the chart up to the train's own, or else to the last of the chart), and a model
     is enough if its loads agree there within `level_tolerance` (part of the load at rest).
 
+    With `transient` the train runs in time as well, with a speed or torques that change.
+
     Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh; "auto" is plane
     strain for spur gears, whose teeth come into mesh by and by under load, and potential energy for helical ones, strain energy
     where one of these is a ring.
@@ -112,6 +115,7 @@ class DynamicsOptions:
     tooth_stiffness: Annotated[float | None, STIFFNESS, Words("stiffness of one pair of teeth"), OF_PAIRS] = None
     tooth_damping: Annotated[float | None, DAMPING, Words("damping of one pair of teeth"), OF_PAIRS] = None
     zone: Annotated[str, Member(EngagedPairs), Words("which pairs of teeth carry"), OF_PAIRS] = EngagedPairs.RIGID_TIPS.value
+    transient: TransientOptions | None = None
     duration: Annotated[float, DURATION, Words("time that each speed runs"), OF_PAIRS] = 1.0
     sampling: Annotated[float, SAMPLING, Words("samples of each speed per second"), OF_PAIRS] = 200_000.0
 
@@ -125,6 +129,8 @@ class DynamicsOptions:
         if len(given) == 1:
             (role, stiffness), permitted = given[0], "must be given together with that of the other gear: both stand on "
             raise GeometryError(f"{role.value}_bearing_stiffness", stiffness, permitted + "bearings, or neither", "N/µm")
+        if self.transient is not None and self.pair_model is PairModel.CONTACT:
+            raise GeometryError("transient", self.model, 'is for model "mesh": springs between single teeth run at even speeds')
         if self.speed_from is not None and self.speed_to is not None and self.speed_to <= self.speed_from:
             raise GeometryError("speed_to", self.speed_to, f"must be above speed_from, {self.speed_from:g} rpm", "rpm")
         if self.operating_from is not None and self.operating_to is not None and self.operating_to <= self.operating_from:

@@ -27,7 +27,7 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.per_gear import PerGear
-from gearcad.progress import Share, unheard
+from gearcad.progress import Share, Tell, unheard, untold
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 from gearcad.stiffness.methods import METHODS
@@ -52,7 +52,7 @@ def study_pair(
     *,
     rating: RatingOptions | None = None,
     masses: PerGear[float] | None = None,
-    tell: Callable[[str], None] = lambda _step: None,
+    tell: Tell = untold,
     share: Share = unheard,
     drawn: Share = unheard,
 ) -> PairStudy:

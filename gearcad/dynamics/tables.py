@@ -9,6 +9,7 @@ import numpy as np
 
 from gearcad.arrays import Bools, Floats, Wholes
 from gearcad.dynamics.charts.findings import Charts
+from gearcad.dynamics.in_time.transient_result import Transient
 from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.tooth_springs.history import TimeHistory
 from gearcad.dynamics.trains.eigenmodes import ComponentModes, NaturalModes
@@ -28,6 +29,7 @@ __all__ = [
     "named_columns",
     "spectrum_columns",
     "stacked",
+    "transient_columns",
 ]
 
 Columns = Mapping[str, Floats | Bools | Wholes | Sequence[Any]]
@@ -191,6 +193,18 @@ def spectrum_columns(history: TimeHistory, highest: float) -> Columns:
         "frequency (Hz)": speed.frequency,
         "pinion_speed (rad/s)": speed.amplitude,
         "approach (µm)": approach.amplitude,
+    }
+
+
+def transient_columns(run: Transient) -> Columns:
+    """The greatest loads of every tooth period of a run with changing speed or torque."""
+    meshes, _, shafts = run.names
+    return {
+        "time (s)": run.middles,
+        "speed (rpm)": run.window_speed,
+        **named_columns("overload", meshes, run.factor),
+        **named_columns("parted", meshes, run.parted),
+        **named_columns("shaft_overload", shafts, run.shaft_factor),
     }
 
 

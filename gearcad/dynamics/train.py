@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from gearcad.dynamics.charts.over_speed import OverSpeed, over_speed
 from gearcad.dynamics.engagement import engaged, pair_notices
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.excitation.sources import train_excitation
+from gearcad.dynamics.in_time.transient import run_transient
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.tooth_errors.result import ToothLaw
@@ -28,7 +30,7 @@ from gearcad.dynamics.trains.six_dof import PairOnBearings
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import GeometryError
 from gearcad.notice import Notice
-from gearcad.progress import Share, unheard
+from gearcad.progress import Share, Tell, unheard, untold
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 
@@ -64,7 +66,7 @@ def study_train(
     method_b: DynamicFactor | None = None,
     bearings: PairOnBearings | None = None,
     teeth: Sequence[MeshTeeth] | None = None,
-    tell: Callable[[str], None] = lambda _step: None,
+    tell: Tell = untold,
     share: Share = unheard,
     drawn: Share = unheard,
 ) -> TrainStudy:
@@ -73,7 +75,8 @@ def study_train(
     `speeds` (rpm, rising) are those of the chart, at least, in place of the options'. `excitation` is that of the train's own
     meshes unless given; `method_b` is K_v by ISO 6336-1 of the first mesh. With `bearings` the charts are those of the same
     mesh between gears that travel as well. `teeth` are those of the meshes, for errors that are drawn, unless the train's own.
-    `tell` hears what is being done, `share` how much of the chart is, `drawn` how much of the errors.
+    `tell` hears what is being done, and how much of a run in time, `share` how much of the chart is, `drawn` how much of the
+    errors.
     Raises ParameterError, GeometryError and SolverError.
     """
     if not train.meshes:
@@ -98,6 +101,11 @@ def study_train(
         own = _own_teeth(train, options) if teeth is None else teeth
         places = _error_speeds(train, options, charted_speeds)
         errors = study_errors(charted, excitation, own, places, train.meshes[0].teeth, _plan(options), drawn)
+    transient = None
+    if options.transient is not None:
+        heard, references = partial(tell, "transient"), over.up.shaft_references
+        shaken = (train, charted, excitation)
+        transient = run_transient(*shaken, options.transient, references=references, otherwise=course.speed, tell=heard)
     return TrainStudy(
         train=train,
         options=options,
@@ -109,9 +117,10 @@ def study_train(
         down=over.down,
         jumps=over.jumps,
         course=course,
-        found=(*pair_notices(train), *over.notices, *more),
+        found=(*pair_notices(train), *over.notices, *more, *(transient.notices if transient is not None else ())),
         method_b=method_b,
         errors=errors,
+        transient=transient,
     )
 
 

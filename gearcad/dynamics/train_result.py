@@ -25,9 +25,19 @@ from gearcad.dynamics.charts.findings import (
     shaft_overloads,
 )
 from gearcad.dynamics.excitation.meshes import Excitation
+from gearcad.dynamics.in_time.transient_result import Transient
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.direction import Direction
-from gearcad.dynamics.tables import Columns, Tables, chart_tables, cycle_columns, modal_tables, named_columns, stacked
+from gearcad.dynamics.tables import (
+    Columns,
+    Tables,
+    chart_tables,
+    cycle_columns,
+    modal_tables,
+    named_columns,
+    stacked,
+    transient_columns,
+)
 from gearcad.dynamics.tooth_errors.result import ErrorStudy
 from gearcad.dynamics.trains.bearing_modes import BearingModes
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
@@ -141,7 +151,8 @@ class TrainStudy:
 
     `on_bearings` are the modes of the system of the charts, where its gears travel as well; `method_b` is K_v by
     ISO 6336-1. `found` is what the calculation itself has to say: `notices` are also those of the charts and modes. `errors` is
-    K_v with tooth errors that were drawn: the charts are then those of teeth without.
+    K_v with tooth errors that were drawn: the charts are then those of teeth without. `transient` is the run in time that was
+    asked for.
     """
 
     train: Train
@@ -157,6 +168,7 @@ class TrainStudy:
     found: tuple[Notice, ...]
     method_b: DynamicFactor | None
     errors: ErrorStudy | None = None
+    transient: Transient | None = None
 
     def __repr__(self) -> str:
         return f"<TrainStudy of {self.train.name!r}: {len(self.speeds)} speeds up to {self.speeds.max():.6g} rpm>"
@@ -209,6 +221,17 @@ class TrainStudy:
         """Of the shafts that carry something at rest, by name."""
         return {each.shaft: each for each in shaft_overloads(self.charts)}
 
+    def lasting(self, mesh: int) -> float | None:
+        """The greatest K_v of a mesh that lasts at the speeds of the run in time, running as it runs; None beyond the chart."""
+        if self.transient is None or not self.transient.speed_changes:
+            return None
+        speeds = np.abs(self.transient.window_speed)
+        rising = abs(self.transient.speeds[1]) >= abs(self.transient.speeds[0])
+        chart = self.up if rising or self.down is None else self.down
+        within = (self.speeds >= speeds.min()) & (self.speeds <= speeds.max())
+        covered = self.speeds[0] <= 1.01 * speeds.max() and speeds.max() <= 1.01 * self.speeds[-1] and within.any()
+        return float(chart.factors[within, mesh].max()) if covered else None
+
     @property
     def mode_speeds(self) -> tuple[ModeSpeed, ...]:
         """Speeds at which tooth frequencies are natural ones, or half of those that bend teeth."""
@@ -248,6 +271,7 @@ class TrainStudy:
             "course": self.course.to_dict(),
             "tooth_errors": None if self.errors is None else self.errors.to_dict(),
             "greatest": self.greatest.to_dict(),
+            "transient": None if self.transient is None else self.transient.to_dict(),
             "resonances": [each.to_dict() for each in self.resonances],
             "shaft_overloads": [each._asdict() for each in self.shaft_overloads.values()],
             **({"pairs": {name: mesh.pair_document() for name, mesh in self.pairs.items()}} if self.pairs else {}),
@@ -267,7 +291,8 @@ class TrainStudy:
             found |= {f"{name}_down": values for name, values in self.down.arrays().items()}
         if self.up.standard is not None:
             found["kv_iso6336"] = self.up.standard
-        return found if self.errors is None else found | self.errors.arrays()
+        found |= {} if self.errors is None else self.errors.arrays()
+        return found | ({} if self.transient is None else self.transient.arrays())
 
     def tables(self) -> Tables:
         """As the CSV files have them."""
@@ -278,4 +303,5 @@ class TrainStudy:
             "course": self.course.columns(up.mesh_names, up.shaft_names, self.train.meshes[0].teeth),
             **stacked("mesh", list(self.pairs), [{_CYCLES: cycle_columns(mesh.course.cycle)} for mesh in self.pairs.values()]),
         }
-        return found if self.errors is None else {**found, "tooth errors": self.errors.columns()}
+        found |= {} if self.errors is None else {"tooth errors": self.errors.columns()}
+        return found | ({} if self.transient is None else {"transient": transient_columns(self.transient)})

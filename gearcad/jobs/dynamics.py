@@ -58,7 +58,7 @@ _ERRORS = "tooth errors"
 _OVER_SPEED = ("displacements", "transmission error", "bearings")
 _TABLES = (
     *("chart", *_OVER_SPEED, *(f"{name} down" for name in _OVER_SPEED), "modes", "component modes", "course", "mesh stiffness"),
-    *("campbell", "history", "spectrum", _ERRORS),
+    *("campbell", "history", "spectrum", _ERRORS, "transient"),
 )
 """Of any result."""
 
@@ -175,10 +175,10 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
 
 
 def _steps(steps: Mapping[str, float], options: DynamicsOptions) -> Mapping[str, float]:
-    """With that of tooth errors where they are drawn."""
-    if not options.drawn or options.pair_model is not PairModel.MESH:
-        return steps
-    return {**steps, _ERRORS: 2.0 * options.error_samples}
+    """With those of tooth errors that are drawn, and of a run with changing speed or torque."""
+    drawn = options.drawn and options.pair_model is PairModel.MESH
+    more = {_ERRORS: 2.0 * options.error_samples} if drawn else {}
+    return {**steps, **more, **({} if options.transient is None else {"transient": 10.0})}
 
 
 def _mesh_cycle(design: PairDesign, load: Load, options: DynamicsOptions) -> MeshCycle:

@@ -19,7 +19,7 @@ from gearcad.dynamics.trains.document import train_document
 from gearcad.dynamics.trains.members import BESIDE_PAIR, Mesh
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.errors import InputError, ParameterError, SpecError, as_choice, format_number, shown
-from gearcad.schema import schema_of
+from gearcad.schema import parts_of, schema_of
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -89,7 +89,11 @@ class TrainDesign(Design):
 
     def to_dict(self) -> dict[str, Any]:
         """The document of `data.json`: the train and its parts, each kind under its table, and the options."""
-        options = {key: value for key, value in asdict(self.dynamics).items() if key in TRAIN["dynamics"]}
+        options = {
+            key: value
+            for key, value in asdict(self.dynamics).items()
+            if key in TRAIN["dynamics"] or key in parts_of(DynamicsOptions)
+        }
         document = super().to_dict() | train_document(self.train) | {"dynamics": options}
         if self.other_models:
             document["train"]["model"] = [each.value for each in self.models]
@@ -127,6 +131,12 @@ class _Reader:
         schema = schema_of(DynamicsOptions)
         permitted = tuple(key for key, field in schema.items() if OF_PAIRS not in field.marks or also & {*field.marks})
         chosen = self._table(content, "dynamics", permitted)
+        for name, part in parts_of(DynamicsOptions).items():
+            if name in chosen:
+                owner = f"dynamics.{name}"
+                given = self._table(chosen[name], owner, tuple(schema_of(part)))
+                with self.blame(owner):
+                    chosen[name] = part(**_numbers(part, given))
         with self.blame("dynamics"):
             return DynamicsOptions(**_numbers(DynamicsOptions, chosen))
 

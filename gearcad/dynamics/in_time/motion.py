@@ -86,12 +86,12 @@ class MovingSystem:
     driven: Floats
 
     @classmethod
-    def lumped(cls, system: System, excitation: Excitation) -> MovingSystem:
+    def lumped(cls, system: System, excitation: Excitation, *, driven: Floats | None = None) -> MovingSystem:
         """Every mesh as one spring, as in the harmonic balance."""
         excitation.fits(system)
         pressed = senses(system)
         laws = lumped_laws(excitation, system.stiffness, pressed)
-        return cls(system=system, laws=laws, senses=pressed, driven=np.zeros(system.size))
+        return cls(system=system, laws=laws, senses=pressed, driven=np.zeros(system.size) if driven is None else driven)
 
     def at_rest(self) -> Start:
         """Under the mean load, with the meshes at their mean stiffness."""
@@ -182,8 +182,9 @@ class MovingSystem:
     def _course(self, course: Course) -> CourseTables:
         from gearcad.dynamics.in_time.kernel import CourseTables
 
-        lines = (course.frequency, course.torque)
-        return CourseTables(*(_plain(each) for line in lines for each in (line.time, line.value, line.sums)))
+        speed, torque = course.frequency, course.torque
+        tables = (speed.time, speed.value, course.turns + speed.sums, torque.time, torque.value, torque.sums)
+        return CourseTables(*map(_plain, tables))
 
     def _disturbance(self, size: int) -> tuple[Floats, Floats, Floats]:
         """A push on all meshes: it turns nothing as a whole."""

@@ -60,10 +60,14 @@ class Line:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Course:
-    """`frequency` of the common period of all meshes (Hz), negative where they turn back; `torque` a factor of the load."""
+    """`frequency` of the common period of all meshes (Hz), negative where they turn back; `torque` a factor of the load.
+
+    `turns` of the common period have passed at the first corner of the frequency.
+    """
 
     frequency: Line
     torque: Line = field(default_factory=lambda: Line.level(1.0))
+    turns: float = 0.0
 
     @classmethod
     def steady(cls, frequency: float) -> Course:

@@ -71,8 +71,8 @@ def study_levels(
     )
 
 
-def _begun(tell: Callable[[str, float], None], model: str, step: str) -> None:
-    tell(f"{model}: {step}", 0.0)
+def _begun(tell: Callable[[str, float], None], model: str, step: str, share: float = 0.0) -> None:
+    tell(f"{model}: {step}", share)
 
 
 def _speeds(train: Train, options: DynamicsOptions) -> tuple[Floats, OperatingRange]:

@@ -1,0 +1,147 @@
+"""What a run in time with changing speed or torque does to a train: courses, and the greatest forces in every tooth period."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gearcad.arrays import Floats, freeze
+from gearcad.dynamics.in_time.transient_options import TransientOptions
+from gearcad.notice import Notice
+
+__all__ = ["GreatestLoad", "Parting", "Transient"]
+
+
+class GreatestLoad(NamedTuple):
+    """The greatest load of a mesh or shaft `name` over that at rest under the whole load, when (s), and at what speed (rpm)."""
+
+    name: str
+    factor: float
+    time: float
+    speed: float
+
+
+class Parting(NamedTuple):
+    """A stretch of time (s) in which flanks of `mesh` part at some moment in every tooth period, with the speeds (rpm) there.
+
+    `share` is the part of that time without contact.
+    """
+
+    mesh: str
+    begin: float
+    end: float
+    speed_from: float
+    speed_to: float
+    share: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Transient:
+    """Courses of (k,) samples at `time` (s): `speed` of the first pinion (rpm), `torque` as a factor of the load.
+
+    `approach` (k, m) of the flanks in µm, `force` (k, m) between them in N with that of the dampers, `turn` (k, i) of the
+    inertias beside their even turning in degrees, `shaft_torque` (k, s) in N·m.
+
+    Of `windows` (w + 1,), times (s) between which a tooth of the first mesh passes or, where it takes longer, a hundredth of
+    the duration: `factor` (w, m), the greatest force of the springs of a mesh, on either flanks, over the `static_forces` (m,)
+    in N under the whole load, `parted` (w, m) the share of time in which no flanks press, `shaft_factor` (w, s), the greatest
+    torque in either sense over the `shaft_references` (s,) in N·m, nan where there are none. All steps of `step` s are looked
+    at.
+
+    `names` are those of meshes, inertias and shafts; `parting` says whether flanks may part.
+    """
+
+    options: TransientOptions
+    names: tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]
+    static_forces: Floats
+    shaft_references: Floats
+    time: Floats
+    speed: Floats
+    torque: Floats
+    approach: Floats
+    force: Floats
+    turn: Floats
+    shaft_torque: Floats
+    windows: Floats
+    window_speed: Floats
+    factor: Floats
+    parted: Floats
+    shaft_factor: Floats
+    step: float
+    parting: bool
+    notices: tuple[Notice, ...]
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+    @property
+    def middles(self) -> Floats:
+        """Times (w,) in the middle of the windows (s)."""
+        return np.asarray((self.windows[1:] + self.windows[:-1]) / 2, float)
+
+    @property
+    def speeds(self) -> tuple[float, float]:
+        """At the beginning and at the end (rpm)."""
+        return float(self.speed[0]), float(self.window_speed[-1]) if len(self.speed) < 2 else float(self.speed[-1])
+
+    @property
+    def speed_changes(self) -> bool:
+        """Whether there is anything to be drawn over speed."""
+        return bool(np.ptp(self.window_speed) > 0)
+
+    @property
+    def referred_shafts(self) -> list[int]:
+        """Shafts that carry something at rest."""
+        return [shaft for shaft, column in enumerate(self.shaft_factor.T) if np.isfinite(column).all()]
+
+    @property
+    def greatest(self) -> tuple[GreatestLoad, ...]:
+        """Of every mesh."""
+        return tuple(self._greatest(self.names[0], self.factor, range(len(self.names[0]))))
+
+    @property
+    def greatest_of_shafts(self) -> tuple[GreatestLoad, ...]:
+        """Of every shaft that carries something at rest."""
+        return tuple(self._greatest(self.names[2], self.shaft_factor, self.referred_shafts))
+
+    def _greatest(self, names: tuple[str, ...], factors: Floats, which: range | list[int]) -> Iterator[GreatestLoad]:
+        for number in which:
+            row = int(factors[:, number].argmax())
+            time, speed = float(self.middles[row]), float(self.window_speed[row])
+            yield GreatestLoad(names[number], float(factors[row, number]), time, speed)
+
+    @property
+    def partings(self) -> tuple[Parting, ...]:
+        """When flanks part, mesh by mesh; none of meshes that cannot."""
+        found = []
+        for mesh, name in enumerate(self.names[0]):
+            apart = np.concatenate([[False], self.parted[:, mesh] > 0, [False]])
+            lengths = np.diff(self.windows)
+            for begin, end in np.flatnonzero(np.diff(apart.astype(int))).reshape(-1, 2).tolist():
+                share = float(np.average(self.parted[begin:end, mesh], weights=lengths[begin:end]))
+                times = float(self.windows[begin]), float(self.windows[end])
+                speeds = float(self.window_speed[begin]), float(self.window_speed[end - 1])
+                found.append(Parting(name, *times, *speeds, share))
+        return tuple(found)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As `dynamics.json` has it; the courses are arrays."""
+        return {
+            "speed_from": self.speeds[0],
+            "speed_to": self.speeds[1],
+            "duration": self.options.duration,
+            "torque_from": self.options.torque_from,
+            "torque_to": self.options.final_torque,
+            "step": self.step,
+            "greatest": [each._asdict() for each in self.greatest],
+            "greatest_of_shafts": [each._asdict() for each in self.greatest_of_shafts],
+            "parted": [each._asdict() for each in self.partings],
+        }
+
+    def arrays(self) -> dict[str, Floats]:
+        """As the .npz file has them."""
+        names = "time speed torque approach force turn shaft_torque windows window_speed factor parted shaft_factor".split()
+        return {f"transient_{name}": getattr(self, name) for name in names}
