@@ -10,6 +10,9 @@ from gearcad.cli.group import debug_option
 
 __all__ = ["plot"]
 
+_LONGEST = 60
+"""Characters of a key in the name of a file."""
+
 
 @click.command(short_help="Draw columns of results.csv over each other.")
 @click.argument("results", type=click.Path(path_type=Path))
@@ -37,8 +40,15 @@ def plot(results: Path, x: str, y: str, colour: str | None, contour: str | None,
     if output is not None:
         require_picture(output)
     points = read_points(results, x, y, colour=colour, contour=contour)
-    path = output if output is not None else results.with_name(f"{results.stem}-{points.y.key}-{points.x.key}.png")
+    path = (
+        output if output is not None else results.with_name(f"{results.stem}-{_plain(points.y.key)}-{_plain(points.x.key)}.png")
+    )
     save_plot(plot_scatter if contour is None else plot_contours, points, path)
     click.echo(path)
     if points.omitted:
         click.echo(f"{points.omitted} rows are left out: not ok, or without one of these values", err=True)
+
+
+def _plain(key: str) -> str:
+    """A key as a part of a file's name: the parts of trains have names of any kind, or are meant all together."""
+    return "".join(sign if sign.isalnum() or sign in "._-" else "-" for sign in key.replace(".*.", "."))[:_LONGEST]

@@ -70,6 +70,8 @@ _NAMED_OF_TRAINS = {
 _NAMED = ("stiffness",)
 """Tables whose quantities stand under a name each: `stiffness.iso6336.mean`."""
 
+_ALL_PARTS = {"inertia": "all inertias", "shaft": "all shafts", "mesh": "all meshes"}
+
 _OWNERS = tuple(role.value for role in Role)
 
 
@@ -123,6 +125,6 @@ def _of_part(heading: str) -> tuple[str, Symbol] | None:
         key, _, name = rest.partition(".")
         return (name, symbols.TRAIN_DYNAMICS[key]) if name and key in symbols.TRAIN_DYNAMICS else None
     if (found := TrainKey.of(heading)) is not None:
-        return "" if found.name == ALL else found.name, found.schema.symbol
+        return _ALL_PARTS[table] if found.name == ALL else found.name, found.schema.symbol
     name, _, key = rest.rpartition(".")
     return (name, symbols.TRAIN_PARTS[table][key]) if table in PARTS and key in symbols.TRAIN_PARTS[table] else None

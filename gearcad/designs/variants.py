@@ -12,7 +12,7 @@ from gearcad.designs.columns import column_symbol
 from gearcad.designs.design import Design, DesignKind
 from gearcad.designs.keys import Cell
 from gearcad.designs.reader import SpecValues, design_from_values, read_values
-from gearcad.designs.train_keys import general_key
+from gearcad.designs.train_keys import ALL, general_key
 from gearcad.designs.variations import Choices, read_variations, without_varied
 from gearcad.errors import ParameterError, format_number
 
@@ -91,7 +91,7 @@ def _words(key: str) -> str:
     found = column_symbol(key)
     if found is None or not found[1].words:
         return key
-    owner, symbol = found
+    owner, symbol = ("" if f".{ALL}." in key else found[0]), found[1]
     return f"{symbol.words}{f' of {owner}' if owner else ''}{f' in {symbol.unit}' if symbol.unit else ''}"
 
 

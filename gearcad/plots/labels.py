@@ -17,7 +17,7 @@ def axis_label(key: str) -> str:
         return plain(key)
     owner, symbol = found
     unit = {"deg": "°"}.get(symbol.unit, symbol.unit)
-    parts = (owner and f"{owner}:", symbol.words, mathtext(symbol.symbol), unit and f"in {unit}")
+    parts = (owner and f"{plain(owner)}:", symbol.words, mathtext(symbol.symbol), unit and f"in {unit}")
     return " ".join(part for part in parts if part)
 
 

@@ -81,7 +81,7 @@ def test_columns_say_whose_they_are() -> None:
     assert (owner, symbol.unit) == ("stage 1", "N/µm")
     found = column_symbol("dynamics.kv_highest.stage 1.5")
     assert found is not None and found[0] == "stage 1.5" and found[1].symbol == "K_v"
-    assert (column_symbol("shaft.*.damping_ratio") or ("?",))[0] == ""
+    assert (column_symbol("shaft.*.damping_ratio") or ("?",))[0] == "all shafts"
     assert column_symbol("dynamics.kv_highest_of.x") is None
 
 
