@@ -45,7 +45,8 @@ def study(
     --vary helix_angle=10,20,28             these values
     --vary pinion.profile_shift=-0.2:0.6:9  from -0.2 to 0.6 in 9 values
     --vary wheel.profile_shift=auto         one value for all rows
-    --vary "shaft.*.damping_ratio=0.01,0.1" of all shafts of a train, shaft.NAME. of one
+    --vary "shaft.*.damping_ratio=0.01,0.1" of all shafts of a train, in place of what each has
+    --vary "mesh.stage 1.stiffness=500,750" of the mesh of this name
     With --sample the rows are drawn instead, and a range has no count:
     --vary pinion.profile_shift=-0.2:0.6 --sample lhs --n 200
     """

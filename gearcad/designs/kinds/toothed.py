@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gearcad.designs.design import Design
 from gearcad.designs.files import Where
@@ -13,6 +13,10 @@ from gearcad.designs.keys import BESIDE, KEYS, explain_unknown_table
 from gearcad.designs.spec import Spec
 from gearcad.errors import SpecError, format_number, shown
 from gearcad.geometry import GearPair, RackPair
+from gearcad.schema import parts_of
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 __all__ = ["ToothedDesign", "beside_teeth", "require_known_tables"]
 
@@ -34,7 +38,13 @@ class ToothedDesign(Design):
     def to_dict(self) -> dict[str, Any]:
         """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
         given = {table: getattr(self, table) for table in BESIDE if hasattr(self, table)}
-        return super().to_dict() | {table: asdict(value) for table, value in given.items() if value is not None}
+        return super().to_dict() | {table: _plain(value) for table, value in given.items() if value is not None}
+
+
+def _plain(options: DataclassInstance) -> dict[str, Any]:
+    """The fields of a table, without parts that are not there."""
+    absent = [part for part in parts_of(type(options)) if getattr(options, part) is None]
+    return {key: value for key, value in asdict(options).items() if key not in absent}
 
 
 def require_known_tables(tables: Mapping[str, Any], where: Where) -> None:

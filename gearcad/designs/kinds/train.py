@@ -92,7 +92,7 @@ class TrainDesign(Design):
         options = {
             key: value
             for key, value in asdict(self.dynamics).items()
-            if key in TRAIN["dynamics"] or key in parts_of(DynamicsOptions)
+            if key in TRAIN["dynamics"] or (value is not None and key in parts_of(DynamicsOptions))
         }
         document = super().to_dict() | train_document(self.train) | {"dynamics": options}
         if self.other_models:
