@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from gearcad.cli.displacement_lines import bearing_mode_lines, displacement_lines
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.job import echo_warnings, folder_of, json_option, output_option, perform_on, quiet_option
 from gearcad.cli.side_by_side import beside_lines
@@ -121,6 +122,8 @@ def _mode_lines(modes: NaturalModes) -> list[str]:
 
 def _train_lines(study: TrainStudy) -> list[str]:
     lines = [*map(_pair_line, study.pairs.values()), *_mode_lines(study.modes)]
+    if study.on_bearings is not None:
+        lines += bearing_mode_lines(study.on_bearings)
     for mesh, name in enumerate(study.up.mesh_names):
         up = _peaks(study, study.up, mesh)
         down = up if study.down is None else _peaks(study, study.down, mesh)
@@ -130,7 +133,13 @@ def _train_lines(study: TrainStudy) -> list[str]:
             else [f"K_v of {name}, running up: {up}", f"K_v of {name}, running down: {down}"]
         )
     factors = ", ".join(f"{factor:.3f} of {name}" for name, factor in zip(study.up.mesh_names, study.course.kv, strict=True))
-    return [*lines, f"K_v at {study.course.speed:.6g} rpm: {factors}", *_error_lines(study), *_transient_lines(study)]
+    return [
+        *lines,
+        f"K_v at {study.course.speed:.6g} rpm: {factors}",
+        *_error_lines(study),
+        *_transient_lines(study),
+        *displacement_lines(study),
+    ]
 
 
 def _error_lines(study: TrainStudy) -> list[str]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.dynamics.charts.over_speed import OverSpeed, over_speed
+from gearcad.dynamics.charts.transmission import lines_that_matter
 from gearcad.dynamics.engagement import engaged, pair_notices
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.excitation.sources import train_excitation
@@ -45,6 +46,9 @@ _SHARE = 0.02
 
 _DRAWN, _DRAWN_OF_MANY = 1024, 256
 """Samples of a course over a tooth, at least, and over each of many; 8 of the quickest vibration that could be felt."""
+
+_LEAST_LINE, _MOST_LINES = 1e-4, 512
+"""Of the greatest line of a spectrum: what a line must have to be listed; and so many at most."""
 
 _LOWER, _RUN_UP = 3.0, 60
 """Where flanks part at a speed beyond the chart, the run up to it begins at the speed over the first, and has so many steps."""
@@ -215,6 +219,8 @@ def _drawn(train: Train, response: PeriodicResponse, samples: int) -> Course:
     spring = response.spring_forces(count=count)
     phases = response.phases(count) / (2 * np.pi) * response.excitation.orders[0]
     crests = (response.senses * spring).max(axis=(0, 1))
+    lines = 2e6 * np.abs(response.approach_coefficients[0])
+    kept = 1 + lines_that_matter(lines[1:], _LEAST_LINE, _MOST_LINES)
     return Course(
         speed=float(response.frequencies[0] * 30 / (math.pi * train.meshes[0].teeth)),
         kv=crests / np.abs(response.system.stiffness * response.static.approach),
@@ -222,4 +228,6 @@ def _drawn(train: Train, response: PeriodicResponse, samples: int) -> Course:
         approach=1e6 * response.approach(count=count)[0, ::step],
         force=(spring + response.damping_forces(count=count))[0, ::step],
         shaft_torque=response.shaft_torques(count=count)[0, ::step],
+        order=response.harmonics[kept] / response.excitation.orders[0],
+        line=lines[kept],
     )

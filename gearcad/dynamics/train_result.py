@@ -12,6 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.charts.amplitudes import (
+    GreatestAmplitude,
+    GreatestBearingForce,
+    greatest_amplitudes,
+    greatest_bearing_forces,
+)
 from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.charts.findings import (
     ChartResonance,
@@ -59,7 +65,8 @@ class Course:
     """One speed (rpm of the first pinion) over the common period: `turn` (t,) in tooth periods of the first mesh.
 
     `approach` (t, m) of the flanks in µm, `force` (t, m) in N with that of the dampers, `shaft_torque` (t, n) in N·m; `kv` (m,)
-    is K_v of each mesh there.
+    is K_v of each mesh there. The approach is the dynamic transmission error: `line` (q, m) are its amplitudes (µm) at `order`
+    (q,), multiples of the tooth frequency of the first mesh.
     """
 
     speed: float
@@ -68,6 +75,8 @@ class Course:
     approach: Floats
     force: Floats
     shaft_torque: Floats
+    order: Floats
+    line: Floats
 
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it."""
@@ -81,6 +90,15 @@ class Course:
             **named_columns("approach", meshes, self.approach, "µm"),
             **named_columns("force", meshes, self.force, "N"),
             **named_columns("shaft_torque", shafts, self.shaft_torque, "N·m"),
+        }
+
+    def line_columns(self, meshes: Sequence[str], teeth: int) -> Columns:
+        """The dynamic transmission error order by order; `teeth` are those of the first mesh's pinion."""
+        return {
+            "order (of the teeth)": self.order,
+            "order (of the pinion)": self.order * teeth,
+            "frequency (Hz)": self.order * self.speed * teeth / 60,
+            **named_columns("transmission_error", meshes, self.line, "µm"),
         }
 
 
@@ -232,6 +250,16 @@ class TrainStudy:
         covered = self.speeds[0] <= 1.01 * speeds.max() and speeds.max() <= 1.01 * self.speeds[-1] and within.any()
         return float(chart.factors[within, mesh].max()) if covered else None
 
+    @cached_property
+    def greatest_amplitudes(self) -> tuple[GreatestAmplitude, ...]:
+        """Of inertias, meshes, and axes on bearings, where they swing farthest."""
+        return greatest_amplitudes(self.charts)
+
+    @cached_property
+    def greatest_bearing_forces(self) -> tuple[GreatestBearingForce, ...]:
+        """Of gears on bearings."""
+        return greatest_bearing_forces(self.charts)
+
     @property
     def mode_speeds(self) -> tuple[ModeSpeed, ...]:
         """Speeds at which tooth frequencies are natural ones, or half of those that bend teeth."""
@@ -274,6 +302,8 @@ class TrainStudy:
             "transient": None if self.transient is None else self.transient.to_dict(),
             "resonances": [each.to_dict() for each in self.resonances],
             "shaft_overloads": [each._asdict() for each in self.shaft_overloads.values()],
+            "greatest_amplitudes": [each.to_dict() for each in self.greatest_amplitudes],
+            "greatest_bearing_forces": [each.to_dict() for each in self.greatest_bearing_forces],
             **({"pairs": {name: mesh.pair_document() for name, mesh in self.pairs.items()}} if self.pairs else {}),
             "warnings": list(self.warnings),
             "notices": [notice.to_dict() for notice in self.notices],
@@ -301,6 +331,7 @@ class TrainStudy:
             **chart_tables(self.charts),
             **modal_tables(self.modes),
             "course": self.course.columns(up.mesh_names, up.shaft_names, self.train.meshes[0].teeth),
+            "course lines": self.course.line_columns(up.mesh_names, self.train.meshes[0].teeth),
             **stacked("mesh", list(self.pairs), [{_CYCLES: cycle_columns(mesh.course.cycle)} for mesh in self.pairs.values()]),
         }
         found |= {} if self.errors is None else {"tooth errors": self.errors.columns()}

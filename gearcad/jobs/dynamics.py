@@ -57,8 +57,8 @@ _ERRORS = "tooth errors"
 
 _OVER_SPEED = ("displacements", "transmission error", "bearings")
 _TABLES = (
-    *("chart", *_OVER_SPEED, *(f"{name} down" for name in _OVER_SPEED), "modes", "component modes", "course", "mesh stiffness"),
-    *("campbell", "history", "spectrum", _ERRORS, "transient"),
+    *("chart", *_OVER_SPEED, *(f"{name} down" for name in _OVER_SPEED), "modes", "component modes", "course", "course lines"),
+    *("mesh stiffness", "campbell", "history", "spectrum", _ERRORS, "transient"),
 )
 """Of any result."""
 

@@ -31,6 +31,7 @@ __all__ = [
     "plot_shaft_overload",
     "shade_unstable",
     "speed_ranges",
+    "tooth_axis",
 ]
 
 
@@ -47,6 +48,9 @@ _PAPER: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 0.6,
 
 _ROOM = 1.16
 """Above the curves, for those names."""
+
+_APART = 0.02
+"""Of the height of the curves: K_v with the dampers' force that differs less is not drawn."""
 
 _WIDE = 20.0
 """Overload, or ratio of greatest to least overload, above which the axis is logarithmic."""
@@ -68,6 +72,7 @@ def plot_factors(study: TrainStudy, ax: Axes | None = None) -> Axes:
                 label = words + (sense if down is not None else "")
                 axes.plot(study.speeds, chart.factors[:, mesh], style, color=colour, linewidth=1.4, label=label)
         _draw_jumps(axes, study, mesh)
+    _draw_damped(axes, study)
     axes.set_xlim(float(study.speeds[0]), float(study.speeds[-1]))
     _set_height(axes, [chart for chart in (up, down) if chart is not None])
     shade_unstable(axes, study.speeds, study.up)
@@ -106,6 +111,16 @@ def _set_height(axes: Axes, charts: list[KvChart]) -> None:
         axes.set_ylim(lowest * (highest / lowest) ** -0.04, lowest * (highest / lowest) ** _ROOM)
     else:
         axes.set_ylim(lowest - 0.04 * (highest - lowest), lowest + _ROOM * max(highest - lowest, 0.02))
+
+
+def _draw_damped(axes: Axes, study: TrainStudy) -> None:
+    """Thin, the same with the force of the dampers, running up, where that can be told apart."""
+    up, label = study.up, "with the dampers' force"
+    if np.abs(up.damped - up.factors).max() < _APART * np.ptp(up.factors):
+        return
+    for mesh in range(len(up.mesh_names)):
+        axes.plot(study.speeds, up.damped[:, mesh], ":", color=SERIES[mesh % len(SERIES)], linewidth=0.9, label=label)
+        label = ""
 
 
 def _draw_jumps(axes: Axes, study: TrainStudy, mesh: int) -> None:
@@ -170,13 +185,18 @@ def mark_modes(axes: Axes, study: TrainStudy) -> None:
 
 def finish_speeds(axes: Axes, study: TrainStudy) -> None:
     """The tooth frequency on a second axis, and a legend above it."""
+    tooth_axis(axes, study)
+    legend_above(axes, 3, raised=_TOP_AXIS)
+
+
+def tooth_axis(axes: Axes, study: TrainStudy) -> None:
+    """The tooth frequency on a second axis, above."""
     teeth = study.train.meshes[0].teeth
     functions = (lambda speed: np.asarray(speed) * teeth / 60, lambda hertz: np.asarray(hertz) * 60 / teeth)
     above = axes.secondary_xaxis("top", functions=functions)
     name = f" of {plain(study.train.meshes[0].name)}" if len(study.train.meshes) > 1 else ""
     above.set_xlabel(f"tooth frequency{name} in Hz")
     above.spines["top"].set_color(MARKED)
-    legend_above(axes, 3, raised=_TOP_AXIS)
 
 
 # ---------------------------------------------------------------------- one speed

@@ -39,7 +39,7 @@ FILES = [
     *(f"dynamics.{kind}" for kind in ("html", "json", "npz")),
     *(
         f"dynamics-{table}.csv"
-        for table in ("chart", "displacements", "transmission-error", "modes", "component-modes", "course")
+        for table in ("chart", "displacements", "transmission-error", "modes", "component-modes", "course", "course-lines")
     ),
 ]
 
@@ -63,7 +63,7 @@ def test_a_train(here: Path) -> None:
     """Osinski's one stage: component modes of the paper, and the peak that an isolated pair does not have."""
     result = run("dynamics", spec(TRAIN), "--quiet")
     assert result.exit_code == 0, result.output
-    assert result.stdout.splitlines()[-9:] == [f"output/train-1-stage/{file}" for file in FILES]
+    assert result.stdout.splitlines()[-10:] == [f"output/train-1-stage/{file}" for file in FILES]
     document = json.loads(Path("output/train-1-stage/dynamics.json").read_text(encoding="utf-8"))
     assert (document["kind"], document["model"]) == ("dynamics", "modes")
     assert document["modes"]["circular"] == pytest.approx([1641.941, 12752.092, 19861.483], abs=1e-3)
@@ -263,7 +263,7 @@ def test_the_simple_model_of_the_thesis(here: Path, monkeypatch: pytest.MonkeyPa
             PAIR.replace("[pinion]", "helix_angle = 20.0\n[pinion]").replace("speeds = 40", "model = 'contact'"),
             "helix_angle = 20 deg: must be 0",
         ),
-        (TRAIN.replace("inertia = 0.0058 ", "inertia = 0.0 "), "line 16: pinion.inertia = 0 kg·m²: must be"),
+        (TRAIN.replace("inertia = 0.0058 ", "inertia = 0.0 "), "line 17: pinion.inertia = 0 kg·m²: must be"),
         (TRAIN.replace("stiffness = 705.0 ", "stiffness = -705.0 "), "mesh.stiffness = -705 N/µm: must be"),
         (
             TRAIN.replace("variation = 0.206", "pitch_deviations = [1.0, 2.0]"),
@@ -280,7 +280,7 @@ def test_the_simple_model_of_the_thesis(here: Path, monkeypatch: pytest.MonkeyPa
         (TRAIN.replace("variation = 0.206", "variation = 1.2"), "mesh.variation = 1.2: must be"),
         (TRAIN.replace('wheel = "wheel"', 'wheel = "whel"'), "'whel'"),
         (TRAIN.replace("teeth = 18 ", "tooth = 18 "), "train.mesh[0].tooth: unknown key; did you mean teeth?"),
-        (TRAIN.replace("teeth = 18 ", "# teeth = 18 "), "line 44: teeth is missing in [[train.mesh]]"),
+        (TRAIN.replace("teeth = 18 ", "# teeth = 18 "), "line 45: teeth is missing in [[train.mesh]]"),
         (TRAIN.replace("[dynamics]", "[pair]\n[dynamics]"), "[pair] cannot stand beside [train]"),
         (TRAIN.replace("speeds = 160", "stiffness = '3d'"), "dynamics.stiffness: unknown key"),
         (TRAIN.replace('model = "modes" ', 'model = "modal" '), "train.model = 'modal'"),

@@ -100,7 +100,8 @@ def test_tables_of_the_contact_model_and_none_of_another(here: Path) -> None:
     mesh = text.replace('model = "contact"', 'stiffness = "potential-energy"').replace("speed_to = 20000.0", "speed_to = 9e4")
     run(mesh.replace("speed_from = 0.0", "speed_from = 8e4"))
     assert sorted(path.name for path in folder.glob("*.csv")) == [
-        f"dynamics-{name}.csv" for name in ("chart", "course", "displacements", "mesh-stiffness", "modes", "transmission-error")
+        f"dynamics-{name}.csv"
+        for name in ("chart", "course-lines", "course", "displacements", "mesh-stiffness", "modes", "transmission-error")
     ]
 
 

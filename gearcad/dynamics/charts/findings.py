@@ -80,7 +80,8 @@ class MetMode(NamedTuple):
 class ChartResonance(NamedTuple):
     """A maximum of K_v, to three decimals, of a mesh at a `speed` (rpm) and its own tooth frequency (Hz and 1/s).
 
-    `frequency` is that of the first mesh (1/s); `directions` in which it shows, none where up and down are the same.
+    `damped` is what K_v is there with the force of the dampers. `frequency` is that of the first mesh (1/s); `directions` in
+    which it shows, none where up and down are the same.
     """
 
     mesh: str
@@ -92,6 +93,7 @@ class ChartResonance(NamedTuple):
     directions: tuple[Direction, ...]
     stable: bool
     met: MetMode | None
+    damped: float
 
     def to_dict(self) -> dict[str, Any]:
         """As `dynamics.json` has it."""
@@ -138,9 +140,12 @@ def chart_resonances(charts: Charts, natural: Floats) -> tuple[ChartResonance, .
     found = []
     for mesh, name in enumerate(charts.up.mesh_names):
         shown: dict[tuple[float, float], list[Direction]] = {}
+        damped: dict[tuple[float, float], float] = {}
         for direction, chart in charts.directions():
             for peak in chart.peaks(mesh):
-                shown.setdefault((peak.frequency, round(peak.factor, 3)), []).append(direction)
+                key = peak.frequency, round(peak.factor, 3)
+                shown.setdefault(key, []).append(direction)
+                damped.setdefault(key, float(chart.damped[chart.frequencies == peak.frequency, mesh][0]))
         for (frequency, factor), directions in shown.items():
             own = charts.ratios[mesh] * frequency
             found.append(
@@ -154,6 +159,7 @@ def chart_resonances(charts: Charts, natural: Floats) -> tuple[ChartResonance, .
                     directions=() if charts.down is None else tuple(directions),
                     stable=bool(charts.up.stable[charts.up.frequencies == frequency].all()),
                     met=_met(charts, natural, mesh, frequency),
+                    damped=damped[frequency, factor],
                 )
             )
     return tuple(found)

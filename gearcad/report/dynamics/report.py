@@ -26,6 +26,13 @@ from gearcad.plots.trains import MOST_SHAPES, energies_inches, plot_energies, pl
 from gearcad.plots.transient import plot_transient, plot_transient_factors, transient_inches
 from gearcad.report.check.figures import Picture, figure_address, pair_picture, picture_address
 from gearcad.report.check.tables import gear_rows, pair_rows
+from gearcad.report.dynamics.displacements import (
+    bearing_figures,
+    bearing_mode_table,
+    bearing_table,
+    displacement_figures,
+    displacement_table,
+)
 from gearcad.report.dynamics.levels import deciding_table, level_resonance_table, unjudged_table, verdict_table
 from gearcad.report.dynamics.rows import contact_rows, pair_dynamics_rows
 from gearcad.report.dynamics.side_by_side import (
@@ -122,6 +129,8 @@ def _train_html(study: TrainStudy, name: str) -> str:
         shape_figures=_shape_figures(study),
         pair_figures=_pair_figures(study),
         speed_figures=_speed_figures(study),
+        displacements=displacement_table(study),
+        displacement_figures=displacement_figures(study),
         warnings=study.warnings,
     )
 
@@ -199,6 +208,11 @@ def _pair_html(study: PairStudy, name: str) -> str:
         peaks=peak_table(of),
         errors=error_table(of),
         speed_figures=_speed_figures(of),
+        displacements=displacement_table(of),
+        displacement_figures=displacement_figures(of),
+        bearing_modes=bearing_mode_table(of),
+        bearing_forces=bearing_table(of),
+        bearing_figures=bearing_figures(of),
         warnings=study.warnings,
     )
 

@@ -190,7 +190,7 @@ def component_table(modes: ComponentModes) -> WordTable:
 
 def peak_table(study: TrainStudy) -> WordTable:
     """Resonances of every mesh in the charts, of each the highest, by speed."""
-    heads = ("mesh", "near", "pinion, rpm", "tooth frequency, Hz", "1/s", "K_v")
+    heads = ("mesh", "near", "pinion, rpm", "tooth frequency, Hz", "1/s", "K_v", "with dampers")
     rows = []
     for name in study.up.mesh_names:
         own = [each for each in study.resonances if each.mesh == name]
@@ -200,17 +200,20 @@ def peak_table(study: TrainStudy) -> WordTable:
             words = f"{name}, running {senses}" if senses else name
             last = "" if each.stable else ", unstable"
             numbers = map(short, (each.speed, each.tooth_frequency, each.tooth_circular))
-            rows.append((words, _met(each.met) + last, *numbers, factor_text(each.factor)))
+            factors = map(factor_text, (each.factor, each.damped))
+            rows.append((words, _met(each.met, study) + last, *numbers, *factors))
     return WordTable(heads, rows, 2)
 
 
-def _met(mode: MetMode | None) -> str:
-    """A natural frequency by its number: f₂, or f₂/3 where the third harmonic meets it."""
+def _met(mode: MetMode | None, study: TrainStudy) -> str:
+    """A natural frequency by its number: f₂, or f₂/3 where the third harmonic meets it; of gears on bearings, what moves."""
     if mode is None:
         return _NONE
     name = "f" + str(mode.mode).translate(_LOWERED)
     owner = f" of {mode.mesh}" if mode.mesh else ""
-    return f"{name}{owner}" if mode.harmonic == 1 else f"{name}/{mode.harmonic}{owner}"
+    part = "" if mode.harmonic == 1 else f"/{mode.harmonic}"
+    moves = "" if study.on_bearings is None else f": {study.on_bearings.words[mode.mode - 1]}"
+    return f"{name}{part}{owner}{moves}"
 
 
 def factor_text(factor: float) -> str:
