@@ -149,9 +149,13 @@ def _error_lines(study: TrainStudy) -> list[str]:
         return []
     if of.grade is None:
         return [f"K_v of {each.mesh}, single teeth: {each.most:.3f} at {each.most_speed:.5g} rpm" for each in of.greatest]
-    many = f"{of.samples} samples" if of.samples > 1 else "1 sample"
+    if of.samples == 1:
+        return [
+            f"K_v of {each.mesh}, tooth errors of grade {of.grade}: up to {each.most:.3f} at {each.most_speed:.5g} rpm"
+            for each in of.greatest
+        ]
     return [
-        f"K_v of {each.mesh}, tooth errors of grade {of.grade}, {many}: median up to {each.median:.3f} at "
+        f"K_v of {each.mesh}, tooth errors of grade {of.grade}, {of.samples} samples: median up to {each.median:.3f} at "
         f"{each.median_speed:.5g} rpm, 95 % quantile {each.upper:.3f} at {each.upper_speed:.5g} rpm, greatest "
         f"{each.most:.3f} at {each.most_speed:.5g} rpm"
         for each in of.greatest

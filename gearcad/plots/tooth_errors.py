@@ -36,7 +36,7 @@ def plot_tooth_errors(study: TrainStudy, ax: Axes | None = None) -> Axes:
     for mesh, name in enumerate(found.mesh_names):
         _draw_mesh(axes, found, mesh, f"{plain(name)}, " if several else "")
         colour = SERIES[mesh % len(SERIES)]
-        words = None if mesh else "one smooth spring a mesh, no errors"
+        words = None if mesh else "smooth, no errors"
         axes.plot(study.speeds, study.up.factors[:, mesh], ":", color=colour, linewidth=1.0, label=words)
     axes.set_xlim(float(found.speeds[0]), float(found.speeds[-1]))
     _set_height(axes, study, found)

@@ -62,14 +62,15 @@ class ToothPath:
 
     def reach(self, depth: float) -> Floats:
         """Even places (n,) in base pitches from the middle, at which the teeth are no farther apart than `depth` (µm), and one
-        more at each end; the ends of the path are among them."""
+        more at each end, if flanks face each other there; the ends of the path are among them."""
         even = _even(self.contact_ratio)
         step, half = even[1] - even[0], self.contact_ratio / 2
         beyond = step * np.arange(1, math.ceil(_FARTHEST / step) + 1)
         ends = []
         for side in (-1, 1):
-            near = self.gaps(side * (half + beyond)) <= depth
-            ends.append(beyond[: len(beyond) if near.all() else int(np.argmin(near)) + 1])
+            gap = self.gaps(side * (half + beyond))
+            met = len(beyond) if (gap <= depth).all() else int(np.argmin(gap <= depth)) + 1
+            ends.append(beyond[:met][np.isfinite(gap[:met])])
         return np.concatenate([-half - ends[0][::-1], even, half + ends[1]])
 
 

@@ -147,6 +147,7 @@ def pair_teeth(
         tolerances=tolerances,
         given=given_deviations(pitch_deviations) if pitch_deviations else None,
         source=source,
+        helical=bool(pair.pinion.helix_angle),
     )
 
 
@@ -190,6 +191,11 @@ def assumptions(teeth: Sequence[MeshTeeth], forces: Floats, backlashes: Floats) 
         if each.spring is None:
             continue
         yield Notice("single-teeth", _spring_text(each, each.spring, force), each.name)
+        if each.helical:
+            text = (
+                "helical teeth come into mesh by and by: what bent ones touch before their line of contact begins is left out"
+            )
+            yield Notice("helical-entry", text, each.name)
         if math.isnan(backlash):
             text = "has no backlash: single teeth part all the same, and never meet at the back"
             yield Notice("teeth-part", text, each.name)
@@ -202,11 +208,11 @@ def _spring_text(teeth: MeshTeeth, spring: ToothSpring, force: float) -> str:
     if teeth.source:
         return f"pairs of teeth have the stiffness of {teeth.source}, {stiffness:.4g} N/µm on the mean of their path; {under}"
     entry = (
-        "they begin and end to carry at the ends of their path, for 20° has none so long, and not before"
+        f"and carry only there: teeth of {PRESSURE_ANGLE:g}° have no path so long, and what is before it is not known"
         if not spring.gap.any()
-        else f"of teeth of {PRESSURE_ANGLE:g}° that run at their reference circles with equal addenda"
+        else f"that of teeth of {PRESSURE_ANGLE:g}° that run at their reference circles with equal addenda"
     )
     return (
         f"pairs of teeth are taken to be equally stiff, {stiffness:.4g} N/µm, along a path of {spring.contact_ratio:.4g} base"
-        f" pitches {entry}; {under}"
+        f" pitches, {entry}; {under}"
     )

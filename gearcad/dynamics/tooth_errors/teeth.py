@@ -53,6 +53,7 @@ class MeshTeeth:
     tolerances: PerGear[FlankTolerances] | None = None
     given: ToothDeviations | None = None
     source: str = ""
+    helical: bool = False
     wheel_drawn: bool = True
 
     @property
