@@ -288,6 +288,8 @@ DYNAMICS = {
     "kv": Symbol("K_v", "", "ISO 6336-1, 6", "dynamic factor at that speed"),
     "kv_highest": Symbol("K_v", "", "ISO 6336-1, 6", "highest dynamic factor of the chart"),
     "kv_highest_speed": Symbol("n_1", "rpm", "", "speed of the highest dynamic factor"),
+    "kv_errors_median": Symbol("K_v", "", "", "highest median of the dynamic factor with tooth errors"),
+    "kv_errors_upper": Symbol("K_v", "", "", "highest 95 % quantile of the dynamic factor with tooth errors"),
     "kv_highest_mesh": Symbol("", "", "", "mesh of the highest dynamic factor"),
 } | {f"frequency_{n}": Symbol(f"f_{n}", "Hz", "", f"natural frequency {n} of those that twist the train") for n in range(1, 7)}
 """Of a pair or a train, beside what its options have."""
@@ -315,6 +317,8 @@ TRAIN_DYNAMICS = {
     "kv": DYNAMICS["kv"],
     "kv_highest": DYNAMICS["kv_highest"],
     "kv_highest_speed": DYNAMICS["kv_highest_speed"],
+    "kv_errors_median": DYNAMICS["kv_errors_median"],
+    "kv_errors_upper": DYNAMICS["kv_errors_upper"],
     "shaft_overload": Symbol("", "", "", "greatest torque of the chart over the static one"),
     "shaft_overload_speed": Symbol("n_1", "rpm", "", "speed of that torque"),
 }

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from gearcad.dynamics.side_by_side import SideBySide
+    from gearcad.dynamics.tooth_errors.result import ErrorStudy
 
 __all__ = ["beside_lines"]
 
@@ -22,11 +23,21 @@ def beside_lines(study: SideBySide) -> list[str]:
     for mesh in study.mesh_names:
         lines.append(f"K_v of {mesh}")
         lines += [f"  {label:<{wide}}  {_resonance_line(study, mesh, at)}" for at, label in enumerate(study.labels)]
+    for mesh in study.mesh_names if study.errors else ():
+        lines.append(f"K_v of {mesh} with tooth errors")
+        lines += [f"  {label:<{wide}}  {_errors_line(found, mesh)}" for label, found in study.errors.items()]
     for shaft in study.shaft_names:
         lines.append(f"overload of {shaft}")
         own = [each for each in study.shaft_overloads if each.shaft == shaft]
         lines += [f"  {each.label:<{wide}}  {each.factor:.3f} at {each.speed:.5g} rpm" for each in own]
     return [*lines, *study.sentences] if isinstance(study, LevelStudy) else lines
+
+
+def _errors_line(found: ErrorStudy, mesh: str) -> str:
+    """The greatest median of a mesh, and the greatest of its upper quantile where there are several samples."""
+    (most,) = (each for each in found.greatest if each.mesh == mesh)
+    upper = f", 95 % quantile {most.upper:.3f} at {most.upper_speed:.5g} rpm" if found.samples > 1 else ""
+    return f"at most {most.median:.3f} at {most.median_speed:.5g} rpm{' (median)' if upper else ''}{upper}"
 
 
 def _resonance_line(study: SideBySide, mesh: str, at: int) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.dynamics.same import Peak, joined_modes, joined_peaks, peaks_of
 from gearcad.dynamics.tables import Tables, stacked
+from gearcad.dynamics.tooth_errors.result import ErrorStudy
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.errors import ParameterError
 from gearcad.notice import Notice, joined, texts
@@ -88,6 +89,12 @@ class SideBySide:
     def shaft_names(self) -> tuple[str, ...]:
         """Shafts that have an overload in any of the studies."""
         return tuple(dict.fromkeys(name for study in self.studies for name in study.shaft_overloads))
+
+    @property
+    def errors(self) -> dict[str, ErrorStudy]:
+        """K_v with errors of teeth, by the labels of the studies that have it."""
+        each = zip(self.labels, self.studies, strict=True)
+        return {label: study.errors for label, study in each if study.errors is not None}
 
     # ------------------------------------------------------------------ held against each other
 

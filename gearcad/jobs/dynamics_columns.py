@@ -38,6 +38,7 @@ def dynamics_columns(document: Mapping[str, Any]) -> dict[str, Any]:
         "kv": kv,
         "kv_highest": over_speed[highest],
         "kv_highest_speed": document["speed"][highest],
+        **dict(_with_errors(document, named=False)),
     }
     return {**found, "warnings": document["warnings"]}
 
@@ -56,6 +57,7 @@ def _of_train(document: Mapping[str, Any]) -> dict[str, Any]:
             **{f"kv.{name}": kv for name, kv in zip(document["chart"]["kv"], course["kv"], strict=True)},
             **dict(_highest(document, "kv", "kv_highest")),
             **dict(_highest(document, "shaft_overload", "shaft_overload")),
+            **dict(_with_errors(document, named=True)),
         }
     return {**found, "warnings": document["warnings"]}
 
@@ -71,3 +73,12 @@ def _highest(document: Mapping[str, Any], of: str, column: str) -> Iterator[tupl
             row = max(range(len(over_speed)), key=over_speed.__getitem__)
             yield f"{column}.{name}", over_speed[row]
             yield f"{column}_speed.{name}", document["speed"][row]
+
+
+def _with_errors(document: Mapping[str, Any], *, named: bool) -> Iterator[tuple[str, float]]:
+    """The highest median of K_v and its highest upper quantile, where errors of teeth were drawn; of which mesh, if `named`."""
+    drawn = document.get("tooth_errors")
+    for each in () if drawn is None else drawn["greatest"]:
+        behind = f".{each['mesh']}" if named else ""
+        for column, key in (("kv_errors_median", "median"), ("kv_errors_upper", "upper")):
+            yield column + behind, each[key]

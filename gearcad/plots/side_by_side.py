@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["beside_inches", "plot_factors_beside", "plot_overloads_beside", "study_colours"]
+__all__ = ["beside_inches", "plot_errors_beside", "plot_factors_beside", "plot_overloads_beside", "study_colours"]
 
 
 _SPEED = "speed of the pinion in rpm"
@@ -63,6 +63,23 @@ def plot_overloads_beside(of: SideBySide, figure: Figure | None = None) -> Figur
         return chart.shaft_factors[:, chart.shaft_names.index(name)] if name in study.shaft_overloads else None
 
     return _panels(of, figure, of.shaft_names, "torque over the static one", curve)
+
+
+def plot_errors_beside(of: SideBySide, figure: Figure | None = None) -> Figure:
+    """K_v with errors of teeth: the median of every mesh, a panel each, a colour for each study; the upper quantile dashed."""
+    drawn = figure or new_figure(beside_inches(len(of.mesh_names), len(of.studies)))
+    panels = drawn.subplots(len(of.mesh_names), 1, sharex=True, squeeze=False)[:, 0]
+    colours = dict(zip(of.labels, study_colours(len(of.studies)), strict=True))
+    for mesh, (panel, name) in enumerate(zip(panels, of.mesh_names, strict=True)):
+        prepared(panel, _SPEED if panel is panels[-1] else "", f"{plain(name)}: $K_{{\\mathrm{{v}}}}$ with errors")
+        for label, found in of.errors.items():
+            panel.plot(found.speeds, found.median[:, mesh], color=colours[label], linewidth=1.3, label=plain(label))
+            if found.samples > 1:
+                panel.plot(found.speeds, found.band[1][:, mesh], "--", color=colours[label], linewidth=1.1)
+        ends = [float(end) for found in of.errors.values() for end in (found.speeds[0], found.speeds[-1])]
+        panel.set_xlim(min(ends), max(ends))
+    legend_above(panels[0], _ROW)
+    return drawn
 
 
 def _panels(

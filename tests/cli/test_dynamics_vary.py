@@ -12,11 +12,15 @@ from click.testing import CliRunner, Result
 
 from gearcad.arrays import Floats
 from gearcad.cli import main
+from gearcad.cli.side_by_side import beside_lines
 from gearcad.designs import PairDesign
 from gearcad.designs.starters import starter_text
 from gearcad.designs.variants import read_variants
+from gearcad.dynamics.side_by_side import SideBySide
 from gearcad.jobs.dynamics import Dynamics
 from gearcad.jobs.dynamics_beside import DynamicsBeside
+from gearcad.jobs.dynamics_columns import dynamics_columns
+from gearcad.plots.side_by_side import plot_errors_beside
 
 _, STARTER = starter_text("train-1-stage")
 ONE_STAGE = STARTER.replace("speed_to = 16000.0 ", "speed_to = 9000.0\nspeeds = 20\nharmonics = 2 #")
@@ -186,3 +190,24 @@ def test_the_command_writes_all_over_each_other(here: Path) -> None:
 )
 def test_what_cannot_be_laid_over_each_other(here: Path, text: str, variations: tuple[str, ...], message: str) -> None:
     assert message in fault(text, *variations)
+
+
+def test_errors_of_teeth_are_laid_over_each_other(here: Path) -> None:
+    """With errors that are drawn several times the first chart is that of teeth without: theirs stand beside."""
+    text = ONE_STAGE.replace("speeds = 20", 'speeds = 5\nspeed_from = 5000.0\ntooth_errors = "on"\nerror_samples = 2')
+    Path("spec.toml").write_text(text, encoding="utf-8")
+    variants = read_variants("spec.toml", ["dynamics.accuracy_grade=5,10"])
+    found = DynamicsBeside(variants=variants).run(variants.designs[0])
+    assert isinstance(found, SideBySide)
+    five, ten = (found.errors[label].greatest[0] for label in ("5", "10"))
+    assert 1.0 < five.median < ten.median
+    columns = [dynamics_columns(study) for study in found.to_dict()["studies"]]
+    assert [each["kv_errors_median.mesh"] for each in columns] == [five.median, ten.median]
+    assert [each["kv_errors_upper.mesh"] for each in columns] == [five.upper, ten.upper]
+    lines = beside_lines(found)
+    begin = lines.index("K_v of mesh with tooth errors")
+    assert [f"{each.median:.3f}" in line for each, line in zip((five, ten), lines[begin + 1 :], strict=False)] == [True, True]
+    figure = plot_errors_beside(found)
+    median, upper = figure.axes[0].lines[2:]
+    assert np.array_equal(median.get_ydata(), found.errors["10"].median[:, 0])
+    assert np.array_equal(upper.get_ydata(), found.errors["10"].band[1][:, 0])
