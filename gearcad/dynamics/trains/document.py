@@ -69,8 +69,9 @@ def _of_mesh(train: Train, mesh: Mesh, force: float | None) -> dict[str, Any]:
     inertias = {each.name: each.inertia for each in train.inertias}
     reduced = 1 / sum(radius**2 / inertias[gear] for gear, radius in zip(mesh.gears, mesh.radii, strict=True))
     speed = {"tooth_frequency": train.tooth_frequencies[mesh.name]} if train.speed else {}
+    of_waves = () if mesh.pair is None else ("variation", "shape", "contact_ratio")  # a pair has a stiffness of its own
     return {
-        **_fields(mesh),
+        **{key: value for key, value in _fields(mesh).items() if key not in of_waves},
         "gear_ratio": mesh.base_radii.wheel / mesh.base_radii.pinion,
         "reduced_mass": reduced,
         "natural_frequency": _plain(math.sqrt(mesh.stiffness * 1e6 / reduced) / (2 * math.pi)),
