@@ -17,20 +17,27 @@ from support.trains import one_stage
 from gearcad import Gear, GearPair, Load, Material
 from gearcad.cli import main
 from gearcad.dynamics.engagement import engaged
+from gearcad.dynamics.excitation.deviations import ErrorDistribution
+from gearcad.dynamics.excitation.sources import train_excitation
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.pair import study_pair
-from gearcad.dynamics.tooth_errors.result import BAND
+from gearcad.dynamics.tooth_errors.result import BAND, ErrorStudy, ToothLaw
 from gearcad.dynamics.tooth_errors.sampling import Sampling
-from gearcad.dynamics.tooth_errors.sources import engaged_teeth, pair_teeth
+from gearcad.dynamics.tooth_errors.sources import engaged_teeth, mesh_teeth, pair_teeth
+from gearcad.dynamics.tooth_errors.study import ErrorPlan, study_errors
 from gearcad.dynamics.train import study_train
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
+from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.members import Inertia, Mesh
 from gearcad.dynamics.trains.train import Train
+from gearcad.errors import ParameterError
+from gearcad.jobs.dynamics import Dynamics
 from gearcad.per_gear import Role
 from gearcad.plots.tooth_errors import plot_tooth_errors
 from gearcad.report import write_dynamics_report
 from gearcad.report.dynamics.tooth_errors import error_table
+from gearcad.report.sentences import sentences
 from gearcad.stiffness import METHODS
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
@@ -83,8 +90,7 @@ def test_documents_and_tables_are_the_samples(here: Path) -> None:
     assert found["kv_sample_3.mesh"].tolist() == samples[2].tolist()
     assert "tooth errors of grade 9, 4 samples: median up to" in result.output
     # A study without them leaves no table of another behind.
-    assert run("speeds = 3\n").exit_code == 0
-    assert not Path("out/dynamics-tooth-errors.csv").exists()
+    assert "dynamics-tooth-errors.csv" in Dynamics.sometimes
 
 
 def test_the_first_samples_are_those_of_fewer(study: TrainStudy) -> None:
@@ -106,11 +112,18 @@ def test_figure_5_of_the_paper(study: TrainStudy) -> None:
     assert not study.train.meshes[0].pitch_deviations and study.excitation.meshes[0].error is None
 
 
-def test_report_and_pictures(study: TrainStudy, tmp_path: Path) -> None:
+@pytest.mark.long
+def test_report(study: TrainStudy, tmp_path: Path) -> None:
     write_dynamics_report(study, "it", tmp_path / "it.html")
     page = (tmp_path / "it.html").read_text(encoding="utf-8")
     assert "With tooth errors" in page and "12 samples of teeth" in page
     assert "no upper bound" in page
+
+
+def test_table_sentences_and_picture(study: TrainStudy) -> None:
+    said = sentences("captions_dynamics.txt", "tooth_errors", study)
+    assert "Each pair of teeth is a spring by itself" in said
+    assert "no upper bound: with a probability of 95 % it is above number 3 from the top of 12" in said
     table = error_table(study)
     assert table is not None and len(table.rows) == 2
     assert table.rows[1][1] == "at the speed asked for"
@@ -141,13 +154,20 @@ def test_what_cannot_be_drawn(here: Path, more: str, message: str) -> None:
 
 
 def test_speeds_at_which_teeth_ring_out_long_before_the_next() -> None:
-    from gearcad.errors import ParameterError
+    train = one_stage("modes")
+    teeth = [mesh_teeth(train.meshes[0], 0, 44497.0, None, single=True)]
+    plan = ErrorPlan(law=ToothLaw.SINGLE, samples=5, distribution=ErrorDistribution.UNIFORM, seed=0, grade=None)
+
+    def drawn(speeds: list[float]) -> ErrorStudy:
+        return study_errors(system(train), train_excitation(train), teeth, np.array(speeds), 18, plan)
 
     with pytest.raises(ParameterError, match=r"speed_to = 10 rpm: must be above 30\.87 rpm"):
-        study_train(one_stage("modes"), options(speed_from=1.0, speed_to=10.0))
-    found = study_train(one_stage("modes"), options(speed_from=10.0, speed_to=100.0, speeds=4)).errors
-    assert found is not None and found.speeds.tolist() == [40.0, 70.0, 100.0]
+        drawn([1.0, 10.0])
+    found = drawn([10.0, 40.0, 70.0])
+    assert found.speeds.tolist() == [40.0, 70.0]
     assert found.notices[0].code == "errors-from-speed"
+    # Teeth without errors are all alike.
+    assert found.samples == 1 and (found.factors[0] == found.nominal).all()
 
 
 def test_a_failure_and_a_wish_to_stop_end_all_threads(monkeypatch: pytest.MonkeyPatch) -> None:
