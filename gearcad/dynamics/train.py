@@ -22,6 +22,7 @@ from gearcad.dynamics.tooth_errors.sources import engaged_teeth, mesh_teeth
 from gearcad.dynamics.tooth_errors.study import ErrorPlan, study_errors
 from gearcad.dynamics.tooth_errors.teeth import MeshTeeth
 from gearcad.dynamics.train_result import Course, ModalStudy, TrainStudy
+from gearcad.dynamics.trains.bearing_modes import BearingModes
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
 from gearcad.dynamics.trains.lines import system
@@ -92,8 +93,9 @@ def study_train(
     tell("modes")
     modes = natural_modes(train, count=options.frequencies)
     charted = system(train) if bearings is None else bearings.system()
+    on_bearings = None if bearings is None else bearings.modes()
     excitation = excitation or _own_excitation(train, options)
-    charted_speeds = chart_speeds(train, options, modes) if speeds is None else speeds
+    charted_speeds = chart_speeds(train, options, modes, on_bearings) if speeds is None else speeds
     frequencies, asked = _frequencies(train, charted_speeds)
     tell("chart")
     over = over_speed(charted, excitation, frequencies, harmonics=options.harmonics, method_b=method_b, share=share)
@@ -116,7 +118,7 @@ def study_train(
         system=charted,
         excitation=excitation,
         modes=modes,
-        on_bearings=None if bearings is None else bearings.modes(),
+        on_bearings=on_bearings,
         up=over.up,
         down=over.down,
         jumps=over.jumps,
@@ -171,12 +173,18 @@ def _frequencies(train: Train, speeds: Floats) -> tuple[Floats, float]:
     return np.union1d(charted, asked) if charted[0] <= asked <= charted[-1] else charted, asked
 
 
-def chart_speeds(train: Train, options: DynamicsOptions, modes: NaturalModes) -> Floats:
+def chart_speeds(
+    train: Train, options: DynamicsOptions, modes: NaturalModes, on_bearings: BearingModes | None = None
+) -> Floats:
     """Of the chart (rpm of the first pinion)."""
     last = options.speed_to
     if last is None:
         felt = (modes.potential_meshes > _SHARE).any(axis=1)
         last = _BEYOND * float(modes.rpm[felt].max()) if felt.any() else _BEYOND * float(modes.rpm.max())
+        if on_bearings is not None:
+            # Gears that travel are shaken at higher speeds than those that only turn.
+            highest = on_bearings.frequency[on_bearings.potential[:, 0] > _SHARE].max() * 60 / train.meshes[0].teeth
+            last = last if highest < last else _BEYOND * float(highest)
     first = options.speed_from if options.speed_from else last * options.slowest
     return np.linspace(first, last, options.chart_speeds)
 

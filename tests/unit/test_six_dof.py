@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from gearcad.dynamics.options import DynamicsOptions
+from gearcad.dynamics.train import study_train
+from gearcad.dynamics.trains.members import Inertia, Mesh
 from gearcad.dynamics.trains.six_dof import PairOnBearings
+from gearcad.dynamics.trains.train import Train, TrainModel
+from gearcad.per_gear import PerGear
 
 PAIR = PairOnBearings(
     masses=(0.8, 3.1),
@@ -149,3 +155,26 @@ def test_static_deflection() -> None:
 def test_unphysical(field: str, value: object, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         replace(PAIR, **{field: value})
+
+
+def test_a_chart_reaches_the_highest_mode_that_teeth_shake() -> None:
+    """A heavy rotor on the pinion's shaft leaves the turning slow: what travels is met far beyond."""
+    pair = replace(PAIR, inertias=PerGear(0.1, 7e-3))
+    train = Train(
+        model=TrainModel.ISOLATED,
+        inertias=(Inertia(name="pinion", inertia=0.1), Inertia(name="wheel", inertia=7e-3)),
+        meshes=(
+            Mesh(
+                name="mesh", pinion="pinion", wheel="wheel", base_radii=PerGear(28.0, 66.0), stiffness=240.0, teeth=20,
+                damping_ratio=0.05, variation=0.1,
+            ),
+        ),
+        torques={"pinion": 80.0, "wheel": 80.0 * 66 / 28},
+    )  # fmt: skip
+    study = study_train(train, DynamicsOptions(speeds=20), bearings=replace(pair, mesh_damping=500.0, bearing_damping=100.0))
+    assert study.on_bearings is not None
+    highest = 60 * study.on_bearings.frequency[study.on_bearings.potential[:, 0] > 0.02].max() / 20
+    assert study.modes.rpm.max() * 1.5 < highest and study.speeds.max() == pytest.approx(1.5 * highest)
+    assert {each.met.mode for each in study.resonances if each.met} <= set(np.flatnonzero(study.on_bearings.shaken) + 1)
+    assert [each.name for each in study.greatest_amplitudes] == ["pinion", "wheel", "mesh", "pinion", "wheel"]
+    json.dumps(study.to_dict(), allow_nan=False)

@@ -12,6 +12,10 @@ from gearcad.dynamics.response.direction import Direction
 __all__ = ["GreatestAmplitude", "GreatestBearingForce", "greatest_amplitudes", "greatest_bearing_forces"]
 
 
+_ACROSS = "travel across the line of action"
+"""Of gears whose bearings are alike in all directions there is none."""
+
+
 class GreatestAmplitude(NamedTuple):
     """Half of peak to peak of what `quantity` of an inertia, a mesh or a gear says, in `unit`, where it is greatest.
 
@@ -52,7 +56,8 @@ def greatest_amplitudes(charts: Charts) -> tuple[GreatestAmplitude, ...]:
     found = []
     for quantity, unit, name in courses[0][1]:
         most = _most(charts, [(direction, each[quantity, unit, name]) for direction, each in courses])
-        found.append(GreatestAmplitude(quantity, name, most[0], unit, *most[1:]))
+        if most[0] or quantity != _ACROSS:
+            found.append(GreatestAmplitude(quantity, name, most[0], unit, *most[1:]))
     return tuple(found)
 
 
@@ -74,7 +79,7 @@ def _amplitudes(chart: KvChart) -> dict[tuple[str, str, str], Floats]:
     if bearings is not None:
         for i, gear in enumerate(bearings.gears):
             found["travel along the line of action", "µm", gear] = bearings.travels_along[:, i]
-            found["travel across it", "µm", gear] = bearings.travels_across[:, i]
+            found[_ACROSS, "µm", gear] = bearings.travels_across[:, i]
     return found
 
 

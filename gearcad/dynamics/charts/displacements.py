@@ -125,7 +125,7 @@ def bearing_loads(system: System, static: StaticState, found: Extremes) -> Beari
     if bearings is None:
         return None
     at_rest = bearings.stiffness @ static.others[system.torque_outputs.stop :]
-    along = found.bearings[..., ::2]
+    along, across = found.bearings[..., ::2], found.bearings[..., 1::2]
     # The pinion is pressed back where the wheel is pressed on.
     along = np.where(at_rest[::2] < 0, -along[:, ::-1], along)
     travels = _amplitudes(found.travels) / _MICRO
@@ -134,10 +134,15 @@ def bearing_loads(system: System, static: StaticState, found: Extremes) -> Beari
         static=np.hypot(at_rest[::2], at_rest[1::2]),
         greatest=found.resultants,
         along=along,
-        across=found.bearings[..., 1::2],
+        across=_but_rounding(across, along),
         travels_along=travels[:, ::2],
-        travels_across=travels[:, 1::2],
+        travels_across=_but_rounding(travels[:, 1::2], travels[:, ::2]),
     )
+
+
+def _but_rounding(across: Floats, along: Floats) -> Floats:
+    """0 where bearings are alike in all directions: nothing drives what is across the line of action."""
+    return np.where(np.abs(across).max() > _FREE * np.abs(along).max(), across, 0.0)
 
 
 def _amplitudes(both: Floats) -> Floats:

@@ -23,7 +23,7 @@ def displacement_table(study: TrainStudy) -> WordTable:
     """Where inertias, flanks and axes swing farthest."""
     rows = []
     for each in study.greatest_amplitudes:
-        words = f"{each.quantity} of {each.name}" + ("" if each.direction is None else f", running {each.direction.value}")
+        words = f"{each.name}: {each.quantity}" + ("" if each.direction is None else f", running {each.direction.value}")
         rows.append((words, short(each.amplitude), each.unit, *map(short, (each.speed, each.frequency))))
     return WordTable(("greatest amplitude", "", "", "pinion, rpm", "tooth frequency, 1/s"), rows)
 
