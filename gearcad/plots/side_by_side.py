@@ -20,7 +20,14 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["beside_inches", "plot_errors_beside", "plot_factors_beside", "plot_overloads_beside", "study_colours"]
+__all__ = [
+    "beside_inches",
+    "plot_approaches_beside",
+    "plot_errors_beside",
+    "plot_factors_beside",
+    "plot_overloads_beside",
+    "study_colours",
+]
 
 
 _SPEED = "speed of the pinion in rpm"
@@ -54,6 +61,15 @@ def plot_factors_beside(of: SideBySide, figure: Figure | None = None) -> Figure:
         return chart.factors[:, chart.mesh_names.index(name)]
 
     return _panels(of, figure, of.mesh_names, "$K_{\\mathrm{v}}$", curve)
+
+
+def plot_approaches_beside(of: SideBySide, figure: Figure | None = None) -> Figure:
+    """Amplitude of the approach of the flanks of every mesh over speed, a panel each, a colour for each study."""
+
+    def curve(_study: TrainStudy, chart: KvChart, name: str) -> Floats | None:
+        return chart.displacements.approaches[:, chart.mesh_names.index(name)]
+
+    return _panels(of, figure, of.mesh_names, "approach y in µm", curve)
 
 
 def plot_overloads_beside(of: SideBySide, figure: Figure | None = None) -> Figure:

@@ -55,7 +55,7 @@ def test_documents(both: SideBySide, tmp_path: Path) -> None:
     assert any("K_v of mesh" in line for line in _lines(both))
     write_dynamics_report(both, both.name, tmp_path / "it.html")
     page = lxml.html.parse(tmp_path / "it.html")
-    assert page.xpath("//td[text()='isolated <1>']") and len(page.xpath("//figure")) == 2
+    assert page.xpath("//td[text()='isolated <1>']") and len(page.xpath("//figure")) == 3
     greatest = both.studies[1].greatest
     assert greatest_table(both).rows[1][1:] == ("isolated <1>", "1.615", short(greatest.speed))
     off = 100 * (greatest.speed / both.studies[0].greatest.speed - 1)

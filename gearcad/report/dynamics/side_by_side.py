@@ -6,7 +6,13 @@ from functools import partial
 
 from gearcad.dynamics.side_by_side import SideBySide
 from gearcad.plots.paper import short
-from gearcad.plots.side_by_side import beside_inches, plot_errors_beside, plot_factors_beside, plot_overloads_beside
+from gearcad.plots.side_by_side import (
+    beside_inches,
+    plot_approaches_beside,
+    plot_errors_beside,
+    plot_factors_beside,
+    plot_overloads_beside,
+)
 from gearcad.report.check.figures import Picture, figure_address
 from gearcad.report.dynamics.tables import WordTable, factor_text
 from gearcad.report.sentences import sentences
@@ -49,12 +55,13 @@ def resonance_table(of: SideBySide) -> WordTable:
 
 
 def beside_figures(of: SideBySide) -> list[Picture]:
-    """K_v of all meshes, also with errors of teeth, and overload of the shafts that carry something."""
+    """K_v of all meshes, also with errors of teeth, and overload of the shafts that carry something, approach of the flanks."""
     drawn = [("Dynamic factor over speed", plot_factors_beside, "factors_beside", len(of.mesh_names))]
     if of.errors:
         drawn.append(("Dynamic factor with tooth errors", plot_errors_beside, "errors_beside", len(of.mesh_names)))
     if of.shaft_names:
         drawn.append(("Overload of the shafts over speed", plot_overloads_beside, "overloads_beside", len(of.shaft_names)))
+    drawn.append(("Approach of the flanks over speed", plot_approaches_beside, "approaches_beside", len(of.mesh_names)))
     return [
         Picture(
             title,
