@@ -62,8 +62,9 @@ def _find_pairs(tables: Mapping[str, Any], folder: Path) -> None:
     train = tables.get("train")
     meshes = train.get("mesh") if isinstance(train, Mapping) else None
     for mesh in meshes if isinstance(meshes, list) else ():
-        if isinstance(mesh, dict) and isinstance(mesh.get("pair"), str):
-            mesh["pair"] = str(folder / mesh["pair"])
+        # A name that no file can have is left as it is written: whoever reads the pair refuses it.
+        if isinstance(mesh, dict) and isinstance(name := mesh.get("pair"), str) and name.strip() and "\0" not in name:
+            mesh["pair"] = str(folder / name)
 
 
 def _refuse_table(path: Path) -> None:

@@ -25,6 +25,7 @@ from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
 from gearcad.notice import Notice
 from gearcad.per_gear import Role
+from gearcad.ranges import TORQUE
 from gearcad.stiffness.method import StiffnessMethod
 
 __all__ = ["engaged", "pair_notices"]
@@ -40,6 +41,9 @@ _MOST_ROUNDS = 30
 
 _NO_FORCE = 1e-9
 """Of the greatest mesh force: none."""
+
+_ROUNDING = 1e-9
+"""Relative, of equations of a train."""
 
 _OTHER = 1e-3
 """Relative difference from which on a load is another."""
@@ -67,7 +71,8 @@ def engaged(train: Train, options: DynamicsOptions | None = None) -> Train:
     for j in places:
         turning = direction * train.speed_ratios[meshes[j].pinion]
         driver = Role.PINION if forces[j] * turning > 0 else Role.WHEEL
-        meshes[j] = _engaged(meshes[j], cycles[j], _torque(meshes[j], forces[j]), driver, rounds, options)
+        torque = _in_range(meshes[j], _torque(meshes[j], forces[j]))
+        meshes[j] = _engaged(meshes[j], cycles[j], torque, driver, rounds, options)
     return replace(train, meshes=tuple(meshes))
 
 
@@ -116,11 +121,29 @@ def _cycle_of(mesh: Mesh, force: float, greatest: float, options: DynamicsOption
     if abs(force) <= _NO_FORCE * greatest or not force:
         permitted = "carries nothing at rest, and its stiffness depends on the load: give torques that reach it, or a preload"
         raise ParameterError(f"{mesh.name}.pair", _pair(mesh).pair.name, permitted)
-    of = _pair(mesh)
+    of, torque = _pair(mesh), _in_range(mesh, _torque(mesh, force))
     try:
-        return _cycle(options.method_for(of.mounted), of.pair, of.material, of.body, of.mounting, _torque(mesh, force))
+        return _cycle(options.method_for(of.mounted), of.pair, of.material, of.body, of.mounting, torque)
     except InputError as error:
         raise error.within(mesh.name) from error
+
+
+def _in_range(mesh: Mesh, torque: float) -> float:
+    """A torque (N·m) on the pinion of a mesh, or the end of the range of torques that it is beyond by rounding only.
+
+    Raises ParameterError for one that no pair can have.
+    """
+    least, most = TORQUE.least or 0.0, TORQUE.most or math.inf
+    nearest = min(max(abs(torque), least), most)
+    if nearest == abs(torque):
+        return torque
+    if not math.isclose(nearest, abs(torque), rel_tol=_ROUNDING):
+        permitted = (
+            f"is what torques and preloads give the pinion of mesh {mesh.name} at rest: its pair can be looked at under"
+            f" {least:g} to {most:g} N·m"
+        )
+        raise ParameterError("torques", torque, permitted, "N·m")
+    return math.copysign(nearest, torque)
 
 
 @lru_cache(128)

@@ -139,6 +139,9 @@ class DynamicsOptions:
         if self.error_samples > 1 and not self.errors:
             permitted = 'must be 1 unless tooth_errors is "on": teeth without errors are all alike'
             raise ParameterError("error_samples", self.error_samples, permitted)
+        if self.distribution is not ErrorDistribution.UNIFORM and not self.errors:
+            permitted = f'must be left at {_UNIFORM} unless tooth_errors is "on": there are no deviations to be drawn'
+            raise ParameterError("error_distribution", self.error_distribution, permitted)
         if self.duration * self.sampling > 5e7:
             permitted = f"must be at most {5e7 / self.sampling:g} s at this sampling: 50 million samples a speed"
             raise ParameterError("duration", self.duration, permitted, "s")

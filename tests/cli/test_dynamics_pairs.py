@@ -6,13 +6,22 @@ import json
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
 from gearcad.cli import main
 from gearcad.designs import PairDesign, TrainDesign, read_spec
 from gearcad.designs.kinds.train_pairs import DesignedPair
+from gearcad.dynamics.engagement import engaged
 from gearcad.dynamics.options import DynamicsOptions
+from gearcad.dynamics.response.flexibility import flexibility
+from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
+from gearcad.dynamics.trains.lines import system
+from gearcad.dynamics.trains.members import Inertia, Mesh
+from gearcad.dynamics.trains.train import Train
+from gearcad.errors import SolverError
+from gearcad.per_gear import PerGear
 
 PAIR = """[pair]
 name = "steep"
@@ -174,7 +183,8 @@ DOUBLE = PAIR.replace("[pinion]", "helix_angle = 20.0\ndouble_helix.gap_width = 
     ("text", "message"),
     [
         (train('pair = "none.toml"'), "specs/drive.toml line 31: stage 1.pair: specs/none.toml: cannot be read"),
-        (train('pair = ""'), "stage 1.pair: specs: cannot be read"),
+        (train('pair = ""'), "line 31: stage 1.pair = '': must be the file of a pair's spec"),
+        (train('pair = "\\u0000"'), "line 31: stage 1.pair = '\\x00': must be the file of a pair's spec"),
         (
             train('pair = "drive.toml"'),
             "stage 1.pair: specs/drive.toml line 1: is the spec of a train; a mesh needs that of a pair",
@@ -199,6 +209,8 @@ DOUBLE = PAIR.replace("[pinion]", "helix_angle = 20.0\ndouble_helix.gap_width = 
         (train().replace("a = 60.0\nd = -180.0", ""), "stage 1.pair = 'steep': carries nothing at rest"),
         (train().replace("potential-energy", "iso-6336-b"), "dynamics.stiffness = 'iso-6336-b': must be one of"),
         (train(last="pinion_inertia = 1.0"), "dynamics.pinion_inertia: unknown key"),
+        (train('pair = "parts/steep.toml"\npreload = 1e12'), "line 32: stage 1.preload = 1e+12 N: must be at most 5.32e+10 N"),
+        (train(last='error_distribution = "normal"'), "dynamics.error_distribution = 'normal': must be left at uniform unless"),
         (train().replace("a = 60.0", "a = 6e9").replace("-180.0", "-1.8e10"), "torques.a = 6000000000 N·m"),
     ],
 )
@@ -212,3 +224,21 @@ def test_wrong_input_gets_one_line(text: str, message: str) -> None:
     assert result.exit_code == 2, result.output
     assert result.stderr.startswith("Error: ") and message in result.stderr and len(result.stderr.splitlines()) == 1
     assert not Path("output").exists()
+
+
+def test_the_least_torque_there_is() -> None:
+    """Rounding puts it below what a pair can have."""
+    train_of = read(train().replace("a = 60.0", "a = 1e-9").replace("-180.0", "-3e-9")).train
+    meshes = engaged(train_of, DynamicsOptions(stiffness="potential-energy")).meshes
+    assert [round(mesh.course.torque, 15) for mesh in meshes if isinstance(mesh, EngagedMesh)] == [1e-9, -1.5e-9]
+
+
+def test_a_mesh_without_damping_is_named() -> None:
+    """At its resonance: sqrt(k (r²/J + R²/I)) = 12000/s."""
+    train_of = Train(
+        inertias=(Inertia(name="a", inertia=0.01), Inertia(name="b", inertia=0.02)),
+        meshes=(Mesh(name="m", pinion="a", wheel="b", base_radii=PerGear(40.0, 80.0), stiffness=300.0, teeth=20),),
+        torques={"a": 10.0, "b": 20.0},
+    )
+    with pytest.raises(SolverError, match=r"^m\.damping = 0 N·s/m: must be above 0"):
+        flexibility(system(train_of), np.array([12000.0]))

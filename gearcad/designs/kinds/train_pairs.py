@@ -54,7 +54,7 @@ def designed_pair(design: PairDesign) -> DesignedPair:
 
 def read_pair(given: Any, where: Where, owner: str, mesh: str) -> DesignedPair:
     """That of the value of `owner`, the key `pair` of a mesh: the name of a spec, or its tables. Raises SpecError."""
-    if not isinstance(given, str | Mapping):
+    if not isinstance(given, str | Mapping) or (isinstance(given, str) and (not given.strip() or "\0" in given)):
         permitted = 'must be the file of a pair\'s spec, as in pair = "fzg-c.toml", or its tables, headed [train.mesh.pair]'
         raise SpecError(f"{where(owner)}: {mesh}.pair = {format_number(given)}: {permitted}", owner)
     try:

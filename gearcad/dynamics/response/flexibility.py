@@ -112,10 +112,20 @@ def flexibility(system: System, frequencies: Floats) -> Flexibility:
         inverse = np.linalg.inv(np.eye(count) + mesh[..., None] * lines)
         result = Flexibility(lines @ inverse, rest @ inverse)
     except np.linalg.LinAlgError:
-        raise SolverError(_NO_DAMPING) from None
+        raise _undamped(system) from None
     if not np.abs(result.mesh).max(initial=0.0) * system.stiffness.max() < _MOST_AMPLIFIED:
-        raise SolverError(_NO_DAMPING)
+        raise _undamped(system)
     return result
+
+
+def _undamped(system: System) -> SolverError:
+    """What is to blame: the first mesh without damping, if there is one."""
+    name = next((name for name, each in zip(system.names[0], system.mesh_damping, strict=True) if not each), None)
+    if name is None:
+        return SolverError(_NO_DAMPING)
+    return SolverError(
+        f"{name}.damping = 0 N·s/m: must be above 0, as damping or damping_ratio, or damp the shafts: {_NO_DAMPING}"
+    )
 
 
 class Outputs(NamedTuple):

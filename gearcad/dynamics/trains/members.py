@@ -24,6 +24,7 @@ from gearcad.ranges import (
     MODULUS,
     PRELOAD,
     STIFFNESS,
+    TORQUE,
     TORSIONAL_STIFFNESS,
     Range,
     Whole,
@@ -204,13 +205,21 @@ class Mesh(NamedPart):
             raise ParameterError(f"{self.name}.pair", pair, "must be a GearPair, or a MeshPair, which has its material too")
         self._require_nothing_beside()
         mounted = pair.mounted
-        radii = (abs(gear.base_diameter) / 2 for gear in mounted.gears)
+        radii = mounted.gears.map(lambda gear: abs(gear.base_diameter) / 2)
         found = {"pair": pair, "base_radii": _DerivedRadii(*radii), "teeth": DerivedCount(mounted.pinion.teeth)}
         found |= {"internal": mounted.internal, "stiffness": Derived(self._stiffness_of_pair)}
+        self._require_bearable(radii.pinion)
         if self.backlash is not None and not is_given(self.backlash):
             found["backlash"] = Derived(pair.backlash)
         for name, value in found.items():
             object.__setattr__(self, name, value)
+
+    def _require_bearable(self, radius: float) -> None:
+        """Raise GeometryError where the preload gives a pinion of that base radius (mm) more torque than a pair can have."""
+        most = (TORQUE.most or math.inf) * 1000 / radius
+        if self.preload > most:
+            permitted = f"must be at most {most:.3g} N: no pair has more than {TORQUE.most:g} N·m on its pinion"
+            raise GeometryError(f"{self.name}.preload", self.preload, permitted, "N")
 
     def _require_nothing_beside(self) -> None:
         """Raise GeometryError where something is given too that the pair tells."""
