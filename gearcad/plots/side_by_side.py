@@ -69,7 +69,12 @@ def plot_approaches_beside(of: SideBySide, figure: Figure | None = None) -> Figu
     def curve(_study: TrainStudy, chart: KvChart, name: str) -> Floats | None:
         return chart.displacements.approaches[:, chart.mesh_names.index(name)]
 
-    return _panels(of, figure, of.mesh_names, "approach y in µm", curve)
+    drawn = _panels(of, figure, of.mesh_names, "approach y in µm", curve)
+    for panel in drawn.axes:
+        # As the paper has it: where hardly anything moves is of no interest.
+        panel.set_yscale("linear")
+        panel.set_ylim(bottom=0)
+    return drawn
 
 
 def plot_overloads_beside(of: SideBySide, figure: Figure | None = None) -> Figure:
