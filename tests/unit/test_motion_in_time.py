@@ -24,6 +24,7 @@ from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
 from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train
+from gearcad.errors import ParameterError, SolverError
 
 Floats = NDArray[np.float64]
 
@@ -236,3 +237,34 @@ def test_a_free_pair_without_damping_keeps_its_energy() -> None:
     motion = moving.run(Course.steady(500.0), step, 10_000, start=start)
     assert energy(motion.end.coordinates, motion.end.rates) == pytest.approx(energy(np.zeros(2), rates), rel=1e-9)
     assert turning @ motion.end.coordinates == pytest.approx(10_000 * step * float(turning @ rates), rel=1e-9)
+
+
+# ---------------------------------------------------------------------- steps that are too long
+
+
+def moving_stage() -> MovingSystem:
+    excitation = Excitation(meshes=(MeshExcitation(stiffness=CosineStiffness(variation=0.2)),))
+    return MovingSystem.lumped(system(one_stage()), excitation)
+
+
+@pytest.mark.parametrize(
+    ("frequency", "step", "count", "parameter"),
+    [(3e5, 1e-5, 2000, "step"), (100.0, 1e300, 1, "step"), (0.0, 1e300, 1, "step"), (1e4, 1e-4, 10**12, "count")],
+)
+def test_steps_over_many_teeth_are_refused(frequency: float, step: float, count: int, parameter: str) -> None:
+    """There is room for the teeth of one base pitch, and places are told apart up to 1e12 of them."""
+    with pytest.raises(ParameterError, match=f"^{parameter} = .*must (be|make)"):
+        moving_stage().run(Course.steady(frequency), step, count)
+
+
+@pytest.mark.parametrize("frequency", [3e5, 1e300])
+def test_the_kernel_stops_before_it_runs_out_of_room(frequency: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where nobody looked before."""
+    monkeypatch.setattr(MovingSystem, "_require_short", lambda *_: None)
+    with pytest.raises(SolverError, match="take shorter steps"):
+        moving_stage().run(Course.steady(frequency), 1e-5, 2000)
+
+
+def test_a_base_pitch_in_one_step_is_not_too_much() -> None:
+    motion = moving_stage().run(Course.steady(1e3), 1e-3, 200, stride=1)
+    assert np.isfinite(motion.spring).all()

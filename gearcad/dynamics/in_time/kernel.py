@@ -29,6 +29,9 @@ __all__ = ["CourseTables", "Model", "Records", "State", "propagators", "run"]
 _LEAST_WINDOW = 1e-6
 """Base pitches over which a mean is taken at least: at rest as well."""
 
+_MOST_PASSED, _FARTHEST = 1.001, 2.0**50
+"""Base pitches that pass in a step at most - there is room for the teeth of so many - and places that are told apart."""
+
 _NEWTON, _SWEEPS, _HALVINGS = 20, 200, 200
 """Newton's steps for all meshes at once; where these fail, meshes in turn, each by steps inside a bracket."""
 
@@ -465,7 +468,8 @@ def _sum(rows: Floats, r: int, values: Floats) -> float:
 def run(model: Model, course: CourseTables, h: float, begin: int, count: int, state: State, records: Records) -> int:
     """Steps `begin` + 1 to `begin` + `count` of h seconds; the first also writes down what is before it if that is step 0.
 
-    Gives how many steps were made before the forces of one could not be found: `count` if all could.
+    Gives how many steps were made before the forces of one could not be found, or more than a base pitch passed in one: `count`
+    if all could.
     """
     mesh, marks, tables, teeth, errors_of, load, driven = (
         model.mesh, model.marks, model.tables, model.teeth, model.errors, model.load, model.driven
@@ -483,7 +487,7 @@ def run(model: Model, course: CourseTables, h: float, begin: int, count: int, st
                 rate[j, k] += steps[i, 7] * mesh[i, j] * mesh[i, k]
     most = 2
     for j in range(m):
-        most = max(most, math.ceil(marks[j, _LAST] - marks[j, _FIRST]) + 2)
+        most = max(most, math.ceil(marks[j, _LAST] - marks[j, _FIRST] + _MOST_PASSED) + 1)
     springs, counts, work = np.zeros((m, most, 2)), np.zeros(m, np.int64), np.zeros((m, m + 1))
     y, v, spring, slopes = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m)
     errors, push = np.zeros(m), np.zeros(n)
@@ -515,6 +519,8 @@ def run(model: Model, course: CourseTables, h: float, begin: int, count: int, st
         for j in range(m):
             from_place = marks[j, _ORDER] * turns_before + marks[j, _LEAD]
             to_place = marks[j, _ORDER] * turns + marks[j, _LEAD]
+            if not (abs(to_place - from_place) <= _MOST_PASSED and abs(to_place) < _FARTHEST):
+                return step - begin - 1
             counts[j], errors[j], change = _engage(marks, tables, teeth, errors_of, j, from_place, to_place, springs)
             y[j] -= errors[j]
             v[j] -= change * (to_place - from_place) / h

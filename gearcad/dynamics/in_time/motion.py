@@ -26,6 +26,12 @@ __all__ = ["Motion", "MovingSystem", "Start"]
 _CHUNK = 2_000_000
 """Steps between two looks at whether anybody wants to stop."""
 
+_LONGEST = 1e6
+"""Seconds of a step, where nothing turns."""
+
+_FARTHEST, _ROUNDING = 1e12, 1e-9
+"""Base pitches: of such a place a ten-thousandth is left; relative, of steps that are one base pitch."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Start:
@@ -116,8 +122,9 @@ class MovingSystem:
         """
         from gearcad.dynamics.in_time.kernel import State, run
 
-        require_number("step", step, "s", above=0)
+        require_number("step", step, "s", above=0, at_most=_LONGEST)
         require_whole("count", count, at_least=1, at_most=10**12)
+        self._require_short(course, step, count)
         begin = start or self.at_rest()
         n, m = self.system.mesh.shape
         tables, bounds = self._course(course), np.array(ends, np.int64)
@@ -137,6 +144,18 @@ class MovingSystem:
                 raise SolverError(f"the motion grows beyond all numbers before {step * (first + steps):g} s")
             tell((first + steps) / count)
         return self._motion(step, bounds, count, state.growth, Start(coordinates=state.z, rates=state.v), records)
+
+    def _require_short(self, course: Course, step: float, count: int) -> None:
+        """Raise ParameterError where more than a base pitch may pass in a step, or more in all than a place can tell."""
+        order, line = max(law.order for law in self.laws), course.frequency
+        fastest = order * float(np.abs(line.value).max())
+        if fastest * step > 1 + _ROUNDING:
+            permitted = f"must be at most {1 / fastest:.6g} s: one base pitch of the quickest mesh"
+            raise ParameterError("step", step, permitted, "s")
+        passed = order * abs(course.turns) + fastest * (step * (count + 1) + float(np.abs(line.time).max()))
+        if not passed < _FARTHEST:
+            permitted = f"must make of the course at most {_FARTHEST:.3g} base pitches of the quickest mesh, not {passed:.3g}"
+            raise ParameterError("count", count, permitted)
 
     @cached_property
     def _scale(self) -> float:
