@@ -10,6 +10,7 @@ import numpy as np
 
 from gearcad.dynamics.excitation.deviations import TransmissionError
 from gearcad.dynamics.excitation.sources import pair_errors, pair_excitation, pair_train
+from gearcad.dynamics.idle_options import idle_in_contact
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.tooth_errors.sources import pair_teeth
@@ -183,4 +184,4 @@ def study_contact(
     tell("history")
     speed = abs(load.speed) or float(speeds[len(speeds) // 2])
     history = time_history(model, speed, duration=options.duration, sampling=options.sampling)
-    return ContactStudy(pair=pair, model=model, study=study, history=history)
+    return ContactStudy(pair=pair, model=model, study=study, history=history, idle=idle_in_contact(options))

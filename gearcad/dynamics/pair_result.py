@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.idle_options import idle_without_levels, undamped_bearings
 from gearcad.dynamics.tables import Tables, campbell_columns, cycle_columns, history_columns, spectrum_columns
 from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.tooth_springs.contact_model import ContactModel
@@ -56,7 +57,8 @@ class PairStudy:
         factor = self.study.method_b
         unrated = Notice("no-standard-factor", f"no K_v of ISO 6336-1: {self.unrated}")
         standard = factor.notices if factor is not None else (unrated,)
-        return (*self.study.notices, *self.cycle.notices, *self._full_discs(), *self._free_ring(), *standard)
+        own = (*idle_without_levels(self.study.options), *undamped_bearings(self.study.options))
+        return (*own, *self.study.notices, *self.cycle.notices, *self._full_discs(), *self._free_ring(), *standard)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -106,12 +108,16 @@ class PairStudy:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ContactStudy:
-    """A pair as mounted, its contact model, the Campbell study of it and the time history at one speed."""
+    """A pair as mounted, its contact model, the Campbell study of it and the time history at one speed.
+
+    `idle` says what of the options is without effect.
+    """
 
     pair: GearPair
     model: ContactModel
     study: CampbellStudy
     history: TimeHistory
+    idle: tuple[Notice, ...] = ()
 
     def __repr__(self) -> str:
         return f"<ContactStudy of {self.pair.name!r}: {len(self.study.speeds)} speeds up to {self.study.speeds.max():.6g} rpm>"
@@ -124,7 +130,7 @@ class ContactStudy:
     @property
     def notices(self) -> tuple[Notice, ...]:
         """What to know before trusting it."""
-        return self.study.notices
+        return (*self.idle, *self.study.notices)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -147,6 +153,8 @@ class ContactStudy:
             "contact_ratio": model.contact_ratio,
             "campbell": self.study.to_dict(),
             "history_speed": self.history.speed,
+            "warnings": list(self.warnings),
+            "notices": [notice.to_dict() for notice in self.notices],
         }
 
     def arrays(self) -> dict[str, Floats]:

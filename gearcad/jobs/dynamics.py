@@ -14,6 +14,7 @@ from gearcad.check.options import CheckOptions
 from gearcad.designs import Design, Inputs, PairDesign, TrainDesign
 from gearcad.designs.loaded_pairs import pair_specs
 from gearcad.dynamics.engagement import engaged
+from gearcad.dynamics.idle_options import idle_without_levels
 from gearcad.dynamics.levels.result import LevelStudy, finest_first
 from gearcad.dynamics.levels.study import study_levels
 from gearcad.dynamics.options import DynamicsOptions, PairModel
@@ -134,7 +135,8 @@ def _of_train(design: TrainDesign, progress: Progress | None) -> TrainStudy | Mo
         agenda = Agenda(progress, before | {f"{each.value}: {step}": took for each in every for step, took in steps.items()})
         return study_levels(train, design.models, options, tell=agenda)
     agenda = Agenda(progress, {**before, **steps})
-    return study_train(train, options, tell=agenda, share=agenda.within("chart"), drawn=agenda.within(_ERRORS))
+    study = study_train(train, options, tell=agenda, share=agenda.within("chart"), drawn=agenda.within(_ERRORS))
+    return replace(study, found=(*idle_without_levels(options), *study.found))
 
 
 def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | ContactStudy:

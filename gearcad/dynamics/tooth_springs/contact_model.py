@@ -188,8 +188,8 @@ class ContactModel:
         if depth > SOFT:
             more = ": the teeth pass through each other" if depth > 1 else ""
             text = (
-                f"pair_stiffness = {self.pair_stiffness:.4g} N/µm: the flanks penetrate by {rest:.4g} mm at rest,"
-                f" {depth:.3g} of the module{more}; teeth are far stiffer"
+                f"tooth_stiffness = {self.pair_stiffness:.4g} N/µm of one pair of teeth: the flanks penetrate by {rest:.4g} mm"
+                f" at rest, {depth:.3g} of the module{more}; teeth are far stiffer"
             )
             found.append(Notice("soft-teeth", text))
         if self.contact_ratio < 1:
