@@ -76,6 +76,8 @@ def _comments(study: TrainStudy, mesh: EngagedMesh, place: int) -> Iterator[str]
     yield "`gearcad build` and every other command of pairs; the rest of the train is left out."
     drives = "the pinion drives" if mesh.course.driver is Role.PINION else "the wheel drives: the torque is against the turn"
     yield f"The load is what the train at rest gives the pinion; {drives}."
+    if mesh.course.driver is Role.WHEEL:
+        yield "`gearcad dynamics` of this pair alone meets flanks as if the pinion drove: K_v of modified flanks may differ."
     course, chart = study.course, study.up
     most = int(chart.factors[:, place].argmax())
     yield (

@@ -90,6 +90,7 @@ def study_pair(
         study=study,
         bearings=bearings,
         unrated=unrated,
+        wheel_drives=load.torque * load.speed < 0,
     )
 
 

@@ -32,7 +32,7 @@ class PairStudy:
 
     `method` is the title of what found the cycle. With `bearings` the charts are those of six degrees of freedom; the natural
     modes are still those of the turning alone.
-    `unrated` says why K_v of ISO 6336-1 is missing, "" if it is not.
+    `unrated` says why K_v of ISO 6336-1 is missing, "" if it is not. `wheel_drives`: the load's torque is against its speed.
     """
 
     pair: GearPair
@@ -42,6 +42,7 @@ class PairStudy:
     study: TrainStudy
     bearings: PairOnBearings | None
     unrated: str = ""
+    wheel_drives: bool = False
 
     def __repr__(self) -> str:
         return f"<PairStudy of {self.pair.name!r}: {self.study!r}>"
@@ -58,12 +59,22 @@ class PairStudy:
         unrated = Notice("no-standard-factor", f"no K_v of ISO 6336-1: {self.unrated}")
         standard = factor.notices if factor is not None else (unrated,)
         own = (*idle_without_levels(self.study.options), *undamped_bearings(self.study.options))
-        return (*own, *self.study.notices, *self.cycle.notices, *self._full_discs(), *self._free_ring(), *standard)
+        of_gears = (*self._driven_pinion(), *self._full_discs(), *self._free_ring())
+        return (*own, *self.study.notices, *self.cycle.notices, *of_gears, *standard)
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """The notices in words."""
         return texts(self.notices)
+
+    def _driven_pinion(self) -> Iterator[Notice]:
+        """Of a load whose torque is against its speed."""
+        if self.wheel_drives:
+            text = (
+                "the torque is against the speed: the wheel drives; here flanks are met as if the pinion drove, from its root"
+                " to its tip, and K_v of modified flanks may differ: a train with this pair as its mesh tells them apart"
+            )
+            yield Notice("taken-as-driver", text)
 
     def _full_discs(self) -> Iterator[Notice]:
         """Of gears with a web whose inertia nobody gave."""

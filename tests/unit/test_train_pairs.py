@@ -292,3 +292,15 @@ def test_names_of_specs_do_not_clash() -> None:
     assert isinstance(design, PairDesign)
     assert replace(design.pair, name="z") == gears(18, 45, 2.5)
     assert design.load == Load(torque=-90.0, speed=-2000.0)
+
+
+def test_a_pair_alone_says_that_it_takes_the_pinion_for_the_driver() -> None:
+    """Where the torque is against the speed, and changes no number for it."""
+    options, codes, charts = replace(CALM, pinion_inertia=J[0], wheel_inertia=J[1]), [], []
+    for torque, speed in [(50.0, 6000.0), (-50.0, -6000.0), (-50.0, 6000.0), (50.0, 0.0)]:
+        study = gearcad.dynamics(gears(), Load(torque=torque, speed=speed), dynamics=options)
+        assert isinstance(study, PairStudy)
+        codes.append("taken-as-driver" in {notice.code for notice in study.notices})
+        charts.append(study.study.up.factors.max())
+    assert codes == [False, False, True, False]
+    assert charts[2] == charts[0]
