@@ -30,7 +30,7 @@ def beside_lines(study: SideBySide) -> list[str]:
         lines.append(f"overload of {shaft}")
         own = [each for each in study.shaft_overloads if each.shaft == shaft]
         lines += [f"  {each.label:<{wide}}  {each.factor:.3f} at {each.speed:.5g} rpm" for each in own]
-    return [*lines, *study.sentences] if isinstance(study, LevelStudy) else lines
+    return [*lines, *study.headlines] if isinstance(study, LevelStudy) else lines
 
 
 def _errors_line(found: ErrorStudy, mesh: str) -> str:

@@ -18,7 +18,7 @@ from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.levels.operating import OperatingRange
 from gearcad.dynamics.train_result import TrainStudy
 
-__all__ = ["SHIFT", "Agreement", "CurveName", "Difference", "Doubt", "NotJudged", "Reason", "agreement", "percent"]
+__all__ = ["OUTSIDE", "SHIFT", "Agreement", "CurveName", "Difference", "Doubt", "NotJudged", "Reason", "agreement", "percent"]
 
 
 SHIFT = 0.025
@@ -44,6 +44,9 @@ class Reason(Enum):
     UNSTABLE = "no steady motion lasts"
     APART = "flanks would part, but are taken to stick"
 
+
+OUTSIDE = (Reason.BELOW, Reason.BEYOND)
+"""Those of speeds that are in no chart."""
 
 _DOUBTS = {
     "long-period": "resonances between the speeds are not looked for",

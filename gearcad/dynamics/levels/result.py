@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from gearcad.dynamics.levels.agreement import SHIFT
+from gearcad.dynamics.levels.agreement import OUTSIDE, SHIFT, NotJudged
 from gearcad.dynamics.levels.operating import OperatingRange
 from gearcad.dynamics.levels.verdict import LevelStatus, LevelVerdict
 from gearcad.dynamics.side_by_side import SideBySide
@@ -80,13 +80,30 @@ class LevelStudy(SideBySide):
     @property
     def sentences(self) -> tuple[str, ...]:
         """The same, one of all and then one of each model."""
+        return self._said(f"{each.sentence}." for each in self.verdicts)
+
+    @property
+    def headlines(self) -> tuple[str, ...]:
+        """Of the sentences what comes first, for the screen."""
+        return self._said(f"{each.headline}." for each in self.verdicts)
+
+    @property
+    def beyond_charts(self) -> tuple[NotJudged, ...]:
+        """What of the operating range no chart shows."""
+        found = (each for verdict in self.verdicts for each in verdict.agreement.not_judged if each.reason in OUTSIDE)
+        return tuple({(each.first, each.last): each for each in found}.values())
+
+    def _said(self, verdicts: Iterable[str]) -> tuple[str, ...]:
+        """What is found of all, with what is left out of it; of each model; and of shafts that are not judged."""
         finest = f'"{self.models[self.reference].value}"'
         found = f"no model coarser than {finest} is shown to be enough"
         if self.enough is not None:
             found = f'the coarsest model that is enough is "{self.enough.model.value}"'
         allowed = f"within {100 * self.tolerance:.3g} % of the load at rest and {100 * self.speed_tolerance:.3g} % of the speed"
-        parts = [f"{self.over.words[0].upper()}{self.over.words[1:]}, held against {finest}, {allowed}: {found}."]
-        parts += [f"{each.sentence}." for each in self.verdicts]
+        gaps = [f"{each.first:.5g} to {each.last:.5g} rpm, {each.reason.value}" for each in self.beyond_charts]
+        words = self.over.words[0].upper() + self.over.words[1:]
+        over = f"{words}, of which not judged: {'; '.join(gaps)}" if gaps else words
+        parts = [f"{over}, held against {finest}, {allowed}: {found}.", *verdicts]
         if self.idle_shafts:
             parts.append(f"Shafts that carry next to nothing at rest are not judged: {', '.join(self.idle_shafts)}.")
         return tuple(parts)

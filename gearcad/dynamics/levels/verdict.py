@@ -100,6 +100,14 @@ class LevelVerdict:
         """With its numbers."""
         return f'"{self.model.value}" {"; ".join(self._clauses())}'
 
+    @property
+    def headline(self) -> str:
+        """Its first clause, with the first of its failures only."""
+        first = next(self._clauses())
+        if self.status is LevelStatus.NOT_ENOUGH:
+            first = f"is not enough: {next(self._failures())}"
+        return f'"{self.model.value}" {first}'
+
     def _clauses(self) -> Iterator[str]:
         name, of = f'"{self.reference.value}"', self.agreement
         if of.underestimate is None or of.overestimate is None:
