@@ -25,6 +25,7 @@ from gearcad.dynamics.train_result import Course, ModalStudy, TrainStudy
 from gearcad.dynamics.trains.bearing_modes import BearingModes
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
+from gearcad.dynamics.trains.half_waves import coarse_elements, fitted
 from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.modes import natural_modes
 from gearcad.dynamics.trains.parts import static_forces
@@ -92,10 +93,12 @@ def study_train(
     options = (options or DynamicsOptions()).graded(RatingOptions())
     tell("modes")
     modes = natural_modes(train, count=options.frequencies)
-    charted = system(train) if bearings is None else bearings.system()
     on_bearings = None if bearings is None else bearings.modes()
     excitation = excitation or _own_excitation(train, options)
     charted_speeds = chart_speeds(train, options, modes, on_bearings) if speeds is None else speeds
+    highest = max(float(charted_speeds[-1]), abs(train.speed))
+    train = fitted(train, highest)
+    charted = system(train) if bearings is None else bearings.system()
     frequencies, asked = _frequencies(train, charted_speeds)
     tell("chart")
     over = over_speed(charted, excitation, frequencies, harmonics=options.harmonics, method_b=method_b, share=share)
@@ -123,7 +126,13 @@ def study_train(
         down=over.down,
         jumps=over.jumps,
         course=course,
-        found=(*pair_notices(train), *over.notices, *more, *(transient.notices if transient is not None else ())),
+        found=(
+            *pair_notices(train),
+            *coarse_elements(train, highest),
+            *over.notices,
+            *more,
+            *(transient.notices if transient is not None else ()),
+        ),
         method_b=method_b,
         errors=errors,
         transient=transient,

@@ -17,6 +17,7 @@ from gearcad.arrays import Bools, Floats, Indices, freeze
 from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.levels.operating import OperatingRange
 from gearcad.dynamics.train_result import TrainStudy
+from gearcad.dynamics.trains.half_waves import good_up_to
 
 __all__ = ["OUTSIDE", "SHIFT", "Agreement", "CurveName", "Difference", "Doubt", "NotJudged", "Reason", "agreement", "percent"]
 
@@ -42,6 +43,7 @@ class Reason(Enum):
     BELOW = "below the first speed of the chart"
     BEYOND = "beyond the last speed of the chart"
     UNSTABLE = "no steady motion lasts"
+    COARSE = "shafts have more half waves than their elements are good for"
     APART = "flanks would part, but are taken to stick"
 
 
@@ -234,6 +236,7 @@ def _curves(study: TrainStudy, reference: TrainStudy, names: list[CurveName]) ->
     stuck = np.array([mesh.backlash is None for mesh in study.excitation.meshes]) | (study.down is None)
     faults = {
         Reason.UNSTABLE: np.asarray(~np.all([chart.stable for chart in charts], axis=0), bool),
+        Reason.COARSE: np.asarray(study.speeds > good_up_to(study.train), bool),
         Reason.APART: np.asarray(np.any([(chart.least[:, stuck] <= 0).any(axis=1) for chart in charts], axis=0), bool),
     }
     return _Curves(study.speeds, np.stack(loads, axis=1), faults)

@@ -30,7 +30,7 @@ class TrainModel(Enum):
     ELEMENTS = "elements"
     """Shafts have mass; one hierarchical element of degree `order` each, which is good for order/3 half waves or so."""
     EXACT = "exact"
-    """Natural frequencies of the wave equation itself; forced response as with elements."""
+    """Natural frequencies of the wave equation itself; response as with elements, of a higher degree where it is needed."""
 
 
 @dataclass(frozen=True, kw_only=True)
