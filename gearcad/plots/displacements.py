@@ -11,7 +11,7 @@ from gearcad.arrays import Floats
 from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.plots.labels import plain
-from gearcad.plots.paper import FIGURE_INCHES, MARKED, SERIES, new_figure, prepared
+from gearcad.plots.paper import FIGURE_INCHES, MARKED, SERIES, layered, new_figure, prepared
 from gearcad.plots.speeds import mark_modes, shade_unstable, tooth_axis
 
 if TYPE_CHECKING:
@@ -79,9 +79,9 @@ def _draw(axes: Axes, study: TrainStudy, names: Sequence[str], words: str, curve
     """A curve for each name, running up, and dashed running down."""
     prepared(axes, "", words)
     drawn = curve(study.up)
-    for number, name in enumerate(names):
+    for number, (name, width) in enumerate(zip(names, layered(len(names)), strict=True)):
         colour = SERIES[number % len(SERIES)]
-        axes.plot(study.speeds, drawn[:, number], color=colour, linewidth=1.4, label=plain(name))
+        axes.plot(study.speeds, drawn[:, number], color=colour, linewidth=width, label=plain(name))
         if study.down is not None:
             axes.plot(study.speeds, curve(study.down)[:, number], "--", color=colour, linewidth=1.1)
     if drawn.min() > 0 and drawn.max() > _WIDE * np.median(drawn):

@@ -19,6 +19,7 @@ __all__ = [
     "PALE",
     "SERIES",
     "draw_limit",
+    "layered",
     "legend_above",
     "new_figure",
     "prepared",
@@ -37,6 +38,9 @@ MARKED = "#999999"
 """Colour of lines that only mark a place."""
 
 FIGURE_INCHES = (6.6, 3.7)
+
+_LEGEND, _HANDLE, _LETTER = 5.9, 0.55, 0.072
+"""Inches that a legend above the axes may take, of a line in it with its margins, and of a letter."""
 
 
 def new_figure(inches: tuple[float, float] = FIGURE_INCHES) -> Figure:
@@ -58,8 +62,16 @@ def prepared(ax: Axes | None, x: str, y: str) -> Axes:
     return axes
 
 
+def layered(count: int) -> list[float]:
+    """Widths of so many lines, the first one broad and the last one thin: where they are one, all can be seen."""
+    return [1.4] if count == 1 else [3.4 - 2.2 * number / (count - 1) for number in range(count)]
+
+
 def legend_above(axes: Axes, columns: int, raised: float = 0.0) -> None:
-    """A legend over the axes, where it hides nothing: so many points higher where a second axis stands there."""
+    """A legend over the axes, where it hides nothing: so many points higher where a second axis stands there.
+
+    It has fewer `columns` where long words would not fit, which would make the axes narrow.
+    """
     from matplotlib.transforms import ScaledTranslation
 
     place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0)}
@@ -67,7 +79,17 @@ def legend_above(axes: Axes, columns: int, raised: float = 0.0) -> None:
         figure = axes.get_figure(root=True)
         assert figure is not None  # prepared() has put them on one
         place["bbox_transform"] = axes.transAxes + ScaledTranslation(0, raised / 72, figure.dpi_scale_trans)
-    axes.legend(ncols=columns, frameon=False, fontsize=9, borderaxespad=0.2, **place)
+    axes.legend(ncols=_fitting(axes, columns), frameon=False, fontsize=9, borderaxespad=0.2, **place)
+
+
+def _fitting(axes: Axes, most: int) -> int:
+    """As many columns as the words of a legend, that fill one column after the other, have room in."""
+    widths = [_HANDLE + _LETTER * len(words) for words in axes.get_legend_handles_labels()[1]]
+    for columns in range(most, 1, -1):
+        rows = math.ceil(len(widths) / columns)
+        if sum(max(widths[first : first + rows]) for first in range(0, len(widths), rows)) <= _LEGEND:
+            return columns
+    return 1
 
 
 def draw_limit(axes: Axes, limit: float | tuple[float, float] | None) -> None:

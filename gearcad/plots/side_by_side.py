@@ -14,7 +14,7 @@ from gearcad.dynamics.levels.result import LevelStudy
 from gearcad.dynamics.side_by_side import SideBySide
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.plots.labels import plain
-from gearcad.plots.paper import FIGURE_INCHES, MARKED, SERIES, legend_above, new_figure, prepared
+from gearcad.plots.paper import FIGURE_INCHES, MARKED, SERIES, layered, legend_above, new_figure, prepared
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -93,8 +93,8 @@ def plot_errors_beside(of: SideBySide, figure: Figure | None = None) -> Figure:
     colours = dict(zip(of.labels, study_colours(len(of.studies)), strict=True))
     for mesh, (panel, name) in enumerate(zip(panels, of.mesh_names, strict=True)):
         prepared(panel, _SPEED if panel is panels[-1] else "", f"{plain(name)}: $K_{{\\mathrm{{v}}}}$ with errors")
-        for label, found in of.errors.items():
-            panel.plot(found.speeds, found.median[:, mesh], color=colours[label], linewidth=1.3, label=plain(label))
+        for width, (label, found) in zip(layered(len(of.errors)), of.errors.items(), strict=True):
+            panel.plot(found.speeds, found.median[:, mesh], color=colours[label], linewidth=width, label=plain(label))
             if found.samples > 1:
                 panel.plot(found.speeds, found.band[1][:, mesh], "--", color=colours[label], linewidth=1.1)
         ends = [float(end) for found in of.errors.values() for end in (found.speeds[0], found.speeds[-1])]
@@ -116,13 +116,13 @@ def _panels(
     speeds = [float(end) for study in of.studies for end in (study.speeds[0], study.speeds[-1])]
     for panel, name in zip(panels, names, strict=True):
         prepared(panel, _SPEED if panel is panels[-1] else "", f"{plain(name)}: {words}")
-        shown = []
-        for colour, label, study in zip(study_colours(len(of.studies)), of.labels, of.studies, strict=True):
+        shown, widths = [], layered(len(of.studies))
+        for width, colour, label, study in zip(widths, study_colours(len(of.studies)), of.labels, of.studies, strict=True):
             for (_, chart), style in zip(study.charts.directions(), ("-", "--"), strict=False):
                 values = curve(study, chart, name)
                 if values is not None:
                     words_of = plain(label) if style == "-" else ""
-                    panel.plot(study.speeds, values, style, color=colour, linewidth=1.3, label=words_of)
+                    panel.plot(study.speeds, values, style, color=colour, linewidth=width, label=words_of)
                     shown.append(values)
         panel.set_xlim(min(speeds), max(speeds))
         if isinstance(of, LevelStudy):

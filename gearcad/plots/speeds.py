@@ -13,7 +13,7 @@ from gearcad.dynamics.charts.chart import KvChart
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.plots.labels import plain
-from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, PALE, SERIES, legend_above, new_figure, prepared
+from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, PALE, SERIES, layered, legend_above, new_figure, prepared
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,12 +65,12 @@ def plot_factors(study: TrainStudy, ax: Axes | None = None) -> Axes:
     up, down = study.up, study.down
     if up.standard is not None:
         axes.plot(study.speeds, up.standard, color=MARKED, linewidth=2.2, label="ISO 6336-1, Method B")
-    for mesh, name in enumerate(up.mesh_names):
+    for mesh, (name, width) in enumerate(zip(up.mesh_names, layered(len(up.mesh_names)), strict=True)):
         colour, words = SERIES[mesh % len(SERIES)], plain(name) if len(up.mesh_names) > 1 else "this model"
         for chart, style, sense in ((up, "-", ", running up"), (down, "--", ", running down")):
             if chart is not None:
                 label = words + (sense if down is not None else "")
-                axes.plot(study.speeds, chart.factors[:, mesh], style, color=colour, linewidth=1.4, label=label)
+                axes.plot(study.speeds, chart.factors[:, mesh], style, color=colour, linewidth=width, label=label)
         _draw_jumps(axes, study, mesh)
     _draw_damped(axes, study)
     axes.set_xlim(float(study.speeds[0]), float(study.speeds[-1]))
@@ -88,9 +88,9 @@ def plot_shaft_overload(study: TrainStudy, ax: Axes | None = None) -> Axes:
     """Greatest torque of every shaft over its static one, where it has one, over speed."""
     axes = prepared(ax, SPEED_WORDS, "greatest torque over the static one")
     kept = study.up.referred_shafts
-    for shaft in kept:
+    for shaft, width in zip(kept, layered(len(kept)), strict=True):
         colour, words = SERIES[shaft % len(SERIES)], plain(study.up.shaft_names[shaft])
-        axes.plot(study.speeds, study.up.shaft_factors[:, shaft], color=colour, linewidth=1.4, label=words)
+        axes.plot(study.speeds, study.up.shaft_factors[:, shaft], color=colour, linewidth=width, label=words)
         if study.down is not None:
             axes.plot(study.speeds, study.down.shaft_factors[:, shaft], color=colour, linewidth=1.4, linestyle="--")
     factors = study.up.shaft_factors[:, kept]
@@ -219,9 +219,9 @@ def plot_course(study: TrainStudy, figure: Figure | None = None) -> Figure:
     ]
     for panel, (values, names, words) in zip(panels, each, strict=False):
         prepared(panel, "", words)
-        for number, name in enumerate(names):
+        for number, (name, width) in enumerate(zip(names, layered(len(names)), strict=True)):
             turn, drawn = _repeated(course.turn, values[:, number])
-            panel.plot(turn, drawn, color=SERIES[number % len(SERIES)], linewidth=1.3, label=plain(name))
+            panel.plot(turn, drawn, color=SERIES[number % len(SERIES)], linewidth=width, label=plain(name))
         if len(names) > 1:
             panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
     panels[1].axhline(0, color=MARKED, linewidth=0.8)

@@ -48,6 +48,9 @@ _LONGEST_LABEL = 60
 _LONGEST_LEGEND = 22
 """Characters of a line of text, those that typeset a symbol included."""
 
+_DECADES = 100.0
+"""Ratio of greatest to least value from which on an axis of contours is logarithmic: else most rows would lie on each other."""
+
 _MANY = 300
 """Points from which on they are drawn small."""
 
@@ -136,7 +139,9 @@ def plot_contours(points: Points, ax: Axes | None = None) -> Axes:
 
     key, x, y, z = _heights(points)
     grid = _grid(x, y, z)
-    surface = (_triangulation(x, y, key), z) if grid is None else grid
+    wide = _is_wide(x), _is_wide(y)
+    across, up = (_straightened(*each) for each in zip(wide, (x, y) if grid is None else grid[:2], strict=True))
+    surface = (_triangulation(across, up, key), z) if grid is None else (across, up, grid[2])
     if np.ptp(z) <= _SAME * np.abs(z).max():
         raise ParameterError("contour", key, f"is {format_number(float(z[0]))} everywhere; take another column")
     axes = _prepared(points, ax)
@@ -145,9 +150,10 @@ def plot_contours(points: Points, ax: Axes | None = None) -> Axes:
     colours = matplotlib.colormaps[_CONTOUR_MAP](np.linspace(0.0, _LIGHT, len(levels) - 1))
     filled = fill(*surface, levels, colors=colours)
     lines = draw(*surface, levels, colors="#333333", linewidths=0.7)
+    _set_wide(axes, wide, (x, y), (filled, lines))
     for number in axes.clabel(lines, fmt=format_number, fontsize=8):
-        number.set(path_effects=[withStroke(linewidth=2.5, foreground="white")], clip_on=False)
-    axes.plot(x, y, ".", color="black", markersize=2.0, alpha=0.5)
+        number.set(path_effects=[withStroke(linewidth=2.5, foreground="white")], clip_on=False, zorder=5)
+    _draw_points(axes, x, y)
     _add_colour_bar(axes, filled, key)
     return axes
 
@@ -195,6 +201,35 @@ def _triangulation(x: NDArray[np.float64], y: NDArray[np.float64], key: str) -> 
     except (RuntimeError, ValueError) as error:
         raise ParameterError("contour", key, "needs three points at least that do not lie in line") from error
     return Triangulation(x, y, scaled.triangles, flat)
+
+
+def _draw_points(axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64]) -> None:
+    """Where something was computed: dark, with a light rim that stands out of contours and lines; at the border whole."""
+    size, rim = (2.5, 0.3) if len(x) > _MANY else (4.5, 0.7)
+    axes.plot(x, y, "o", color="black", markersize=size, markeredgecolor="white", markeredgewidth=rim, clip_on=False, zorder=4)
+
+
+def _is_wide(values: NDArray[np.float64]) -> bool:
+    """True for values above 0 over more than two decades."""
+    return bool(values.min() > 0 and values.max() > _DECADES * values.min())
+
+
+def _straightened(wide: bool, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """As they lie on the paper: logarithms where the axis is logarithmic."""
+    import numpy as np
+
+    return np.log10(values) if wide else values
+
+
+def _set_wide(axes: Axes, wide: tuple[bool, bool], places: tuple[NDArray[np.float64], ...], drawn: tuple[Any, ...]) -> None:
+    """Logarithmic axes. What is `drawn` between logarithms goes where these belong: it is straight there from row to row."""
+    for number, values in enumerate(places):
+        if not wide[number]:
+            continue
+        for path in (path for contours in drawn for path in contours.get_paths()):
+            path.vertices[:, number] = 10 ** path.vertices[:, number]
+        (axes.set_ylim if number else axes.set_xlim)(float(values.min()), float(values.max()))
+        (axes.set_yscale if number else axes.set_xscale)("log")
 
 
 # ---------------------------------------------------------------------- the paper

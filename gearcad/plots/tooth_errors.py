@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 __all__ = ["plot_tooth_errors"]
 
+_APART = 0.02
+"""Of the height of the smooth curve: one that differs less from another is not drawn over it."""
+
 _ROOM = 1.16
 """Above the curves, for the names of natural frequencies."""
 
@@ -35,9 +38,7 @@ def plot_tooth_errors(study: TrainStudy, ax: Axes | None = None) -> Axes:
         axes.plot(study.speeds, study.up.standard, color=MARKED, linewidth=2.2, label="ISO 6336-1, Method B")
     for mesh, name in enumerate(found.mesh_names):
         _draw_mesh(axes, found, mesh, f"{plain(name)}, " if several else "")
-        colour = SERIES[mesh % len(SERIES)]
-        words = None if mesh else "smooth, no errors"
-        axes.plot(study.speeds, study.up.factors[:, mesh], ":", color=colour, linewidth=1.0, label=words)
+        _draw_smooth(axes, study, mesh)
     axes.set_xlim(float(found.speeds[0]), float(found.speeds[-1]))
     _set_height(axes, study, found)
     _mark_restless(axes, found)
@@ -51,12 +52,26 @@ def _draw_mesh(axes: Axes, found: ErrorStudy, mesh: int, owner: str) -> None:
     many = found.samples > 1
     if many:
         lower, upper = found.band
-        words = f"{owner}{100 * BAND[0]:g} % to {100 * BAND[1]:g} % of {found.samples} samples"
+        words = f"{owner}{100 * BAND[0]:g} % to {100 * BAND[1]:g} %"
         axes.fill_between(speeds, lower[:, mesh], upper[:, mesh], color=colour, alpha=0.25, linewidth=0, label=words)
     middle = "median" if many else "with errors" if found.grade is not None else "single teeth"
     axes.plot(speeds, found.median[:, mesh], color=colour, linewidth=1.4, label=f"{owner}{middle}")
     if found.grade is not None:
         axes.plot(speeds, found.nominal[:, mesh], "--", color=colour, linewidth=1.1, label=f"{owner}without errors")
+
+
+def _draw_smooth(axes: Axes, study: TrainStudy, mesh: int) -> None:
+    """K_v of the other charts, where teeth without errors do not have the same."""
+    assert study.errors is not None  # whoever draws has seen to it
+    found, smooth = study.errors, study.up.factors[:, mesh]
+    inside = (study.speeds >= found.speeds[0]) & (study.speeds <= found.speeds[-1])
+    others = [found.median[:, mesh], found.nominal[:, mesh]]
+    apart = [np.abs(np.interp(study.speeds, found.speeds, each) - smooth)[inside] for each in others]
+    if not inside.any() or min(float(each.max()) for each in apart) < _APART * max(float(np.ptp(smooth[inside])), 0.02):
+        return
+    known = "smooth" in axes.get_legend_handles_labels()[1]
+    colour = SERIES[mesh % len(SERIES)]
+    axes.plot(study.speeds, smooth, ":", color=colour, linewidth=1.2, label="" if known else "smooth")
 
 
 def _set_height(axes: Axes, study: TrainStudy, found: ErrorStudy) -> None:

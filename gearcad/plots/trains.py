@@ -49,6 +49,10 @@ _Node = tuple[str, str]
 """("inertia", name), or ("ground", name of the shaft that ends there)."""
 
 
+_BETWEEN = 8
+"""Steps of a shape that is drawn from one place where it is known to the next."""
+
+
 class _Way(NamedTuple):
     """A train laid out along x: `places` of inertias and of ends of shafts in the ground, in the length of shafts."""
 
@@ -93,18 +97,31 @@ def _draw_shape(axes: Axes, train: Train, modes: NaturalModes, mode: int, way: _
     prepared(axes, "", "")
     axes.grid(False, axis="x")
     axes.axhline(0, color=MARKED, linewidth=0.7)
-    scale = 1 / np.abs(np.concatenate([modes.shape[mode], modes.shaft_shape[mode].ravel()])).max()
+    along, shapes = _finely(modes, mode)
+    scale = 1 / np.abs(np.concatenate([modes.shape[mode], shapes.ravel()])).max()
     turn = {("inertia", name): scale * each for name, each in zip(modes.inertias, modes.shape[mode].tolist(), strict=True)}
     for node, place in way.places.items():
         axes.axvline(place, color="#dddddd", linewidth=0.6, zorder=0)
         axes.plot(place, turn.get(node, 0.0), "o" if node in turn else "|", color=DARK, markersize=5 if node in turn else 9)
-    for (_, start, end), shape in zip(way.shafts, modes.shaft_shape[mode], strict=True):
-        along = way.places[start] + modes.places * (way.places[end] - way.places[start])
-        axes.plot(along, scale * shape, color=SERIES[0], linewidth=1.6, zorder=1)
+    for (_, start, end), shape in zip(way.shafts, shapes, strict=True):
+        x = way.places[start] + along * (way.places[end] - way.places[start])
+        axes.plot(x, scale * shape, color=SERIES[0], linewidth=1.6, zorder=1)
     for mesh in train.meshes:
         ends: list[_Node] = [("inertia", mesh.pinion), ("inertia", mesh.wheel)]
         axes.plot([way.places[end] for end in ends], [turn[end] for end in ends], color=SERIES[1], linewidth=1.2, linestyle=":")
     axes.set_title(_title(modes, mode), fontsize=8, loc="left", pad=3)
+
+
+def _finely(modes: NaturalModes, mode: int) -> tuple[Floats, Floats]:
+    """Places (q,) along every shaft, those of the modes and more between, and the turns (s, q) there.
+
+    Half waves have few places where they are many: lines between these would cut their tops.
+    """
+    from scipy.interpolate import CubicSpline
+
+    parts = np.arange(_BETWEEN * (len(modes.places) - 1) + 1) / _BETWEEN
+    along = np.interp(parts, np.arange(len(modes.places)), modes.places)
+    return along, np.asarray(CubicSpline(modes.places, modes.shaft_shape[mode], axis=1)(along), float)
 
 
 def _title(modes: NaturalModes, mode: int) -> str:

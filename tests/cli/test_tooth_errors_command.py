@@ -129,7 +129,7 @@ def test_table_sentences_and_picture(study: TrainStudy) -> None:
     assert table.rows[1][1] == "at the speed asked for"
     axes = plot_tooth_errors(study, Figure().subplots())
     labels = [each.get_text() for each in axes.get_legend().get_texts()]
-    assert labels[0] == "5 % to 95 % of 12 samples"
+    assert labels[0] == "5 % to 95 %"
     drawn = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
     assert study.errors is not None
     assert np.asarray(drawn["median"]) == pytest.approx(study.errors.median[:, 0])

@@ -310,6 +310,20 @@ def test_contours_of_a_plane_are_where_they_belong(places: object) -> None:
         assert plane(*vertices.T) == pytest.approx(level, abs=SAME_PLACE)
 
 
+@pytest.mark.parametrize("places", [grid, scattered])
+def test_contours_over_many_decades_are_straight_between_logarithms(places: object) -> None:
+    x, y = places()
+    axes = plot_contours(points(10 ** (5 * x), y, plane(x, y)))
+    assert (axes.get_xscale(), axes.get_yscale()) == ("log", "linear")
+    off = [np.abs(plane(np.log10(v[:, 0]) / 5, v[:, 1]) - level) for level, v in lines_of(axes).items()]
+    assert len(off) >= 6
+    # matplotlib cuts a line on both sides of its number, where it takes it for straight without logarithms.
+    beside = np.concatenate(off) > SAME_PLACE
+    assert beside.sum() <= 2 * len(axes.texts)
+    assert np.concatenate(off).max() < 0.01
+    assert plot_contours(points(10 ** (2 * x), y, plane(x, y))).get_xscale() == "linear"
+
+
 def test_a_grid_in_any_order_is_a_grid() -> None:
     x, y = grid()
     order = np.random.default_rng(0).permutation(len(x))

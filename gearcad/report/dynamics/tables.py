@@ -37,8 +37,8 @@ _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 MOST_PEAKS = 12
 """Resonances of a mesh that are listed, the highest."""
 
-_LISTED = 3
-"""Peaks of a spectrum that the table of speeds names."""
+_LISTED = 2
+"""Peaks of a spectrum that the table of speeds names: more would make it too wide for a page."""
 
 
 class WordTable(NamedTuple):
@@ -225,14 +225,14 @@ def speed_table(study: CampbellStudy) -> WordTable:
     """Statistics of the motion at every speed of a Campbell study."""
     heads = (
         "rpm",
-        "tooth frequency, Hz",
-        "approach, mean, µm",
+        "tooth, Hz",
+        "mean, µm",
         "greatest",
-        "with the start",
+        "with start",
         "parted, %",
         "growth, 1/s",
         "digits lost",
-        "highest peaks, Hz",
+        "peaks, Hz",
         "",
     )
     columns = (study.mean_approach, study.greatest_approach, study.deepest)
