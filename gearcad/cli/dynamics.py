@@ -139,6 +139,7 @@ def _train_lines(study: TrainStudy) -> list[str]:
         *_error_lines(study),
         *_transient_lines(study),
         *displacement_lines(study),
+        *_campbell_lines(study),
     ]
 
 
@@ -169,6 +170,17 @@ def _pair_line(mesh: EngagedMesh) -> str:
     return (
         f"pair of {mesh.name}: {carried}; {cycle.mean:.5g} N/µm mean secant, {cycle.tangent_mean:.5g} tangent ({cycle.method})"
     )
+
+
+def _campbell_lines(study: TrainStudy) -> list[str]:
+    """Where spectra were integrated: at how many speeds, and what is chaotic or parts there."""
+    of = study.campbell
+    if of is None:
+        return []
+    parted = of.out_of_contact
+    flanks = f"flanks part for up to {100 * parted.max():.1f} %" if parted.any() else "flanks never part"
+    runs = f"spectra at {len(of.speeds)} speeds, {of.duration:g} s each after {of.settled:.3g} s"
+    return [f"{runs}: {int(of.chaotic.sum())} chaotic, {flanks}"]
 
 
 def _transient_lines(study: TrainStudy) -> list[str]:

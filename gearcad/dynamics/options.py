@@ -22,6 +22,9 @@ __all__ = ["OF_PAIRS", "OF_TRAINS_OF_PAIRS", "DynamicsOptions", "PairModel"]
 _CHART, _CAMPBELL, _DRAWN = 1000, 41, 200
 """Speeds where none are given."""
 
+_MOST_CAMPBELL = 101
+"""Speeds at which the motion of a mesh is integrated: a chart has more."""
+
 OF_PAIRS = "of pairs"
 """Marks what a train has in its own parts, or has no use for."""
 
@@ -73,7 +76,9 @@ class DynamicsOptions:
     first pinion; None: from the first speed of the chart up to the train's own, or else to the last of the chart), and a model
     is enough if its loads agree there within `level_tolerance` (part of the load at rest).
 
-    With `transient` the train runs in time as well, with a speed or torques that change.
+    With `transient` the train runs in time as well, with a speed or torques that change. With `campbell` "on" its motion is
+    integrated at 41 speeds of the chart (or so many as `speeds`, up to 101), each for `duration` (s) after it has settled,
+    sampled at `sampling` (Hz), for the spectra of a Campbell diagram; the contact model always has one.
 
     Of pairs: the `model`, "mesh" or "contact". `stiffness` is the method of `gearcad stiffness` for a mesh; "auto" is plane
     strain for spur gears, whose teeth come into mesh by and by under load, and potential energy for helical ones, strain energy
@@ -116,8 +121,9 @@ class DynamicsOptions:
     tooth_damping: Annotated[float | None, DAMPING, Words("damping of one pair of teeth"), OF_PAIRS] = None
     zone: Annotated[str, Member(EngagedPairs), Words("which pairs of teeth carry"), OF_PAIRS] = EngagedPairs.RIGID_TIPS.value
     transient: TransientOptions | None = None
-    duration: Annotated[float, DURATION, Words("time that each speed runs"), OF_PAIRS] = 1.0
-    sampling: Annotated[float, SAMPLING, Words("samples of each speed per second"), OF_PAIRS] = 200_000.0
+    campbell: Annotated[str, Choice(tuple(_SWITCH)), Words("whether spectra over speed are integrated")] = "off"
+    duration: Annotated[float, DURATION, Words("time that each speed runs")] = 1.0
+    sampling: Annotated[float, SAMPLING, Words("samples of each speed per second")] = 200_000.0
 
     __repr__ = concise
 
@@ -130,7 +136,8 @@ class DynamicsOptions:
             (role, stiffness), permitted = given[0], "must be given together with that of the other gear: both stand on "
             raise GeometryError(f"{role.value}_bearing_stiffness", stiffness, permitted + "bearings, or neither", "N/µm")
         if self.transient is not None and self.pair_model is PairModel.CONTACT:
-            raise GeometryError("transient", self.model, 'is for model "mesh": springs between single teeth run at even speeds')
+            permitted = 'must be "mesh" beside [dynamics.transient]: springs between single teeth run at even speeds'
+            raise GeometryError("model", self.model, permitted)
         if self.speed_from is not None and self.speed_to is not None and self.speed_to <= self.speed_from:
             raise GeometryError("speed_to", self.speed_to, f"must be above speed_from, {self.speed_from:g} rpm", "rpm")
         if self.operating_from is not None and self.operating_to is not None and self.operating_to <= self.operating_from:
@@ -170,6 +177,16 @@ class DynamicsOptions:
     def campbell_speeds(self) -> int:
         """How many speeds a Campbell study has."""
         return self.speeds or _CAMPBELL
+
+    @property
+    def spectra(self) -> bool:
+        """Whether the motion of a mesh is integrated over speed."""
+        return _SWITCH[self.campbell]
+
+    @property
+    def mesh_campbell_speeds(self) -> int:
+        """How many speeds that has: a chart may have thousands."""
+        return min(self.campbell_speeds, _MOST_CAMPBELL)
 
     def graded(self, rating: RatingOptions) -> DynamicsOptions:
         """With the accuracy grade of a rating, where there is none."""

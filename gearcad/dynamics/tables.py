@@ -10,8 +10,8 @@ import numpy as np
 from gearcad.arrays import Bools, Floats, Wholes
 from gearcad.dynamics.charts.findings import Charts
 from gearcad.dynamics.in_time.transient_result import Transient
-from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.tooth_springs.history import TimeHistory
+from gearcad.dynamics.tooth_springs.speed_spectra import SpeedSpectra
 from gearcad.dynamics.trains.eigenmodes import ComponentModes, NaturalModes
 from gearcad.mesh_cycle import MeshCycle
 
@@ -152,7 +152,7 @@ def cycle_columns(cycle: MeshCycle) -> Columns:
     }
 
 
-def campbell_columns(study: CampbellStudy) -> Columns:
+def campbell_columns(study: SpeedSpectra) -> Columns:
     """What the motion at each speed comes to, and the highest peaks of its spectrum; whole spectra are in the .npz file."""
     found: dict[str, Any] = {
         "speed (rpm)": study.speeds,

@@ -14,7 +14,10 @@ from gearcad.dynamics.charts.transmission import lines_that_matter
 from gearcad.dynamics.engagement import engaged, pair_notices
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.excitation.sources import train_excitation
+from gearcad.dynamics.in_time.campbell import mesh_campbell
+from gearcad.dynamics.in_time.mesh_campbell import MeshCampbell
 from gearcad.dynamics.in_time.transient import run_transient
+from gearcad.dynamics.in_time.transient_result import Transient
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.tooth_errors.result import ToothLaw
@@ -30,6 +33,7 @@ from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.modes import natural_modes
 from gearcad.dynamics.trains.parts import static_forces
 from gearcad.dynamics.trains.six_dof import PairOnBearings
+from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import GeometryError
 from gearcad.notice import Notice
@@ -51,6 +55,8 @@ _DRAWN, _DRAWN_OF_MANY = 1024, 256
 
 _LEAST_LINE, _MOST_LINES = 1e-4, 512
 """Of the greatest line of a spectrum: what a line must have to be listed; and so many at most."""
+_LINES = 4
+"""Natural frequencies that a Campbell diagram has."""
 
 _LOWER, _RUN_UP = 3.0, 60
 """Where flanks part at a speed beyond the chart, the run up to it begins at the speed over the first, and has so many steps."""
@@ -115,6 +121,7 @@ def study_train(
         heard, references = partial(tell, "transient"), over.up.shaft_references
         shaken = (train, charted, excitation)
         transient = run_transient(*shaken, options.transient, references=references, otherwise=course.speed, tell=heard)
+    spectra = _spectra(train, charted, excitation, options, charted_speeds, modes, tell) if options.spectra else None
     return TrainStudy(
         train=train,
         options=options,
@@ -131,11 +138,42 @@ def study_train(
             *coarse_elements(train, highest),
             *over.notices,
             *more,
-            *(transient.notices if transient is not None else ()),
+            *_notices(transient),
+            *_notices(spectra),
         ),
         method_b=method_b,
         errors=errors,
         transient=transient,
+        campbell=spectra,
+    )
+
+
+def _notices(run: Transient | MeshCampbell | None) -> tuple[Notice, ...]:
+    return () if run is None else run.notices
+
+
+def _spectra(
+    train: Train,
+    charted: System,
+    excitation: Excitation,
+    options: DynamicsOptions,
+    speeds: Floats,
+    modes: NaturalModes,
+    tell: Tell,
+) -> MeshCampbell:
+    """Over the speeds of the chart; lines are the natural frequencies whose modes bend teeth most."""
+    tell("campbell")
+    bent, count = modes.potential_meshes.max(axis=1, initial=0.0), options.mesh_campbell_speeds
+    most = [number for number in np.argsort(-bent)[:_LINES].tolist() if bent[number] > _SHARE]
+    return mesh_campbell(
+        train,
+        charted,
+        excitation,
+        np.linspace(options.speed_from or speeds[-1] / count, speeds[-1], count),
+        {f"mode {number + 1}": float(modes.frequency[number]) for number in sorted(most)},
+        duration=options.duration,
+        sampling=options.sampling,
+        counted=lambda done, of: tell("campbell", done / of),
     )
 
 

@@ -31,12 +31,14 @@ from gearcad.dynamics.charts.findings import (
     shaft_overloads,
 )
 from gearcad.dynamics.excitation.meshes import Excitation
+from gearcad.dynamics.in_time.mesh_campbell import MeshCampbell
 from gearcad.dynamics.in_time.transient_result import Transient
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.response.direction import Direction
 from gearcad.dynamics.tables import (
     Columns,
     Tables,
+    campbell_columns,
     chart_tables,
     cycle_columns,
     modal_tables,
@@ -169,8 +171,8 @@ class TrainStudy:
 
     `on_bearings` are the modes of the system of the charts, where its gears travel as well; `method_b` is K_v by
     ISO 6336-1. `found` is what the calculation itself has to say: `notices` are also those of the charts and modes. `errors` is
-    K_v with tooth errors that were drawn: the charts are then those of teeth without. `transient` is the run in time that was
-    asked for.
+    K_v with tooth errors that were drawn: the charts are then those of teeth without. `transient` and `campbell` are a run
+    with changing speed or torque, and spectra over speed, where they were asked for.
     """
 
     train: Train
@@ -187,6 +189,7 @@ class TrainStudy:
     method_b: DynamicFactor | None
     errors: ErrorStudy | None = None
     transient: Transient | None = None
+    campbell: MeshCampbell | None = None
 
     def __repr__(self) -> str:
         return f"<TrainStudy of {self.train.name!r}: {len(self.speeds)} speeds up to {self.speeds.max():.6g} rpm>"
@@ -300,6 +303,7 @@ class TrainStudy:
             "tooth_errors": None if self.errors is None else self.errors.to_dict(),
             "greatest": self.greatest.to_dict(),
             "transient": None if self.transient is None else self.transient.to_dict(),
+            "campbell": None if self.campbell is None else self.campbell.to_dict(),
             "resonances": [each.to_dict() for each in self.resonances],
             "shaft_overloads": [each._asdict() for each in self.shaft_overloads.values()],
             "greatest_amplitudes": [each.to_dict() for each in self.greatest_amplitudes],
@@ -322,7 +326,8 @@ class TrainStudy:
         if self.up.standard is not None:
             found["kv_iso6336"] = self.up.standard
         found |= {} if self.errors is None else self.errors.arrays()
-        return found | ({} if self.transient is None else self.transient.arrays())
+        found |= {} if self.transient is None else self.transient.arrays()
+        return found | ({} if self.campbell is None else self.campbell.arrays())
 
     def tables(self) -> Tables:
         """As the CSV files have them."""
@@ -335,4 +340,5 @@ class TrainStudy:
             **stacked("mesh", list(self.pairs), [{_CYCLES: cycle_columns(mesh.course.cycle)} for mesh in self.pairs.values()]),
         }
         found |= {} if self.errors is None else {"tooth errors": self.errors.columns()}
-        return found | ({} if self.transient is None else {"transient": transient_columns(self.transient)})
+        found |= {} if self.transient is None else {"transient": transient_columns(self.transient)}
+        return found | ({} if self.campbell is None else {"campbell": campbell_columns(self.campbell)})

@@ -177,10 +177,11 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
 
 
 def _steps(steps: Mapping[str, float], options: DynamicsOptions) -> Mapping[str, float]:
-    """With those of tooth errors that are drawn, and of a run with changing speed or torque."""
+    """With those of tooth errors that are drawn, and of motions in time."""
     drawn = options.drawn and options.pair_model is PairModel.MESH
     more = {_ERRORS: 2.0 * options.error_samples} if drawn else {}
-    return {**steps, **more, **({} if options.transient is None else {"transient": 10.0})}
+    more |= {} if options.transient is None else {"transient": 10.0}
+    return {**steps, **more, **({"campbell": 40.0} if options.spectra else {})}
 
 
 def _mesh_cycle(design: PairDesign, load: Load, options: DynamicsOptions) -> MeshCycle:

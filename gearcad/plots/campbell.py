@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
+from gearcad.dynamics.tooth_springs.speed_spectra import SpeedSpectra
 from gearcad.plots.paper import DARK, MARKED, SERIES, prepared, short
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ _CELLS = 280
 PINION_SPEED = "amplitude of pinion speed in rad/s"
 
 
-def plot_campbell(study: CampbellStudy, ax: Axes | None = None, highest: float = 7000.0) -> Axes:
+def plot_campbell(study: SpeedSpectra, ax: Axes | None = None, highest: float = 7000.0) -> Axes:
     """Amplitudes of the pinion's speed on a logarithmic scale, up to a frequency (Hz); lines of teeth and natural frequencies.
 
     A triangle above marks each chaotic speed: its column is a sample of what may come, not a result to be met again.
@@ -62,21 +63,21 @@ def _edges(speeds: np.ndarray) -> np.ndarray:
     return np.concatenate(([2 * speeds[0] - middle[0]], middle, [2 * speeds[-1] - middle[-1]]))
 
 
-def _draw_lines(study: CampbellStudy, axes: Axes, highest: float) -> None:
+def _draw_lines(study: SpeedSpectra, axes: Axes, highest: float) -> None:
     """Tooth frequencies, labelled where they leave the picture, natural frequencies, and marks of chaotic speeds."""
     from matplotlib.patheffects import AbstractPathEffect, withStroke
 
     right = axes.get_xlim()[1]
     outlined: list[AbstractPathEffect] = [withStroke(linewidth=2, foreground=DARK)]
     for harmonic in range(1, HARMONICS + 1):
-        slope = study.model.tooth_frequency(1.0, harmonic)
+        slope = harmonic * study.teeth / 60
         end = min(right, highest / slope)
         axes.plot([0, end], [0, slope * end], color="white", linewidth=0.8, linestyle=":", alpha=0.9)
         place = (end - 0.01 * right, slope * end - 0.01 * highest)
         label = axes.text(*place, f"{harmonic}", ha="right", va="top", fontsize=8, color="white")
         label.set_path_effects(outlined)
     axes.plot([], [], color=MARKED, linewidth=0.8, linestyle=":", label=f"tooth frequencies 1 ... {HARMONICS}")
-    for (name, frequency), style in zip(study.natural_frequencies.items(), ("--", "-."), strict=False):
+    for (name, frequency), style in zip(study.natural_frequencies.items(), cycle(("--", "-.")), strict=False):
         words = f"natural, {name}: {short(frequency)} Hz"
         axes.axhline(frequency, color=SERIES[1], linewidth=0.9, linestyle=style, label=words)
     chaotic = study.speeds[study.chaotic]

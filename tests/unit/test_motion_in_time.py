@@ -65,8 +65,8 @@ def one_stage(**more: object) -> Train:
 def test_a_step_of_a_mode_is_the_exponential(square: float, damping: float, h: float) -> None:
     """Coordinate, rate times the step, force times its square, and the force's change over the step."""
     rate, pull = damping * h, square * h * h
-    if max(rate, pull) > 3e6:
-        pytest.skip("scipy's exponential has no digits left")
+    if max(rate, pull) > 3e6:  # scipy's exponential has no digits left: the next test is of such steps
+        return
     whole = expm(np.array([[0, 1, 0, 0], [-pull, -rate, 1, 0], [0, 0, 0, 1], [0, 0, 0, 0]], float))
     ((zz, zv, vz, vv, z0, z1, v0, v1),) = propagators(np.array([square], float), np.array([damping], float), h)
     found = np.array([[zz, zv / h, (z0 + z1) / h**2, z1 / h**2], [vz * h, vv, (v0 + v1) / h, v1 / h]])
@@ -85,7 +85,7 @@ def test_a_stiff_and_hardly_tenable_mode_comes_to_rest_under_its_force() -> None
 # ---------------------------------------------------------------------- a motion, against an integration of its equations
 
 
-SPEEDS, LASTS = (1000.0, 3600.0), 0.006
+SPEEDS, LASTS = (1000.0, 3600.0), 0.003
 
 
 def _shaken() -> tuple[System, Excitation]:
@@ -111,7 +111,7 @@ def _integrated(of: System, excitation: Excitation, start: Start) -> Floats:
 
     x = np.concatenate([start.coordinates, start.rates])
     for begin, end, factor in ((0.0, middle, 1.0), (middle, LASTS, 0.2)):
-        found = solve_ivp(rates, (begin, end), x, "DOP853", args=(factor,), rtol=1e-10, atol=1e-15, max_step=1e-5)
+        found = solve_ivp(rates, (begin, end), x, "DOP853", args=(factor,), rtol=1e-10, atol=1e-15, max_step=2e-5)
         x = found.y[:, -1]
     return np.asarray(x, float)
 
@@ -125,7 +125,7 @@ def test_motion_converges_to_that_of_scipy_with_the_square_of_the_step() -> None
     torque = Line(time=np.array([0, LASTS / 3, LASTS / 3, LASTS]), value=np.array([1, 1, 0.2, 0.2]))
     course = Course(frequency=Line(time=np.array([0, LASTS]), value=np.array(SPEEDS)), torque=torque)
     scale, errors = float(np.linalg.norm(moving.at_rest().coordinates)), []
-    for count in (1500, 6000, 24000):
+    for count in (750, 3000, 12000):
         motion = moving.run(course, LASTS / count, count, stride=count)
         errors.append(float(np.linalg.norm(motion.end.coordinates - expected[: of.size])) / scale)
     assert errors[-1] < 2e-4

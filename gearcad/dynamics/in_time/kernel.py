@@ -49,7 +49,8 @@ class Model(NamedTuple):
     """A System of n modes and m meshes with the springs of its teeth; `rows` (n, r) are sums of coordinates to be known.
 
     Approaches, forces and errors count positive as the mean load presses the flanks. `driven` (n,) are what the modes feel of a
-    speed of the common period that rises by 1/s in a second; `scale` (1/s) weighs coordinates and rates in a disturbance.
+    speed of the common period that rises by 1/s in a second; `scale` (1/s) weighs coordinates and rates in a disturbance, and
+    `free` (n, r) are unit vectors of what turns as a whole, which is none.
 
     `marks` (m, 13) of each mesh are what the constants below name. `tables` (m, cells, 8) are cells of even width from the
     first to the last place of a tooth, each with the integral of stiffness before it, its mean, slope, the same three of
@@ -68,6 +69,7 @@ class Model(NamedTuple):
     teeth: Floats
     errors: Floats
     rows: Floats
+    free: Floats
     scale: float
 
 
@@ -85,14 +87,11 @@ _ERROR_START, _ERROR_COUNT, _ERROR_TEETH = 10, 11, 12
 
 
 class CourseTables(NamedTuple):
-    """Straight lines over time: turns of the common period per second with the turns before, the torque factor likewise."""
+    """Straight lines over time, rows of times, values and integrals up to them: turns of the common period per second (3, k),
+    whose integrals are turns, and the torque factor (3, l)."""
 
-    speed_time: Floats
     speed: Floats
-    turns: Floats
-    factor_time: Floats
     factor: Floats
-    factor_sum: Floats
 
 
 class State(NamedTuple):
@@ -210,15 +209,14 @@ def propagators(squares: Floats, damping: Floats, h: float) -> Floats:
 
 
 @inlined
-def _along(times: Floats, values: Floats, sums: Floats, cursor: int, t: float) -> tuple[float, float, int]:
+def _along(line: Floats, cursor: int, t: float) -> tuple[float, float, int]:
     """Value and integral at t of straight lines that go on level beyond their ends; the cursor never turns back."""
-    while cursor + 1 < times.size and times[cursor + 1] <= t:
+    while cursor + 1 < line.shape[1] and line[0, cursor + 1] <= t:
         cursor += 1
-    after = t - times[cursor]
-    if after < 0.0 or cursor + 1 == times.size:
-        return values[cursor], sums[cursor] + values[cursor] * after, cursor
-    slope = (values[cursor + 1] - values[cursor]) / (times[cursor + 1] - times[cursor])
-    return values[cursor] + slope * after, sums[cursor] + after * (values[cursor] + 0.5 * slope * after), cursor
+    after, slope = t - line[0, cursor], 0.0
+    if after >= 0.0 and cursor + 1 < line.shape[1]:
+        slope = (line[1, cursor + 1] - line[1, cursor]) / (line[0, cursor + 1] - line[0, cursor])
+    return line[1, cursor] + slope * after, line[2, cursor] + after * (line[1, cursor] + 0.5 * slope * after), cursor
 
 
 @inlined
@@ -320,93 +318,89 @@ def _eliminate(matrix: Floats, right: Floats) -> None:
 
 
 @inlined
-def _one_mesh(marks: Floats, springs: Floats, j: int, count: int, y: float, v: float, give: float, rate: float) -> float:
-    """Force of mesh j alone: its approach is y and the rate of it v, less `give` and `rate` for each newton.
+def _one_mesh(
+    marks: Floats, springs: Floats, j: int, count: int, y: float, v: float, give: float, rate: float
+) -> tuple[float, float, float]:
+    """Force of mesh j alone, what of it the springs carry, and their stiffness: its approach is y and the rate of that v, less
+    `give` and `rate` for each newton.
 
     Newton's steps inside a bracket: the springs never give way, so there is just one such force.
     """
-    damping = marks[j, _DAMPING]
-    part = give / (1.0 + damping * rate)
+    damped = marks[j, _DAMPING] * v
+    share = 1.0 / (1.0 + marks[j, _DAMPING] * rate)
+    part = give * share
     low, high, x = -np.inf, np.inf, y
+    spring, slope = _carried(marks, springs, j, count, x)
     for _ in range(_HALVINGS):
-        force, slope = _carried(marks, springs, j, count, x)
-        value = x - y + part * (force + damping * v)
+        value = x - y + part * (spring + damped)
+        if not abs(value) > _ALIKE * (abs(x) + abs(y)):  # nor where it is no number any more
+            break
         if value > 0.0:
             high = min(high, x)
         else:
             low = max(low, x)
-        following = x - value / (1.0 + part * slope)
-        if not low <= following <= high:
-            following = 0.5 * (low + high)
-        if abs(following - x) <= _ALIKE * (abs(x) + abs(y)):
-            break
-        x = following
-    force, _ = _carried(marks, springs, j, count, x)
-    found: float = (force + damping * v) / (1.0 + damping * rate)
-    return found
+        x -= value / (1.0 + part * slope)
+        if not low <= x <= high:
+            x = 0.5 * (low + high)
+        spring, slope = _carried(marks, springs, j, count, x)
+    return share * (spring + damped), spring, slope
 
 
 @inlined
-def _forces(
-    marks: Floats, springs: Floats, counts: Wholes, y: Floats, v: Floats, give: Floats, rate: Floats, force: Floats,
-    slopes: Floats, work: Floats
+def _together(
+    marks: Floats, springs: Floats, counts: Wholes, y: Floats, v: Floats, give: Floats, rate: Floats, found: Floats,
+    work: Floats
 ) -> bool:  # fmt: skip
-    """Forces (m,) of all meshes, where y and v less `give` and `rate` times these are their approaches.
+    """Rows of `found` - forces (m,) of all meshes, what of them springs carry, their stiffness - where y and v less `give` and
+    `rate` times the forces are the approaches and their rates.
 
-    Begins with the forces that are there. False where neither Newton's steps nor meshes in turn come to rest.
+    Begins with the forces that are there. False where Newton's steps do not come to rest.
     """
     m = y.size
-    if m == 1:
-        force[0] = _one_mesh(marks, springs, 0, counts[0], y[0], v[0], give[0, 0], rate[0, 0])
-        slopes[0] = _carried(marks, springs, 0, counts[0], y[0] - give[0, 0] * force[0])[1]
-        return True
     for _ in range(_NEWTON):
         done = True
         for j in range(m):
             here, speed = y[j], v[j]
             for k in range(m):
-                here -= give[j, k] * force[k]
-                speed -= rate[j, k] * force[k]
-            spring, slopes[j] = _carried(marks, springs, j, counts[j], here)
-            off = spring + marks[j, _DAMPING] * speed - force[j]
-            done &= abs(off) <= _ALIKE * (abs(spring) + abs(force[j]) + slopes[j] * abs(y[j]))
+                here -= give[j, k] * found[0, k]
+                speed -= rate[j, k] * found[0, k]
+            found[1, j], found[2, j] = _carried(marks, springs, j, counts[j], here)
+            off = found[1, j] + marks[j, _DAMPING] * speed - found[0, j]
+            done &= not abs(off) > _ALIKE * (abs(found[1, j]) + abs(found[0, j]) + found[2, j] * abs(y[j]))
             work[j, m] = off
             for k in range(m):
-                work[j, k] = slopes[j] * give[j, k] + marks[j, _DAMPING] * rate[j, k]
+                work[j, k] = found[2, j] * give[j, k] + marks[j, _DAMPING] * rate[j, k]
             work[j, j] += 1.0
         if done:
             return True
         _eliminate(work[:, :m], work[:, m])
         for j in range(m):
-            force[j] += work[j, m]
-    return _in_turn(marks, springs, counts, y, v, give, rate, force, slopes)
+            found[0, j] += work[j, m]
+    return False
 
 
 @compiled
 def _in_turn(
-    marks: Floats, springs: Floats, counts: Wholes, y: Floats, v: Floats, give: Floats, rate: Floats, force: Floats,
-    slopes: Floats
-) -> bool:  # fmt: skip
+    marks: Floats, springs: Floats, counts: Wholes, y: Floats, v: Floats, give: Floats, rate: Floats, found: Floats
+) -> bool:
     """The same, mesh after mesh until none changes any more."""
     m = y.size
     for _ in range(_SWEEPS):
         most, scale = 0.0, 0.0
         for j in range(m):
-            here, speed = y[j], v[j]
+            here, speed, before = y[j], v[j], found[0, j]
             for k in range(m):
                 if k != j:
-                    here -= give[j, k] * force[k]
-                    speed -= rate[j, k] * force[k]
-            found = _one_mesh(marks, springs, j, counts[j], here, speed, give[j, j], rate[j, j])
-            slopes[j] = _carried(marks, springs, j, counts[j], here - give[j, j] * found)[1]
-            most, scale = max(most, abs(found - force[j])), max(scale, abs(found) + slopes[j] * abs(y[j]))
-            force[j] = found
+                    here -= give[j, k] * found[0, k]
+                    speed -= rate[j, k] * found[0, k]
+            found[0, j], found[1, j], found[2, j] = _one_mesh(marks, springs, j, counts[j], here, speed, give[j, j], rate[j, j])
+            most, scale = max(most, abs(found[0, j] - before)), max(scale, abs(found[0, j]) + found[2, j] * abs(y[j]))
         if most <= _ALIKE * scale:
             return True
     return False
 
 
-# ---------------------------------------------------------------------- steps
+# ---------------------------------------------------------------------- a disturbance
 
 
 @inlined
@@ -439,8 +433,25 @@ def _disturb(
 
 
 @compiled
-def _measure(scale: float, dz: Floats, dv: Floats, df: Floats, growth: Floats) -> None:
-    """Add the growth of the disturbance to its account, and make it small again."""
+def _sum(rows: Floats, r: int, values: Floats) -> float:
+    """One of the sums of coordinates."""
+    total = 0.0
+    for i in range(values.size):
+        total += rows[i, r] * values[i]
+    return total
+
+
+@compiled
+def _measure(scale: float, free: Floats, dz: Floats, dv: Floats, df: Floats, growth: Floats) -> None:
+    """Add the growth of the disturbance to its account, and make it small again.
+
+    What turns as a whole is taken out: nothing damps it, so that after a while only rounding in it would be left.
+    """
+    for r in range(free.shape[1]):
+        turned, turning = _sum(free, r, dz), _sum(free, r, dv)
+        for i in range(dz.size):
+            dz[i] -= turned * free[i, r]
+            dv[i] -= turning * free[i, r]
     size = 0.0
     for i in range(dz.size):
         size += (scale * dz[i]) ** 2 + dv[i] ** 2
@@ -455,13 +466,78 @@ def _measure(scale: float, dz: Floats, dv: Floats, df: Floats, growth: Floats) -
     growth[2] = max(growth[2], growth[0] - growth[1])
 
 
+# ---------------------------------------------------------------------- steps
+
+
 @compiled
-def _sum(rows: Floats, r: int, values: Floats) -> float:
-    """One of the sums of coordinates."""
-    total = 0.0
-    for i in range(values.size):
-        total += rows[i, r] * values[i]
-    return total
+def _yielding(mesh: Floats, steps: Floats, column: int) -> Floats:
+    """(m, m): by how much approaches, or their rates, are less for each newton at the end of a step."""
+    n, m = mesh.shape
+    result = np.zeros((m, m))
+    for i in range(n):
+        for j in range(m):
+            for k in range(m):
+                result[j, k] += steps[i, column] * mesh[i, j] * mesh[i, k]
+    return result
+
+
+@inlined
+def _moved(
+    mesh: Floats, steps: Floats, z: Floats, v: Floats, push: Floats, load: Floats, driven: Floats, factor: float, faster: float,
+    still: bool, y: Floats, rates: Floats
+) -> None:  # fmt: skip
+    """Coordinates at the end of a step without the forces of the meshes there (or as they are), approaches and their rates."""
+    n, m = mesh.shape
+    for j in range(m):
+        y[j] = rates[j] = 0.0
+    for i in range(n):
+        pushed = factor * load[i] + faster * driven[i]
+        if not still:
+            before, speed = z[i], v[i]
+            z[i] = steps[i, 0] * before + steps[i, 1] * speed + steps[i, 4] * push[i] + steps[i, 5] * pushed
+            v[i] = steps[i, 2] * before + steps[i, 3] * speed + steps[i, 6] * push[i] + steps[i, 7] * pushed
+        push[i] = pushed
+        for j in range(m):
+            y[j] += mesh[i, j] * z[i]
+            rates[j] += mesh[i, j] * v[i]
+
+
+@inlined
+def _pressed(mesh: Floats, steps: Floats, z: Floats, v: Floats, push: Floats, forces: Floats, still: bool) -> None:
+    """The coordinates with the forces of the meshes, and what pushes them into the next step."""
+    n, m = mesh.shape
+    for i in range(n):
+        total = 0.0
+        for j in range(m):
+            total += mesh[i, j] * forces[j]
+        if not still:
+            z[i] -= steps[i, 5] * total
+            v[i] -= steps[i, 7] * total
+        push[i] -= total
+
+
+@inlined
+def _counted(crests: Floats, parted: Floats, reach: Floats, rows: Floats, window: int, found: Floats, z: Floats) -> None:
+    """Take one step into its window."""
+    for j in range(found.shape[1]):
+        force, spring = found[0, j], found[1, j]
+        crests[window, j, 0] = max(crests[window, j, 0], spring)
+        crests[window, j, 1] = min(crests[window, j, 1], spring)
+        crests[window, j, 2] = max(crests[window, j, 2], force)
+        parted[window, j] += spring == 0.0
+    for r in range(reach.shape[1]):
+        total = _sum(rows, r, z)
+        reach[window, r, 0], reach[window, r, 1] = max(reach[window, r, 0], total), min(reach[window, r, 1], total)
+
+
+@compiled
+def _written(records: Records, number: int, rows: Floats, found: Floats, y: Floats, z: Floats, v: Floats) -> None:
+    """The sample of that number."""
+    for j in range(y.size):
+        records.approach[number, j] = y[j]
+        records.total[number, j], records.spring[number, j] = found[0, j], found[1, j]
+    for r in range(rows.shape[1]):
+        records.sums[number, r], records.rates[number, r] = _sum(rows, r, z), _sum(rows, r, v)
 
 
 @compiled
@@ -471,98 +547,63 @@ def run(model: Model, course: CourseTables, h: float, begin: int, count: int, st
     Gives how many steps were made before the forces of one could not be found, or more than a base pitch passed in one: `count`
     if all could.
     """
-    mesh, marks, tables, teeth, errors_of, load, driven = (
-        model.mesh, model.marks, model.tables, model.teeth, model.errors, model.load, model.driven
-    )  # fmt: skip
-    state_z, state_v, force, dz, dv, df = state.z, state.v, state.force, state.dz, state.dv, state.df
-    rows, ends, crests, parted, reach = model.rows, records.ends, records.crests, records.parted, records.reach
-    approach, spring_at, total_at, sums, rates = records.approach, records.spring, records.total, records.sums, records.rates
+    # Arrays by themselves: to take one out of a tuple costs as much as to use it.
+    mesh, marks, tables, teeth, errors = model.mesh, model.marks, model.tables, model.teeth, model.errors
+    load, driven, rows = model.load, model.driven, model.rows
+    z, v, dz, dv, df = state.z, state.v, state.dz, state.dv, state.df
+    ends, crests, parted, reach, samples = records.ends, records.crests, records.parted, records.reach, len(records.approach)
+    speeds, factors = course.speed, course.factor
     n, m = mesh.shape
     steps = propagators(model.squares, model.damping, h)
-    give, rate = np.zeros((m, m)), np.zeros((m, m))
-    for i in range(n):
-        for j in range(m):
-            for k in range(m):
-                give[j, k] += steps[i, 5] * mesh[i, j] * mesh[i, k]
-                rate[j, k] += steps[i, 7] * mesh[i, j] * mesh[i, k]
-    most = 2
-    for j in range(m):
-        most = max(most, math.ceil(marks[j, _LAST] - marks[j, _FIRST] + _MOST_PASSED) + 1)
+    give, rate = _yielding(mesh, steps, 5), _yielding(mesh, steps, 7)
+    most = math.ceil((marks[:, _LAST] - marks[:, _FIRST]).max() + _MOST_PASSED) + 1
     springs, counts, work = np.zeros((m, most, 2)), np.zeros(m, np.int64), np.zeros((m, m + 1))
-    y, v, spring, slopes = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m)
-    errors, push = np.zeros(m), np.zeros(n)
-    speed_time, speed_at, turns_at = course.speed_time, course.speed, course.turns
-    factor_time, factor_at, factor_sum = course.factor_time, course.factor, course.factor_sum
-    t = (begin - 0.5) * h
-    speed, turns, at_speed = _along(speed_time, speed_at, turns_at, 0, t)
-    _, passed, at_factor = _along(factor_time, factor_at, factor_sum, 0, t)
+    y, rates, shift, push, found = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(n), np.zeros((3, m))
+    found[0] = state.force
+    speed, turns, at_speed = _along(speeds, 0, (begin - 0.5) * h)
+    _, passed, at_factor = _along(factors, 0, (begin - 0.5) * h)
     window, sampled = 0, 0
     for step in range(begin, begin + count + 1):
-        t = (step + 0.5) * h
+        still = step == begin
         speed_before, turns_before, passed_before = speed, turns, passed
-        speed, turns, at_speed = _along(speed_time, speed_at, turns_at, at_speed, t)
-        _, passed, at_factor = _along(factor_time, factor_at, factor_sum, at_factor, t)
+        speed, turns, at_speed = _along(speeds, at_speed, (step + 0.5) * h)
+        _, passed, at_factor = _along(factors, at_factor, (step + 0.5) * h)
         factor, faster = (passed - passed_before) / h, (speed - speed_before) / h
-        first = step == begin
-        for j in range(m):
-            y[j] = v[j] = 0.0
-        for i in range(n):
-            pushed = factor * load[i] + faster * driven[i]
-            if not first:
-                z, vz = state_z[i], state_v[i]
-                state_z[i] = steps[i, 0] * z + steps[i, 1] * vz + steps[i, 4] * push[i] + steps[i, 5] * pushed
-                state_v[i] = steps[i, 2] * z + steps[i, 3] * vz + steps[i, 6] * push[i] + steps[i, 7] * pushed
-            push[i] = pushed
-            for j in range(m):
-                y[j] += mesh[i, j] * state_z[i]
-                v[j] += mesh[i, j] * state_v[i]
+        _moved(mesh, steps, z, v, push, load, driven, factor, faster, still, y, rates)
         for j in range(m):
             from_place = marks[j, _ORDER] * turns_before + marks[j, _LEAD]
             to_place = marks[j, _ORDER] * turns + marks[j, _LEAD]
             if not (abs(to_place - from_place) <= _MOST_PASSED and abs(to_place) < _FARTHEST):
                 return step - begin - 1
-            counts[j], errors[j], change = _engage(marks, tables, teeth, errors_of, j, from_place, to_place, springs)
-            y[j] -= errors[j]
-            v[j] -= change * (to_place - from_place) / h
-        if first:
+            counts[j], shift[j], change = _engage(marks, tables, teeth, errors, j, from_place, to_place, springs)
+            y[j] -= shift[j]
+            rates[j] -= change * (to_place - from_place) / h
+        if still:
             for j in range(m):
-                spring[j], slopes[j] = _carried(marks, springs, j, counts[j], y[j])
-                force[j] = spring[j] + marks[j, _DAMPING] * v[j]
-        else:
-            if not _forces(marks, springs, counts, y, v, give, rate, force, slopes, work):
+                found[1, j], found[2, j] = _carried(marks, springs, j, counts[j], y[j])
+                found[0, j] = found[1, j] + marks[j, _DAMPING] * rates[j]
+        elif m == 1:
+            found[0, 0], found[1, 0], found[2, 0] = _one_mesh(
+                marks, springs, 0, counts[0], y[0], rates[0], give[0, 0], rate[0, 0]
+            )
+        elif not _together(marks, springs, counts, y, rates, give, rate, found, work):
+            if not _in_turn(marks, springs, counts, y, rates, give, rate, found):
                 return step - begin - 1
-            for i in range(n):
-                for j in range(m):
-                    state_z[i] -= steps[i, 5] * mesh[i, j] * force[j]
-                    state_v[i] -= steps[i, 7] * mesh[i, j] * force[j]
-            for j in range(m):
-                for k in range(m):
-                    y[j] -= give[j, k] * force[k]
-                spring[j], _ = _carried(marks, springs, j, counts[j], y[j])
-            if dz.size:
-                _disturb(mesh, marks, steps, dz, dv, df, give, rate, slopes, work)
-                if step % _APART == 0:
-                    _measure(model.scale, dz, dv, df, state.growth)
-        for i in range(n):
-            for j in range(m):
-                push[i] -= mesh[i, j] * force[j]
-        if first and begin > 0:
+        _pressed(mesh, steps, z, v, push, found[0], still)
+        if dz.size and not still:
+            _disturb(mesh, marks, steps, dz, dv, df, give, rate, found[2], work)
+            if step % _APART == 0:
+                _measure(model.scale, model.free, dz, dv, df, state.growth)
+        if still and begin > 0:
             continue
-        if step % records.stride == 0 and sampled < approach.shape[0]:
+        if step % records.stride == 0 and sampled < samples:
             for j in range(m):
-                approach[sampled, j], spring_at[sampled, j], total_at[sampled, j] = y[j] + errors[j], spring[j], force[j]
-            for r in range(sums.shape[1]):
-                sums[sampled, r], rates[sampled, r] = _sum(rows, r, state_z), _sum(rows, r, state_v)
+                y[j] = _sum(mesh, j, z)
+            _written(records, sampled, rows, found, y, z, v)
             sampled += 1
         while window < ends.size and step >= ends[window]:
             window += 1
         if window < ends.size:
-            for j in range(m):
-                crests[window, j, 0] = max(crests[window, j, 0], spring[j])
-                crests[window, j, 1] = min(crests[window, j, 1], spring[j])
-                crests[window, j, 2] = max(crests[window, j, 2], force[j])
-                parted[window, j] += spring[j] == 0.0
-            for r in range(reach.shape[1]):
-                total = _sum(rows, r, state_z)
-                reach[window, r, 0], reach[window, r, 1] = max(reach[window, r, 0], total), min(reach[window, r, 1], total)
+            _counted(crests, parted, reach, rows, window, found, z)
+    state.force[:] = found[0]
     return count

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Motion", "MovingSystem", "Start"]
 
+_NO_SQUARE = 1e-11
+"""Of the greatest square of a natural frequency: rounding."""
+
 _CHUNK = 2_000_000
 """Steps between two looks at whether anybody wants to stop."""
 
@@ -99,6 +102,11 @@ class MovingSystem:
         laws = lumped_laws(excitation, system.stiffness, pressed)
         return cls(system=system, laws=laws, senses=pressed, driven=np.zeros(system.size) if driven is None else driven)
 
+    @property
+    def rows(self) -> int:
+        """How many turns and torques a sample has."""
+        return len(self._rows[0])
+
     def at_rest(self) -> Start:
         """Under the mean load, with the meshes at their mean stiffness."""
         return Start(coordinates=static_state(self.system).modal, rates=np.zeros(self.system.size))
@@ -163,6 +171,13 @@ class MovingSystem:
         return math.sqrt(float((self.system.mesh**2 @ self.system.stiffness).max()))
 
     @cached_property
+    def _free(self) -> Floats:
+        """(n, r): what turns as a whole."""
+        squares, modes = np.linalg.eigh(self.system.stiffness_matrix())
+        result: Floats = modes[:, squares <= _NO_SQUARE * squares.max()]
+        return result
+
+    @cached_property
     def _rows(self) -> Floats:
         return np.hstack([self.system.inertias, self.system.shaft_torques])
 
@@ -195,6 +210,7 @@ class MovingSystem:
             teeth=_plain(np.array([positions, flat("slope")[0]])),
             errors=_plain(errors),
             rows=_plain(self._rows),
+            free=_plain(self._free),
             scale=self._scale,
         )
 
@@ -202,8 +218,8 @@ class MovingSystem:
         from gearcad.dynamics.in_time.kernel import CourseTables
 
         speed, torque = course.frequency, course.torque
-        tables = (speed.time, speed.value, course.turns + speed.sums, torque.time, torque.value, torque.sums)
-        return CourseTables(*map(_plain, tables))
+        turns = np.array([speed.time, speed.value, course.turns + speed.sums])
+        return CourseTables(_plain(turns), _plain(np.array([torque.time, torque.value, torque.sums])))
 
     def _disturbance(self, size: int) -> tuple[Floats, Floats, Floats]:
         """A push on all meshes: it turns nothing as a whole."""

@@ -95,11 +95,11 @@ def _steps(moving: MovingSystem, options: TransientOptions, quickest: float, fir
     if numbers > _MOST_NUMBERS:
         highest = _down(wanted * _MOST_NUMBERS / numbers)
         text = f"must be at most {highest} Hz for {duration:g} s: the courses would have {numbers:.2g} numbers"
-        raise ParameterError("transient.sampling", wanted, text, "Hz")
+        raise ParameterError("dynamics.transient.sampling", wanted, text, "Hz")
     if count > _MOST_STEPS:
         most = duration * _MOST_STEPS / count
         text = f"must be at most {_down(most)} s: {count:.2g} steps of {step:.2g} s are more than {_MOST_STEPS:.2g}"
-        raise ParameterError("transient.duration", duration, text, "s")
+        raise ParameterError("dynamics.transient.duration", duration, text, "s")
     return step, stride, count
 
 

@@ -41,7 +41,8 @@ class TransientOptions:
     def __post_init__(self) -> None:
         require_fields(self)
         if self.torque_to is None and (self.torque_at is not None or self.torque_over):
-            raise GeometryError("torque_to", None, "must be given where torque_at or torque_over is: the factor at the end")
+            key = "torque_over" if self.torque_at is None else "torque_at"
+            raise GeometryError(key, getattr(self, key), "needs torque_to, the factor of the torques at the end", "s")
         if self.torque_to is not None and self.changes_at + self.torque_over > self.duration:
             key = "torque_over" if self.torque_over else "torque_at"
             most = self.duration - (self.changes_at if self.torque_over else 0.0)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.threads import on_all_cores
 from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.tooth_springs.contact_model import ContactModel
 from gearcad.dynamics.tooth_springs.history import Start
@@ -72,15 +71,7 @@ def campbell(
         )
 
     # Integration and FFT leave the interpreter to other threads: no motion is held longer than its row takes.
-    rows: list[_SpeedRow] = []
-    with ThreadPoolExecutor(_cores()) as pool:
-        try:
-            for done, found in enumerate(pool.map(row, checked)):
-                rows.append(found)
-                counted(min(done + 1, len(checked) - 1), len(checked))
-        except BaseException:
-            pool.shutdown(cancel_futures=True)  # what is raised, such as Ctrl-C, waits for none that has not begun
-            raise
+    rows = on_all_cores(row, checked, counted)
     columns = {name: np.array(values) for name, values in zip(_SpeedRow._fields, zip(*rows, strict=True), strict=True)}
     frequency = np.arange(columns["approach"].shape[1]) * (sampling / checked_samples(duration, sampling))
     arrays = {"speeds": np.array(checked), "frequency": frequency, **columns}
@@ -97,7 +88,3 @@ def _checked_speeds(speeds: Sequence[float]) -> Sequence[float]:
         if number and speed <= speeds[number - 1]:
             raise ParameterError(f"speeds[{number}]", speed, f"must be above {speeds[number - 1]:g} rpm: speeds rise", "rpm")
     return speeds
-
-
-def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -1,58 +1,27 @@
-"""CampbellStudy: spectra of a pair's motion over a range of speeds, and which speeds are chaotic."""
+"""CampbellStudy: spectra of a pair of single teeth over a range of speeds."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gearcad.arrays import Floats
 from gearcad.dynamics.tooth_springs.contact_model import ContactModel
-from gearcad.dynamics.tooth_springs.spectra import SpectralPeak, Spectrum
-from gearcad.errors import ParameterError
-from gearcad.notice import Notice, texts
+from gearcad.dynamics.tooth_springs.speed_spectra import SpeedSpectra
+from gearcad.notice import Notice
 
 __all__ = ["CampbellStudy"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class CampbellStudy:
-    """Amplitudes (s, m) over speeds (s,) of the pinion in rpm and frequencies (m,) in Hz; `duration` in s, `sampling` in Hz.
-
-    `pinion_speed` is in rad/s, `approach` of the flanks in µm; both spectra cover the whole time, the first column is the mean.
-    `mean_approach` and `greatest_approach` (s,) in µm, `out_of_contact` (share of the time) and `growth` of a disturbance (1/s)
-    are those of the second half; `deepest` (s,) is the greatest approach in the whole time, the start from y = 0 included.
-    `chaotic` (s,) are the speeds at which a disturbance loses more than 6 digits (`digits_lost`): only statistics count there.
-    """
+class CampbellStudy(SpeedSpectra):
+    """That of a contact model, each speed from the same start: `deepest` has the start from y = 0 in it."""
 
     model: ContactModel
-    speeds: Floats
-    duration: float
-    sampling: float
-    frequency: Floats
-    pinion_speed: Floats
-    approach: Floats
-    mean_approach: Floats
-    greatest_approach: Floats
-    deepest: Floats
-    out_of_contact: Floats
-    growth: Floats
-    digits_lost: Floats
-    chaotic: NDArray[np.bool_]
 
-    def spectrum(self, speed: float) -> Spectrum:
-        """Of the pinion's speed at one of the speeds (rpm)."""
-        return Spectrum(self.frequency, self.pinion_speed[self._index(speed)])
-
-    def peaks(self, speed: float, count: int = 6) -> tuple[SpectralPeak, ...]:
-        """Highest peaks of the pinion's speed (Hz, rad/s) at one of the speeds (rpm)."""
-        return self.spectrum(speed).peaks(count)
-
-    def tooth_frequencies(self, harmonic: int = 1) -> Floats:
-        """i z_1 n/60 (s,) in Hz at every speed, of a harmonic i."""
-        return self.model.tooth_frequency(1.0, harmonic) * self.speeds
+    @property
+    def teeth(self) -> int:
+        return self.model.teeth.pinion
 
     @property
     def natural_frequencies(self) -> dict[str, float]:
@@ -73,33 +42,4 @@ class CampbellStudy:
                 f" the module of {self.model.normal_module:g} mm: no teeth do that"
             )
             found.append(Notice("deep-penetration", text))
-        if self.chaotic.any():
-            listed = ", ".join(f"{speed:g}" for speed in self.speeds[self.chaotic])
-            text = f"chaotic at {listed} rpm: spectra there change with the last digit of any input, statistics do not"
-            found.append(Notice("chaotic", text))
-        return tuple(found)
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """The notices in words."""
-        return texts(self.notices)
-
-    def to_dict(self) -> dict[str, Any]:
-        """A row per speed, for JSON; the spectra themselves are arrays."""
-        names = ("mean_approach", "greatest_approach", "deepest", "out_of_contact", "growth", "digits_lost", "chaotic")
-        return {
-            "duration": self.duration,
-            "sampling": self.sampling,
-            "natural_frequencies": self.natural_frequencies,
-            "speeds": self.speeds.tolist(),
-            **{name: getattr(self, name).tolist() for name in names},
-            "peaks": [[list(peak) for peak in self.peaks(speed)] for speed in self.speeds],
-            "warnings": list(self.warnings),
-            "notices": [notice.to_dict() for notice in self.notices],
-        }
-
-    def _index(self, speed: float) -> int:
-        found = np.flatnonzero(np.isclose(self.speeds, speed, rtol=1e-12, atol=1e-9))
-        if len(found) == 0:
-            raise ParameterError("speed", speed, "must be one of the study's speeds", "rpm")
-        return int(found[0])
+        return (*found, *super().notices)

@@ -252,7 +252,16 @@ def _speed_figures(study: TrainStudy) -> list[Picture]:
         address = picture_address(partial(plot_tooth_errors, study), "svg", _WIDE)
         found.append(Picture("Dynamic factor with tooth errors", address, _said("tooth_errors", study)))
     found.append(_figure("Course at one speed", partial(plot_course, study), course_inches(study), _said("course", study)))
-    return found + _transient_figures(study)
+    return found + _transient_figures(study) + _campbell_figures(study)
+
+
+def _campbell_figures(study: TrainStudy) -> list[Picture]:
+    """Spectra over speed, where there are any."""
+    of = study.campbell
+    if of is None:
+        return []
+    diagram = picture_address(partial(plot_campbell, of, highest=float(of.frequency[-1])), "svg", _TALL)
+    return [Picture("Campbell diagram", diagram, _said("mesh_campbell", of))]
 
 
 def _transient_figures(study: TrainStudy) -> list[Picture]:

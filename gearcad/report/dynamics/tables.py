@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from gearcad.dynamics.charts.findings import MetMode
-from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
+from gearcad.dynamics.tooth_springs.speed_spectra import SpeedSpectra
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
 from gearcad.dynamics.trains.eigenmodes import ComponentModes, NaturalModes
 from gearcad.dynamics.trains.engaged_mesh import EngagedMesh
@@ -221,7 +221,7 @@ def factor_text(factor: float) -> str:
     return f"{factor:.3f}" if factor < 10 else short(factor)
 
 
-def speed_table(study: CampbellStudy) -> WordTable:
+def speed_table(study: SpeedSpectra) -> WordTable:
     """Statistics of the motion at every speed of a Campbell study."""
     heads = (
         "rpm",
