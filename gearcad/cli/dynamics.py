@@ -195,7 +195,8 @@ def _transient_lines(study: TrainStudy) -> list[str]:
     lines = [f"in time: {', '.join(given)}, {options.duration:g} s by {1e6 * run.step:.3g} µs"]
     for mesh, each in enumerate(run.greatest):
         lasting = study.lasting(mesh)
-        more = "" if lasting is None else f"; what lasts at these speeds: {lasting:.3f}"
+        where = "speeds" if run.whole_load.all() else "speeds and torques"
+        more = "" if lasting is None else f"; what lasts at these {where}: {lasting:.3f}"
         lines.append(f"greatest force of {each.name}: {each.factor:.3f} at {each.time:.4g} s, {each.speed:.5g} rpm{more}")
     lines += [
         f"greatest torque of {each.name}: {each.factor:.3f} at {each.time:.4g} s, {each.speed:.5g} rpm"

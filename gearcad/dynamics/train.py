@@ -282,6 +282,7 @@ def _drawn(train: Train, response: PeriodicResponse, samples: int) -> Course:
         turn=phases[::step],
         approach=1e6 * response.approach(count=count)[0, ::step],
         force=(spring + response.damping_forces(count=count))[0, ::step],
+        spring_force=spring[0, ::step],
         shaft_torque=response.shaft_torques(count=count)[0, ::step],
         order=response.harmonics[kept] / response.excitation.orders[0],
         line=lines[kept],

@@ -66,9 +66,9 @@ _CYCLES = "mesh stiffness"
 class Course:
     """One speed (rpm of the first pinion) over the common period: `turn` (t,) in tooth periods of the first mesh.
 
-    `approach` (t, m) of the flanks in µm, `force` (t, m) in N with that of the dampers, `shaft_torque` (t, n) in N·m; `kv` (m,)
-    is K_v of each mesh there. The approach is the dynamic transmission error: `line` (q, m) are its amplitudes (µm) at `order`
-    (q,), multiples of the tooth frequency of the first mesh.
+    `approach` (t, m) of the flanks in µm, `force` (t, m) in N with that of the dampers, `spring_force` (t, m) without it,
+    `shaft_torque` (t, n) in N·m; `kv` (m,) is K_v of each mesh there. The approach is the dynamic transmission error: `line`
+    (q, m) are its amplitudes (µm) at `order` (q,), multiples of the tooth frequency of the first mesh.
     """
 
     speed: float
@@ -76,6 +76,7 @@ class Course:
     turn: Floats
     approach: Floats
     force: Floats
+    spring_force: Floats
     shaft_torque: Floats
     order: Floats
     line: Floats
@@ -92,6 +93,7 @@ class Course:
             **named_columns("approach", meshes, self.approach, "µm"),
             **named_columns("force", meshes, self.force, "N"),
             **named_columns("shaft_torque", shafts, self.shaft_torque, "N·m"),
+            **named_columns("spring_force", meshes, self.spring_force, "N"),
         }
 
     def line_columns(self, meshes: Sequence[str], teeth: int) -> Columns:
@@ -243,7 +245,10 @@ class TrainStudy:
         return {each.shaft: each for each in shaft_overloads(self.charts)}
 
     def lasting(self, mesh: int) -> float | None:
-        """The greatest K_v of a mesh that lasts at the speeds of the run in time, running as it runs; None beyond the chart."""
+        """The greatest force over the static one that lasts at the speeds and torques of the run in time, running as it runs.
+
+        None beyond the chart, and where the torques change and forces do not follow them in proportion.
+        """
         if self.transient is None or not self.transient.speed_changes:
             return None
         speeds = np.abs(self.transient.window_speed)
@@ -251,7 +256,26 @@ class TrainStudy:
         chart = self.up if rising or self.down is None else self.down
         within = (self.speeds >= speeds.min()) & (self.speeds <= speeds.max())
         covered = self.speeds[0] <= 1.01 * speeds.max() and speeds.max() <= 1.01 * self.speeds[-1] and within.any()
-        return float(chart.factors[within, mesh].max()) if covered else None
+        if not covered:
+            return None
+        if self.transient.whole_load.all():
+            return float(chart.factors[within, mesh].max())
+        lasting = self.lasting_course(chart, mesh)
+        return float(lasting.max()) if np.isfinite(lasting).all() else None
+
+    def lasting_course(self, chart: KvChart, mesh: int) -> Floats:
+        """What lasts at the speed and torque of every window of the run in time (w,); nan where that is not known.
+
+        Where flanks stay together and teeth have no errors, forces are the torques' times those under the whole load.
+        """
+        run = self.transient
+        assert run is not None  # whoever asks has it
+        speeds = np.abs(run.window_speed)
+        within = (self.speeds >= 0.99 * speeds.min()) & (self.speeds <= 1.01 * speeds.max())
+        parts = self.excitation.parting and bool(chart.apart[within].any() or run.window_torque.min() < 0)
+        known = run.whole_load if parts or any(each.error is not None for each in self.excitation.meshes) else True
+        lasting = np.abs(run.window_torque) * np.interp(speeds, self.speeds, chart.factors[:, mesh])
+        return np.where(known, lasting, np.nan)
 
     @cached_property
     def greatest_amplitudes(self) -> tuple[GreatestAmplitude, ...]:

@@ -208,13 +208,16 @@ def course_inches(study: TrainStudy) -> tuple[float, float]:
 
 
 def plot_course(study: TrainStudy, figure: Figure | None = None) -> Figure:
-    """Approach of the flanks, force between them over the static one, and torques of the shafts over some tooth periods."""
+    """Approach of the flanks, force between them over the static one, and torques of the shafts over some tooth periods.
+
+    The force is that of the springs, which K_v counts; thin, with that of the dampers.
+    """
     of = new_figure(course_inches(study)) if figure is None else figure
     course, shafts = study.course, study.up.shaft_names
     panels = of.subplots(2 + bool(shafts), 1, sharex=True)
     each = [
         (course.approach, study.up.mesh_names, "approach in µm"),
-        (course.force / study.up.static_forces, study.up.mesh_names, "force / static one"),
+        (course.spring_force / study.up.static_forces, study.up.mesh_names, "force / static one"),
         (course.shaft_torque, shafts, "shaft torque in N·m"),
     ]
     for panel, (values, names, words) in zip(panels, each, strict=False):
@@ -224,6 +227,9 @@ def plot_course(study: TrainStudy, figure: Figure | None = None) -> Figure:
             panel.plot(turn, drawn, color=SERIES[number % len(SERIES)], linewidth=width, label=plain(name))
         if len(names) > 1:
             panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
+    for number, force in enumerate((course.force / study.up.static_forces).T):
+        colour = SERIES[number % len(SERIES)]
+        panels[1].plot(*_repeated(course.turn, force), ":", color=colour, linewidth=0.8, zorder=1.5)
     panels[1].axhline(0, color=MARKED, linewidth=0.8)
     panels[1].axhline(1, color=MARKED, linewidth=0.8, linestyle="--")
     name = f" of {plain(study.up.mesh_names[0])}" if len(study.up.mesh_names) > 1 else ""

@@ -219,8 +219,10 @@ def test_shading_covers_the_unstable_speeds(train: TrainStudy) -> None:
 def test_course_is_closed_and_comes_again(train: TrainStudy) -> None:
     course = train.course
     approach, force, torque = plot_course(train).axes
-    for panel, values in ((approach, course.approach), (force, course.force / train.up.static_forces)):
-        for number, line in enumerate(panel.lines[:2]):
+    springs, whole = (each / train.up.static_forces for each in (course.spring_force, course.force))
+    assert springs.max(axis=0) == pytest.approx(course.kv, rel=1e-3)
+    for lines, values in ((approach.lines, course.approach), (force.lines[:2], springs), (force.lines[2:], whole)):
+        for number, line in enumerate(lines[:2]):
             drawn = np.asarray(line.get_ydata(), float)
             assert drawn[: len(values)].tolist() == values[:, number].tolist()
             assert drawn[0] == drawn[-1] and line.get_xdata()[-1] == pytest.approx(3.0)

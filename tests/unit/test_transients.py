@@ -163,6 +163,25 @@ def test_slow_runs_up_and_down_jump_where_the_charts_do() -> None:
         )
 
 
+def test_what_lasts_has_the_torques_of_the_run_where_forces_follow_them() -> None:
+    bonded = pair(variation=0.2, damping_ratio=0.04)
+    centre = resonance(bonded) * 60 / (2 * np.pi * 20)
+    step = TransientOptions(speed_from=0.7 * centre, speed_to=0.8 * centre, duration=0.4, torque_to=2.0)
+    options = DynamicsOptions(speed_from=0.6 * centre, speed_to=1.2 * centre, speeds=100, transient=step)
+    study = study_train(bonded, options)
+    assert study.transient is not None
+    # The second half, after the step has died away: the run itself says what lasts.
+    late = study.transient.middles > 0.3
+    np.testing.assert_allclose(study.lasting_course(study.up, 0)[late], study.transient.factor[late, 0], rtol=0.01)
+    assert study.lasting(0) == pytest.approx(2 * np.interp(0.8 * centre, study.speeds, study.up.factors[:, 0]), rel=0.01)
+    # Flanks that part at these speeds are not in proportion to their load.
+    through = replace(step, speed_from=0.8 * centre, speed_to=1.1 * centre)
+    parted = study_train(pair(variation=0.25, damping_ratio=0.04, backlash=100.0), replace(options, transient=through))
+    assert parted.up.apart.any() and parted.transient is not None
+    assert np.array_equal(np.isfinite(parted.lasting_course(parted.up, 0)), parted.transient.whole_load)
+    assert parted.lasting(0) is None
+
+
 # ---------------------------------------------------------------------- what cannot be run
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gearcad.arrays import Floats, freeze
 from gearcad.dynamics.in_time.transient_options import TransientOptions
@@ -86,6 +87,16 @@ class Transient:
     def speeds(self) -> tuple[float, float]:
         """At the beginning and at the end (rpm)."""
         return float(self.speed[0]), float(self.window_speed[-1]) if len(self.speed) < 2 else float(self.speed[-1])
+
+    @property
+    def window_torque(self) -> Floats:
+        """The factor of the torques (w,) in the middle of the windows."""
+        return np.asarray(np.interp(self.middles, self.time, self.torque), float)
+
+    @property
+    def whole_load(self) -> NDArray[np.bool_]:
+        """In which windows (w,) the torques are those of the train."""
+        return np.asarray(np.abs(self.window_torque - 1) < 1e-9)
 
     @property
     def speed_changes(self) -> bool:

@@ -23,7 +23,7 @@ from gearcad.plots.speeds import (
 )
 from gearcad.plots.tooth_errors import plot_tooth_errors
 from gearcad.plots.trains import MOST_SHAPES, energies_inches, plot_energies, plot_shapes, shapes_inches
-from gearcad.plots.transient import plot_transient, plot_transient_factors, transient_inches
+from gearcad.plots.transient import factors_inches, plot_transient, plot_transient_factors, transient_inches
 from gearcad.report.check.figures import Picture, figure_address, pair_picture, picture_address
 from gearcad.report.check.tables import gear_rows, pair_rows
 from gearcad.report.dynamics.displacements import (
@@ -268,8 +268,8 @@ def _transient_figures(study: TrainStudy) -> list[Picture]:
     """Of a run with changing speed or torque, where there is one."""
     run, found = study.transient, []
     if run is not None and run.speed_changes:
-        address = picture_address(partial(plot_transient_factors, study, run), "svg", _WIDE)
-        found.append(Picture("Run with changing speed", address, _said("transient_factors", study, run)))
+        over = partial(plot_transient_factors, study, run)
+        found.append(_figure("Run with changing speed", over, factors_inches(run), _said("transient_factors", study, run)))
     if run is not None:
         draw = partial(plot_transient, run)
         found.append(_figure("Run over time", draw, transient_inches(run), _said("transient", run)))
