@@ -16,7 +16,8 @@ def beside_lines(study: SideBySide) -> list[str]:
     from gearcad.dynamics.levels.result import LevelStudy
 
     wide = max(len(label) for label in (study.what, *study.labels))
-    lines = [f"natural frequencies in 1/s, those that move alike below each other; {study.what}:"]
+    what = f"{study.what} ({study.key})" if study.key else study.what
+    lines = [f"natural frequencies in 1/s, those that move alike below each other; {what}:"]
     for at, label in enumerate(study.labels):
         shown = ("–" if group[at] is None else f"{group[at]:.6g}" for group in study.natural_frequencies)
         lines.append(f"  {label:<{wide}}  {' '.join(f'{each:<9}' for each in shown)}".rstrip())

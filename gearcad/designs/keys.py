@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
@@ -51,7 +51,11 @@ __all__ = [
     "explain_unknown_table",
     "nearest_key",
     "nearest_table",
+    "permitted_words",
 ]
+
+_MOST_LISTED, _NEAREST = 12, 5
+"""Permitted keys that a line can bear; and of more those that it names."""
 
 Fields = Mapping[str, Mapping[str, FieldSchema]]
 """What the keys of the tables of a kind of designs say of themselves."""
@@ -231,7 +235,15 @@ def explain_unknown_key(table: str, key: str) -> str:
     known = KEYS[table]
     if (near := _nearest(key, FIELDS[table], known)) is not None:
         return f"unknown key; did you mean {near}?"
-    return f"unknown key; permitted are {', '.join(known)}"
+    return f"unknown key; {permitted_words(key, known) if table == 'dynamics' else 'permitted are ' + ', '.join(known)}"
+
+
+def permitted_words(key: str, permitted: Collection[str]) -> str:
+    """What may stand in the place of a key that is like none: of many the nearest."""
+    if len(permitted) <= _MOST_LISTED:
+        return f"permitted are {', '.join(permitted)}"
+    nearest = difflib.get_close_matches(key, permitted, n=_NEAREST, cutoff=0.0)
+    return f"the nearest of the {len(permitted)} permitted are {', '.join(nearest)}"
 
 
 def nearest_key(key: str, fields: Mapping[str, FieldSchema]) -> str | None:

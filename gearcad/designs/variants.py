@@ -29,11 +29,13 @@ Value = Cell | tuple[Cell, ...]
 
 @dataclass(frozen=True)
 class Variants:
-    """Designs that differ in `what`, in words with units; `labels` say how, one for each."""
+    """Designs that differ in `what`, in words with units; `labels` say how, one for each: by the values of one `key`, or, where
+    it is "", in words."""
 
     what: str
     labels: tuple[str, ...]
     designs: tuple[Design, ...]
+    key: str = ""
 
 
 def read_variants(spec: Path | str, variations: Sequence[str]) -> Variants:
@@ -57,7 +59,8 @@ def read_variants(spec: Path | str, variations: Sequence[str]) -> Variants:
     names = _short([each.key for each in several])
     labels = [_label({names[key]: point[key] for key in names}) for point in points]
     what = ", ".join(_words(key) for key in names)
-    return Variants(what, tuple(labels), tuple(_design(base, point) for point in points))
+    key = several[0].key if len(several) == 1 else ""
+    return Variants(what, tuple(labels), tuple(_design(base, point) for point in points), key)
 
 
 def _require_few(read: Sequence[Choices]) -> None:

@@ -56,7 +56,9 @@ class SameResonance(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SideBySide:
-    """Studies of a train `name` that differ in `what`, in words or by its key; `labels` say how, one for each.
+    """Studies of a train `name` that differ in `what`, in words; `labels` say how, one for each.
+
+    Where labels are values of one key of the spec, that is the `key`: else it is "".
 
     Raises ParameterError unless there are as many labels as studies, all different, and the same meshes in all.
     """
@@ -65,6 +67,7 @@ class SideBySide:
     what: str
     labels: tuple[str, ...]
     studies: tuple[TrainStudy, ...]
+    key: str = ""
 
     def __post_init__(self) -> None:
         if len(self.labels) != len(self.studies) or len(set(self.labels)) != len(self.labels) or not self.labels:
@@ -74,6 +77,15 @@ class SideBySide:
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} of {self.name!r}: {self.what} {', '.join(self.labels)}>"
+
+    def title(self, label: str) -> str:
+        """What a label stands for, as charts and headings have it."""
+        return f"{self.key} = {label}" if self.key else label
+
+    @property
+    def titles(self) -> tuple[str, ...]:
+        """Of all studies."""
+        return tuple(map(self.title, self.labels))
 
     @property
     def reference(self) -> int:

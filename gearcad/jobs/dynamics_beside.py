@@ -32,7 +32,8 @@ class DynamicsBeside(Dynamics):
         for number, (label, each) in enumerate(zip(self.variants.labels, designs, strict=True)):
             own = None if progress is None else partial(_told, progress, label, number, count)
             studies.append(_over_speed(super()._run(each, own)))
-        return SideBySide(name=design.name, what=self.variants.what, labels=self.variants.labels, studies=tuple(studies))
+        of = self.variants
+        return SideBySide(name=design.name, what=of.what, labels=of.labels, studies=tuple(studies), key=of.key)
 
 
 def _told(progress: Progress, label: str, before: int, count: int, step: str, done: float, of: float) -> None:
@@ -52,7 +53,10 @@ def _require_chart(design: PairDesign | TrainDesign) -> None:
                 "vary", None, "needs meshes: without teeth a train has no load over speed to be laid over another"
             )
     elif (design.dynamics or DynamicsOptions()).pair_model is PairModel.CONTACT:
-        permitted = 'must be "mesh" to vary something: a contact model has no K_v over speed to be laid over another'
+        permitted = (
+            'must be "mesh" to vary something: a contact model has a Campbell diagram, and no K_v over speed to be laid over '
+            "another; give one value at a time by --vary, with a folder of its own for each (-o)"
+        )
         raise ParameterError("dynamics.model", PairModel.CONTACT.value, permitted)
 
 

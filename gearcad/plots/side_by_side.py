@@ -35,6 +35,9 @@ _SPEED = "speed of the pinion in rpm"
 _PANEL, _ABOVE, _ROW = 2.9, 0.5, 4
 """Inches of a panel, and of axis and legend; studies in a row of the legend."""
 
+_SHORT = 20
+"""Letters of a title of which so many stand in a row."""
+
 _WIDE = 20.0
 """Ratio of greatest to least value above which the axis is logarithmic."""
 
@@ -94,12 +97,12 @@ def plot_errors_beside(of: SideBySide, figure: Figure | None = None) -> Figure:
     for mesh, (panel, name) in enumerate(zip(panels, of.mesh_names, strict=True)):
         prepared(panel, _SPEED if panel is panels[-1] else "", f"{plain(name)}: $K_{{\\mathrm{{v}}}}$ with errors")
         for width, (label, found) in zip(layered(len(of.errors)), of.errors.items(), strict=True):
-            panel.plot(found.speeds, found.median[:, mesh], color=colours[label], linewidth=width, label=plain(label))
+            panel.plot(found.speeds, found.median[:, mesh], color=colours[label], linewidth=width, label=plain(of.title(label)))
             if found.samples > 1:
                 panel.plot(found.speeds, found.band[1][:, mesh], "--", color=colours[label], linewidth=1.1)
         ends = [float(end) for found in of.errors.values() for end in (found.speeds[0], found.speeds[-1])]
         panel.set_xlim(min(ends), max(ends))
-    legend_above(panels[0], _ROW)
+    legend_above(panels[0], _ROW if max(map(len, of.titles)) <= _SHORT else _ROW - 1)
     return drawn
 
 
@@ -121,14 +124,14 @@ def _panels(
             for (_, chart), style in zip(study.charts.directions(), ("-", "--"), strict=False):
                 values = curve(study, chart, name)
                 if values is not None:
-                    words_of = plain(label) if style == "-" else ""
+                    words_of = plain(of.title(label)) if style == "-" else ""
                     panel.plot(study.speeds, values, style, color=colour, linewidth=width, label=words_of)
                     shown.append(values)
         panel.set_xlim(min(speeds), max(speeds))
         if isinstance(of, LevelStudy):
             _mark_range(panel, of.over)
         _set_scale(panel, np.concatenate(shown))
-    legend_above(panels[0], _ROW)
+    legend_above(panels[0], _ROW if max(map(len, of.titles)) <= _SHORT else _ROW - 1)
     return drawn
 
 

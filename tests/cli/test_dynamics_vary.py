@@ -94,6 +94,14 @@ def test_an_overlay_is_its_separate_runs_bit_by_bit(here: Path) -> None:
         assert all(np.array_equal(over[f"{value}/{name}"], arrays[name], equal_nan=True) for name in arrays)
 
 
+def test_a_label_is_shown_with_its_key(here: Path) -> None:
+    (here / "spec.toml").write_text(STARTER, encoding="utf-8")
+    one = read_variants("spec.toml", ["shaft.*.damping_ratio=0.02,0.1", "train.speed=900"])
+    assert one.key == "shaft.*.damping_ratio" and one.labels == ("0.02", "0.1")
+    several = read_variants("spec.toml", ["shaft.*.damping_ratio=0.02,0.1", "train.speed=900,1000"])
+    assert several.key == "" and several.labels[0].startswith("damping ratio 0.02, ")
+
+
 def test_one_value_is_set(here: Path) -> None:
     found, _ = study(ONE_STAGE, "train.model=exact", "shaft.output.diameter=20")
     by_hand = ONE_STAGE.replace('model = "modes" ', 'model = "exact" ').replace("diameter = 18.5", "diameter = 20")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gearcad.designs.keys import permitted_words
 from gearcad.dynamics.idle_options import idle_in_contact, idle_without_levels, undamped_bearings
 from gearcad.dynamics.options import DynamicsOptions
 
@@ -26,3 +27,9 @@ def test_bearings_without_damping() -> None:
     assert not undamped_bearings(DynamicsOptions()) and not undamped_bearings(DynamicsOptions(**given, bearing_damping=10.0))
     (one,) = undamped_bearings(DynamicsOptions(**given))
     assert one.code == "undamped-bearings" and "bearing_damping" in one.text
+
+
+def test_an_unknown_key_names_the_nearest_of_many() -> None:
+    words = permitted_words("xyzzy", [f"key_{number}" for number in range(30)])
+    assert words.startswith("the nearest of the 30 permitted are ") and words.count(",") == 4
+    assert permitted_words("xyzzy", ["a", "b"]) == "permitted are a, b"

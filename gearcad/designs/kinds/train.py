@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from gearcad.designs.design import Accepted, Design, DesignKind, require_plain_name
 from gearcad.designs.files import Where
+from gearcad.designs.keys import permitted_words
 from gearcad.designs.kinds.train_pairs import read_pair
 from gearcad.designs.train_keys import PARTS, TRAIN, TrainKey
 from gearcad.designs.train_values import missing_fault
@@ -190,9 +191,8 @@ class _Reader:
             raise SpecError(f"{self.where(owner)}: {owner} = {format_number(content)}: must be a table")
         for key in content:
             if key not in permitted:
-                near = difflib.get_close_matches(key, permitted, n=1)
-                hint = f"did you mean {near[0]}?" if near else f"permitted are {', '.join(permitted)}"
-                raise SpecError(f"{self.where(f'{owner}.{key}')}: {shown(f'{owner}.{key}')}: unknown key; {hint}")
+                words = shown(f"{owner}.{key}")
+                raise SpecError(f"{self.where(f'{owner}.{key}')}: {words}: unknown key; {_hint(key, permitted)}")
         return dict(content)
 
     @contextmanager
@@ -217,6 +217,13 @@ class _Reader:
             if found is not None and f"{found.table}.{found.name}" in self.names.values():
                 return str(found)
         return f"{owner}.{field}"
+
+
+def _hint(key: str, permitted: tuple[str, ...]) -> str:
+    """What may stand in the place of an unknown key; of many the nearest."""
+    if near := difflib.get_close_matches(key, permitted, n=1):
+        return f"did you mean {near[0]}?"
+    return permitted_words(key, permitted)
 
 
 def _models(given: Any) -> tuple[TrainModel, ...]:

@@ -16,6 +16,12 @@ _ACROSS = "travel across the line of action"
 """Of gears whose bearings are alike in all directions there is none."""
 
 
+_MICROMETRES = "µm"
+
+_NOISE = 1e-9
+"""Of the greatest amplitude: travel across that is no more comes from rounding."""
+
+
 class GreatestAmplitude(NamedTuple):
     """Half of peak to peak of what `quantity` of an inertia, a mesh or a gear says, in `unit`, where it is greatest.
 
@@ -56,9 +62,9 @@ def greatest_amplitudes(charts: Charts) -> tuple[GreatestAmplitude, ...]:
     found = []
     for quantity, unit, name in courses[0][1]:
         most = _most(charts, [(direction, each[quantity, unit, name]) for direction, each in courses])
-        if most[0] or quantity != _ACROSS:
-            found.append(GreatestAmplitude(quantity, name, most[0], unit, *most[1:]))
-    return tuple(found)
+        found.append(GreatestAmplitude(quantity, name, most[0], unit, *most[1:]))
+    noise = _NOISE * max((each.amplitude for each in found if each.unit == _MICROMETRES), default=0.0)
+    return tuple(each for each in found if each.quantity != _ACROSS or each.amplitude > noise)
 
 
 def greatest_bearing_forces(charts: Charts) -> tuple[GreatestBearingForce, ...]:
@@ -75,11 +81,11 @@ def _amplitudes(chart: KvChart) -> dict[tuple[str, str, str], Floats]:
     """Over speed (s,), by quantity, unit, and name of what moves."""
     moved, bearings = chart.displacements, chart.bearings
     found = {("turn", "arcsec", name): turn for name, turn in zip(moved.inertia_names, moved.turns.T, strict=True)}
-    found |= {("approach", "µm", name): each for name, each in zip(moved.mesh_names, moved.approaches.T, strict=True)}
+    found |= {("approach", _MICROMETRES, name): each for name, each in zip(moved.mesh_names, moved.approaches.T, strict=True)}
     if bearings is not None:
         for i, gear in enumerate(bearings.gears):
-            found["travel along the line of action", "µm", gear] = bearings.travels_along[:, i]
-            found[_ACROSS, "µm", gear] = bearings.travels_across[:, i]
+            found["travel along the line of action", _MICROMETRES, gear] = bearings.travels_along[:, i]
+            found[_ACROSS, _MICROMETRES, gear] = bearings.travels_across[:, i]
     return found
 
 

@@ -78,4 +78,4 @@ def frequency_table(of: SideBySide) -> WordTable:
         (str(number), *(_NONE if each is None else short(each) for each in group))
         for number, group in enumerate(of.natural_frequencies, 1)
     ]
-    return WordTable(("", *of.labels), rows)
+    return WordTable(("", *of.titles), rows)

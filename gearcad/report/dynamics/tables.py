@@ -171,7 +171,7 @@ def shape_table(modes: NaturalModes) -> WordTable:
     """Turns of the inertias in every mode, their squares summing up to 1."""
     heads = ("turns in mode", "1/s", *modes.inertias)
     rows = [
-        (str(number), short(circular), *(f"{turn:.4f}" for turn in shape))
+        (str(number), short(circular), *(f"{turn:z.4f}" for turn in shape))
         for number, (circular, shape) in enumerate(zip(modes.circular, modes.unit_shape, strict=True), 1)
     ]
     return WordTable(heads, rows)
@@ -183,7 +183,7 @@ def component_table(modes: ComponentModes) -> WordTable:
     rows = []
     for number, circular in enumerate(modes.circular.tolist(), 1):
         turns = (*modes.shape[number - 1], *modes.middle[number - 1])
-        cells = (f"{turn:.2f}" if turn else _NONE for turn in turns)
+        cells = (f"{turn:z.2f}" if turn else _NONE for turn in turns)
         rows.append((str(number), short(circular / (2 * math.pi)), short(circular), *cells))
     return WordTable(heads, rows)
 
