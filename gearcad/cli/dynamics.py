@@ -41,9 +41,11 @@ def dynamics(spec: Path, variations: tuple[str, ...], output: Path | None, as_js
 
     A train has its natural frequencies and modes, and the overload of its meshes and shafts over speed, for shafts that are
     left out, springs or continua (model). A pair by itself has its dynamic factor K_v beside that of ISO 6336-1, with flanks
-    that part; with model "contact" in [dynamics] its Campbell diagram. Inertias come from the gears' own solids, mesh stiffness
-    from one of the methods of `gearcad stiffness`. Writes dynamics.html, dynamics.json, dynamics.npz (the arrays)
-    and a CSV for every chart and table; of a train whose meshes are those of pairs also a spec of each pair under its load.
+    that part; with model "contact" in [dynamics] its Campbell diagram. Both run in time as well: with changing speed or torques
+    by [dynamics.transient], or for the spectra of a Campbell diagram by campbell = "on". Inertias come from the gears' own
+    solids, mesh stiffness from one of the methods of `gearcad stiffness`. Writes dynamics.html, dynamics.json, dynamics.npz
+    (the arrays) and a CSV for every chart and table; of a train whose meshes are those of pairs also a spec of each pair under
+    its load.
 
     \b
     --vary train.model=exact                       this value in place of the spec's
