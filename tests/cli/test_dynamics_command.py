@@ -85,6 +85,7 @@ def test_a_train(here: Path) -> None:
         assert arrays["kv"][:, 0].tolist() == document["chart"]["kv"]["mesh"]
 
 
+@pytest.mark.usefixtures("no_report")
 def test_a_new_train_is_sent_to_its_command(here: Path) -> None:
     result = run("new", "train-2")
     assert result.stderr == "Next: gearcad dynamics train-2-stage.toml\n"
@@ -126,6 +127,7 @@ def test_a_pair_without_further_data(here: Path) -> None:
     assert document["course"]["speed"] == pytest.approx(6000, rel=1e-12)
 
 
+@pytest.mark.usefixtures("no_report")
 def test_a_small_pair_has_dynamics_without_the_standard(here: Path) -> None:
     """ISO 1328-1 ends at module 0.5: only the comparison with ISO 6336-1 goes, with the reason."""
     small = PAIR.replace(
@@ -195,6 +197,7 @@ def test_pitch_deviations_given_or_drawn(here: Path) -> None:
     assert found[2] == found[3] != found[4]
 
 
+@pytest.mark.usefixtures("no_report")
 def test_a_chart_without_a_motion_that_parts_says_so(here: Path) -> None:
     """The branch of motions turns back before the first speed of the chart: the linear vibration is left, and a warning."""
     wild = TRAIN.replace("variation = 0.206", "variation = 0.3\nbacklash = 80.0").replace(
@@ -211,6 +214,7 @@ def test_a_chart_without_a_motion_that_parts_says_so(here: Path) -> None:
     )
 
 
+@pytest.mark.usefixtures("no_report")
 def test_tooth_errors_and_flanks_that_part_are_too_much(here: Path) -> None:
     text = PAIR.replace("speeds = 40", "speeds = 20\nspeed_to = 30000.0\ntooth_errors = 'on'")
     result = run("dynamics", spec(text), "--quiet")
@@ -313,6 +317,7 @@ def test_other_commands_send_a_train_here(here: Path, command: str) -> None:
     assert result.stderr == said
 
 
+@pytest.mark.usefixtures("no_report")
 def test_one_accuracy_grade_for_the_standard(here: Path) -> None:
     """That of [rating], unless [dynamics] has its own."""
     charts = []
@@ -331,6 +336,7 @@ def test_one_accuracy_grade_for_the_standard(here: Path) -> None:
     assert not any("K_v of ISO 6336-1" in warning for warning in charts[0]["warnings"])
 
 
+@pytest.mark.usefixtures("no_report")
 def test_why_the_standard_has_no_factor(here: Path) -> None:
     result = run("dynamics", spec(PAIR + "[material]\ngroup = 'V'\n"), "--quiet")
     assert result.exit_code == 0, result.output
