@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
-__all__ = ["on_all_cores"]
+__all__ = ["cores", "on_all_cores"]
 
 Item = TypeVar("Item")
 Found = TypeVar("Found")
@@ -18,7 +18,7 @@ def on_all_cores(
 ) -> list[Found]:
     """What `work` makes of each of the items, in their order; `counted` hears how many are done, and of how many."""
     found: list[Found] = []
-    with ThreadPoolExecutor(_cores()) as pool:
+    with ThreadPoolExecutor(cores()) as pool:
         try:
             for done, each in enumerate(pool.map(work, items)):
                 found.append(each)
@@ -29,5 +29,6 @@ def on_all_cores(
     return found
 
 
-def _cores() -> int:
+def cores() -> int:
+    """That this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from gearcad.dynamics.in_time.steps import settling_time, step_for
 from gearcad.dynamics.threads import on_all_cores
 from gearcad.dynamics.tooth_springs.history import CHAOTIC_DIGITS, SETTLED
 from gearcad.dynamics.tooth_springs.spectra import amplitude_spectrum
+from gearcad.dynamics.tooth_springs.speed_spectra import SpeedRow
 from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import ParameterError, SolverError
@@ -34,20 +34,6 @@ _MOST_STEPS = 4_000_000_000
 
 _SETTLES = 2.0
 """Durations of a speed for which its motion settles at the most."""
-
-
-class _Row(NamedTuple):
-    """What is kept of one speed."""
-
-    pinion_speed: Floats
-    approach: Floats
-    mean_approach: float
-    greatest_approach: float
-    deepest: float
-    out_of_contact: float
-    growth: float
-    digits_lost: float
-    chaotic: bool
 
 
 def mesh_campbell(
@@ -76,7 +62,7 @@ def mesh_campbell(
     _require_room(moving, count // stride, (count + settling) * len(speeds), duration, sampling)
     pinion = system.names[1].index(first.pinion)
 
-    def row(speed: float) -> _Row | None:
+    def row(speed: float) -> SpeedRow | None:
         frequency = speed * per_rpm
         try:
             start = moving.run(Course.steady(frequency), step, settling).end if settling else None
@@ -92,7 +78,7 @@ def mesh_campbell(
     if not kept.any():
         raise SolverError("the motion grows beyond all numbers at every speed of the Campbell diagram")
     found = [each for each in rows if each is not None]
-    columns = {name: np.array(values) for name, values in zip(_Row._fields, zip(*found, strict=True), strict=True)}
+    columns = {name: np.array(values) for name, values in zip(SpeedRow._fields, zip(*found, strict=True), strict=True)}
     arrays = {
         "speeds": np.array(speeds[kept]),
         "frequency": np.arange(columns["approach"].shape[1]) * (sampling * stride / count),
@@ -134,14 +120,14 @@ def _require_room(moving: MovingSystem, samples: int, steps: int, duration: floa
         raise ParameterError("dynamics.duration", duration, permitted, "s")
 
 
-def _row(motion: Motion, speed: float, pinion: int, sampling: float, highest: float, parting: bool) -> _Row:
+def _row(motion: Motion, speed: float, pinion: int, sampling: float, highest: float, parting: bool) -> SpeedRow:
     """In the units of the house."""
     approach = 1e6 * motion.approach[:, 0]
     later = approach[round(SETTLED * len(approach)) :]
     turning = speed * math.pi / 30 + motion.speeds[:, pinion]
     total, gain = motion.growth
     digits = gain / math.log(10)
-    return _Row(
+    return SpeedRow(
         amplitude_spectrum(turning, sampling, highest).amplitude,
         amplitude_spectrum(approach, sampling, highest).amplitude,
         float(later.mean()),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
@@ -17,6 +16,7 @@ import numpy as np
 from gearcad.arrays import Bools, Floats
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.response.flexibility import StaticState, senses, static_state
+from gearcad.dynamics.threads import cores
 from gearcad.dynamics.tooth_errors.patterns import repeated_teeth, single_pattern, smooth_pattern
 from gearcad.dynamics.tooth_errors.result import ToothLaw
 from gearcad.dynamics.tooth_errors.teeth import Draw, MeshTeeth
@@ -152,10 +152,10 @@ class Sampling:
 
         Every sample runs up by itself: what comes of it does not depend on the others. `tell` hears of the part that is done.
         """
-        width = min(_WIDEST, math.ceil(len(draws) / _cores()))
+        width = min(_WIDEST, math.ceil(len(draws) / cores()))
         blocks = [draws[i : i + width] for i in range(0, len(draws), width)]
         stop, done = Event(), [0] * len(blocks)
-        with ThreadPoolExecutor(min(_cores(), len(blocks))) as pool:
+        with ThreadPoolExecutor(min(cores(), len(blocks))) as pool:
             tasks = [pool.submit(self._block, frequencies, block, stop, done, i) for i, block in enumerate(blocks)]
             try:
                 while wait(tasks, timeout=_GLANCE).not_done and not _failed(tasks):
@@ -266,7 +266,3 @@ class Sampling:
 
 def _failed(tasks: Sequence[Future[Run]]) -> bool:
     return any(task.done() and task.exception() is not None for task in tasks)
-
-
-def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.arrays import Floats
 from gearcad.dynamics.threads import on_all_cores
 from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.tooth_springs.contact_model import ContactModel
 from gearcad.dynamics.tooth_springs.history import Start
 from gearcad.dynamics.tooth_springs.motion import checked_samples, time_history
+from gearcad.dynamics.tooth_springs.speed_spectra import SpeedRow
 from gearcad.errors import ParameterError, require_number
 
 __all__ = ["campbell"]
@@ -21,20 +20,6 @@ __all__ = ["campbell"]
 
 HIGHEST_FREQUENCY = 15000.0
 """Default end of the spectra (Hz): twice the tooth frequency of the thesis's fastest speed, and more."""
-
-
-class _SpeedRow(NamedTuple):
-    """What a study keeps of one speed."""
-
-    pinion_speed: Floats
-    approach: Floats
-    mean_approach: float
-    greatest_approach: float
-    deepest: float
-    out_of_contact: float
-    growth: float
-    digits_lost: float
-    chaotic: bool
 
 
 def campbell(
@@ -55,10 +40,10 @@ def campbell(
     checked_samples(duration, sampling)
     require_number("highest_frequency", highest_frequency, "Hz", above=0)
 
-    def row(speed: float) -> _SpeedRow:
+    def row(speed: float) -> SpeedRow:
         motion = time_history(model, speed, duration=duration, sampling=sampling, start=start)
         settled = motion.settled
-        return _SpeedRow(
+        return SpeedRow(
             motion.spectrum(highest_frequency).amplitude,
             motion.approach_spectrum(highest_frequency).amplitude,
             float(settled.mean()),
@@ -72,7 +57,7 @@ def campbell(
 
     # Integration and FFT leave the interpreter to other threads: no motion is held longer than its row takes.
     rows = on_all_cores(row, checked, counted)
-    columns = {name: np.array(values) for name, values in zip(_SpeedRow._fields, zip(*rows, strict=True), strict=True)}
+    columns = {name: np.array(values) for name, values in zip(SpeedRow._fields, zip(*rows, strict=True), strict=True)}
     frequency = np.arange(columns["approach"].shape[1]) * (sampling / checked_samples(duration, sampling))
     arrays = {"speeds": np.array(checked), "frequency": frequency, **columns}
     for array in arrays.values():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,21 @@ from gearcad.dynamics.tooth_springs.spectra import SpectralPeak, Spectrum
 from gearcad.errors import ParameterError
 from gearcad.notice import Notice, texts
 
-__all__ = ["SpeedSpectra"]
+__all__ = ["SpeedRow", "SpeedSpectra"]
+
+
+class SpeedRow(NamedTuple):
+    """What a study keeps of one speed."""
+
+    pinion_speed: Floats
+    approach: Floats
+    mean_approach: float
+    greatest_approach: float
+    deepest: float
+    out_of_contact: float
+    growth: float
+    digits_lost: float
+    chaotic: bool
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
