@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
-from gearcad.errors import ParameterError
-from gearcad.ranges import DENSITY, MODULUS, POISSON_RATIO, STRENGTH
+from gearcad.errors import GeometryError, ParameterError
+from gearcad.per_gear import PerGear
+from gearcad.ranges import DENSITY, MODULUS, POISSON_RATIO, STRENGTH, Range
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
 
-__all__ = ["STEEL_MODULUS", "Material", "MaterialGroup"]
+__all__ = ["STEEL_MODULUS", "Grade", "Material", "MaterialGroup", "MaterialQuality", "elastic_constants", "grade_of", "of_both"]
 
 STEEL_MODULUS = 206000.0
 """Young's modulus (MPa) of steel: of what nothing else is said about."""
@@ -22,10 +24,22 @@ class MaterialGroup(StrEnum):
     """Groups of gear materials under their abbreviations in ISO 6336-5."""
 
     STRUCTURAL_STEEL = "St"
-    """Structural steel, wrought or cast."""
+    """Structural steel, wrought."""
+
+    CAST_STEEL = "St (cast)"
+    """Structural steel, cast."""
 
     THROUGH_HARDENED = "V"
-    """Through-hardened steel, wrought or cast."""
+    """Through-hardened alloy steel, wrought."""
+
+    THROUGH_HARDENED_CARBON = "V (carbon)"
+    """Through-hardened carbon steel, wrought."""
+
+    THROUGH_HARDENED_CAST = "V (cast)"
+    """Through-hardened alloy steel, cast."""
+
+    THROUGH_HARDENED_CAST_CARBON = "V (cast carbon)"
+    """Through-hardened carbon steel, cast."""
 
     NODULAR_IRON = "GGG"
     """Nodular cast iron, perlitic or bainitic."""
@@ -38,9 +52,48 @@ class MaterialGroup(StrEnum):
     """Flame or induction hardened."""
 
     NITRIDING_STEEL = "NT"
-    NITRIDED = "NV"
-    """Through-hardening or case-hardening steel, nitrided or nitrocarburised."""
+    """Nitriding steel, nitrided."""
 
+    NITRIDED = "NV"
+    """Through-hardening or case-hardening steel, nitrided."""
+
+    NITROCARBURISED = "NV (nitrocar.)"
+    """The same, nitrocarburised."""
+
+
+class MaterialQuality(StrEnum):
+    """How much is asked of material and heat treatment in ISO 6336-5."""
+
+    MODEST = "ML"
+    USUAL = "MQ"
+    HIGH = "ME"
+
+
+class Grade(NamedTuple):
+    """A group in a quality, such as Eh MQ: what ISO 6336-5 has endurance limits for."""
+
+    group: MaterialGroup
+    quality: MaterialQuality
+
+    def __str__(self) -> str:
+        return f"{self.group.value} {self.quality.value}"
+
+
+_GRADE = re.compile(
+    rf"({'|'.join(re.escape(group.value) for group in MaterialGroup)}) +({'|'.join(each.value for each in MaterialQuality)})"
+)
+
+
+def grade_of(name: str) -> Grade | None:
+    """The grade that a name such as "Eh MQ" or "GGG (ferr.) ML" stands for; None for any other name."""
+    found = _GRADE.fullmatch(name.strip())
+    return None if found is None else Grade(MaterialGroup(found[1]), MaterialQuality(found[2]))
+
+
+_HARDNESS = Range("", 50.0, 1500.0)
+"""HV or HBW, as ISO 6336-5 has it of the group; there are the limits of each."""
+
+_CORE_HARDNESS = Range("HRC", 10.0, 60.0)
 
 _Limit = float | tuple[float, float] | None
 """An allowable stress (MPa), the range in which it lies, or none."""
@@ -52,7 +105,10 @@ class Material:
 
     `contact_limit` and `root_limit` are allowable stresses, or the range (low, high) in which that of the material lies;
     None gives no verdict. `group` says how flanks run in, and `contact_endurance_limit` (sigma_H_lim, MPa) how much where
-    they are not hardened on the surface. Raises ParameterError.
+    they are not hardened on the surface. With a `quality`, and the `hardness` of the flanks (HV; HBW of St, GGG, GTS and GG), a
+    group has endurance limits by ISO 6336-5, unless they are given; `core_hardness` (HRC) counts for Eh MQ. A name such as
+    "Eh MQ" gives group and quality. `yield_strength` is sigma_S or sigma_0.2, `tensile_strength` sigma_B. Raises
+    ParameterError, and GeometryError for a group or a quality that is not that of the name.
     """
 
     name: Annotated[str, Words("material")] = "steel"
@@ -66,14 +122,47 @@ class Material:
     contact_endurance_limit: Annotated[
         float | None, STRENGTH, Words("endurance limit of contact stress", "σ_Hlim", "ISO 6336-5")
     ] = None
+    root_endurance_limit: Annotated[float | None, STRENGTH, Words("endurance limit of root stress", "σ_Flim", "ISO 6336-5")] = (
+        None
+    )
+    quality: Annotated[MaterialQuality | None, Words("material quality", "", "ISO 6336-5")] = None
+    hardness: Annotated[float | None, _HARDNESS, Words("hardness of the flanks (HV or HBW)", "", "ISO 6336-5")] = None
+    core_hardness: Annotated[float | None, _CORE_HARDNESS, Words("hardness of the core", "", "ISO 6336-5")] = None
+    tensile_strength: Annotated[float | None, STRENGTH, Words("tensile strength", "σ_B")] = None
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
         require_fields(self)
+        self._take_grade()
         for name in ("contact_limit", "root_limit"):
             if isinstance(value := getattr(self, name), list | tuple):
                 object.__setattr__(self, name, _range(name, value))
+
+    def _take_grade(self) -> None:
+        """Group and quality of a name that stands for them. Raises GeometryError where others are given."""
+        named = grade_of(self.name) if isinstance(self.name, str) else None
+        for field, value in () if named is None else named._asdict().items():
+            given = getattr(self, field)
+            if given not in (None, value):
+                permitted = f"must be {value.value}, or left out, with the name {self.name}"
+                raise GeometryError(field, given, permitted)
+            object.__setattr__(self, field, value)
+
+    @property
+    def grade(self) -> Grade | None:
+        """Group and quality, if both are known."""
+        return None if self.group is None or self.quality is None else Grade(self.group, self.quality)
+
+
+def of_both(material: Material | PerGear[Material]) -> PerGear[Material]:
+    """Those of both gears, of which one material may stand for both."""
+    return PerGear(material, material) if isinstance(material, Material) else material
+
+
+def elastic_constants(materials: PerGear[Material]) -> tuple[PerGear[float], PerGear[float]]:
+    """E (MPa) and nu of both gears."""
+    return materials.map(lambda material: material.youngs_modulus), materials.map(lambda material: material.poisson_ratio)
 
 
 def _range(name: str, values: Sequence[float]) -> tuple[float, float]:

@@ -6,6 +6,7 @@ Raises ParameterError or GeometryError, whose limits can be used as they are pri
 from __future__ import annotations
 
 import math
+import re
 
 from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.geometry.basic_rack import BasicRack
@@ -25,6 +26,8 @@ __all__ = ["check_fields", "check_numbers", "check_tool"]
 LEAST_HELIX = 1e-6
 """Smallest helix angle (degrees) of a helical gear; less moves a tooth by less than 2e-8 of the face width."""
 
+_ALLOWANCE = re.compile("(a|ab|b|bc|c|cd|d|e|f|g|h)(2[1-9]|30)")
+
 MOST_TWIST = 720.0
 """Largest twist of a tooth over the face width (degrees) that one screw surface spans to the accuracy promised."""
 
@@ -35,6 +38,9 @@ def check_fields(gear: GearData) -> None:
     require_fields(gear)
     if 0 < abs(gear.helix_angle) < LEAST_HELIX:
         raise ParameterError("helix_angle", gear.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
+    if gear.tooth_allowance is not None and not _is_allowance(gear.tooth_allowance):
+        permitted = 'must be a letter a to h (ab, bc and cd too) and a series 21 to 30 of DIN 3967, such as "cd25"'
+        raise ParameterError("tooth_allowance", gear.tooth_allowance, permitted)
     parts: tuple[tuple[str, type], ...] = (
         ("rack", BasicRack),
         ("cutter", ShaperCutter),
@@ -45,6 +51,10 @@ def check_fields(gear: GearData) -> None:
     for part, kind in parts:
         if not isinstance(getattr(gear, part), kind):
             raise ParameterError(part, getattr(gear, part), f"must be a {kind.__name__}")
+
+
+def _is_allowance(text: object) -> bool:
+    return isinstance(text, str) and _ALLOWANCE.fullmatch(text) is not None
 
 
 def check_numbers(gear: GearData) -> None:

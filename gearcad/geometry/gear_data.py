@@ -28,6 +28,8 @@ _DIAMETER = Range("mm", -2e6, 2e6)
 """Of circles that are given, negative on a ring: no permitted teeth and module make a larger gear."""
 
 
+_ROUGHNESS = Range("µm", 0.01, 1000)
+
 _GAP_DEPTH = 0.5
 """How much less the diameter between the halves of a double helical gear is than the root circle's, in normal modules."""
 
@@ -48,6 +50,10 @@ class GearData:
     profile_shift: Annotated[float, _COEFFICIENT, Words("profile shift coefficient", "x", "4.2")] = 0.0
     tip_alteration: Annotated[float, _COEFFICIENT, Words("tip alteration coefficient", "k", "4.5")] = 0.0
     tooth_thinning: Annotated[float, Range("mm", 0, None), Words("tooth thinning (normal)", "A_sn", "7.3")] = 0.0
+    tooth_allowance: Annotated[str | None, Words("tooth thickness allowance", "", "DIN 3967")] = None
+    accuracy_grade: Annotated[int | None, Whole(0, 12), Words("accuracy grade", "", "ISO 1328-1")] = None
+    flank_roughness: Annotated[float | None, _ROUGHNESS, Words("roughness of the flanks", "Rz")] = None
+    root_roughness: Annotated[float | None, _ROUGHNESS, Words("roughness of the roots", "Rz")] = None
     rack: BasicRack = field(default=ISO53_A)
     cutter: ShaperCutter = field(default=ShaperCutter())
     double_helix: DoubleHelix = field(default=DoubleHelix())

@@ -16,10 +16,11 @@ from gearcad.arrays import Floats
 from gearcad.errors import ParameterError, plain_numbers, require_number, require_whole
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Material, of_both
 from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
 from gearcad.rating.iso1328 import flank_tolerances
+from gearcad.rating.iso6336_5 import endurance_limits_of
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import rate
 from gearcad.rating.running_in import RunningIn, running_in_alpha, running_in_relief
@@ -94,7 +95,8 @@ class DynamicFactor:
     """Inputs of Method B; `values(speed)` gives K_v.
 
     `pitch_deviation` f_pb and `profile_deviation` f_falpha are those before running-in, which takes off y_alpha (18), (19) of
-    the kind `running_in` (None: nothing) by the speed on the pinion's `reference_diameter` (mm) and by `flank_limit` (MPa).
+    the kind `running_in` (None: nothing) by the speed on the pinion's `reference_diameter` (mm) and by `flank_limit` (MPa); of
+    two materials, given as PerGear of both, it is the mean.
     `tip_relief` C_a is 0 for grade 6 and coarser, for which B_k is 1. Stiffnesses are those of the load, `specific_load` is
     F_t K_A/b. `notices`: what to know before trusting it. Not part of it: gears of a planetary train or with several mates,
     whose mass differs.
@@ -110,36 +112,37 @@ class DynamicFactor:
     profile_deviation: float
     tip_relief: float = 0.0
     reference_diameter: float = 0.0
-    running_in: RunningIn | None = None
-    flank_limit: float | None = None
+    running_in: RunningIn | PerGear[RunningIn] | None = None
+    flank_limit: float | PerGear[float | None] | None = None
     notices: tuple[Notice, ...] = ()
 
     @classmethod
     def of(
         cls,
         pair: GearPair,
-        material: Material,
+        material: Material | PerGear[Material],
         load: Load,
         inertias: PerGear[float],
         options: RatingOptions | None = None,
     ) -> DynamicFactor:
-        """Of a pair of one material, with the deviations of the options' accuracy grade; inertias in kg·m².
+        """Of a pair of one material or two, with the deviations of the options' accuracy grade; inertias in kg·m².
 
         Raises ParameterError and GeometryError: as `rate` and `flank_tolerances` do, and for through-hardened material without
         contact_endurance_limit.
         """
-        options = options or RatingOptions()
-        rating = rate(pair, material, load, options)
+        options, materials = options or RatingOptions(), of_both(material)
+        rating = rate(pair, materials, load, options)
         tolerances = [
             flank_tolerances(options.accuracy_grade, abs(gear.reference_diameter), gear.normal_module, options.accuracy)
             for gear in pair.gears
         ]
         across = math.cos(math.radians(pair.pinion.transverse_pressure_angle))
         radii = pair.gears.map(lambda gear: abs(gear.base_diameter) / 2)
-        kind = RunningIn.SURFACE_HARDENED if material.group is None else RunningIn.of(material.group)
-        if kind.needs_flank_limit and material.contact_endurance_limit is None:
-            permitted = f"must be given for material group {material.group}: how its flanks run in depends on it"
-            raise ParameterError("material.contact_endurance_limit", None, permitted)
+        limits = endurance_limits_of(materials).map(lambda limits: limits.contact)
+        if materials.pinion == materials.wheel:
+            kind: RunningIn | PerGear[RunningIn] = _running_in(materials.pinion, limits.pinion)
+        else:
+            kind = PerGear.each(lambda role: _running_in(materials.pick(role), limits.pick(role)))
         return cls(
             teeth=pair.pinion.teeth,
             total_contact_ratio=pair.total_contact_ratio,
@@ -149,11 +152,11 @@ class DynamicFactor:
             specific_load=rating.specific_load,
             pitch_deviation=across * max(each.single_pitch for each in tolerances),
             profile_deviation=max(each.profile_form for each in tolerances),
-            tip_relief=_tip_relief(pair, material, options.accuracy_grade),
+            tip_relief=_tip_relief(pair, limits, options.accuracy_grade),
             reference_diameter=pair.pinion.reference_diameter,
             running_in=kind,
-            flank_limit=material.contact_endurance_limit,
-            notices=(_NO_GROUP,) if material.group is None else (),
+            flank_limit=limits if isinstance(kind, PerGear) else limits.pinion,
+            notices=(_NO_GROUP,) if any(each.group is None for each in materials) else (),
         )
 
     def __post_init__(self) -> None:
@@ -194,7 +197,10 @@ class DynamicFactor:
         if self.running_in is None:
             return np.full_like(rpm, deviation)
         along = math.pi * self.reference_diameter / 60_000 * rpm
-        return deviation - running_in_alpha(deviation, self.running_in, along, self.flank_limit)
+        kinds = self.running_in if isinstance(self.running_in, PerGear) else PerGear(self.running_in, self.running_in)
+        limits = self.flank_limit if isinstance(self.flank_limit, PerGear) else PerGear(self.flank_limit, self.flank_limit)
+        pinion, wheel = (running_in_alpha(deviation, kind, along, limit) for kind, limit in zip(kinds, limits, strict=True))
+        return deviation - (pinion + wheel) / 2
 
     def values(self, speed: ArrayLike) -> Floats:
         """K_v at speeds of the pinion in rpm: (13), (14) below, (20) at, (22) between, (21) above the main resonance.
@@ -215,10 +221,19 @@ class DynamicFactor:
         return result
 
 
-def _tip_relief(pair: GearPair, material: Material, grade: int) -> float:
+def _running_in(material: Material, flank_limit: float | None) -> RunningIn:
+    """How flanks of a material run in. Raises ParameterError where that depends on a limit that is not known."""
+    kind = RunningIn.SURFACE_HARDENED if material.group is None else RunningIn.of(material.group)
+    if kind.needs_flank_limit and flank_limit is None:
+        permitted = f"must be given for material group {material.group}: how its flanks run in depends on it"
+        raise ParameterError("material.contact_endurance_limit", None, permitted)
+    return kind
+
+
+def _tip_relief(pair: GearPair, limits: PerGear[float | None], grade: int) -> float:
     """C_a: 0 for coarse grades; else what both gears have by design, or else what running in makes, if that is known."""
     if grade > _FINE:
         return 0.0
     designed = min(gear.modification.tip_relief for gear in pair.gears)
-    limit = material.contact_endurance_limit
-    return designed or (running_in_relief(limit) if limit is not None else 0.0)
+    known = [running_in_relief(limit) for limit in limits if limit is not None]
+    return designed or (sum(known) / 2 if len(known) == 2 else 0.0)

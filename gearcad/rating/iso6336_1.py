@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.material import Material
 from gearcad.notice import Notice
+from gearcad.per_gear import PerGear
 from gearcad.rating.rim import RIM_LIMIT, rim_thickness_ratio, ring_rim_ratio
 
 __all__ = [
@@ -152,6 +153,12 @@ def material_factor(youngs_modulus: float) -> float:
     return 1.0 if STEEL[0] <= youngs_modulus <= STEEL[1] else youngs_modulus / STEEL_MODULUS
 
 
+def pair_modulus(materials: PerGear[Material]) -> float:
+    """2 E_1 E_2/(E_1 + E_2) (MPa), which stands for E in xi where the gears differ."""
+    first, second = (material.youngs_modulus for material in materials)
+    return first * (2 * second / (first + second))  # exactly E of two that are equal
+
+
 def low_load_factor(specific_load: float) -> float:
     """((F_t K_A/b)/100)^0.25 (90) below 100 N/mm, else 1; `specific_load` F_t K_A/b in N/mm."""
     return math.pow(min(specific_load / LOW_LOAD, 1.0), 0.25)
@@ -172,7 +179,7 @@ def mesh_stiffness_beta(mesh_alpha: float) -> float:
     return 0.85 * mesh_alpha
 
 
-def mesh_stiffness(pair: GearPair, material: Material, specific_load: float) -> MeshStiffness:
+def mesh_stiffness(pair: GearPair, materials: PerGear[Material], specific_load: float) -> MeshStiffness:
     """Stiffness of a pair at a specific load F_t K_A/b (N/mm); C_R, as C_B, is the mean of both gears."""
     first, second = _by_teeth(pair)
     return stiffness_of(
@@ -180,7 +187,7 @@ def mesh_stiffness(pair: GearPair, material: Material, specific_load: float) -> 
         sum(blank_factor(gear) for gear in (first, second)) / 2,
         sum(basic_rack_factor(gear.dedendum, gear.rack.pressure_angle) for gear in (first, second)) / 2,  # (87)
         pair,
-        material,
+        materials,
         specific_load,
     )
 
@@ -190,11 +197,11 @@ def stiffness_of(
     blank: float,
     rack: float,
     pair: GearPair | RackPair,
-    material: Material,
+    materials: PerGear[Material],
     specific_load: float,
 ) -> MeshStiffness:
     """By q', C_R and C_B of a pair."""
-    xi, theoretical = material_factor(material.youngs_modulus), theoretical_stiffness(flexibility)
+    xi, theoretical = material_factor(pair_modulus(materials)), theoretical_stiffness(flexibility)
     return MeshStiffness(
         flexibility=flexibility,
         theoretical=theoretical,

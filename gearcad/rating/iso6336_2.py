@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair
-from gearcad.material import Material
+from gearcad.material import Material, elastic_constants
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.editions import Edition
@@ -22,6 +22,7 @@ __all__ = [
     "contact_factor",
     "contact_ratio_factor",
     "elasticity_factor",
+    "elasticity_of",
     "flank_notices",
     "flank_rating",
     "helix_angle_factor",
@@ -68,6 +69,11 @@ def zone_factor(base_helix_angle: float, transverse_pressure_angle: float, worki
 def elasticity_factor(youngs_moduli: tuple[float, float], poisson_ratios: tuple[float, float]) -> float:
     """Z_E = sqrt(1/(pi ((1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2))), clause 7 (19), in sqrt(MPa)."""
     return math.sqrt(reduced_modulus(youngs_moduli, poisson_ratios) / math.pi)
+
+
+def elasticity_of(materials: PerGear[Material]) -> float:
+    """Z_E of two gears."""
+    return elasticity_factor(*elastic_constants(materials))
 
 
 def contact_ratio_factor(transverse_contact_ratio: float, overlap_ratio: float) -> float:
@@ -126,11 +132,11 @@ def nominal_contact_stress(pair: GearPair, factors: float, tangential_force: flo
     return factors * math.sqrt(tangential_force / (d_1 * b) * (u + 1) / u)
 
 
-def flank_rating(pair: GearPair, material: Material, tangential_force: float, edition: Edition) -> FlankRating:
+def flank_rating(pair: GearPair, materials: PerGear[Material], tangential_force: float, edition: Edition) -> FlankRating:
     """Contact stress of a pair under the tangential force F_t at the reference circle (N)."""
     pinion = pair.pinion
     zone = zone_factor(pinion.base_helix_angle, pinion.transverse_pressure_angle, pair.working_transverse_pressure_angle)
-    elasticity = elasticity_factor((material.youngs_modulus,) * 2, (material.poisson_ratio,) * 2)
+    elasticity = elasticity_of(materials)
     ratio = contact_ratio_factor(pair.transverse_contact_ratio, pair.overlap_ratio)
     helix = helix_angle_factor(pinion.helix_angle, edition)
     curvatures = single_contact_curvature(pair) if pair.overlap_ratio < 1 else PerGear(1.0, 1.0)

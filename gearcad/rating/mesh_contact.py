@@ -7,7 +7,8 @@ import math
 from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair
 from gearcad.geometry.limits import at_most
-from gearcad.material import Material
+from gearcad.material import Material, elastic_constants, of_both
+from gearcad.per_gear import PerGear
 from gearcad.rating.hertz import LineContact, reduced_modulus, reduced_radius
 
 __all__ = ["base_normal_force", "contact_at", "pitch_point_contact"]
@@ -20,7 +21,7 @@ def base_normal_force(pair: GearPair, torque: float) -> float:
 
 
 def contact_at(
-    pair: GearPair, material: Material, *, distance: float, force: float, length: float | None = None
+    pair: GearPair, material: Material | PerGear[Material], *, distance: float, force: float, length: float | None = None
 ) -> LineContact:
     """Contact of one pair of teeth at `distance` from T1 on the line of action (mm, transverse section).
 
@@ -28,7 +29,10 @@ def contact_at(
     None: a line across the common face width, b/cos beta_b). The radii of curvature are those of the normal section,
     distance/cos beta_b and (T1T2 - distance)/cos beta_b, negative on the hollow flank of a ring. Raises GeometryError for a
     place that is not between T1 and T2, of an internal pair not beyond T1.
+
+    Of two materials, stresses below the surface are those of the pinion.
     """
+    materials = of_both(material)
     whole = pair.base_tangent.length
     if not 0 < distance < (math.inf if pair.internal else whole):
         permitted = f"must be above 0 and below {at_most(whole)} mm, between the base tangent points T1 and T2"
@@ -41,12 +45,12 @@ def contact_at(
     return LineContact(
         load_per_width=force / length,
         radius=reduced_radius((distance / lean, (whole - distance) / lean)),
-        modulus=reduced_modulus((material.youngs_modulus,) * 2, (material.poisson_ratio,) * 2),
-        poisson_ratio=material.poisson_ratio,
+        modulus=reduced_modulus(*elastic_constants(materials)),
+        poisson_ratio=materials.pinion.poisson_ratio,
     )
 
 
-def pitch_point_contact(pair: GearPair, material: Material, torque: float) -> LineContact:
+def pitch_point_contact(pair: GearPair, material: Material | PerGear[Material], torque: float) -> LineContact:
     """Contact at the pitch point of the middle plane under `torque` on the pinion (N·m).
 
     The force is spread evenly over all lines of contact at that roll angle: over the common face width of a spur pair

@@ -13,7 +13,7 @@ from typing import ClassVar
 from gearcad.errors import GeometryError
 from gearcad.geometry import RackPair
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Material, elastic_constants, of_both
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.editions import Edition
@@ -31,7 +31,7 @@ from gearcad.rating.iso6336_2 import (
     FlankRating,
     contact_factor,
     contact_ratio_factor,
-    elasticity_factor,
+    elasticity_of,
     helix_angle_factor,
     zone_factor,
 )
@@ -53,12 +53,14 @@ class RackRating(Rating):
     names: ClassVar[PerGear[str]] = PerGear("pinion", "rack")
 
 
-def rate_rack(pair: RackPair, material: Material, load: Load, options: RatingOptions | None = None) -> RackRating:
-    """Rate a pinion and a rack, both of one material, by Method B; raises as `rate` does.
+def rate_rack(
+    pair: RackPair, material: Material | PerGear[Material], load: Load, options: RatingOptions | None = None
+) -> RackRating:
+    """Rate a pinion and a rack, both of one material or each of its own, by Method B; raises as `rate` does.
 
     F_t is the force on the rack along its length. The rack's back is taken as held, so its Y_B is 1.
     """
-    options = options or RatingOptions()
+    options, materials = options or RatingOptions(), of_both(material)
     require_ratable(pair, load)
     force = pair.rack_force(abs(load.torque))
     specific = force * load.application_factor / pair.common_width
@@ -72,11 +74,11 @@ def rate_rack(pair: RackPair, material: Material, load: Load, options: RatingOpt
         normal_force=normal,
         application_factor=load.application_factor,
         specific_load=specific,
-        stiffness=_stiffness(pair, material, specific),
-        flank=_flank(pair, material, force, options.standard),
+        stiffness=_stiffness(pair, materials, specific),
+        flank=_flank(pair, materials, force, options.standard),
         roots=roots,
         pitch_point=rack_contact_at(
-            pair, material, distance=pair.path_of_contact.C, force=normal, length=pair.contact_line_length(0.0)
+            pair, materials, distance=pair.path_of_contact.C, force=normal, length=pair.contact_line_length(0.0)
         ),
         verify=("q_prime",),
         notices=(
@@ -92,7 +94,12 @@ def rate_rack(pair: RackPair, material: Material, load: Load, options: RatingOpt
 
 
 def rack_contact_at(
-    pair: RackPair, material: Material, *, distance: float, force: float, length: float | None = None
+    pair: RackPair,
+    material: Material | PerGear[Material],
+    *,
+    distance: float,
+    force: float,
+    length: float | None = None,
 ) -> LineContact:
     """Contact of a tooth of the pinion with the rack's plane flank at `distance` from T1 (mm), as `contact_at` of gears.
 
@@ -100,12 +107,12 @@ def rack_contact_at(
     """
     if not distance > 0:
         raise GeometryError("distance", distance, "must be above 0 mm, beyond the base tangent point T1", "mm")
-    lean = math.cos(math.radians(pair.pinion.base_helix_angle))
+    lean, materials = math.cos(math.radians(pair.pinion.base_helix_angle)), of_both(material)
     return LineContact(
         load_per_width=force / (pair.common_width / lean if length is None else length),
         radius=distance / lean,
-        modulus=reduced_modulus((material.youngs_modulus,) * 2, (material.poisson_ratio,) * 2),
-        poisson_ratio=material.poisson_ratio,
+        modulus=reduced_modulus(*elastic_constants(materials)),
+        poisson_ratio=materials.pinion.poisson_ratio,
     )
 
 
@@ -120,20 +127,20 @@ def _rack_root(pair: RackPair, mesh: RootMesh) -> RootRating:
     return mesh.rating(section, load, virtual_rack(pair.rack), width=width, rim_thickness_factor=1.0)
 
 
-def _stiffness(pair: RackPair, material: Material, specific_load: float) -> MeshStiffness:
+def _stiffness(pair: RackPair, materials: PerGear[Material], specific_load: float) -> MeshStiffness:
     """With 1/z_n2 = 0 and x_2 = 0; C_R and C_B are the means of pinion and rack."""
     pinion, rack = pair.pinion, pair.rack
     q = tooth_flexibility((pinion.virtual_teeth, math.inf), (pinion.profile_shift, 0.0))
     dedendum = rack.root_depth / rack.normal_module
     factors = [basic_rack_factor(each, pinion.rack.pressure_angle) for each in (pinion.dedendum, dedendum)]
-    return stiffness_of(q, (blank_factor(pinion) + 1) / 2, sum(factors) / 2, pair, material, specific_load)
+    return stiffness_of(q, (blank_factor(pinion) + 1) / 2, sum(factors) / 2, pair, materials, specific_load)
 
 
-def _flank(pair: RackPair, material: Material, force: float, edition: Edition) -> FlankRating:
+def _flank(pair: RackPair, materials: PerGear[Material], force: float, edition: Edition) -> FlankRating:
     """With (u + 1)/u = 1; the curvature at B and D over that at C is the pinion's."""
     pinion, path = pair.pinion, pair.path_of_contact
     zone = zone_factor(pinion.base_helix_angle, pinion.transverse_pressure_angle, pair.working_transverse_pressure_angle)
-    elasticity = elasticity_factor((material.youngs_modulus,) * 2, (material.poisson_ratio,) * 2)
+    elasticity = elasticity_of(materials)
     ratio = contact_ratio_factor(pair.transverse_contact_ratio, pair.overlap_ratio)
     helix = helix_angle_factor(pinion.helix_angle, edition)
     if pair.overlap_ratio < 1 and min(path.B, path.D) <= 0:

@@ -11,7 +11,7 @@ from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair, RackPair
 from gearcad.geometry.halves import refuse_halves
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Material, of_both
 from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
 from gearcad.rating.editions import Edition
@@ -91,18 +91,18 @@ class Rating:
 
 def rate(
     pair: GearPair,
-    material: Material,
+    material: Material | PerGear[Material],
     load: Load,
     options: RatingOptions | None = None,
 ) -> Rating:
-    """Rate a pair of gears, both of one material, by Method B.
+    """Rate a pair of gears, both of one material or each of its own, by Method B.
 
     F_t is that of the torque at the reference circles. Contact stress and stiffness hold for the common face width. The
     accuracy grade matters for deep teeth only, see `deep_tooth_factor`. Raises ParameterError without a torque, GeometryError
     for a pair whose contact the standard does not describe.
     """
     options = options or RatingOptions()
-    edition = options.standard
+    edition, materials = options.standard, of_both(material)
     require_ratable(pair, load)
     force = 2000 * abs(load.torque) / pair.pinion.reference_diameter
     specific = force * load.application_factor / pair.common_width.width
@@ -114,10 +114,10 @@ def rate(
         normal_force=base_normal_force(pair, load.torque),
         application_factor=load.application_factor,
         specific_load=specific,
-        stiffness=mesh_stiffness(pair, material, specific),
-        flank=flank_rating(pair, material, force, edition),
+        stiffness=mesh_stiffness(pair, materials, specific),
+        flank=flank_rating(pair, materials, force, edition),
         roots=roots,
-        pitch_point=pitch_point_contact(pair, material, load.torque),
+        pitch_point=pitch_point_contact(pair, materials, load.torque),
         verify=_recalled(roots.wheel) if pair.internal else (),
         notices=(
             *scope_notices(pair),

@@ -37,14 +37,21 @@ class RunningIn(Enum):
         """That of a group of materials."""
         if group in (MaterialGroup.GREY_IRON, MaterialGroup.FERRITIC_NODULAR_IRON):
             return cls.CAST_IRON
-        soft = (MaterialGroup.STRUCTURAL_STEEL, MaterialGroup.THROUGH_HARDENED)
-        iron = (MaterialGroup.NODULAR_IRON, MaterialGroup.MALLEABLE_IRON)
-        return cls.THROUGH_HARDENED if group in (*soft, *iron) else cls.SURFACE_HARDENED
+        return cls.SURFACE_HARDENED if group in _HARDENED else cls.THROUGH_HARDENED
 
     @property
     def needs_flank_limit(self) -> bool:
         """True if the allowance depends on sigma_H_lim."""
         return self is RunningIn.THROUGH_HARDENED
+
+
+_HARDENED = (
+    MaterialGroup.CASE_HARDENED,
+    MaterialGroup.SURFACE_HARDENED,
+    MaterialGroup.NITRIDING_STEEL,
+    MaterialGroup.NITRIDED,
+    MaterialGroup.NITROCARBURISED,
+)
 
 
 class _Rule(NamedTuple):
