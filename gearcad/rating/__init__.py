@@ -6,7 +6,6 @@ from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.editions import Edition
 from gearcad.rating.face_load import face_load_factor, root_face_load_factor, width_to_height
 from gearcad.rating.hertz import LineContact, Peak, Stresses, reduced_modulus, reduced_radius
-from gearcad.rating.iso1328 import Accuracy
 from gearcad.rating.iso6336_1 import MeshStiffness, gear_blank_factor
 from gearcad.rating.iso6336_2 import FlankRating
 from gearcad.rating.iso6336_3 import RootRating
@@ -19,6 +18,7 @@ from gearcad.rating.rack_rating import RackRating, rack_contact_at, rate_rack
 from gearcad.rating.rate import Rating, rate
 from gearcad.rating.root_section import RootSection
 from gearcad.rating.running_in import RunningIn, running_in_alpha, running_in_beta
+from gearcad.rating.tolerances.iso1328 import Accuracy
 from gearcad.rating.virtual import LoadPoint, VirtualGear
 
 __all__ = [

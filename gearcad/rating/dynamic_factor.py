@@ -19,11 +19,11 @@ from gearcad.load import Load
 from gearcad.material import Material, of_both
 from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
-from gearcad.rating.iso1328 import flank_tolerances
 from gearcad.rating.iso6336_5 import endurance_limits_of
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import rate
 from gearcad.rating.running_in import RunningIn, running_in_alpha, running_in_relief
+from gearcad.rating.tolerances.iso1328 import flank_tolerances
 
 __all__ = ["DynamicFactor", "RunningFactors", "reduced_mass", "resonance_speed", "running_factors"]
 

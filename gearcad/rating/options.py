@@ -9,9 +9,9 @@ from typing import Annotated
 from gearcad.errors import require_whole
 from gearcad.rating.duty_options import DutyOptions
 from gearcad.rating.editions import Edition
-from gearcad.rating.iso1328 import Accuracy, grades
 from gearcad.rating.load_factor_options import LoadFactorOptions
 from gearcad.rating.lubricant_options import LubricantOptions
+from gearcad.rating.tolerances.iso1328 import Accuracy, grades
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
 

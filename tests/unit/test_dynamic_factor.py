@@ -20,7 +20,7 @@ from gearcad.material import MaterialGroup
 from gearcad.per_gear import PerGear
 from gearcad.rating import Accuracy, DynamicFactor, RatingOptions, RunningIn, running_in_alpha
 from gearcad.rating.dynamic_factor import running_factors
-from gearcad.rating.iso1328 import flank_tolerances
+from gearcad.rating.tolerances.iso1328 import flank_tolerances
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

@@ -28,7 +28,7 @@ from gearcad.errors import GeometryError, ParameterError, SolverError
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.per_gear import PerGear
 from gearcad.rating.dynamic_factor import DynamicFactor, reduced_mass
-from gearcad.rating.iso1328 import flank_tolerances
+from gearcad.rating.tolerances.iso1328 import flank_tolerances
 
 # ---------------------------------------------------------------------- stiffness
 

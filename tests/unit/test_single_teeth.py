@@ -18,7 +18,7 @@ from gearcad.dynamics.tooth_errors.springs import PairErrors, ToothSpring, at_re
 from gearcad.dynamics.tooth_errors.teeth import Draw, MeshTeeth
 from gearcad.dynamics.trains.members import Mesh
 from gearcad.per_gear import PerGear
-from gearcad.rating.iso1328 import flank_tolerances
+from gearcad.rating.tolerances.iso1328 import flank_tolerances
 from gearcad.shipped import templates
 from gearcad.stiffness.methods import METHODS
 

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from gearcad.arrays import Complexes, Floats
 from gearcad.dynamics.excitation.polyline import Polyline
 from gearcad.errors import ParameterError, plain_numbers, require_number, require_whole
-from gearcad.rating.iso1328 import FlankTolerances
+from gearcad.rating.tolerances.iso1328 import FlankTolerances
 
 __all__ = ["ErrorDistribution", "ToothDeviations", "TransmissionError", "random_deviations", "tooth_errors"]
 

@@ -27,8 +27,8 @@ from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.per_gear import PerGear
-from gearcad.rating.iso1328 import flank_tolerances
 from gearcad.rating.options import RatingOptions
+from gearcad.rating.tolerances.iso1328 import flank_tolerances
 
 __all__ = [
     "CONTACT_RATIO",

@@ -27,8 +27,8 @@ from gearcad.geometry import GearPair
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
-from gearcad.rating.iso1328 import FlankTolerances, flank_tolerances
 from gearcad.rating.options import RatingOptions
+from gearcad.rating.tolerances.iso1328 import FlankTolerances, flank_tolerances
 
 __all__ = ["assumptions", "engaged_teeth", "mesh_teeth", "pair_teeth", "with_short_period"]
 

@@ -17,7 +17,7 @@ from gearcad.dynamics.excitation.deviations import (
 )
 from gearcad.dynamics.tooth_errors.springs import PairErrors, ToothSpring
 from gearcad.per_gear import PerGear, Role
-from gearcad.rating.iso1328 import FlankTolerances
+from gearcad.rating.tolerances.iso1328 import FlankTolerances
 
 __all__ = ["Draw", "MeshTeeth"]
 
