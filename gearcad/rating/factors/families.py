@@ -33,24 +33,29 @@ class Family(Enum):
         return _FAMILIES[group]
 
 
-_FAMILIES: Mapping[str, Family] = {
-    "St": Family.STRUCTURAL,
-    "St (cast)": Family.STRUCTURAL,
-    "V": Family.THROUGH_HARDENED,
-    "V (carbon)": Family.THROUGH_HARDENED,
-    "V (cast)": Family.THROUGH_HARDENED,
-    "V (cast carbon)": Family.THROUGH_HARDENED,
-    "GGG": Family.THROUGH_HARDENED,
-    "GTS": Family.THROUGH_HARDENED,
-    "GGG (ferr.)": Family.FERRITIC_NODULAR_IRON,
-    "GG": Family.GREY_IRON,
-    "Eh": Family.CASE_HARDENED,
-    "IF": Family.SURFACE_HARDENED,
-    "NT": Family.NITRIDED,
-    "NV": Family.NITRIDED,
-    "NV (nitrocar.)": Family.NITROCARBURISED,
+_FAMILIES = {
+    MaterialGroup.STRUCTURAL_STEEL: Family.STRUCTURAL,
+    MaterialGroup.CAST_STEEL: Family.STRUCTURAL,
+    MaterialGroup.THROUGH_HARDENED: Family.THROUGH_HARDENED,
+    MaterialGroup.THROUGH_HARDENED_CARBON: Family.THROUGH_HARDENED,
+    MaterialGroup.THROUGH_HARDENED_CAST: Family.THROUGH_HARDENED,
+    MaterialGroup.THROUGH_HARDENED_CAST_CARBON: Family.THROUGH_HARDENED,
+    MaterialGroup.NODULAR_IRON: Family.THROUGH_HARDENED,
+    MaterialGroup.MALLEABLE_IRON: Family.THROUGH_HARDENED,
+    MaterialGroup.FERRITIC_NODULAR_IRON: Family.FERRITIC_NODULAR_IRON,
+    MaterialGroup.GREY_IRON: Family.GREY_IRON,
+    MaterialGroup.CASE_HARDENED: Family.CASE_HARDENED,
+    MaterialGroup.SURFACE_HARDENED: Family.SURFACE_HARDENED,
+    MaterialGroup.NITRIDING_STEEL: Family.NITRIDED,
+    MaterialGroup.NITRIDED: Family.NITRIDED,
+    MaterialGroup.NITROCARBURISED: Family.NITROCARBURISED,
 }
-"""By the abbreviations of ISO 6336-5."""
+
+_CAST_STEELS = (
+    MaterialGroup.CAST_STEEL,
+    MaterialGroup.THROUGH_HARDENED_CAST,
+    MaterialGroup.THROUGH_HARDENED_CAST_CARBON,
+)
 
 
 def per_family(columns: Mapping[tuple[Family, ...], _T]) -> dict[Family, _T]:
@@ -60,4 +65,4 @@ def per_family(columns: Mapping[tuple[Family, ...], _T]) -> dict[Family, _T]:
 
 def is_cast_steel(group: MaterialGroup) -> bool:
     """Structural or through-hardened steel that was cast."""
-    return "(cast" in group.value
+    return group in _CAST_STEELS
