@@ -89,18 +89,22 @@ class Oil:
                 assumed.append(words)
             return usual if value is None else value
 
-        nu_40 = known(options.oil_viscosity_40, USUAL_VISCOSITY, f"oil ISO VG {USUAL_VISCOSITY:g}")
-        temperature = known(options.oil_temperature, USUAL_TEMPERATURE, f"oil at {USUAL_TEMPERATURE:g} °C")
+        nu_40 = known(
+            options.oil_viscosity_40,
+            USUAL_VISCOSITY,
+            f"oil_viscosity_40 = {USUAL_VISCOSITY:g} mm²/s: oil ISO VG {USUAL_VISCOSITY:g}",
+        )
+        temperature = known(options.oil_temperature, USUAL_TEMPERATURE, f"oil_temperature = {USUAL_TEMPERATURE:g} °C")
         nu_100, density = options.oil_viscosity_100, usual_density(nu_40)
         if nu_100 is None:
             nu_100 = usual_viscosity_100(nu_40)
-            assumed.append(f"viscosity of the oil at 100 °C {nu_100:.3g} mm²/s, of viscosity index 95")
+            assumed.append(f"oil_viscosity_100 = {nu_100:.4g} mm²/s: of viscosity index 95")
         return cls(
             viscosity_40=nu_40,
             viscosity_100=nu_100,
-            density=known(options.oil_density, density, f"density of the oil at 15 °C {density:.3g} kg/m³"),
+            density=known(options.oil_density, density, f"oil_density = {density:.4g} kg/m³: of a mineral oil"),
             temperature=temperature,
-            kind=known(options.oil_type, OilType.MINERAL, "mineral oil"),
+            kind=known(options.oil_type, OilType.MINERAL, f"oil_type = {OilType.MINERAL.value}"),
             assumed=tuple(assumed),
         )
 

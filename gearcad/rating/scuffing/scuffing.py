@@ -153,7 +153,7 @@ def _not_covered(pair: GearPair, load: Load) -> str:
 
 
 def _assumed(pair: GearPair, materials: PerGear[Material]) -> Iterator[str]:
-    if any(gear.flank_roughness is None for gear in pair.gears):
-        yield f"Rz of the flanks {USUAL_ROUGHNESS:g} µm"
+    if lacking := [role.value for role, gear in pair.gears.items() if gear.flank_roughness is None]:
+        yield f"flank_roughness = {USUAL_ROUGHNESS:g} µm (Rz) of {' and '.join(lacking)}"
     if any(each.group in IRON for each in materials):
         yield "heat conductivity and heat capacity of steel"
