@@ -7,7 +7,7 @@ from typing import Any
 
 from gearcad import Gear, GearPair, Load, Material
 from gearcad.material import MaterialGroup
-from gearcad.per_gear import PerGear
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating import RatingOptions
 from gearcad.rating.scuffing import Scuffing, scuffing
 
@@ -54,7 +54,14 @@ def pair(
 
 
 def scuffed(
-    gears: GearPair, *, torque: float = 200.0, speed: float = 1500.0, factors: Factors | None = None, **options: Any
+    gears: GearPair,
+    *,
+    torque: float = 200.0,
+    speed: float = 1500.0,
+    factors: Factors | None = None,
+    driver: Role = Role.PINION,
+    **options: Any,
 ) -> Scuffing:
     """Its temperatures, of case-hardened gears in mineral oil unless said."""
-    return scuffing(gears, EH, Load(torque=torque, speed=speed), factors or Factors(), RatingOptions(**(OIL | options)))
+    load, given = Load(torque=torque, speed=speed), RatingOptions(**(OIL | options))
+    return scuffing(gears, EH, load, factors or Factors(), given, driver)

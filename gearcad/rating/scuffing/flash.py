@@ -12,6 +12,7 @@ import numpy as np
 
 from gearcad.arrays import Floats, freeze
 from gearcad.geometry import GearPair
+from gearcad.per_gear import Role
 from gearcad.rating.scuffing.sliding import SlidingMesh
 
 __all__ = ["FlashPath", "FlashTemperature", "scuffing_temperature"]
@@ -85,7 +86,7 @@ class FlashTemperature:
 
     `specific_load` w_Bt in N/mm, all load factors in it; `speed` v_t at the working pitch circle in m/s, above 0; `roughness`
     the mean Ra of both flanks (µm), `lubricant` X_L with the viscosity in it, `relief_wanting` the tip relief (µm) that the
-    wheel's tip lacks for the load, C_eff - C_a2; `thermo_elastic` X_M, `lubrication` X_S, `mating` X_mp; `oil_temperature` in
+    driven tip lacks for the load, C_eff - C_a; `thermo_elastic` X_M, `lubrication` X_S, `mating` X_mp; `oil_temperature` in
     °C.
     """
 
@@ -115,8 +116,9 @@ class FlashTemperature:
 
     @cached_property
     def approach_factor(self) -> Floats:
-        """X_J of each place (45, 46): the shock where teeth meet without enough relief, before the pitch point only."""
-        before = np.clip(-self.path.places / self.path.extent, 0, None)
+        """X_J of each place (45 to 48): the shock where teeth meet without enough relief, before the pitch point only."""
+        side = -1 if self.mesh.driver is Role.PINION else 1
+        before = np.clip(side * self.path.places / self.path.extent, 0, None)
         return 1 + max(self.relief_wanting, 0.0) / 50 * before**3
 
     @cached_property

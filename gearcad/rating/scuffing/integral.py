@@ -26,9 +26,9 @@ BULK, MEAN = 0.7, 1.5
 """C_1 and C_2: how much the mean flash temperature counts in that of the bulk, and in the integral temperature."""
 
 
-def contact_ratio_factor(recess: Size, approach: Size) -> Size:
+def contact_ratio_factor(pinion_part: Size, wheel_part: Size) -> Size:
     """X_eps (39 to 44): the mean flash temperature over that at the pinion's tip, for contact ratios up to 3."""
-    e_1, e_2 = recess, approach
+    e_1, e_2 = pinion_part, wheel_part
     e_a = e_1 + e_2
     alone = e_1**2 + e_2**2
     double = 0.70 * alone - 0.22 * e_a + 0.52 - 0.60 * e_1 * e_2
@@ -48,14 +48,14 @@ def contact_ratio_factor(recess: Size, approach: Size) -> Size:
 
 
 def approach_factor(recess: Size, approach: Size) -> Size:
-    """X_Q (25 to 27) of a driving pinion: from 1 at epsilon_2/epsilon_1 = 1.5 down to 0.6 at 3."""
+    """X_Q (25 to 29): from 1 at epsilon_f/epsilon_a = 1.5 down to 0.6 at 3."""
     found: Size = 1.4 - 4 / 15 * np.clip(approach / recess, 1.5, 3.0)
     return found
 
 
-def tip_relief_factor(recess: Size, approach: Size, relief: Size) -> Size:
+def tip_relief_factor(pinion_part: Size, wheel_part: Size, relief: Size) -> Size:
     """X_Ca (32), `relief` the effective tip relief over the one that the load asks for, C_a/C_eff, at most 1."""
-    e, q = np.maximum(recess, approach), np.clip(relief, 0.0, 1.0)
+    e, q = np.maximum(pinion_part, wheel_part), np.clip(relief, 0.0, 1.0)
     found: Size = 1 + (0.06 + 0.18 * q) * e + (0.02 + 0.69 * q) * e**2
     return found
 
@@ -126,7 +126,7 @@ class IntegralTemperature:
     @cached_property
     def contact_ratio_factor(self) -> Size:
         """X_eps."""
-        return contact_ratio_factor(self.mesh.recess, self.mesh.approach)
+        return contact_ratio_factor(self.mesh.pinion_part, self.mesh.wheel_part)
 
     @cached_property
     def approach_factor(self) -> Size:
@@ -136,7 +136,7 @@ class IntegralTemperature:
     @cached_property
     def tip_relief_factor(self) -> Size:
         """X_Ca."""
-        return tip_relief_factor(self.mesh.recess, self.mesh.approach, self.relief)
+        return tip_relief_factor(self.mesh.pinion_part, self.mesh.wheel_part, self.relief)
 
     @cached_property
     def tip_flash(self) -> Size:

@@ -9,7 +9,7 @@ from typing import NamedTuple, Protocol
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
-from gearcad.per_gear import PerGear
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating.both import both
 from gearcad.rating.iso6336_1 import MeshStiffness, mesh_stiffness
 from gearcad.rating.options import RatingOptions
@@ -46,16 +46,21 @@ class FlankFactors(Protocol):
 
 
 class _Reliefs(NamedTuple):
-    """Tip relief (µm): what counts over what the load asks for (part 2), and what the wheel's tip lacks (part 1)."""
+    """Tip relief: what counts over what the load asks for (part 2), and what the driven tip lacks (µm, part 1)."""
 
     counted: float
     wanting: float
 
 
 def scuffing(
-    pair: GearPair, materials: PerGear[Material], load: Load, load_factors: FlankFactors, options: RatingOptions
+    pair: GearPair,
+    materials: PerGear[Material],
+    load: Load,
+    load_factors: FlankFactors,
+    options: RatingOptions,
+    driver: Role = Role.PINION,
 ) -> Scuffing:
-    """Integral and flash temperature of a pair whose pinion drives, with the margins to those of the oil.
+    """Integral and flash temperature of a pair one of whose gears drives, with the margins to those of the oil.
 
     Without a `scuffing_stage` the temperatures stand alone, and without a speed, or where contact leaves the involutes, there
     is none: `Scuffing.reason` says why. Raises ParameterError for an oil that is not known well enough.
@@ -64,7 +69,7 @@ def scuffing(
     assumed = [*oil.assumed, *_assumed(pair, materials)]
     if reason := _not_covered(pair, load):
         return Scuffing(oil=oil, assumed=tuple(assumed), reason=reason)
-    integral, flash = _temperatures(pair, materials, load, load_factors, options, oil)
+    integral, flash = _temperatures(SlidingMesh.of(pair, driver), pair, materials, load, load_factors, options, oil)
     stage, structure = options.scuffing_stage, options.relative_structure_factor or structure_factor(materials)
     return Scuffing(
         oil=oil,
@@ -79,6 +84,7 @@ def scuffing(
 
 
 def _temperatures(
+    mesh: SlidingMesh,
     pair: GearPair,
     materials: PerGear[Material],
     load: Load,
@@ -86,7 +92,7 @@ def _temperatures(
     options: RatingOptions,
     oil: Oil,
 ) -> tuple[IntegralTemperature, FlashTemperature | None]:
-    mesh, width = SlidingMesh.of(pair), pair.common_width.width
+    width = pair.common_width.width
     force = 2000 * abs(load.torque) / pair.pinion.reference_diameter
     outer = force * factors.application * factors.mesh_load / width
     specific = outer * factors.dynamic * factors.face_flank * factors.transverse_flank
@@ -131,13 +137,13 @@ def _temperatures(
 def _reliefs(pair: GearPair, mesh: SlidingMesh, specific_load: float, stiffness: MeshStiffness) -> _Reliefs:
     """Over C_eff of the load F_t K_A K_gamma/b (N/mm): by c' (spur) or c_gamma_alpha (part 2, 33 to 38; part 1, B.1).
 
-    The pinion's relief counts where its recess is long, epsilon_1 > 1.5 epsilon_2; else the wheel's.
+    The driving gear's relief counts where its recess is long, epsilon_a > 1.5 epsilon_f; else that of the driven one.
     """
     rigid = stiffness.mesh_alpha if pair.pinion.helix_angle else stiffness.single
-    pinion, wheel = (gear.modification.tip_relief for gear in pair.gears)
-    counted = pinion if mesh.recess > 1.5 * mesh.approach else wheel
+    driving, driven = (pair.gears.pick(role).modification.tip_relief for role in (mesh.driver, mesh.driver.mate))
+    counted = driving if mesh.recess > 1.5 * mesh.approach else driven
     across = math.cos(math.radians(pair.pinion.transverse_pressure_angle))
-    return _Reliefs(min(counted * rigid / specific_load, 1.0), specific_load / (across * stiffness.mesh_alpha) - wheel)
+    return _Reliefs(min(counted * rigid / specific_load, 1.0), specific_load / (across * stiffness.mesh_alpha) - driven)
 
 
 def _not_covered(pair: GearPair, load: Load) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.geometry import GearPair
+from gearcad.per_gear import Role
 
 __all__ = ["Size", "SlidingMesh"]
 
@@ -21,10 +22,10 @@ Size = float | Floats
 
 @dataclass(frozen=True, kw_only=True)
 class SlidingMesh:
-    """Sizes of a mesh whose pinion drives: contact begins at the wheel's tip, A, and ends at the pinion's, E.
+    """Sizes of a mesh. Where the pinion drives, contact begins at the wheel's tip, A, and ends at the pinion's, E.
 
-    `approach` and `recess` are the contact ratios of the wheel's and of the pinion's tip, epsilon_2 and epsilon_1, before and
-    after the pitch point; `tip_curvature` is the pinion's radius of curvature at E in the transverse section.
+    `wheel_part` and `pinion_part` are the contact ratios of their tips, epsilon_2 and epsilon_1, on either side of the pitch
+    point; `tip_curvature` is the pinion's radius of curvature at E in the transverse section.
     """
 
     gear_ratio: Size
@@ -34,13 +35,14 @@ class SlidingMesh:
     transverse_pressure_angle: Size
     working_pressure_angle: Size
     base_helix_angle: Size
-    approach: Size
-    recess: Size
+    wheel_part: Size
+    pinion_part: Size
     tip_curvature: Size
     total_contact_ratio: Size
+    driver: Role = Role.PINION
 
     @classmethod
-    def of(cls, pair: GearPair) -> SlidingMesh:
+    def of(cls, pair: GearPair, driver: Role = Role.PINION) -> SlidingMesh:
         """Those of a pair, on the path of contact between the tip form circles."""
         path, pitch, pinion = pair.path_of_contact, pair.pinion.transverse_base_pitch, pair.pinion
         return cls(
@@ -51,11 +53,22 @@ class SlidingMesh:
             transverse_pressure_angle=pinion.transverse_pressure_angle,
             working_pressure_angle=pair.working_transverse_pressure_angle,
             base_helix_angle=abs(pinion.base_helix_angle),
-            approach=(path.C - path.A) / pitch,
-            recess=(path.E - path.C) / pitch,
+            wheel_part=(path.C - path.A) / pitch,
+            pinion_part=(path.E - path.C) / pitch,
             tip_curvature=path.E,
             total_contact_ratio=pair.total_contact_ratio,
+            driver=driver,
         )
+
+    @property
+    def approach(self) -> Size:
+        """epsilon_f: the contact ratio until the pitch point, of the tip that is driven."""
+        return self.wheel_part if self.driver is Role.PINION else self.pinion_part
+
+    @property
+    def recess(self) -> Size:
+        """epsilon_a: the contact ratio from the pitch point on, of the tip that drives."""
+        return self.pinion_part if self.driver is Role.PINION else self.wheel_part
 
     @property
     def base_tangent(self) -> Size:
