@@ -55,7 +55,7 @@ class Rate(Job[PairDesign | RackPairDesign, Rating]):
 
 
 def rate(subject: Subject, load: Load | None = None, **inputs: Unpack[Inputs]) -> Rating:
-    """Rate a pair as mounted, under a load, by ISO 6336:2006 or DIN 3990:1987, Method B, and Hertz at the pitch point.
+    """Rate a pair as mounted, under a load, by ISO 6336 or DIN 3990, Method B, and Hertz at the pitch point.
 
     `material`, `mounting` and `rating` (RatingOptions), as the load, stand in place of those of a design; a pair has the
     defaults. A pinion and a rack are rated as a wheel of infinitely many teeth, without mounting.

@@ -8,16 +8,16 @@ __all__ = ["Edition"]
 
 
 class Edition(StrEnum):
-    """The standards that a rating can follow. They differ in Z_beta, Y_B and Y_DT; everything else is the same.
-
-    The later ISO 6336:2019 (tip relief in Z_B, f_eps and another Y_beta in the root stress) is not covered.
-    """
+    """The standards that a rating can follow. They differ in what is said of them; everything else is the same."""
 
     ISO_2006 = "ISO 6336:2006"
     """ISO 6336-1, -2, -3:2006 with their corrigenda of 2008 (Z_beta = 1/sqrt(cos beta))."""
 
+    ISO_2019 = "ISO 6336:2019"
+    """ISO 6336-2, -3:2019 as far as they are known, to be verified: Y_beta/cos^3 beta, f_eps in Y_F, f_ZCa in Z_B and Z_D."""
+
     DIN_1987 = "DIN 3990:1987"
-    """DIN 3990-1, -2, -3:1987 (Z_beta = sqrt(cos beta); no rim thickness or deep tooth factor)."""
+    """DIN 3990-1, -2, -3:1987 (Z_beta = sqrt(cos beta), Z_X of large modules; no rim thickness or deep tooth factor)."""
 
     def part(self, number: int) -> str:
         """One of its parts, such as ISO 6336-3."""

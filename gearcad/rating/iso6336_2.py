@@ -1,4 +1,4 @@
-"""Contact stress of the flanks by ISO 6336-2:2006, Method B (the same in DIN 3990-2:1987 but for Z_beta).
+"""Contact stress of the flanks by ISO 6336-2:2006, Method B (but for Z_beta in DIN 3990-2:1987, and Z_B, Z_D in 2019).
 
 Stresses in MPa, angles in degrees; clauses are those of ISO 6336-2:2006.
 """
@@ -10,10 +10,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from gearcad.errors import GeometryError
-from gearcad.geometry import GearPair
+from gearcad.geometry import Gear, GearPair
 from gearcad.material import Material, elastic_constants
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
+from gearcad.rating.edition_2019 import modification_factor, relieved
 from gearcad.rating.editions import Edition
 from gearcad.rating.hertz import reduced_modulus
 
@@ -27,6 +28,7 @@ __all__ = [
     "flank_rating",
     "helix_angle_factor",
     "nominal_contact_stress",
+    "profile_factor",
     "zone_factor",
 ]
 
@@ -97,6 +99,11 @@ def contact_factor(curvature: float, overlap_ratio: float) -> float:
     return max(curvature - overlap * (curvature - 1), 1.0)
 
 
+def profile_factor(edition: Edition, pinion: Gear, modified: bool) -> float:
+    """f_ZCa of the edition of 2019, by which Z_B and Z_D are multiplied, by whether profiles are taken back; 1 in others."""
+    return modification_factor(pinion.helix_angle, modified=modified) if edition is Edition.ISO_2019 else 1.0
+
+
 def single_contact_curvature(pair: GearPair) -> PerGear[float]:
     """M_1 (17) and M_2 (18): how much the inner point of single contact of either gear is more curved than the pitch point.
 
@@ -140,14 +147,16 @@ def flank_rating(pair: GearPair, materials: PerGear[Material], tangential_force:
     ratio = contact_ratio_factor(pair.transverse_contact_ratio, pair.overlap_ratio)
     helix = helix_angle_factor(pinion.helix_angle, edition)
     curvatures = single_contact_curvature(pair) if pair.overlap_ratio < 1 else PerGear(1.0, 1.0)
+    raised = profile_factor(edition, pinion, relieved(pinion.modification, pair.wheel.modification))
+    contact = curvatures.map(lambda curvature: raised * contact_factor(curvature, pair.overlap_ratio))
     if pair.internal:
-        curvatures = PerGear(curvatures.pinion, 1.0)  # Z_D is 1 for a ring (6.2, to be verified)
+        contact = PerGear(contact.pinion, 1.0)  # Z_D is 1 for a ring (6.2, to be verified)
     return FlankRating(
         zone_factor=zone,
         elasticity_factor=elasticity,
         contact_ratio_factor=ratio,
         helix_angle_factor=helix,
-        contact_factors=curvatures.map(lambda curvature: contact_factor(curvature, pair.overlap_ratio)),
+        contact_factors=contact,
         nominal_stress=nominal_contact_stress(pair, zone * elasticity * ratio * helix, tangential_force),
     )
 

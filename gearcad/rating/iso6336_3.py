@@ -1,4 +1,4 @@
-"""Tooth root stress by ISO 6336-3:2006, Method B (the same in DIN 3990-3:1987 but for Y_B and Y_DT).
+"""Tooth root stress by ISO 6336-3:2006, Method B (but for Y_B, Y_DT in DIN 3990-3:1987, and Y_F, Y_beta, Y_DT in 2019).
 
 The load acts at the outer point of single pair contact of the virtual gear, and bends the tooth at its `root_section`. Tool,
 thinning and root circle are those of the gear as it is cut: a thinned tooth comes from a thicker tooth of the tool, not from
@@ -18,6 +18,7 @@ from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.tooling import shaped
 from gearcad.notice import Notice
 from gearcad.per_gear import Role
+from gearcad.rating.edition_2019 import helix_angle_divisor, load_distribution_factor
 from gearcad.rating.editions import Edition
 from gearcad.rating.rim import rim_of
 from gearcad.rating.ring_formula import ring_section, substitute_radius
@@ -39,9 +40,6 @@ __all__ = [
     "root_rating",
     "stress_correction_factor",
 ]
-
-LOAD_DISTRIBUTION_FACTOR = 1.0
-"""f_eps of the form factor: 1 in both editions. It came with ISO 6336-3:2019, for helical gears and eps_alphan >= 2."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,12 +115,12 @@ class RootRating:
         }
 
 
-def form_factor(section: RootSection, load: LoadPoint, virtual: VirtualGear) -> float:
-    """Y_F = 6 (h_Fe/m_n) cos alpha_Fen/((s_Fn/m_n)^2 cos alpha_n) (9), times f_eps."""
+def form_factor(section: RootSection, load: LoadPoint, virtual: VirtualGear, load_distribution: float = 1.0) -> float:
+    """Y_F = 6 (h_Fe/m_n) cos alpha_Fen/((s_Fn/m_n)^2 cos alpha_n) (9), times f_eps, which came with the edition of 2019."""
     m_n = virtual.normal_module
     lever = 6 * section.moment_arm / m_n * math.cos(math.radians(load.load_angle))
     stiff = (section.chord / m_n) ** 2 * math.cos(math.radians(virtual.pressure_angle))
-    return lever / stiff * LOAD_DISTRIBUTION_FACTOR
+    return lever / stiff * load_distribution
 
 
 def stress_correction_factor(section: RootSection) -> float:
@@ -131,17 +129,19 @@ def stress_correction_factor(section: RootSection) -> float:
     return (1.2 + 0.13 * slimness) * math.pow(section.notch_parameter, 1 / (1.21 + 2.3 / slimness))
 
 
-def helix_angle_factor(helix_angle: float, overlap_ratio: float) -> float:
-    """Y_beta = 1 - eps_beta |beta|/120 deg (clause 8), with eps_beta at most 1 and |beta| at most 30 deg."""
-    return 1 - min(overlap_ratio, 1.0) * min(abs(helix_angle), 30.0) / 120
+def helix_angle_factor(helix_angle: float, overlap_ratio: float, edition: Edition = Edition.ISO_2006) -> float:
+    """Y_beta = 1 - eps_beta |beta|/120 deg (clause 8), with eps_beta at most 1 and |beta| at most 30 deg; 2019: /cos^3 beta."""
+    plain = 1 - min(overlap_ratio, 1.0) * min(abs(helix_angle), 30.0) / 120
+    return plain / helix_angle_divisor(helix_angle) if edition is Edition.ISO_2019 else plain
 
 
 def deep_tooth_factor(virtual_contact_ratio: float, accuracy_grade: int, edition: Edition) -> float:
     """Y_DT (clause 10): 2.366 - 0.666 eps_alphan from 2.05 to 2.5, then 0.7, for accuracy grade 4 or better; else 1.
 
-    The lower factor also asks for a profile modification that spreads the load; DIN 3990-3 has none.
+    The lower factor also asks for a profile modification that spreads the load; DIN 3990-3 has none. In the edition of 2019
+    f_eps spreads it, to be verified: it is not taken twice.
     """
-    if accuracy_grade > 4 or edition is Edition.DIN_1987 or virtual_contact_ratio <= 2.05:
+    if accuracy_grade > 4 or edition is not Edition.ISO_2006 or virtual_contact_ratio <= 2.05:
         return 1.0
     return 0.7 if virtual_contact_ratio > 2.5 else 2.366 - 0.666 * virtual_contact_ratio
 
@@ -186,12 +186,19 @@ class RootMesh:
             accuracy_grade=accuracy_grade,
         )
 
+    @property
+    def load_distribution(self) -> float:
+        """f_eps: 1 but in the edition of 2019."""
+        if self.edition is not Edition.ISO_2019:
+            return 1.0
+        return load_distribution_factor(self.virtual_contact_ratio, self.overlap_ratio)
+
     def rating(
         self, section: RootSection, load: LoadPoint, virtual: VirtualGear, *, width: float, rim_thickness_factor: float
     ) -> RootRating:
         """Of a tooth that carries over a width (mm)."""
-        y_f, y_s = form_factor(section, load, virtual), stress_correction_factor(section)
-        y_beta = helix_angle_factor(self.helix_angle, self.overlap_ratio)
+        y_f, y_s = form_factor(section, load, virtual, self.load_distribution), stress_correction_factor(section)
+        y_beta = helix_angle_factor(self.helix_angle, self.overlap_ratio, self.edition)
         y_dt = deep_tooth_factor(self.virtual_contact_ratio, self.accuracy_grade, self.edition)
         factors = y_f * y_s * y_beta * rim_thickness_factor * y_dt
         return RootRating(

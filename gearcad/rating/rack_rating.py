@@ -16,6 +16,7 @@ from gearcad.load import Load
 from gearcad.material import Material, elastic_constants, of_both
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
+from gearcad.rating.edition_2019 import RECALLED, edition_notices, relieved
 from gearcad.rating.editions import Edition
 from gearcad.rating.hertz import LineContact, reduced_modulus
 from gearcad.rating.iso6336_1 import (
@@ -33,6 +34,7 @@ from gearcad.rating.iso6336_2 import (
     contact_ratio_factor,
     elasticity_of,
     helix_angle_factor,
+    profile_factor,
     zone_factor,
 )
 from gearcad.rating.iso6336_3 import RootMesh, RootRating, deep_notices, notch_notices, root_notices, root_rating
@@ -80,9 +82,10 @@ def rate_rack(
         pitch_point=rack_contact_at(
             pair, materials, distance=pair.path_of_contact.C, force=normal, length=pair.contact_line_length(0.0)
         ),
-        verify=("q_prime",),
+        verify=("q_prime", *(RECALLED if options.standard is Edition.ISO_2019 else ())),
         notices=(
             *_rack_notices(pair),
+            *edition_notices(options.standard, modified=relieved(pair.pinion.modification)),
             *scope_notices(pair),
             *fillet_notices(pair, _FELT),
             *blank_notices(pair.pinion, "pinion"),
@@ -146,6 +149,7 @@ def _flank(pair: RackPair, materials: PerGear[Material], force: float, edition: 
     if pair.overlap_ratio < 1 and min(path.B, path.D) <= 0:
         permitted = "must be larger for a rating: single contact begins below the pinion's base circle"
         raise GeometryError("pinion.tip_diameter", pinion.tip_diameter, permitted, "mm")
+    raised = profile_factor(edition, pinion, relieved(pinion.modification))
     inner = PerGear(path.B, path.D) if pair.overlap_ratio < 1 else PerGear(path.C, path.C)
     factors = zone * elasticity * ratio * helix
     return FlankRating(
@@ -153,7 +157,7 @@ def _flank(pair: RackPair, materials: PerGear[Material], force: float, edition: 
         elasticity_factor=elasticity,
         contact_ratio_factor=ratio,
         helix_angle_factor=helix,
-        contact_factors=inner.map(lambda place: contact_factor(math.sqrt(path.C / place), pair.overlap_ratio)),
+        contact_factors=inner.map(lambda place: raised * contact_factor(math.sqrt(path.C / place), pair.overlap_ratio)),
         nominal_stress=factors * math.sqrt(force / (pinion.reference_diameter * pair.common_width)),
     )
 

@@ -14,6 +14,7 @@ from gearcad.load import Load
 from gearcad.material import Material, of_both
 from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
+from gearcad.rating.edition_2019 import RECALLED, edition_notices, relieved
 from gearcad.rating.editions import Edition
 from gearcad.rating.hertz import LineContact
 from gearcad.rating.iso6336_1 import MeshStiffness, mesh_stiffness, stiffness_notices
@@ -118,10 +119,11 @@ def rate(
         flank=flank_rating(pair, materials, force, edition),
         roots=roots,
         pitch_point=pitch_point_contact(pair, materials, load.torque),
-        verify=_recalled(roots.wheel) if pair.internal else (),
+        verify=_recalled(pair, edition, roots.wheel),
         notices=(
             *scope_notices(pair),
             *_ring_notices(pair),
+            *edition_notices(edition, modified=relieved(pair.pinion.modification, pair.wheel.modification)),
             *fillet_notices(pair),
             *stiffness_notices(pair, specific),
             *flank_notices(pair),
@@ -130,9 +132,11 @@ def rate(
     )
 
 
-def _recalled(ring: RootRating) -> tuple[str, ...]:
-    """What of a ring's rating is to be verified."""
-    return ("q_prime", "Z_D", "wheel.Y_B", *(() if ring.formula is None else ("wheel.formula",)))
+def _recalled(pair: GearPair, edition: Edition, wheel: RootRating) -> tuple[str, ...]:
+    """What of the rating of a ring, or by the edition of 2019, is to be verified."""
+    formula = () if wheel.formula is None else ("wheel.formula",)
+    ring = ("q_prime", "Z_D", "wheel.Y_B", *formula) if pair.internal else ()
+    return (*ring, *(symbol for symbol in RECALLED if edition is Edition.ISO_2019 and symbol not in ring))
 
 
 def require_ratable(pair: GearPair | RackPair, load: Load) -> None:

@@ -75,7 +75,7 @@ def test_row_of_a_table_tells_the_same(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('"DIN 3990:1987"', '"ISO 6336:2019"', "rating.standard = 'ISO 6336:2019': must be one of 'ISO 6336:2006', 'DIN"),
+        ('"DIN 3990:1987"', '"ISO 6336:1996"', "rating.standard = 'ISO 6336:1996': must be one of 'ISO 6336:2006', 'ISO"),
         ('group = "V"', 'group = "case"', "material.group = 'case': must be one of 'St', 'St (cast)', 'V',"),
         ("accuracy_grade = 7", "accuracy_grade = 0", "rating.accuracy_grade = 0: must be a whole number from 1 to 11"),
         ("accuracy_grade = 7", "accuracy_grad = 7", "rating.accuracy_grad: unknown key; did you mean accuracy_grade?"),

@@ -126,7 +126,7 @@ def test_deep_teeth_of_high_accuracy() -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"standard": "AGMA"}, "standard = 'AGMA': must be one of 'ISO 6336:2006', 'DIN 3990:1987'"),
+        ({"standard": "AGMA"}, "standard = 'AGMA': must be one of 'ISO 6336:2006', 'ISO 6336:2019', 'DIN 3990:1987'"),
         ({"accuracy": "DIN 3962"}, "accuracy = 'DIN 3962': must be one of 'ISO 1328-1:1995', 'ISO 1328-1:2013'"),
         ({"accuracy_grade": 13}, "accuracy_grade = 13: must be a whole number from 0 to 12"),
         ({"accuracy": "ISO 1328-1:2013", "accuracy_grade": 12}, "accuracy_grade = 12: must be a whole number from 1 to 11"),

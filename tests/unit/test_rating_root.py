@@ -140,7 +140,7 @@ def test_refuses_teeth_without_a_section() -> None:
 def test_root_factors() -> None:
     helical = [helix_angle_factor(*given) for given in ((0, 0.0), (-24, 0.5), (45, 3.0))]
     assert helical == pytest.approx([1, 0.9, 0.75], rel=EXACT)
-    iso, din = Edition
+    iso, din = Edition.ISO_2006, Edition.DIN_1987
     # The branches meet at 1.2, 2.05 and 2.5 as far as the standard's rounded numbers do.
     rims = [rim_thickness_factor(ratio, iso) for ratio in (5.0, 1.2, 1.2 - 1e-12, 0.8)]
     assert rims == pytest.approx([1, 1, 1, 1.6 * math.log(2.242 / 0.8)], abs=1e-4)

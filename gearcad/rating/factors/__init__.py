@@ -25,6 +25,7 @@ from gearcad.rating.factors.notch import (
     strength_range,
 )
 from gearcad.rating.factors.size import flank_size_factor, root_size_factor
+from gearcad.rating.factors.sources import citations, to_verify
 from gearcad.rating.factors.surface import root_surface_factor
 from gearcad.rating.factors.work_hardening import (
     equivalent_roughness,
@@ -37,6 +38,7 @@ __all__ = [
     "Family",
     "Points",
     "cautious_strength",
+    "citations",
     "cycles_at",
     "equivalent_roughness",
     "flank_life_factor",
@@ -58,6 +60,7 @@ __all__ = [
     "static_work_hardening_factor",
     "strength_range",
     "through_hardened_factor",
+    "to_verify",
     "transition",
     "work_hardening_factor",
 ]
