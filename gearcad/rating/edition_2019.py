@@ -5,13 +5,14 @@ Their texts were not at hand: Y_beta is by one public transcription, f_eps and f
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
+
+import numpy as np
 
 from gearcad.geometry import FlankModification
 from gearcad.notice import Notice
 from gearcad.rating.editions import Edition
-from gearcad.rating.factors.elementwise import Values, chosen, power
+from gearcad.rating.factors.elementwise import Values, bounded, chosen, number_or_array, power
 
 __all__ = ["RECALLED", "edition_notices", "helix_angle_divisor", "load_distribution_factor", "modification_factor", "relieved"]
 
@@ -33,19 +34,17 @@ def load_distribution_factor(virtual_contact_ratio: Values, overlap_ratio: Value
     return chosen(overlap_ratio > 0, helical, chosen(virtual_contact_ratio < 2, 1.0, 0.7))
 
 
-def helix_angle_divisor(helix_angle: float) -> float:
+def helix_angle_divisor(helix_angle: Values) -> Values:
     """cos^3 beta, by which Y_beta is divided (-3, (66)), |beta| at most 30 deg."""
-    return math.cos(math.radians(min(abs(helix_angle), 30.0))) ** 3
+    return number_or_array(helix_angle, np.cos(np.radians(bounded(helix_angle, -30, 30))) ** 3)
 
 
-def modification_factor(helix_angle: float, *, modified: bool) -> float:
+def modification_factor(helix_angle: Values, *, modified: bool) -> Values:
     """f_ZCa, by which Z_B and Z_D are multiplied (-2): 1 with an adequate profile modification, else 1.07, of spur gears 1.2.
 
     Whether it multiplies the stress or the load was not known: the stress is the greater.
     """
-    if modified:
-        return 1.0
-    return 1.07 if helix_angle else 1.2
+    return chosen(helix_angle == 0, 1.0 if modified else 1.2, 1.0 if modified else 1.07)
 
 
 def relieved(pinion: FlankModification, wheel: FlankModification = _UNMODIFIED) -> bool:

@@ -73,6 +73,7 @@ def test_profiles_that_are_taken_back_need_no_more() -> None:
     assert not relieved(relief, root)  # both where contact ends
     assert not relieved(FlankModification(lead_crowning=9.0), FlankModification(lead_crowning=9.0))
     assert modification_factor(0.0, modified=True) == modification_factor(20.0, modified=True) == 1
+    assert modification_factor(np.array([0, 20.0]), modified=False).tolist() == [1.2, 1.07]
 
 
 def test_deep_teeth_are_not_relieved_twice() -> None:
