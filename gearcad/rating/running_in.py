@@ -12,8 +12,10 @@ from numpy.typing import ArrayLike
 from gearcad.arrays import Floats
 from gearcad.errors import require_number
 from gearcad.material import MaterialGroup
+from gearcad.per_gear import PerGear
+from gearcad.rating.factors.elementwise import Values
 
-__all__ = ["RunningIn", "running_in_alpha", "running_in_beta", "running_in_relief"]
+__all__ = ["FlankWear", "RunningIn", "running_in_alpha", "running_in_beta", "running_in_relief"]
 
 
 _SLOW, _FAST = 5.0, 10.0
@@ -63,8 +65,8 @@ class _Rule(NamedTuple):
     part: float
     most: tuple[float, float, float]
 
-    def allowance(self, deviation: float, speed: ArrayLike, softness: float) -> Floats:
-        """What wears off a deviation (µm) at circumferential speeds (m/s), in their shape."""
+    def allowance(self, deviation: float | Floats, speed: ArrayLike, softness: float | Floats) -> Floats:
+        """What wears off deviations (µm) at circumferential speeds (m/s); all broadcast."""
         v = np.abs(np.asarray(speed, float))
         most = np.select([v <= _SLOW, v <= _FAST], self.most[:2], self.most[2])
         result: Floats = np.minimum(np.minimum(self.part * deviation, most) / softness, deviation)
@@ -83,8 +85,10 @@ _BETA = {
 }
 
 
-def running_in_alpha(deviation: float, kind: RunningIn, speed: ArrayLike, flank_limit: float | None = None) -> Floats:
-    """y_alpha (8.3.5): what wears off a deviation f_pb or f_falpha at circumferential speeds (m/s), in their shape.
+def running_in_alpha(
+    deviation: float | Floats, kind: RunningIn, speed: ArrayLike, flank_limit: float | Floats | None = None
+) -> Floats:
+    """y_alpha (8.3.5): what wears off deviations f_pb or f_falpha at circumferential speeds (m/s); all broadcast.
 
     For two materials it is the mean of theirs. Through-hardened gears need their `flank_limit` sigma_H_lim (MPa). Raises
     ParameterError.
@@ -92,19 +96,38 @@ def running_in_alpha(deviation: float, kind: RunningIn, speed: ArrayLike, flank_
     return _ALPHA[kind].allowance(deviation, speed, _softness(kind, flank_limit))
 
 
-def running_in_beta(misalignment: float, kind: RunningIn, speed: ArrayLike, flank_limit: float | None = None) -> Floats:
+def running_in_beta(
+    misalignment: float | Floats, kind: RunningIn, speed: ArrayLike, flank_limit: float | Floats | None = None
+) -> Floats:
     """y_beta (clause 7): what wears off an initial misalignment F_beta_x; F_beta_y = F_beta_x - y_beta. Else as y_alpha."""
     return _BETA[kind].allowance(misalignment, speed, _softness(kind, flank_limit))
 
 
-def running_in_relief(flank_limit: float) -> float:
+def running_in_relief(flank_limit: Values) -> Values:
     """C_ay (6.5): the tip relief (µm) that running in makes, by sigma_H_lim (MPa); for two materials the mean of theirs."""
     return (flank_limit / 97 - 18.45) ** 2 / 18 + 1.5
 
 
-def _softness(kind: RunningIn, flank_limit: float | None) -> float:
+class FlankWear(NamedTuple):
+    """How the flanks of both gears run in, and their limits sigma_Hlim (MPa): of two materials the mean of both counts."""
+
+    kinds: PerGear[RunningIn]
+    flank_limits: PerGear[float | Floats | None]
+
+    def alpha(self, deviation: float | Floats, speed: ArrayLike) -> Floats:
+        """y_alpha (µm) of deviations f_pb or f_falpha at circumferential speeds (m/s)."""
+        pinion, wheel = (running_in_alpha(deviation, kind, speed, limit) for kind, limit in zip(*self, strict=True))
+        return (pinion + wheel) / 2
+
+    def beta(self, misalignment: float | Floats, speed: ArrayLike) -> Floats:
+        """y_beta (µm) of misalignments F_beta_x."""
+        pinion, wheel = (running_in_beta(misalignment, kind, speed, limit) for kind, limit in zip(*self, strict=True))
+        return (pinion + wheel) / 2
+
+
+def _softness(kind: RunningIn, flank_limit: float | Floats | None) -> float | Floats:
     if not kind.needs_flank_limit:
         return 1.0
-    require_number("flank_limit", flank_limit, "MPa", above=0)
+    require_number("flank_limit", flank_limit if flank_limit is None else float(np.min(flank_limit)), "MPa", above=0)
     assert flank_limit is not None  # a number: seen to just now
     return flank_limit

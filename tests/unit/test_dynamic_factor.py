@@ -19,7 +19,7 @@ from gearcad.geometry import FlankModification
 from gearcad.material import MaterialGroup
 from gearcad.per_gear import PerGear
 from gearcad.rating import Accuracy, DynamicFactor, RatingOptions, RunningIn, running_in_alpha
-from gearcad.rating.dynamic_factor import running_factors
+from gearcad.rating.resonance import running_factors
 from gearcad.rating.tolerances.iso1328 import flank_tolerances
 
 TEMPLATES = Path(__file__).parents[2] / "templates"

@@ -20,6 +20,7 @@ __all__ = [
     "interpolated_over_log",
     "number_or_array",
     "power",
+    "root",
 ]
 
 Values = TypeVar("Values", float, float | Floats)
@@ -39,6 +40,11 @@ def chosen(condition: bool | Bools, values: Values, others: Values) -> Values:
 def power(base: Values, exponent: Values) -> Values:
     """Base, positive, to the exponent: `**` of two numbers could be complex to a type checker."""
     return number_or_array(base, np.power(base, exponent))
+
+
+def root(values: Values) -> Values:
+    """Square root."""
+    return number_or_array(values, np.sqrt(values))
 
 
 def interpolated(values: Values, points: Sequence[tuple[float, float]]) -> Values:

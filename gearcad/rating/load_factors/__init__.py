@@ -1,0 +1,42 @@
+"""Load factors of ISO 6336-1 and DIN 3990-1: K_v, K_Hbeta, K_Fbeta, K_Halpha, K_Falpha; pure functions of numbers or arrays.
+
+K_v of Method B is in `gearcad.rating.resonance`, K_Hbeta of a misalignment in `gearcad.rating.face_load`.
+"""
+
+from gearcad.rating.load_factors.below_resonance import dynamic_factor_c, speed_measure
+from gearcad.rating.load_factors.masses import body_mass, mass_of, pair_mass
+from gearcad.rating.load_factors.misalignment import (
+    UNLOADED_ENDS,
+    HelixFactors,
+    arrangement_factor,
+    helix_factors,
+    initial_misalignment,
+    least_misalignment,
+    manufacturing_misalignment,
+    proven_misalignment,
+    shaft_deflection,
+    shaft_term,
+)
+from gearcad.rating.load_factors.transverse import flank_limit, root_limit, transverse_load_factor, within
+
+__all__ = [
+    "UNLOADED_ENDS",
+    "HelixFactors",
+    "arrangement_factor",
+    "body_mass",
+    "dynamic_factor_c",
+    "flank_limit",
+    "helix_factors",
+    "initial_misalignment",
+    "least_misalignment",
+    "manufacturing_misalignment",
+    "mass_of",
+    "pair_mass",
+    "proven_misalignment",
+    "root_limit",
+    "shaft_deflection",
+    "shaft_term",
+    "speed_measure",
+    "transverse_load_factor",
+    "within",
+]
