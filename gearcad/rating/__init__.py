@@ -18,7 +18,7 @@ from gearcad.rating.rack_rating import RackRating, rack_contact_at, rate_rack
 from gearcad.rating.rate import Rating, rate
 from gearcad.rating.root_section import RootSection
 from gearcad.rating.running_in import RunningIn, running_in_alpha, running_in_beta
-from gearcad.rating.tolerances.iso1328 import Accuracy
+from gearcad.rating.tolerances import Accuracy
 from gearcad.rating.virtual import LoadPoint, VirtualGear
 
 __all__ = [

@@ -11,7 +11,7 @@ from gearcad.rating.duty_options import DutyOptions
 from gearcad.rating.editions import Edition
 from gearcad.rating.load_factor_options import LoadFactorOptions
 from gearcad.rating.lubricant_options import LubricantOptions
-from gearcad.rating.tolerances.iso1328 import Accuracy, grades
+from gearcad.rating.tolerances import Accuracy, grades
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
 
