@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from enum import StrEnum
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.per_gear import PerGear
@@ -14,7 +14,20 @@ from gearcad.ranges import DENSITY, MODULUS, POISSON_RATIO, STRENGTH, Range
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
 
-__all__ = ["STEEL_MODULUS", "Grade", "Material", "MaterialGroup", "MaterialQuality", "elastic_constants", "grade_of", "of_both"]
+__all__ = [
+    "STEEL_MODULUS",
+    "Grade",
+    "Limit",
+    "Material",
+    "MaterialGroup",
+    "MaterialQuality",
+    "Materials",
+    "by_gear",
+    "elastic_constants",
+    "grade_of",
+    "materials_document",
+    "of_both",
+]
 
 STEEL_MODULUS = 206000.0
 """Young's modulus (MPa) of steel: of what nothing else is said about."""
@@ -95,7 +108,7 @@ _HARDNESS = Range("", 50.0, 1500.0)
 
 _CORE_HARDNESS = Range("HRC", 10.0, 60.0)
 
-_Limit = float | tuple[float, float] | None
+Limit = float | tuple[float, float] | None
 """An allowable stress (MPa), the range in which it lies, or none."""
 
 
@@ -116,8 +129,8 @@ class Material:
     poisson_ratio: Annotated[float, POISSON_RATIO, Words("Poisson's ratio", "ν")] = 0.3
     density: Annotated[float, DENSITY, Words("density", "ρ")] = 7850.0
     yield_strength: Annotated[float | None, STRENGTH, Words("yield strength", "σ_y")] = None
-    contact_limit: Annotated[_Limit, STRENGTH, Words("permissible contact stress", "σ_HP", "ISO 6336-2")] = None
-    root_limit: Annotated[_Limit, STRENGTH, Words("permissible root stress", "σ_FP", "ISO 6336-3")] = None
+    contact_limit: Annotated[Limit, STRENGTH, Words("permissible contact stress", "σ_HP", "ISO 6336-2")] = None
+    root_limit: Annotated[Limit, STRENGTH, Words("permissible root stress", "σ_FP", "ISO 6336-3")] = None
     group: Annotated[MaterialGroup | None, Words("material group", "", "ISO 6336-5")] = None
     contact_endurance_limit: Annotated[
         float | None, STRENGTH, Words("endurance limit of contact stress", "σ_Hlim", "ISO 6336-5")
@@ -155,9 +168,28 @@ class Material:
         return None if self.group is None or self.quality is None else Grade(self.group, self.quality)
 
 
-def of_both(material: Material | PerGear[Material]) -> PerGear[Material]:
+Materials = Material | PerGear[Material]
+"""That of both gears, or of each."""
+
+
+def of_both(material: Materials) -> PerGear[Material]:
     """Those of both gears, of which one material may stand for both."""
     return PerGear(material, material) if isinstance(material, Material) else material
+
+
+def by_gear(material: Materials) -> dict[str, Material]:
+    """What to say behind words of a material, such as ", wheel", and the material: nothing where both are of one."""
+    materials = of_both(material)
+    if materials.pinion == materials.wheel:
+        return {"": materials.pinion}
+    return {f", {role.value}": each for role, each in materials.items()}
+
+
+def materials_document(material: Materials) -> dict[str, Any]:
+    """What documents have of it: "material" of both, or "materials" by gear."""
+    if isinstance(material, Material):
+        return {"material": asdict(material)}
+    return {"materials": {role.value: asdict(each) for role, each in material.items()}}
 
 
 def elastic_constants(materials: PerGear[Material]) -> tuple[PerGear[float], PerGear[float]]:

@@ -76,8 +76,12 @@ class FieldSchema:
     @cached_property
     def several(self) -> bool:
         """Whether it can be several numbers."""
-        origins = map(get_origin, self.members)
-        return any(isinstance(origin, type) and issubclass(origin, tuple) for origin in origins)
+        return any(map(_is_list, self.members)) and not self.nested
+
+    @cached_property
+    def nested(self) -> bool:
+        """Whether it is a list of lists of numbers, which a cell of a table has as a text."""
+        return any(_is_list(member) and any(map(_is_list, get_args(member))) for member in self.members)
 
     @cached_property
     def text(self) -> bool:
@@ -112,6 +116,8 @@ class FieldSchema:
         self._require_either(instance, parameter)
         if (value is None and self.optional) or getattr(value, "derived", False) or _stands_in(value, self.words):
             return
+        if self.members == (bool,) and not isinstance(value, bool):
+            raise ParameterError(parameter, value, "must be true or false")
         if self.choices is not None:
             object.__setattr__(instance, self.name, as_choice(parameter, value, self.choices))
         if self.permitted is None:
@@ -141,6 +147,11 @@ def _given(value: Any) -> bool:
 
 def _stands_in(value: Any, words: tuple[str, ...]) -> bool:
     return isinstance(value, str) and value in words
+
+
+def _is_list(member: Any) -> bool:
+    origin = get_origin(member)
+    return isinstance(origin, type) and issubclass(origin, tuple)
 
 
 def _is_enum(member: Any) -> bool:

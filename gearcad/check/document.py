@@ -8,6 +8,7 @@ from typing import Any
 
 from gearcad.check.result import CheckResult
 from gearcad.contact.shared.extremes import Extreme
+from gearcad.material import materials_document
 
 __all__ = ["check_document", "reported_document"]
 
@@ -19,7 +20,7 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "model": result.model.value,
         "load": asdict(result.load),
         "mounting": asdict(result.mounting),
-        "material": asdict(result.material),
+        **materials_document(result.material),
         "options": asdict(result.options),
         "body": result.bodies,
         "mesh": {role.value: body.mesh_document for role, body in result.cycle.model.bodies.items()},

@@ -12,6 +12,7 @@ from gearcad.check.rim import bending_limits, bending_notes, rim_gates
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
 from gearcad.contact.shared.loaded import Cycle
+from gearcad.material import Limit, Material, by_gear
 
 __all__ = ["compare_common", "farness", "standards"]
 
@@ -91,21 +92,32 @@ def _sampling(summary: Summary, of_pressure: float) -> Iterator[Comparison]:
 
 
 def _material_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
-    """What the material gives a limit for."""
-    material = task.material
+    """What the materials give a limit for."""
     deep = f"{summary.von_mises_depth:.3g} mm deep" if summary.von_mises_depth is not None else ""
     away, missing = "the greatest away from the corners of the flanks", summary.missing.get
-    for words, value, limit, note, reason in (
-        ("contact pressure", summary.contact_pressure, material.contact_limit, away, missing("contact_pressure", "")),
-        ("root stress, pinion", summary.root_tension.pinion, material.root_limit, "tension", ""),
-        ("root stress, wheel", summary.root_tension.wheel, material.root_limit, "tension", ""),
-        ("von Mises stress below the flank", summary.von_mises, material.yield_strength, deep, missing("von_mises", "")),
+    every = by_gear(task.material).items()
+    pressures = [(f"contact pressure{whose}", summary.contact_pressure, of, of.contact_limit) for whose, of in every]
+    tensions = summary.root_tension
+    roots = [(f"root stress, {role.value}", tensions.pick(role), of, of.root_limit) for role, of in task.materials.items()]
+    below = [(f"von Mises stress below the flank{whose}", summary.von_mises, of, of.yield_strength) for whose, of in every]
+    for found, told, reason in (
+        (pressures, away, missing("contact_pressure", "")),
+        (roots, "tension", ""),
+        (below, deep, missing("von_mises", "")),
     ):
-        if isinstance(limit, tuple):
-            note += f"; the limit of this material lies between {limit[0]:g} and {limit[1]:g} MPa, and the lower one counts"
-            limit = limit[0]
-        if limit is not None:
-            yield at_most(words, value, limit, "MPa", f"limit of {material.name}", note, reason, subject=Subject.STRENGTH)
+        for words, value, material, limit in found:
+            yield from _within_limit(words, value, material, limit, told, reason)
+
+
+def _within_limit(
+    words: str, value: float | None, material: Material, limit: Limit, note: str, reason: str
+) -> Iterator[Comparison]:
+    """A stress (MPa) against the limit of a material, if it has one."""
+    if isinstance(limit, tuple):
+        note += f"; the limit of this material lies between {limit[0]:g} and {limit[1]:g} MPa, and the lower one counts"
+        limit = limit[0]
+    if limit is not None:
+        yield at_most(words, value, limit, "MPa", f"limit of {material.name}", note, reason, subject=Subject.STRENGTH)
 
 
 def standards(task: CheckTask, summary: Summary) -> Iterator[Comparison]:

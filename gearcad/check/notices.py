@@ -28,8 +28,9 @@ def common_notices(task: CheckTask, cycle: Cycle, summary: Summary) -> Iterator[
 
 
 def _strain(task: CheckTask, summary: Summary) -> Iterator[Notice]:
-    modulus = task.material.youngs_modulus
-    across = modulus / (2 * (1 - task.material.poisson_ratio**2))
+    softest = min(task.materials, key=lambda material: material.youngs_modulus)
+    modulus = softest.youngs_modulus
+    across = modulus / (2 * (1 - softest.poisson_ratio**2))
     for words, stress, stiff in (
         ("contact pressure", summary.contact_pressure or 0.0, across),
         ("root stress", max(summary.root_tension), modulus),

@@ -21,7 +21,7 @@ from gearcad.check.task import CheckTask
 from gearcad.contact.shared.loaded import Cycle, LoadedPosition, RootStress
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Materials, by_gear
 from gearcad.mounting import Mounting
 from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
@@ -66,8 +66,8 @@ class CheckResult(ABC):
         return self.task.pair
 
     @property
-    def material(self) -> Material:
-        """Of both gears."""
+    def material(self) -> Materials:
+        """Of both gears, or of each."""
         return self.task.material
 
     @property
@@ -189,13 +189,17 @@ class CheckResult(ABC):
     @property
     def without_limit(self) -> tuple[str, ...]:
         """What the material gives no limit for, in words."""
-        material = self.material
         limits = {
-            "contact pressure": material.contact_limit,
-            "root stress": material.root_limit,
-            "von Mises stress below the flank": material.yield_strength,
+            "contact pressure": "contact_limit",
+            "root stress": "root_limit",
+            "von Mises stress below the flank": "yield_strength",
         }
-        return tuple(words for words, limit in limits.items() if limit is None)
+        return tuple(
+            f"{words}{whose}"
+            for words, limit in limits.items()
+            for whose, material in by_gear(self.material).items()
+            if getattr(material, limit) is None
+        )
 
     @property
     def verdict(self) -> str:

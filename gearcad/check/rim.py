@@ -70,16 +70,17 @@ def rim_gates(task: CheckTask) -> Iterator[Comparison]:
 
 def bending_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
     """Where a rim bends, its roots are compressed more than stretched, and its bore is stretched too."""
-    limit = task.material.root_limit
-    least = limit[0] if isinstance(limit, tuple) else limit
     for role, rim in _rims(task).items():
+        material = task.materials.pick(role)
+        limit = material.root_limit
+        least = limit[0] if isinstance(limit, tuple) else limit
         if least is None or not rim.support.bends:
             continue
         for words, value, note in (
             ("root compression", abs(summary.root_compression.pick(role)), "where a rim bends it changes sign"),
             ("tension on the bore", summary.bore_tension.pick(role), "where the rim bends"),
         ):
-            source = f"limit of {task.material.name}"
+            source = f"limit of {material.name}"
             yield at_most(f"{words}, {rim.role.value}", value, least, "MPa", source, note, subject=Subject.STRENGTH)
 
 

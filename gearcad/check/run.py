@@ -10,7 +10,7 @@ from gearcad.check.solid.run import check_solid
 from gearcad.check.task import check_task
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Materials
 from gearcad.mounting import Mounting
 from gearcad.progress import Agenda, Expected, Progress
 from gearcad.rating.options import RatingOptions
@@ -20,7 +20,7 @@ __all__ = ["check_pair", "expected_check"]
 
 def check_pair(
     pair: GearPair,
-    material: Material,
+    material: Materials,
     load: Load,
     options: CheckOptions | None = None,
     progress: Progress | None = None,
@@ -40,7 +40,7 @@ def check_pair(
 
 def expected_check(
     pair: GearPair,
-    material: Material,
+    material: Materials,
     load: Load,
     options: CheckOptions | None = None,
     mounting: Mounting | None = None,

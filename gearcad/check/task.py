@@ -10,8 +10,9 @@ from gearcad.contact.shared.bodies import BodyModel
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Material, Materials, of_both
 from gearcad.mounting import Mounting
+from gearcad.per_gear import PerGear
 from gearcad.rating import Rating, RatingOptions, rate
 
 __all__ = ["CheckTask", "check_task"]
@@ -22,11 +23,16 @@ class CheckTask:
     """What is to be checked; `pair` is as mounted."""
 
     pair: GearPair
-    material: Material
+    material: Materials
     load: Load
     mounting: Mounting
     options: CheckOptions
     rating_options: RatingOptions = field(default_factory=RatingOptions)
+
+    @property
+    def materials(self) -> PerGear[Material]:
+        """Those of both gears."""
+        return of_both(self.material)
 
     @property
     def torque(self) -> float:
@@ -57,7 +63,7 @@ class CheckTask:
 
 def check_task(
     pair: GearPair,
-    material: Material,
+    material: Materials,
     load: Load,
     options: CheckOptions | None = None,
     mounting: Mounting | None = None,

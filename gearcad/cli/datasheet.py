@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import asdict
 from itertools import starmap
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearcad import symbols
 from gearcad.cli.train_sheet import train_lines
+from gearcad.designs.cells import nested_text
 from gearcad.designs.design import Design, DesignKind
 from gearcad.designs.keys import FIELDS, PLANETARY
 from gearcad.designs.kinds.planetary import PlanetaryDesign
@@ -15,7 +17,9 @@ from gearcad.designs.kinds.train import TrainDesign
 from gearcad.errors import format_number
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.geometry.derived import is_given
+from gearcad.material import Material
 from gearcad.planetary import Carrier, Central, PlanetaryTrain, Rim
+from gearcad.rating.options import RatingOptions
 from gearcad.schema import symbols_of
 
 if TYPE_CHECKING:
@@ -106,6 +110,10 @@ _WIDE = 96
 """Console width from which the column of sources fits."""
 
 
+_OF_EVERY_RATING = ("standard", "accuracy", "accuracy_grade")
+_USUAL_RATING = asdict(RatingOptions())
+
+
 class _Line(NamedTuple):
     """One line of the sheet and its style on a terminal."""
 
@@ -146,12 +154,34 @@ def _lines(design: Design, *, with_source: bool) -> Iterator[_Line]:
     if isinstance(design, PlanetaryDesign):
         yield from _train_lines(design.to_dict()["planetary"], with_source)
     fields = PLANETARY if design.kind is DesignKind.PLANETARY else FIELDS
-    for block in ("material", "load", "mounting", "rating"):
-        absent = (None, 0) if block == "mounting" else (None,)
-        given = {key: value for key, value in document.get(block, {}).items() if value not in absent}
+    yield from _material_lines(document, with_source)
+    for block in ("load", "mounting", "rating"):
+        given = {key: value for key, value in document.get(block, {}).items() if _is_shown(block, key, value)}
         rows = [(fields[block][key].symbol, [_given(value)]) for key, value in given.items()]
         yield from _block(block.capitalize(), rows, with_source)
     yield from _warnings(design)
+
+
+def _material_lines(document: Mapping[str, Any], with_source: bool) -> Iterator[_Line]:
+    """The material of all gears, or a column for each."""
+    every = document.get("materials", {})
+    if not every and "material" in document:
+        every = {"": document["material"]}
+    if len(every) > 1:
+        yield _Line(_columns(_NOTHING, every, with_source=False), "bold")
+    rows = [
+        (symbol, [_ABSENT if of[key] is None else _given(of[key]) for of in every.values()])
+        for key, symbol in symbols_of(Material).items()
+        if any(of[key] is not None for of in every.values())
+    ]
+    yield from _block("Material", rows, with_source)
+
+
+def _is_shown(block: str, key: str, value: Any) -> bool:
+    """What is there; of the mounting what is not 0, and of the rating, which has much, what is not as ever."""
+    if value is None or (block == "mounting" and value == 0):
+        return False
+    return block != "rating" or key in _OF_EVERY_RATING or value != _USUAL_RATING[key]
 
 
 def _pair_lines(pairs: Mapping[str, dict[str, Any]], with_source: bool, width: int = _WIDTH) -> Iterator[_Line]:
@@ -271,6 +301,10 @@ def _value(value: Any) -> str:
 
 
 def _given(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if isinstance(value, tuple):
+        if isinstance(value[0], tuple):
+            return nested_text(value)
         return " ... ".join(map(format_number, value))
     return value if isinstance(value, str) else format_number(value)

@@ -109,10 +109,10 @@ class PairDecks(ABC):
         deck = LoadedPairDeck(
             mesh=mesh,
             held=PerGear.each(lambda role: held_nodes(mesh, f"{role.value}_")),
-            material=self.task.material,
+            material=self.task.materials.pinion,
             torque=self.task.torque,
             flanks=[self.flanks(tooth) for tooth in self.teeth_near(roll_angle)],
-            contact_stiffness=_STIFFNESS * self.task.material.youngs_modulus / edge,
+            contact_stiffness=_STIFFNESS * self.task.materials.pinion.youngs_modulus / edge,
             width=self.width,
         )
         made = PairDeck(self, deck, position, approach)

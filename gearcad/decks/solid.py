@@ -143,7 +143,7 @@ class SolidDecks(PairDecks):
         """Of the fillet's surface, by strains, as our own check has it."""
         gear = self.pair.gears.pick(role)
         fillet = Fillet(mesh, self.side(role, tooth, "fillet"), turn + 2 * math.pi * tooth / gear.teeth, twist(gear))
-        return root_tension(fillet, moved, self.task.material)
+        return root_tension(fillet, moved, self.task.materials.pick(role))
 
 
 def _beyond(low: float, high: float, thickness: float) -> Floats:

@@ -62,7 +62,7 @@ class ToothDeck(ABC):
             write_nodes(file, self.mesh.points)
             write_elements(file, self.mesh, element_type(self.mesh.element))
             write_held(file, self.role, held_nodes(self.mesh, f"{self.role.value}_"))
-            write_material(file, self.decks.task.material, self.mesh.parts, self.decks.width)
+            write_material(file, self.decks.task.materials.pick(self.role), self.mesh.parts, self.decks.width)
             file.write(f"*BOUNDARY\n{held}, 1, {self.mesh.element.shape.dimension}\n*STEP\n*STATIC\n")
             self.write_loads(file)
             file.write("*NODE FILE, NSET=nodes\nU\n*EL FILE\nS\n")

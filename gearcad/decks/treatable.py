@@ -5,7 +5,7 @@ from __future__ import annotations
 from gearcad.check.task import CheckTask
 from gearcad.contact.shared.chain import Cuts
 from gearcad.contact.shared.holding import Hold
-from gearcad.errors import GeometryError, ParameterError
+from gearcad.errors import GeometryError, ParameterError, format_number
 
 __all__ = ["require_same_flanks", "require_treatable"]
 
@@ -15,10 +15,19 @@ _PITCH_ERRORS = ("pinion_pitch_error", "wheel_pitch_error")
 
 def require_treatable(task: CheckTask) -> None:
     """Raise ParameterError or GeometryError for supports, cuts and mountings that decks do not have."""
+    _require_one_elasticity(task)
     _require_rigid_hubs(task)
     for name in (*_UNTILTED, *_PITCH_ERRORS):
         if value := getattr(task.mounting, name):
             raise ParameterError(f"mounting.{name}", value, "must be 0 for a deck: it has the gears as they are drawn", "µm")
+
+
+def _require_one_elasticity(task: CheckTask) -> None:
+    pinion, wheel = task.materials
+    for name, unit in (("youngs_modulus", "MPa"), ("poisson_ratio", "")):
+        if (own := getattr(wheel, name)) != (other := getattr(pinion, name)):
+            permitted = f"must be that of the pinion, {format_number(other)}, for a deck, which has one elastic material"
+            raise ParameterError(f"wheel.material.{name}", own, permitted, unit)
 
 
 def _require_rigid_hubs(task: CheckTask) -> None:

@@ -12,7 +12,18 @@ from gearcad.designs.keys import COUNTS, LISTS, TEXTS, Cell
 from gearcad.designs.train_keys import general_key
 from gearcad.errors import ParameterError
 
-__all__ = ["CellReader", "Layout", "RawCell", "Unreadable", "guarded_text", "is_blank", "is_comment", "list_text", "plain_text"]
+__all__ = [
+    "CellReader",
+    "Layout",
+    "RawCell",
+    "Unreadable",
+    "guarded_text",
+    "is_blank",
+    "is_comment",
+    "list_text",
+    "nested_text",
+    "plain_text",
+]
 
 
 class Layout(Enum):
@@ -64,6 +75,11 @@ def plain_text(cell: RawCell) -> str:
 def list_text(numbers: Iterable[float]) -> str:
     """Several numbers as one cell, which CellReader reads."""
     return " ".join(map(repr, numbers))
+
+
+def nested_text(lists: Iterable[Iterable[float]]) -> str:
+    """Lists of numbers as one cell: 0.1:1.25 0.9:0.8."""
+    return " ".join(":".join(map(repr, each)) for each in lists)
 
 
 def guarded_text(text: str) -> str:

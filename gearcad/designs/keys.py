@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
 __all__ = [
+    "ALTERNATIVES",
     "BESIDE",
     "COLUMNS",
     "COUNTS",
@@ -34,7 +35,9 @@ __all__ = [
     "KEYS",
     "LISTS",
     "MAIN_TABLES",
+    "NESTED",
     "OF_SETS",
+    "OWN_MATERIAL",
     "PARTS",
     "PARTS_BESIDE",
     "PLANETARY",
@@ -101,6 +104,15 @@ class _OfSpecs:
     )
 
 
+@dataclass(frozen=True)
+class _NamesOfMaterials:
+    """Keys of [material] that name that of one gear."""
+
+    pinion: Annotated[str | None, Words("material of the pinion", "", "ISO 6336-5")] = None
+    wheel: Annotated[str | None, Words("material of the wheel", "", "ISO 6336-5")] = None
+    rack: Annotated[str | None, Words("material of the rack", "", "ISO 6336-5")] = None
+
+
 def _flat(kind: type[DataclassInstance]) -> Iterator[tuple[str, FieldSchema]]:
     """Keys and fields of a type, those of its parts behind the others, with a dot; `rack` alone is the name of one."""
     parts = {}
@@ -117,13 +129,23 @@ def _flat(kind: type[DataclassInstance]) -> Iterator[tuple[str, FieldSchema]]:
 
 _OF_SPECS = schema_of(_OfSpecs)
 _GEAR = dict(_flat(Gear))
+
+OWN_MATERIAL = {f"material.{key}": field for key, field in schema_of(Material).items()}
+"""Keys of a gear that has mates: its own material, whose fields count before those of [material]."""
+
+_OF_PAIRS = _GEAR | OWN_MATERIAL
 _PAIR = schema_of(GearPair)
 _RACK = dict(_flat(Rack))
 
-_PLAIN_SHARED = (*MODULE_OR_PITCH, "helix_angle", "face_width", "tip_alteration", "tooth_thinning")
+_THINNING = ("tooth_thinning", "tooth_allowance")
+_OF_DRAWINGS = ("accuracy_grade", "flank_roughness", "root_roughness")
+_PLAIN_SHARED = (*MODULE_OR_PITCH, "helix_angle", "face_width", "tip_alteration", *_THINNING, *_OF_DRAWINGS)
 _OF_ONE = ("cutter",)
 SHARED = (*_PLAIN_SHARED, *(key for key in _GEAR if (part := key.partition(".")[0]) in PARTS and part not in _OF_ONE))
 """Keys of a gear that may stand in [pair] for both; the helix angle there is the pinion's, and no cutter makes both."""
+
+ALTERNATIVES = (MODULE_OR_PITCH, _THINNING)
+"""Keys of a gear one of which is given: its own counts before any of them that is shared."""
 
 FIELDS: dict[str, dict[str, FieldSchema]] = {
     "gear": _GEAR,
@@ -131,11 +153,12 @@ FIELDS: dict[str, dict[str, FieldSchema]] = {
     | {"mounting_distance": schema_of(RackPair)["mounting_distance"]}
     | {"profile_shift_split": _OF_SPECS["profile_shift_split"]}
     | {key: _GEAR[key] for key in SHARED},
-    "pinion": _GEAR,
-    "wheel": _GEAR,
-    "rack": _RACK,
+    "pinion": _OF_PAIRS,
+    "wheel": _OF_PAIRS,
+    "rack": _RACK | OWN_MATERIAL,
     **{table: dict(_flat(kind)) for table, kind in BESIDE.items()},
 }
+FIELDS["material"] |= {key: schema_of(_NamesOfMaterials)[key] for key in ("pinion", "wheel", "rack")}
 """What each key of each table says of itself, the keys flattened with dots."""
 
 KEYS = {table: tuple(fields) for table, fields in FIELDS.items()}
@@ -196,10 +219,11 @@ _EACH = {
 }
 COUNTS = frozenset(key for key, field in _EACH.items() if field.whole)
 LISTS = frozenset(key for key, field in _EACH.items() if field.several)
-TEXTS = frozenset(key for key, field in _EACH.items() if field.text or ELSEWHERE in field.marks)
+NESTED = frozenset(key for key, field in _EACH.items() if field.nested)
+TEXTS = NESTED | frozenset(key for key, field in _EACH.items() if field.text or ELSEWHERE in field.marks)
 SWITCHES = frozenset(key for key, field in _EACH.items() if field.members == (bool,))
-"""Full keys of whole numbers, of what may be several numbers (in a cell there is space between them), of words, and of
-true and false; of a train's parts those of all (`general_key`)."""
+"""Full keys of whole numbers, of what may be several numbers (in a cell there is space between them), of lists of lists (a text
+in a cell), of these and words, and of true and false; of a train's parts those of all (`general_key`)."""
 
 _MOVED = {
     "check.pinion_tip_relief": "write pinion.modification.tip_relief and pinion.modification.tip_relief_length (mm)",

@@ -13,6 +13,9 @@ from gearcad.designs.keys import BESIDE, FIELDS
 from gearcad.designs.kinds.pair import PairDesign
 from gearcad.geometry import Gear
 from gearcad.geometry.derived import is_given
+from gearcad.material import Material
+from gearcad.per_gear import PerGear
+from gearcad.schema import schema_of
 
 __all__ = ["pair_text"]
 
@@ -26,16 +29,24 @@ def pair_text(design: PairDesign, comments: Sequence[str] = ()) -> str:
     tables = {
         "pair": dict(_values(pair, ("name", "centre_distance", "axial_offset"), always=("name",))),
         **{role.value: dict(_values(gear, FIELDS[role.value], always=("name", *_ALWAYS))) for role, gear in pair.gears.items()},
+        **{table: dict(_values(material, schema_of(Material))) for table, material in _materials(design).items()},
         **{
             table: dict(_values(getattr(design, table), FIELDS[table]))
             for table in BESIDE
-            if getattr(design, table) is not None
+            if getattr(design, table) is not None and table != "material"
         },
     }
     blocks = ["\n".join(f"# {line}".rstrip() for line in comments)] if comments else []
     for table, values in tables.items():
         blocks.append("\n".join([f"[{table}]", *(f"{key} = {_toml(value)}" for key, value in values.items())]))
     return "\n\n".join(blocks) + "\n"
+
+
+def _materials(design: PairDesign) -> dict[str, Material]:
+    """By the tables that hold them."""
+    if isinstance(design.material, PerGear):
+        return {f"{role.value}.material": material for role, material in design.material.items()}
+    return {} if design.material is None else {"material": design.material}
 
 
 def _values(instance: Any, keys: Any, always: Sequence[str] = ()) -> Iterator[tuple[str, Any]]:
@@ -60,6 +71,8 @@ def _default(owner: Any, name: str) -> Any:
 def _toml(value: Any) -> str:
     if isinstance(value, Enum):
         value = value.value
+    if isinstance(value, bool):
+        return "true" if value else "false"
     if isinstance(value, tuple | list):
         return f"[{', '.join(map(_toml, value))}]"
     if isinstance(value, str):

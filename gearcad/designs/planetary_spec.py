@@ -153,10 +153,10 @@ class PlanetarySpec(Spec):
             self._spread_helix(name)
         for table in self.tables:
             renamed = f"{table}.rack" in self.values
-            sized = any(f"{table}.{name}" in self.values for name in MODULE_OR_PITCH)
+            giving_way = self.giving_way(table)
             for key in SHARED:
                 given = self.values.get(f"{MAIN}.{key}")
-                if given is None or key in _OPPOSED or (key in MODULE_OR_PITCH and sized):
+                if given is None or key in _OPPOSED or key in giving_way:
                     continue
                 if not (renamed and key.startswith("rack")):
                     self.values.setdefault(f"{table}.{key}", given)

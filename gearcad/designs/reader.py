@@ -11,9 +11,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from gearcad.designs.cells import nested_text
 from gearcad.designs.design import Design, DesignKind
 from gearcad.designs.files import Where, read_tables
-from gearcad.designs.keys import LISTS, MAIN_TABLES, OF_SETS, SWITCHES, Cell
+from gearcad.designs.keys import LISTS, MAIN_TABLES, NESTED, OF_SETS, SWITCHES, Cell
 from gearcad.designs.kinds import type_of
 from gearcad.designs.kinds.toothed import ToothedDesign
 from gearcad.designs.kinds.train import TrainDesign
@@ -101,6 +102,8 @@ def _cell(key: str, given: Given, where: Where) -> Cell:
         )
     if isinstance(value, Mapping) and names_pair(key):
         raise SpecError(f"{where(given.key)}: {given.key}: no table holds a pair: write it to a file, and its name here", key)
+    if general_key(key) in NESTED and isinstance(value, list | tuple):
+        return nested_text(value) if all(isinstance(each, list | tuple) for each in value) else format_number(value)
     if isinstance(value, bool) and general_key(key) in SWITCHES:
         return "true" if value else "false"
     if isinstance(value, bool) or not isinstance(value, int | float | str):

@@ -6,7 +6,7 @@ What both gears of a pair share may stand in `[pair]`, so an error is led back t
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, NamedTuple, Self, TypeVar
@@ -14,7 +14,7 @@ from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 from gearcad.designs.auto import AUTO, CLEAR
 from gearcad.designs.design import require_plain_name
 from gearcad.designs.files import Where, require_sane_tables
-from gearcad.designs.keys import COUNTS, FIELDS, KEYS, PARTS, PARTS_BESIDE, SHARED, explain_unknown_key
+from gearcad.designs.keys import ALTERNATIVES, COUNTS, FIELDS, KEYS, PARTS, PARTS_BESIDE, SHARED, SWITCHES, explain_unknown_key
 from gearcad.errors import GeometryError, InputError, ParameterError, SpecError, format_number, shown
 from gearcad.geometry import NAMED_RACKS, BasicRack
 from gearcad.per_gear import Role
@@ -38,6 +38,10 @@ OF_SHIFT = (
 
 _DERIVED = ("normal_module", "tip_diameter", "root_diameter", "centre_distance", "mounting_distance")
 _ROLES = tuple(role.value for role in Role)
+_SWITCH = {"true": True, "false": False}
+"""What cells of a table have for what is true or false."""
+
+_WITH_MATERIAL = (*PARTS, "material")
 
 Simple = TypeVar("Simple")
 
@@ -69,11 +73,13 @@ class Spec:
         """Every value under its dotted key, whole numbers turned into floats where floats are meant. Raises SpecError."""
         values = {}
         for table, content in tables.items():
-            for field, value in _entries(content, PARTS_BESIDE.get(table, PARTS)):
+            for field, value in _entries(content, PARTS_BESIDE.get(table, _WITH_MATERIAL)):
                 key = f"{table}.{field}"
                 if field not in KEYS[table]:
                     raise SpecError(f"{where(key)}: {shown(key)}: {explain_unknown_key(table, field)}")
                 require_sane_tables(value, where, key)
+                if key in SWITCHES and isinstance(value, str):
+                    value = _SWITCH.get(value, value)
                 if isinstance(value, int) and not isinstance(value, bool):
                     value = value if key in COUNTS else float(value)
                 # The sum makes -0.0 a plain zero, so that equal inputs give equal files.
@@ -153,17 +159,26 @@ class Spec:
             require_plain_name(default if given is None else given.value)
         return default if given is None else str(given.value)
 
+    def giving_way(self, owner: str) -> set[str]:
+        """What an owner does not share, as it has that or something in its place."""
+        given = [each for each in ALTERNATIVES if any(f"{owner}.{field}" in self.values for field in each)]
+        return {field for each in given for field in each}
+
     def fields_of(self, owner: str) -> dict[str, Any]:
         """Values of one table, still flat: `rack.root_radius` is one key."""
         return {key[len(owner) + 1 :]: given.value for key, given in self.values.items() if key.startswith(owner + ".")}
 
-    def simple(self, owner: str, kind: type[Simple]) -> Simple:
-        """What a table of plain values makes: a Material, a Load, a Mounting, or the options of a job."""
-        values = self.fields_of(owner)
+    def given_of(self, owner: str) -> dict[str, Given]:
+        """The same with the keys that the user wrote."""
+        return {key[len(owner) + 1 :]: given for key, given in self.values.items() if key.startswith(f"{owner}.")}
+
+    def simple(self, owner: str, kind: type[Simple], values: Mapping[str, Any] | None = None) -> Simple:
+        """What a table of plain `values`, or those of its owner, makes: a Material, a Load, a Mounting, or a job's options."""
+        values = self.fields_of(owner) if values is None else values
         with self.blame(owner):
             if not isinstance(values.get("name", ""), str):
                 raise ParameterError("name", values["name"], "must be a text")
-            return kind(**_missing(owner) | _with_parts(values, PARTS_BESIDE.get(owner, {})))
+            return kind(**_missing(owner.rpartition(".")[2]) | _with_parts(values, PARTS_BESIDE.get(owner, {})))
 
     def gear_inputs(self, owner: str) -> dict[str, Any]:
         """Keyword arguments of Gear; "auto" not yet resolved, what is missing as None for Gear to complain about."""
@@ -180,6 +195,8 @@ class Spec:
         inputs = _missing(table)
         for key, value in given.items():
             part, _, field = key.partition(".")
+            if part == "material":  # read by itself
+                continue
             if field:
                 parts[part][field] = value
             elif key != "rack":
@@ -220,7 +237,7 @@ def _missing(table: str) -> dict[str, Any]:
     return {key: None for key, field in FIELDS[table].items() if field.required}
 
 
-def _entries(content: Mapping[str, Any], parts: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+def _entries(content: Mapping[str, Any], parts: Collection[str]) -> Iterator[tuple[str, Any]]:
     """Keys and values of one table, those of its parts, such as `rack` and `body`, joined to them with a dot."""
     for field, value in content.items():
         if field in parts and isinstance(value, Mapping):

@@ -20,7 +20,7 @@ from gearcad.dynamics.trains.train import Train
 from gearcad.errors import InputError, ParameterError, SolverError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Materials
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
 from gearcad.notice import Notice
@@ -147,13 +147,13 @@ def _in_range(mesh: Mesh, torque: float) -> float:
 
 
 @lru_cache(128)
-def _cycle(name: str, pair: GearPair, material: Material, body: BodyModel, mounting: Mounting, torque: float) -> MeshCycle:
+def _cycle(name: str, pair: GearPair, material: Materials, body: BodyModel, mounting: Mounting, torque: float) -> MeshCycle:
     """Under a torque on the pinion (N·m); known for the last ones, for trains are looked at again and again."""
     return _method(name, pair, material, body, mounting)(Load(torque=torque))
 
 
 @lru_cache(None)
-def _method(name: str, pair: GearPair, material: Material, body: BodyModel, mounting: Mounting) -> StiffnessMethod:
+def _method(name: str, pair: GearPair, material: Materials, body: BodyModel, mounting: Mounting) -> StiffnessMethod:
     from gearcad.stiffness.methods import METHODS  # only here: trains without pairs do not need them
 
     return METHODS[name](pair=pair, material=material, body=body, mounting=mounting)

@@ -25,7 +25,7 @@ from gearcad.dynamics.trains.train import Train
 from gearcad.errors import InputError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Materials
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.per_gear import PerGear
 from gearcad.progress import Share, Tell, unheard, untold
@@ -45,7 +45,7 @@ _SPAN = 3.0
 
 def study_pair(
     pair: GearPair,
-    material: Material,
+    material: Materials,
     load: Load,
     cycle: MeshCycle,
     inertias: PerGear[float],
@@ -108,7 +108,7 @@ def _single_teeth(pair: GearPair, cycle: MeshCycle, rating: RatingOptions, optio
 
 
 def _method_b(
-    pair: GearPair, material: Material, load: Load, inertias: PerGear[float], rating: RatingOptions
+    pair: GearPair, material: Materials, load: Load, inertias: PerGear[float], rating: RatingOptions
 ) -> tuple[DynamicFactor | None, str]:
     """K_v of ISO 6336-1, or None and why the standard has none for this pair."""
     try:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Materials
 from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.posed import contacts
 from gearcad.per_gear import PerGear
@@ -25,7 +25,7 @@ _SHORTEST = 0.002
 """Shortest edge in normal modules: near the base circle flanks are curved most, and contacts narrower than is of any use."""
 
 
-def contact_zones(pair: GearPair, material: Material, load: Load, roll_angle: float) -> PerGear[Mapping[int, ContactZone]]:
+def contact_zones(pair: GearPair, material: Materials, load: Load, roll_angle: float) -> PerGear[Mapping[int, ContactZone]]:
     """Zones of the teeth of pinion and wheel that touch at a roll angle (deg), which share the load evenly.
 
     A negative torque presses right flanks. No torque makes no zones.

@@ -152,7 +152,7 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
         raise GeometryError("pair.helix_angle", pair.pinion.helix_angle, permitted, "deg")
     agenda = Agenda(progress, _steps(_PAIR[options.pair_model], options))
     agenda("inertias")
-    inertias = PerGear.each(lambda role: _inertia(role, pair, material, options))
+    inertias = PerGear.each(lambda role: _inertia(role, pair, design.materials.pick(role), options))
     agenda("mesh stiffness")
     if contact:
         cycle = _mesh_cycle(design, design.load, options) if options.tooth_stiffness is None else None
@@ -160,7 +160,7 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
             pair, design.load, cycle, inertias, options, tell=agenda, counted=agenda.counted("campbell", "speed")
         )
     cycle = _mesh_cycle(design, design.load, options)
-    masses = _masses(pair, material) if options.pinion_bearing_stiffness is not None else None
+    masses = _masses(pair, design.materials) if options.pinion_bearing_stiffness is not None else None
     return study_pair(
         pair,
         material,
@@ -200,11 +200,11 @@ def _inertia(role: Role, pair: GearPair, material: Material, options: DynamicsOp
     return mass_properties(pair.gears.pick(role), material.density).inertia
 
 
-def _masses(pair: GearPair, material: Material) -> PerGear[float]:
+def _masses(pair: GearPair, materials: PerGear[Material]) -> PerGear[float]:
     """Of pinion and wheel (kg), as solids."""
     from gearcad.solids.exact.inertia import mass_properties
 
-    return pair.gears.map(lambda gear: mass_properties(gear, material.density).mass)
+    return PerGear.each(lambda role: mass_properties(pair.gears.pick(role), materials.pick(role).density).mass)
 
 
 def dynamics(

@@ -14,7 +14,7 @@ from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.mesh_decks import make_decks
 from gearcad.jobs.subject import as_design
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Material, Materials
 from gearcad.meshing.bodies.contact_zone import ContactZone
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.document import mesh_document
@@ -64,7 +64,7 @@ class Mesh(Job[GearedDesign, MeshResult]):
         if pair is not None and design.mounting is not None:
             pair = design.mounting.mounted(pair)
         plan = plan_mesh(options, design.gears, pair)
-        if plan.pair is not None and design.load is not None:
+        if plan.pair is not None and design.load is not None and isinstance(design, PairDesign):
             plan = _pressed(plan, plan.pair, design.material or Material(), design.load)
         return plan.counted()
 
@@ -103,7 +103,7 @@ class Mesh(Job[GearedDesign, MeshResult]):
         return {"passed": document["passed"], **document["summary"], "warnings": document["warnings"]}
 
 
-def _pressed(plan: MeshPlan, pair: GearPair, material: Material, load: Load) -> MeshPlan:
+def _pressed(plan: MeshPlan, pair: GearPair, material: Materials, load: Load) -> MeshPlan:
     """The plan of a pair in mesh with the flanks that its load presses, and where these are meshed finely.
 
     In helical bodies the lines of contact run across whole flanks, which are as fine as their edges are everywhere.

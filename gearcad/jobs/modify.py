@@ -23,7 +23,7 @@ from gearcad.jobs.job import Job
 from gearcad.jobs.proposal import SUFFIX, CycleFigures, Proposal, Robustness
 from gearcad.jobs.subject import as_design
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Material, Materials, of_both
 from gearcad.mounting import Mounting
 from gearcad.notice import Notice
 from gearcad.progress import Agenda, Progress
@@ -104,12 +104,13 @@ class Modify(Job[PairDesign, Proposal]):
         replace(design, name=design.name + SUFFIX)  # a name that gets too long is told before the work
         return design.pair, torque
 
-    def _limits(self, material: Material) -> list[float]:
-        """The pressure (MPa) that is given, else what the material bears for certain, if that is known."""
+    def _limits(self, material: Materials) -> list[float]:
+        """The pressure (MPa) that is given, else what the materials bear for certain, if that is known of both."""
         if self.pressure is not None:
             return [self.pressure]
-        limit = material.contact_limit
-        return [] if limit is None else [limit[0] if isinstance(limit, tuple) else limit]
+        limits = [each.contact_limit for each in of_both(material)]
+        known = [limit[0] if isinstance(limit, tuple) else limit for limit in limits if limit is not None]
+        return [min(known)] if len(known) == len(limits) else []
 
     def document(self, result: Proposal) -> dict[str, Any]:
         """What modify.json holds: µm, MPa, mm of roll; the changes under their keys of a spec."""

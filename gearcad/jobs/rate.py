@@ -10,7 +10,6 @@ from gearcad.designs import Inputs, PairDesign, RackPairDesign
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import Subject, as_design
 from gearcad.load import Load
-from gearcad.material import Material
 from gearcad.notice import Notice
 from gearcad.progress import Progress
 from gearcad.rating.rack_rating import rate_rack
@@ -33,9 +32,9 @@ class Rate(Job[PairDesign | RackPairDesign, Rating]):
 
     def _run(self, design: PairDesign | RackPairDesign, _progress: Progress | None) -> Rating:
         if isinstance(design, RackPairDesign):
-            return rate_rack(design.pair, design.material or Material(), design.loaded(_NO_LOAD), design.rating)
+            return rate_rack(design.pair, design.materials, design.loaded(_NO_LOAD), design.rating)
         pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)
-        return rate_pair(pair, design.material or Material(), design.loaded(_NO_LOAD), design.rating)
+        return rate_pair(pair, design.materials, design.loaded(_NO_LOAD), design.rating)
 
     def document(self, result: Rating) -> dict[str, Any]:
         """Values under their symbols, those of one gear under "pinion" and "wheel"; `gearcad.symbols.RATING` has the words."""
@@ -57,8 +56,9 @@ class Rate(Job[PairDesign | RackPairDesign, Rating]):
 def rate(subject: Subject, load: Load | None = None, **inputs: Unpack[Inputs]) -> Rating:
     """Rate a pair as mounted, under a load, by ISO 6336 or DIN 3990, Method B, and Hertz at the pitch point.
 
-    `material`, `mounting` and `rating` (RatingOptions), as the load, stand in place of those of a design; a pair has the
-    defaults. A pinion and a rack are rated as a wheel of infinitely many teeth, without mounting.
+    `material` (of both gears, or PerGear of each), `mounting` and `rating` (RatingOptions), as the load, stand in place of
+    those of a design; a pair has the defaults. A pinion and a rack are rated as a wheel of infinitely many teeth, without
+    mounting.
 
     >>> from gearcad import Gear, GearPair, Load
     >>> gears = [Gear(teeth=z, normal_module=2, face_width=20) for z in (20, 30)]

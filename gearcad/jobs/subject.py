@@ -10,6 +10,8 @@ from gearcad.designs.keys import BESIDE
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.load import Load
+from gearcad.material import Material
+from gearcad.per_gear import PerGear
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 
 __all__ = ["Subject", "as_design"]
@@ -39,6 +41,13 @@ def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: 
         if not hasattr(subject, name):
             known = ", ".join(each for each in BESIDE if hasattr(subject, each))
             raise ParameterError(name, value, f"is nothing that a {subject.kind.words} has; it has {known}")
-        if value is not None and not isinstance(value, kinds[name]):
+        if name == "material" and isinstance(subject, PairDesign | RackPairDesign) and isinstance(value, PerGear):
+            value.map(_require_material)
+        elif value is not None and not isinstance(value, kinds[name]):
             raise ParameterError(name, value, f"must be a {kinds[name].__name__}")
     return replace(subject, **given)
+
+
+def _require_material(value: Any) -> None:
+    if not isinstance(value, Material):
+        raise ParameterError("material", value, "must be a Material")

@@ -9,6 +9,7 @@ import numpy as np
 from gearcad.check.plane.result import PlaneCheck
 from gearcad.check.result import CheckResult
 from gearcad.geometry import GearPair
+from gearcad.material import Limit, by_gear
 from gearcad.plots.paper import DARK, GEARS, MARKED, PALE, SERIES, draw_limit, legend_above, prepared, short
 
 if TYPE_CHECKING:
@@ -52,7 +53,8 @@ def plot_contact_pressure(result: PlaneCheck, ax: Axes | None = None) -> Axes:
             height = np.zeros(places.sum())
             across = axes.get_xaxis_transform()
             axes.plot(lengths[places], height + 0.03, marker, color=DARK, markersize=5, transform=across, label=words)
-    draw_limit(axes, result.material.contact_limit)
+    for limit in _limits(result, "contact_limit"):
+        draw_limit(axes, limit)
     mark_path(axes, result.pair)
     legend_above(axes, 3)
     return axes
@@ -116,10 +118,16 @@ def plot_root_stress(result: CheckResult, ax: Axes | None = None) -> Axes:
             axes.plot(angles, stresses, color=colour, linestyle=style, label=f"{words}, {name}")
         reference = result.rating.root_stresses.pick(role)
         axes.axhline(reference, color=colour, linestyle=":", linewidth=1.4, label=f"{words}, {standard} = {reference:.0f} MPa")
-    draw_limit(axes, result.material.root_limit)
+    for limit in _limits(result, "root_limit"):
+        draw_limit(axes, limit)
     axes.axhline(0, color=MARKED, linewidth=0.8)
     legend_above(axes, 3)
     return axes
+
+
+def _limits(result: CheckResult, name: str) -> list[Limit]:
+    """Those of the materials, each once."""
+    return list(dict.fromkeys(getattr(material, name) for material in by_gear(result.material).values()))
 
 
 def mark_path(axes: Axes, pair: GearPair) -> None:

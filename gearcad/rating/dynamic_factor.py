@@ -15,7 +15,7 @@ from gearcad.arrays import Floats
 from gearcad.errors import ParameterError, plain_numbers, require_number, require_whole
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Material, of_both
+from gearcad.material import Material, Materials, of_both
 from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
 from gearcad.rating.deviations import accuracy_grades, base_pitch_deviations, profile_form_deviations
@@ -82,7 +82,7 @@ class DynamicFactor:
     def of(
         cls,
         pair: GearPair,
-        material: Material | PerGear[Material],
+        material: Materials,
         load: Load,
         inertias: PerGear[float],
         options: RatingOptions | None = None,

@@ -80,23 +80,21 @@ class LoadFactorOptions:
         float | Literal["C", "fe"], _FACTOR, Words("face load factor, or its method", "K_Hβ", "ISO 6336-1")
     ] = "C"
     transverse_load_factor: Annotated[
-        float | Literal["B"], _FACTOR, Words("transverse load factor, or its method", "K_Hα, K_Fα", "ISO 6336-1")
+        float | Literal["B"], _FACTOR, Words("transverse load factor, or its method", "K_Hα", "ISO 6336-1")
     ] = "B"
     mesh_load_factor: Annotated[float, _FACTOR, Words("mesh load factor", "K_γ", "ISO 6336-1")] = 1.0
-    helix_modification: Annotated[HelixModification, Words("helix modification", "B_1, B_2", "ISO 6336-1")] = (
-        HelixModification.NONE
-    )
+    helix_modification: Annotated[HelixModification, Words("helix modification", "B_1", "ISO 6336-1")] = HelixModification.NONE
     contact_pattern: Annotated[ContactPattern, Words("favourable contact pattern", "", "ISO 6336-1")] = ContactPattern.UNPROVEN
     bearing_arrangement: Annotated[BearingArrangement, Words("place of the pinion", "K'", "ISO 6336-1, figure 13")] = (
         BearingArrangement.BETWEEN_NEAR
     )
     bearing_span: Annotated[float | None, LENGTH, Words("distance of the pinion's bearings", "l", "ISO 6336-1")] = None
-    pinion_offset: Annotated[float, OFFSET, Words("pinion from the middle of its bearings", "s", "ISO 6336-1")] = 0.0
+    pinion_offset: Annotated[float, OFFSET, Words("pinion from between its bearings", "s", "ISO 6336-1")] = 0.0
     shaft_diameter: Annotated[float | None, LENGTH, Words("diameter of the pinion's shaft", "d_sh", "ISO 6336-1")] = None
     stiffening: Annotated[bool, Words("whether the pinion stiffens its shaft", "", "ISO 6336-1")] = False
-    shaft_deflection: Annotated[
-        float | None, _DEVIATION, Words("misalignment by the deflection of shafts", "f_sh", "ISO 6336-1")
-    ] = None
+    shaft_deflection: Annotated[float | None, _DEVIATION, Words("misalignment by deflected shafts", "f_sh", "ISO 6336-1")] = (
+        None
+    )
     manufacturing_misalignment: Annotated[
         float | None, _DEVIATION, Words("misalignment by manufacture", "f_ma", "ISO 6336-1")
     ] = None

@@ -7,8 +7,7 @@ import math
 from gearcad.errors import GeometryError
 from gearcad.geometry import GearPair
 from gearcad.geometry.limits import at_most
-from gearcad.material import Material, elastic_constants, of_both
-from gearcad.per_gear import PerGear
+from gearcad.material import Materials, elastic_constants, of_both
 from gearcad.rating.hertz import LineContact, reduced_modulus, reduced_radius
 
 __all__ = ["base_normal_force", "contact_at", "pitch_point_contact"]
@@ -21,7 +20,7 @@ def base_normal_force(pair: GearPair, torque: float) -> float:
 
 
 def contact_at(
-    pair: GearPair, material: Material | PerGear[Material], *, distance: float, force: float, length: float | None = None
+    pair: GearPair, material: Materials, *, distance: float, force: float, length: float | None = None
 ) -> LineContact:
     """Contact of one pair of teeth at `distance` from T1 on the line of action (mm, transverse section).
 
@@ -50,7 +49,7 @@ def contact_at(
     )
 
 
-def pitch_point_contact(pair: GearPair, material: Material | PerGear[Material], torque: float) -> LineContact:
+def pitch_point_contact(pair: GearPair, material: Materials, torque: float) -> LineContact:
     """Contact at the pitch point of the middle plane under `torque` on the pinion (N·m).
 
     The force is spread evenly over all lines of contact at that roll angle: over the common face width of a spur pair

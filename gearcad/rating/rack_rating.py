@@ -13,7 +13,7 @@ from typing import ClassVar
 from gearcad.errors import GeometryError
 from gearcad.geometry import RackPair
 from gearcad.load import Load
-from gearcad.material import Material, elastic_constants, of_both
+from gearcad.material import Material, Materials, elastic_constants, of_both
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.edition_2019 import RECALLED, edition_notices, relieved
@@ -55,9 +55,7 @@ class RackRating(Rating):
     names: ClassVar[PerGear[str]] = PerGear("pinion", "rack")
 
 
-def rate_rack(
-    pair: RackPair, material: Material | PerGear[Material], load: Load, options: RatingOptions | None = None
-) -> RackRating:
+def rate_rack(pair: RackPair, material: Materials, load: Load, options: RatingOptions | None = None) -> RackRating:
     """Rate a pinion and a rack, both of one material or each of its own, by Method B; raises as `rate` does.
 
     F_t is the force on the rack along its length. The rack's back is taken as held, so its Y_B is 1.
@@ -98,7 +96,7 @@ def rate_rack(
 
 def rack_contact_at(
     pair: RackPair,
-    material: Material | PerGear[Material],
+    material: Materials,
     *,
     distance: float,
     force: float,

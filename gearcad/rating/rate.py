@@ -11,7 +11,7 @@ from gearcad.errors import GeometryError, ParameterError
 from gearcad.geometry import GearPair, RackPair
 from gearcad.geometry.halves import refuse_halves
 from gearcad.load import Load
-from gearcad.material import Material, of_both
+from gearcad.material import Materials, of_both
 from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
 from gearcad.rating.edition_2019 import RECALLED, edition_notices, relieved
@@ -92,7 +92,7 @@ class Rating:
 
 def rate(
     pair: GearPair,
-    material: Material | PerGear[Material],
+    material: Materials,
     load: Load,
     options: RatingOptions | None = None,
 ) -> Rating:

@@ -19,6 +19,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.load import Load
+from gearcad.material import Material
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.rim import RIM_LIMIT
@@ -97,15 +98,15 @@ class PotentialEnergy(BeamMethod):
         return PerGear.each(lambda role: gears.pick(role).root_diameter / 2 / held.pick(role))
 
     def tooth_parts(self, role: Role, load: BeamLoad) -> dict[str, Floats]:
-        e, nu = self.material.youngs_modulus, self.material.poisson_ratio
-        tooth = self.teeth.pick(role)
+        material, tooth = self.materials.pick(role), self.teeth.pick(role)
+        e, nu = material.youngs_modulus, material.poisson_ratio
         across, along = np.cos(load.angle) ** 2, np.sin(load.angle) ** 2
         cubic, plain = tooth.integrals(load.x, load.crossing)
         return {
             "bending": 1.5 / e * across * cubic,
             "shear": 1.2 * (1 + nu) / e * across * plain,
             "axial": along / (2 * e) * plain,
-            "foundation": sainsot_foundation(tooth, load, self.material, self.rims.pick(role)),
+            "foundation": sainsot_foundation(tooth, load, material, self.rims.pick(role)),
         }
 
     def contact(self, lengths: Floats, loads: PerGear[BeamLoad], load: Load) -> Floats:
@@ -123,7 +124,7 @@ class WeberBanaschek(BeamMethod):
 
     Beam: (1 - nu^2) cos^2 a_F/E [12 int (u - y)^2/(2 h)^3 dy + (2.4/(1 - nu) + tan^2 a_F) int dy/(2 h)] from the root chord to
     where the force crosses the centre line; contact, once for both teeth: 4 (1 - nu^2)/(pi E)
-    [ln(2 sqrt(k_1 k_2)/a) - nu/(2 (1 - nu))] with the half width a under all of the load.
+    [ln(2 sqrt(k_1 k_2)/a) - nu/(2 (1 - nu))] with the half width a under all of the load; of two materials half of either's.
     """
 
     name = "weber-banaschek"
@@ -132,8 +133,8 @@ class WeberBanaschek(BeamMethod):
     no_internal_form: ClassVar[str] = "its beam and half-plane are those of teeth that stand out from their body"
 
     def tooth_parts(self, role: Role, load: BeamLoad) -> dict[str, Floats]:
-        e, nu = self.material.youngs_modulus, self.material.poisson_ratio
-        tooth = self.teeth.pick(role)
+        material, tooth = self.materials.pick(role), self.teeth.pick(role)
+        e, nu = material.youngs_modulus, material.poisson_ratio
         across, along = np.cos(load.angle) ** 2, np.sin(load.angle) ** 2
         cubic, plain = tooth.integrals(load.crossing, load.crossing)
         factor = (1 - nu**2) / e
@@ -141,17 +142,22 @@ class WeberBanaschek(BeamMethod):
             "bending": 1.5 * factor * across * cubic,
             "shear": 1.2 * (1 + nu) / e * across * plain,
             "axial": 0.5 * factor * along * plain,
-            "foundation": weber_foundation(tooth, load, self.material),
+            "foundation": weber_foundation(tooth, load, material),
         }
 
     def contact(self, lengths: Floats, loads: PerGear[BeamLoad], load: Load) -> Floats:
-        nu = self.material.poisson_ratio
         first, second = self.curvatures(lengths)
         radius = first * second / (first + second)
         # a^2 = 8 F rho (1 - nu^2)/(pi E b): the load per length of the line is F_bt/b
         half_width = np.sqrt(2 * self.force(load) / self.width * radius * _hertz(self))
-        depth = np.sqrt(loads.pinion.to_centre_line * loads.wheel.to_centre_line)
-        result: Floats = _hertz(self) * (np.log(2 * depth / half_width) - nu / (2 * (1 - nu)))
+        to_centre = loads.map(lambda load: load.to_centre_line)
+        depth = np.sqrt(to_centre.pinion * to_centre.wheel)
+        pinion, wheel = (_flattening(material) for material in self.materials)
+        across = [material.poisson_ratio / (2 * (1 - material.poisson_ratio)) for material in self.materials]
+        mean = across[0] + (across[1] - across[0]) * wheel / (pinion + wheel)
+        result: Floats = _hertz(self) * (np.log(2 * depth / half_width) - mean)
+        if pinion != wheel:
+            result = result + (pinion - wheel) / 4 * np.log(to_centre.pinion / to_centre.wheel)
         return result
 
     @property
@@ -179,5 +185,10 @@ class WeberBanaschek(BeamMethod):
 
 
 def _hertz(method: BeamMethod) -> float:
-    """4 (1 - nu^2)/(pi E) in mm²/N."""
-    return 4 * (1 - method.material.poisson_ratio**2) / (math.pi * method.material.youngs_modulus)
+    """4 (1 - nu^2)/(pi E) in mm²/N, the mean of both gears."""
+    pinion, wheel = (_flattening(material) for material in method.materials)
+    return (pinion + wheel) / 2
+
+
+def _flattening(material: Material) -> float:
+    return 4 * (1 - material.poisson_ratio**2) / (math.pi * material.youngs_modulus)

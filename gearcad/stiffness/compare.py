@@ -11,7 +11,7 @@ from gearcad.errors import GearcadError, ParameterError
 from gearcad.geometry import GearPair
 from gearcad.geometry.halves import refuse_halves
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Materials
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
 from gearcad.progress import Agenda, Expected, Progress
@@ -33,7 +33,7 @@ _PARTS = (0.1, 0.3, 0.55, 0.77)
 
 def compare_methods(
     pair: GearPair,
-    material: Material,
+    material: Materials,
     load: Load,
     methods: Sequence[str | StiffnessMethod] = tuple(METHODS),
     *,
@@ -81,7 +81,7 @@ def compare_methods(
 
 def expected_methods(
     pair: GearPair,
-    material: Material,
+    material: Materials,
     methods: Sequence[str],
     *,
     body: BodyModel | None = None,
@@ -99,7 +99,7 @@ class _MethodInputs(NamedTuple):
     """What methods are made of."""
 
     pair: GearPair
-    material: Material
+    material: Materials
     body: BodyModel
     mounting: Mounting
     positions: int

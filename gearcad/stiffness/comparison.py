@@ -12,7 +12,7 @@ from gearcad.arrays import Floats
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Materials, materials_document
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.notice import Notice, texts
 
@@ -36,7 +36,7 @@ class StiffnessComparison:
     """
 
     pair: GearPair
-    material: Material
+    material: Materials
     load: Load
     body: BodyModel
     cycles: tuple[MeshCycle, ...]
@@ -123,7 +123,7 @@ class StiffnessComparison:
         """The document of `stiffness.json`, with so many Fourier coefficients of each curve."""
         return {
             "load": asdict(self.load),
-            "material": asdict(self.material),
+            **materials_document(self.material),
             "body": self.bodies,
             "common_width": self.pair.common_width.width,
             "transverse_contact_ratio": self.pair.transverse_contact_ratio,

@@ -12,7 +12,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
+from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.plane.limits import thin_faces
 from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.contact.shared.engaged import EngagedPair
@@ -133,7 +133,7 @@ class PlaneContact(ContactMethod):
 
     def notices(self, load: Load) -> Iterator[Notice]:
         """Of thin gears, and of what a section leaves out."""
-        yield from thin_faces(self.mounted, PlaneElasticity(self.material, self.plane))
+        yield from thin_faces(self.mounted, self.material, self.plane)
         along = any(gear.modification.along_face for gear in self.mounted.gears)
         found = [
             *(["modifications along the face width"] if along else []),

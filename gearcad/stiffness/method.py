@@ -13,10 +13,11 @@ from gearcad.errors import GeometryError, ParameterError, require_whole
 from gearcad.geometry import GearPair
 from gearcad.geometry.halves import refuse_halves
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Material, Materials, of_both
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
 from gearcad.notice import Notice
+from gearcad.per_gear import PerGear
 from gearcad.progress import Expected, Share, unheard
 
 __all__ = ["StiffnessMethod", "left_out"]
@@ -26,14 +27,14 @@ FEWEST_POSITIONS, MOST_POSITIONS = 12, 5000
 
 @dataclass(frozen=True, kw_only=True)
 class StiffnessMethod(ABC):
-    """A method for the mesh stiffness of a pair of gears of one material: called with a load, it gives the MeshCycle.
+    """A method for the mesh stiffness of a pair of gears of one material or two: called with a load, it gives the MeshCycle.
 
     `body` says where the bodies are held, `mounting` how the gears stand; `positions` over one base pitch, 0 for the
     method's own number. Raises ParameterError and GeometryError for what the method cannot treat.
     """
 
     pair: GearPair
-    material: Material = field(default_factory=Material)
+    material: Materials = field(default_factory=Material)
     body: BodyModel = field(default_factory=BodyModel)
     mounting: Mounting = field(default_factory=Mounting)
     positions: int = 0
@@ -83,6 +84,11 @@ class StiffnessMethod(ABC):
 
     @abstractmethod
     def _cycle(self, load: Load, count: int) -> MeshCycle: ...
+
+    @property
+    def materials(self) -> PerGear[Material]:
+        """Those of both gears."""
+        return of_both(self.material)
 
     @cached_property
     def mounted(self) -> GearPair:

@@ -54,7 +54,6 @@ class StrainEnergy(SliceMethod):
         """Bodies of the section of each gear, with their weights."""
         pair = self.mounted
         held = self.body.inner_radii(pair)
-        elasticity = PlaneElasticity(self.material, self.plane)
         pinion, wheel = (
             [
                 (
@@ -63,19 +62,27 @@ class StrainEnergy(SliceMethod):
                 )
                 for weight, section, radius in _sections(gear, inner)
             ]
-            for gear, inner, support in zip(pair.gears, held, self.body.supports(pair), strict=True)
+            for gear, elasticity, inner, support in zip(
+                pair.gears, self.elasticities, held, self.body.supports(pair), strict=True
+            )
         )
         return PerGear(pinion, wheel)
 
+    @property
+    def elasticities(self) -> PerGear[PlaneElasticity]:
+        """Those of both sections."""
+        return self.materials.map(lambda material: PlaneElasticity(material, self.plane))
+
     def notices(self, load: Load) -> Iterator[Notice]:
-        yield from thin_faces(self.mounted, PlaneElasticity(self.material, self.plane))
+        yield from thin_faces(self.mounted, self.material, self.plane)
         yield from super().notices(load)
 
     def single(self, lengths: Floats, load: Load) -> SinglePair:
         """One pair of teeth that carries all of the load, at places (n,) from T1 on the line of action (mm)."""
         curvatures, gears = self.curvatures(lengths), self.mounted.gears
         first, second = curvatures
-        modulus = PlaneElasticity(self.material, self.plane).modulus / 2
+        pinion, wheel = (elasticity.modulus for elasticity in self.elasticities)
+        modulus = pinion * (wheel / (pinion + wheel))  # exactly half of two that are equal
         half_widths = np.sqrt(4 * self.force(load) / self.width * first * second / (first + second) / (math.pi * modulus))
         factor = self.to_transverse
         parts = {

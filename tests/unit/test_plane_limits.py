@@ -40,7 +40,8 @@ def fzg(pinion_width: float, wheel_width: float) -> GearPair:
 
 
 def plane_texts(task: CheckTask, elasticity: PlaneElasticity) -> tuple[str, ...]:
-    return texts(plane_notices(task, elasticity))
+    plane = "strain" if elasticity.plane is Plane.STRAIN else "stress"
+    return texts(plane_notices(replace(task, material=elasticity.material, options=replace(task.options, plane=plane))))
 
 
 def test_a_face_thinner_than_its_teeth_is_told() -> None:

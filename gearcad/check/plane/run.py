@@ -14,7 +14,6 @@ from gearcad.check.plane.summary import summarise_plane
 from gearcad.check.sweep import sweep_points
 from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle
-from gearcad.contact.plane.elasticity import PlaneElasticity
 from gearcad.contact.plane.limits import plane_pressure, thin_faces, wide_contacts
 from gearcad.contact.plane.pair import PlanePair, plane_pair
 from gearcad.meshing.section import MeshSizes
@@ -47,7 +46,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     comparisons = compare_plane(task, cycle, summary, convergence)
     notices = (
         *common_notices(task, cycle, summary),
-        *plane_notices(task, model.pinion.elasticity),
+        *plane_notices(task),
         *wide_contacts(cycle),
     )
     return PlaneCheck(
@@ -75,10 +74,10 @@ def _refined(task: CheckTask, middle: PlanePair) -> Iterator[PlaneCycle]:
         yield PlaneCycle.run(model, task.torque, FEW_POSITIONS).searched(ROOTS)
 
 
-def plane_notices(task: CheckTask, elasticity: PlaneElasticity) -> Iterator[Notice]:
+def plane_notices(task: CheckTask) -> Iterator[Notice]:
     """What a plane does not know of these bodies."""
-    yield from thin_faces(task.pair, elasticity)
-    yield from plane_pressure(elasticity)
+    yield from thin_faces(task.pair, task.material, task.options.plane_state)
+    yield from plane_pressure(task.material, task.options.plane_state)
     yield from _wider_gears(task)
     yield from _left_out(task)
 

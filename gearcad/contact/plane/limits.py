@@ -10,9 +10,10 @@ import math
 from collections.abc import Iterator
 
 from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact
-from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
+from gearcad.contact.plane.elasticity import Plane
 from gearcad.contact.shared.conformal import HollowContact, conformal_notices
 from gearcad.geometry import GearPair
+from gearcad.material import Materials, of_both
 from gearcad.notice import Notice
 
 __all__ = ["conformal", "plane_pressure", "thin_faces", "wide_contacts"]
@@ -33,12 +34,12 @@ def _hollow(contact: PlanePairContact) -> HollowContact:
     return HollowContact(contact.hertz_half_width, contact.pair.lengths.pinion)
 
 
-def thin_faces(pair: GearPair, elasticity: PlaneElasticity) -> Iterator[Notice]:
+def thin_faces(pair: GearPair, material: Materials, plane: Plane) -> Iterator[Notice]:
     """Gears that are too thin for plane strain."""
-    if elasticity.plane is Plane.STRESS:
+    if plane is Plane.STRESS:
         return
-    stiffer = 100 * elasticity.material.poisson_ratio**2
     for role, gear in pair.gears.items():
+        stiffer = 100 * of_both(material).pick(role).poisson_ratio ** 2
         width, thickness = gear.face_width, gear.transverse_tooth_thickness
         if width < thickness:
             text = (
@@ -49,10 +50,10 @@ def thin_faces(pair: GearPair, elasticity: PlaneElasticity) -> Iterator[Notice]:
             yield Notice("thin-face", text)
 
 
-def plane_pressure(elasticity: PlaneElasticity) -> Iterator[Notice]:
+def plane_pressure(material: Materials, plane: Plane) -> Iterator[Notice]:
     """What plane stress does to the pressure."""
-    if elasticity.plane is Plane.STRAIN:
+    if plane is Plane.STRAIN:
         return
-    higher = 100 * (1 / math.sqrt(1 - elasticity.material.poisson_ratio**2) - 1)
+    higher = 100 * (1 / math.sqrt(1 - max(of.poisson_ratio for of in of_both(material)) ** 2) - 1)
     text = f"plane stress: the contact itself stays in plane strain, where its pressure is up to {higher:.2g} % higher"
     yield Notice("plane-stress-pressure", text)

@@ -22,7 +22,7 @@ from gearcad.contact.shared.line_of_action import line_of_action, pairs_within, 
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.halves import refuse_halves
-from gearcad.material import Material
+from gearcad.material import Materials, of_both
 from gearcad.meshing.section import MeshSizes, mesh_sector
 from gearcad.per_gear import PerGear
 from gearcad.rating.hertz import half_width
@@ -112,7 +112,7 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
 
 def plane_pair(
     pair: GearPair,
-    material: Material,
+    material: Materials,
     *,
     plane: Plane = Plane.STRAIN,
     body: BodyModel | None = None,
@@ -125,7 +125,7 @@ def plane_pair(
     The pair is taken as it is mounted; `pitch_error` (µm) is how far the flanks of its middle pair of teeth stand proud.
     """
     refuse_halves(pair.pinion, "contact")
-    elasticity, body, sizes = PlaneElasticity(material, plane), body or BodyModel(), sizes or MeshSizes()
+    body, sizes = body or BodyModel(), sizes or MeshSizes()
     # As many neighbours as can touch at once, with one more place for a corner that touches early or late.
     neighbours = max(1, math.floor(pair.transverse_contact_ratio + 0.2))
     line = line_of_action(pair, pitch_error)
@@ -133,8 +133,10 @@ def plane_pair(
         near = pairs_within(line, pair.path_of_contact.C, _BENT * pair.pinion.normal_module)
         neighbours = max(neighbours, near - 1)
     pinion, wheel = (
-        flank_body(gear, radius, elasticity, body, neighbours, sizes, solve, support)
-        for gear, radius, support in zip(pair.gears, body.inner_radii(pair), body.supports(pair), strict=True)
+        flank_body(gear, radius, PlaneElasticity(of, plane), body, neighbours, sizes, solve, support)
+        for gear, of, radius, support in zip(
+            pair.gears, of_both(material), body.inner_radii(pair), body.supports(pair), strict=True
+        )
     )
     return PlanePair(pair, line, PerGear(pinion, wheel))
 

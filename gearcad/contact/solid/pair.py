@@ -24,7 +24,7 @@ from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.halves import refuse_halves
-from gearcad.material import Material
+from gearcad.material import Materials, of_both
 from gearcad.meshing.section import MeshSizes
 from gearcad.meshing.section.quads import mesh_quads
 from gearcad.meshing.section.swept import SweptMesh, sweep
@@ -201,7 +201,7 @@ class SolidPair(FlexiblePair[SolidCompliance]):
 
 def solid_pair(
     pair: GearPair,
-    material: Material,
+    material: Materials,
     *,
     body: BodyModel | None = None,
     sizes: SolidSizes | None = None,
@@ -218,13 +218,13 @@ def solid_pair(
     starts = PerGear(pair.path_of_contact.A, line_of_action(pair).whole - pair.path_of_contact.E)
     jobs = []
     gears, meshes, supports = gears_loaded_left(pair), _meshes(pair, body, sizes), body.supports(pair)
-    for gear, mesh, support, start in zip(gears, meshes, supports, starts, strict=True):
+    for gear, of, mesh, support, start in zip(gears, of_both(material), meshes, supports, starts, strict=True):
         held = body.teeth_held(gear)
         heard = _Heard(body_cost(mesh, held or gear.tooth_count, neighbours))
         solid = assemble_body(
-            mesh, gear.tooth_count, neighbours, material, held, body.cuts, free=support.bends, tell=heard.condensation
+            mesh, gear.tooth_count, neighbours, of, held, body.cuts, free=support.bends, tell=heard.condensation
         )
-        jobs.append((heard, partial(solid_compliance, gear, solid, material, start, heard.fields)))
+        jobs.append((heard, partial(solid_compliance, gear, solid, of, start, heard.fields)))
     bodies, mounted = PerGear(*_side_by_side(jobs, tell)), mounting.mounted(pair)
     return SolidPair(mounted, line_of_action(mounted), bodies, mounting, cells, bodies.map(solid_fillets))
 

@@ -14,6 +14,7 @@ from gearcad.designs.kinds.geared import GearedDesign
 from gearcad.designs.kinds.toothed import beside_teeth
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear
+from gearcad.material import Material
 
 __all__ = ["GearDesign"]
 
@@ -25,6 +26,7 @@ class GearDesign(GearedDesign):
     kind: ClassVar[DesignKind] = DesignKind.GEAR
 
     gear: Gear
+    material: Material | None = None
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:

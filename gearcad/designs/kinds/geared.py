@@ -16,7 +16,7 @@ from gearcad.dynamics.options import DynamicsOptions
 from gearcad.errors import SpecError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Materials
 from gearcad.meshing.options import MeshOptions
 from gearcad.mounting import Mounting
 from gearcad.rating.options import RatingOptions
@@ -27,7 +27,7 @@ __all__ = ["GearedDesign", "Inputs", "require_tables"]
 class Inputs(TypedDict, total=False):
     """What a job may be given beside a pair and its load, under the names of a spec's tables."""
 
-    material: Material
+    material: Materials
     mounting: Mounting
     check: CheckOptions
     mesh: MeshOptions
@@ -39,7 +39,6 @@ class Inputs(TypedDict, total=False):
 class GearedDesign(ToothedDesign):
     """A gear or a pair with the inputs that later stages need; None for those of which a spec says nothing."""
 
-    material: Material | None = None
     load: Load | None = None
     mounting: Mounting | None = None
     check: CheckOptions | None = None

@@ -29,9 +29,9 @@ from gearcad.designs.kinds.toothed import beside_teeth
 from gearcad.designs.spec import Given, Spec
 from gearcad.errors import GeometryError, InputError, ParameterError, SpecError, as_choice, require_number
 from gearcad.geometry import Gear, GearPair, ShaperCutter, ShiftSplit
-from gearcad.geometry.diametral import MODULE_OR_PITCH
 from gearcad.geometry.mating import check_ring, wrong_side
 from gearcad.load import Load
+from gearcad.material import Material, Materials, of_both
 from gearcad.per_gear import PerGear, Role
 from gearcad.schema import schema_of
 
@@ -40,17 +40,18 @@ __all__ = ["PairDesign", "PairSpec"]
 
 @dataclass(frozen=True, kw_only=True)
 class PairDesign(GearedDesign):
-    """A pair of gears, and what later stages need."""
+    """A pair of gears, and what later stages need; `material` is that of both, or of each."""
 
     kind: ClassVar[DesignKind] = DesignKind.PAIR
 
     pair: GearPair
+    material: Materials | None = None
 
     @classmethod
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
         """That of [pair], [pinion] and [wheel]. Raises SpecError."""
         spec = cls.spec(tables, where)
-        beside = beside_teeth(spec, tables)
+        beside = beside_teeth(spec, tables, PerGear._fields)
         name = spec.name("pair", default_name)
         pair = spec.pair(name)
         with spec.blame("pair"):
@@ -65,6 +66,15 @@ class PairDesign(GearedDesign):
         if (key := "pair.mounting_distance") in spec.values:
             raise SpecError(f"{where(key)}: {key}: is of a pinion and a [rack]; did you mean centre_distance?", key)
         return spec
+
+    @property
+    def materials(self) -> PerGear[Material]:
+        """Those of both gears; steel where nothing is said."""
+        return of_both(self.material or Material())
+
+    @property
+    def made_of(self) -> tuple[str, ...]:
+        return PerGear._fields
 
     @property
     def gears(self) -> dict[str, Gear]:
@@ -225,10 +235,10 @@ class PairSpec(Spec):
         """Give both gears what stands in [pair], unless they have their own; what is opposed is the pinion's."""
         for role in Role:
             renamed = f"{role.value}.rack" in self.values
-            sized = any(f"{role.value}.{field}" in self.values for field in MODULE_OR_PITCH)
+            giving_way = self.giving_way(role.value)
             for field in SHARED:
                 given = self.values.get(f"pair.{field}")
-                if given is None or (field in _OPPOSED and role is Role.WHEEL) or (field in MODULE_OR_PITCH and sized):
+                if given is None or (field in _OPPOSED and role is Role.WHEEL) or field in giving_way:
                     continue
                 if not (renamed and field.startswith("rack")):
                     self.values.setdefault(f"{role.value}.{field}", given)

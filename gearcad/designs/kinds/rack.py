@@ -33,6 +33,9 @@ class RackDesign(ToothedDesign):
         """That of [rack]. Raises SpecError."""
         spec = cls.spec(tables, where)
         beside = beside_teeth(spec, tables)
+        if own := spec.given_of("rack.material"):
+            key = next(iter(own.values())).key
+            raise SpecError(f"{where(key)}: {key}: is of a rack that has a pinion: write it in [material]", key)
         name = spec.name("rack", default_name)
         with spec.blame("rack"):
             return cls(name=name, rack=Rack(**spec.rack_inputs("rack") | {"name": name}), **beside)

@@ -21,15 +21,15 @@ from gearcad.designs.spec import Given, Spec
 from gearcad.errors import GeometryError, ParameterError, SpecError
 from gearcad.geometry import Gear, Rack, RackPair
 from gearcad.geometry.derived import NOT_GIVEN, is_given
-from gearcad.geometry.diametral import MODULE_OR_PITCH
 from gearcad.load import Load
-from gearcad.material import Material
-from gearcad.per_gear import Role, naming
+from gearcad.material import Material, Materials, of_both
+from gearcad.per_gear import PerGear, Role, naming
 from gearcad.rating.options import RatingOptions
 
 __all__ = ["RackPairDesign"]
 
 _BESIDE = ("material", "load", "rating")
+_GEARS = ("pinion", "rack")
 _OF_GEAR_PAIRS = ("centre_distance", "axial_offset", "profile_shift_split")
 
 
@@ -44,7 +44,7 @@ class RackPairDesign(ToothedDesign):
     )
 
     pair: RackPair
-    material: Material | None = None
+    material: Materials | None = None
     load: Load | None = None
     rating: RatingOptions | None = None
 
@@ -52,7 +52,7 @@ class RackPairDesign(ToothedDesign):
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
         """That of [pair], [pinion] and [rack]. Raises SpecError."""
         spec = cls.spec(tables, where)
-        beside = beside_teeth(spec, tables)
+        beside = beside_teeth(spec, tables, _GEARS)
         name = spec.name("pair", default_name)
         pair = spec.pair(name)
         with spec.blame("pair"):
@@ -71,6 +71,15 @@ class RackPairDesign(ToothedDesign):
                 wanted, full = "; did you mean mounting_distance?" if key == "centre_distance" else "", f"pair.{key}"
                 raise SpecError(f"{where(full)}: {full}: is of two gears, not of a pinion and a rack{wanted}", full)
         return spec
+
+    @property
+    def materials(self) -> PerGear[Material]:
+        """Those of pinion and rack; steel where nothing is said."""
+        return of_both(self.material or Material())
+
+    @property
+    def made_of(self) -> tuple[str, ...]:
+        return _GEARS
 
     @property
     def gears(self) -> dict[str, Gear]:
@@ -124,12 +133,12 @@ class _RackPairSpec(Spec):
         """Give both what stands in [pair], unless they have their own; one without a helix angle takes the mate's, opposed."""
         for owner in ("pinion", "rack"):
             renamed = f"{owner}.rack" in self.values
-            sized = any(f"{owner}.{field}" in self.values for field in MODULE_OR_PITCH)
+            giving_way = self.giving_way(owner)
             for field in SHARED:
                 given = self.values.get(f"pair.{field}")
                 if given is None or field not in FIELDS[owner] or (field == "helix_angle" and owner == "rack"):
                     continue
-                if field in MODULE_OR_PITCH and sized:
+                if field in giving_way:
                     continue
                 if not (renamed and field.startswith("rack")):
                     self.values.setdefault(f"{owner}.{field}", given)

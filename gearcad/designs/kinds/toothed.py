@@ -10,9 +10,12 @@ from typing import TYPE_CHECKING, Any
 from gearcad.designs.design import Design
 from gearcad.designs.files import Where
 from gearcad.designs.keys import BESIDE, KEYS, explain_unknown_table
+from gearcad.designs.materials import materials_of
 from gearcad.designs.spec import Spec
 from gearcad.errors import SpecError, format_number, shown
 from gearcad.geometry import GearPair, RackPair
+from gearcad.material import Material
+from gearcad.per_gear import PerGear
 from gearcad.schema import parts_of
 
 if TYPE_CHECKING:
@@ -31,6 +34,11 @@ class ToothedDesign(Design):
         """The values of a spec, whose tables are those of this kind. Raises SpecError."""
 
     @property
+    def made_of(self) -> tuple[str, ...]:
+        """The gears that may have materials of their own."""
+        return ()
+
+    @property
     def assembly(self) -> GearPair | RackPair | None:
         """What stands in mesh; None for a gear or a rack by itself."""
         return None
@@ -38,7 +46,15 @@ class ToothedDesign(Design):
     def to_dict(self) -> dict[str, Any]:
         """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
         given = {table: getattr(self, table) for table in BESIDE if hasattr(self, table)}
-        return super().to_dict() | {table: _plain(value) for table, value in given.items() if value is not None}
+        plain = {table: _plain(value) for table, value in given.items() if value is not None and not isinstance(value, PerGear)}
+        return {**super().to_dict(), **plain, **self._materials()}
+
+    def _materials(self) -> dict[str, Any]:
+        """The materials of gears that are not of the same one, by gear, under "materials"."""
+        material = getattr(self, "material", None)
+        if not isinstance(material, PerGear):
+            return {}
+        return {"materials": {name: asdict(each) for name, each in zip(self.made_of, material, strict=True)}}
 
 
 def _plain(options: DataclassInstance) -> dict[str, Any]:
@@ -56,6 +72,16 @@ def require_known_tables(tables: Mapping[str, Any], where: Where) -> None:
             raise SpecError(f"{where(table)}: {table} = {format_number(content)}: must be a table, headed [{table}]")
 
 
-def beside_teeth(spec: Spec, tables: Mapping[str, Any]) -> dict[str, Any]:
-    """What the tables beside those of the teeth make, as keyword arguments of a ToothedDesign."""
-    return {table: spec.simple(table, kind) for table, kind in BESIDE.items() if table in tables}
+def beside_teeth(spec: Spec, tables: Mapping[str, Any], gears: tuple[str, ...] = ()) -> dict[str, Any]:
+    """What the tables beside those of the teeth make, as keyword arguments of a ToothedDesign.
+
+    Those of `gears` may have materials of their own: "material" is then PerGear of two, else that of all.
+    """
+    made: dict[str, Any] = {
+        table: spec.simple(table, kind) for table, kind in BESIDE.items() if table in tables and table != "material"
+    }
+    if (material := materials_of(spec, gears)) is not None:
+        made["material"] = PerGear(*material.values()) if isinstance(material, dict) else material
+    elif "material" in tables:
+        made["material"] = Material()
+    return made

@@ -9,7 +9,7 @@ from gearcad.contact.shared.bodies import BodyModel
 from gearcad.geometry import GearPair
 from gearcad.geometry.halves import refuse_halves
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Material, Materials
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.mounting import Mounting
 from gearcad.per_gear import Role
@@ -28,7 +28,7 @@ class MeshPair:
     """
 
     pair: GearPair
-    material: Material = field(default_factory=Material)
+    material: Materials = field(default_factory=Material)
     mounting: Mounting = field(default_factory=Mounting)
     body: BodyModel = field(default_factory=BodyModel)
     rating: RatingOptions = field(default_factory=RatingOptions)

@@ -9,9 +9,10 @@ from gearcad import symbols
 from gearcad.check.result import CheckResult
 from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Material, Materials, by_gear
 from gearcad.mounting import Mounting
 from gearcad.schema import symbols_of
+from gearcad.symbols import Symbol
 
 __all__ = ["Row", "gear_rows", "load_rows", "pair_rows", "rating_rows"]
 
@@ -54,9 +55,14 @@ def pair_rows(pair: GearPair) -> list[Row]:
     return [_row(written[key], values[key]) for key in _PAIR.split()]
 
 
-def load_rows(material: Material, load: Load, mounting: Mounting) -> list[Row]:
+def load_rows(material: Materials, load: Load, mounting: Mounting) -> list[Row]:
     """Material and load, and the mounting where it is not that of the drawing."""
-    rows = [(symbols_of(Material)[key], value) for key, value in vars(material).items()]
+    words = symbols_of(Material)
+    rows: list[tuple[Symbol, Any]] = [
+        (words[key]._replace(words=f"{words[key].words}{whose}"), value)
+        for whose, each in by_gear(material).items()
+        for key, value in vars(each).items()
+    ]
     rows += [(symbols_of(Load)[key], value) for key, value in vars(load).items()]
     rows += [(symbols_of(Mounting)[key], value) for key, value in vars(mounting).items() if value]
     return [_row(symbol, value) for symbol, value in rows if value is not None]
