@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 from gearcad.geometry import Gear, GearPair
-from gearcad.per_gear import PerGear
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating.both import both
 from gearcad.rating.options import RatingOptions
-from gearcad.rating.tolerances import FlankTolerances, flank_tolerances
+from gearcad.rating.tolerances import FlankTolerances, flank_tolerances, gear_tolerances
 
-__all__ = ["accuracy_grades", "base_pitch_deviations", "profile_form_deviations"]
+__all__ = [
+    "accuracy_grades",
+    "base_pitch_deviations",
+    "helix_slope_deviations",
+    "helix_slopes_of_grade_five",
+    "profile_form_deviations",
+]
+
+_FIFTH = 5
 
 
 def accuracy_grades(pair: GearPair, options: RatingOptions) -> PerGear[int]:
@@ -33,10 +42,31 @@ def profile_form_deviations(pair: GearPair, options: RatingOptions) -> PerGear[f
     return _tolerances(pair, options).map(lambda each: each.profile_form)
 
 
+def helix_slope_deviations(pair: GearPair, options: RatingOptions) -> PerGear[float]:
+    """f_Hbeta. Raises ParameterError for sizes that the standard does not cover."""
+    if options.helix_slope_deviation is not None:
+        return both(options.helix_slope_deviation)
+    grades = accuracy_grades(pair, options)
+
+    def of(role: Role) -> float:
+        return gear_tolerances(pair.gears.pick(role), grades.pick(role), options.accuracy).helix_slope
+
+    return PerGear.each(of)
+
+
+def helix_slopes_of_grade_five(pair: GearPair, options: RatingOptions) -> PerGear[float]:
+    """f_Hbeta5, whatever the grades of the gears. Raises ParameterError for sizes that the standard does not cover."""
+    return pair.gears.map(lambda gear: gear_tolerances(gear, _FIFTH, options.accuracy).helix_slope)
+
+
 def _tolerances(pair: GearPair, options: RatingOptions) -> PerGear[FlankTolerances]:
     grades = accuracy_grades(pair, options)
 
     def of(gear: Gear, grade: int) -> FlankTolerances:
-        return flank_tolerances(grade, abs(gear.reference_diameter), gear.normal_module, options.accuracy)
+        return _of_sizes(grade, abs(gear.reference_diameter), gear.normal_module, options.accuracy)
 
     return PerGear.each(lambda role: of(pair.gears.pick(role), grades.pick(role)))
+
+
+_of_sizes = lru_cache(64)(flank_tolerances)
+"""Known for the last gears: loads of a spectrum and torques that are sought ask for them again."""

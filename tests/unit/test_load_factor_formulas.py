@@ -101,12 +101,13 @@ def test_method_c() -> None:
     assert dynamic_factor_c(216.8, s, 1.4, 6, Edition.DIN_1987) == pytest.approx(1 + (13.3 / 216.8 + 0.0087) * s, rel=EXACT)
     assert dynamic_factor_c(40.0, 0.1, 0.0, 12) == dynamic_factor_c(100.0, 0.1, 0.0, 12)
     assert dynamic_factor_c(150.0, 0.1, 1.0, 3) == pytest.approx(1 + (1.9 / 150 + 0.0087) * 0.2, rel=EXACT)
+    assert dynamic_factor_c(150.0, 6.0, 1.0, 3) == pytest.approx(1 + (1.9 / 150 + 0.0087) * 6.0, rel=EXACT)
     with pytest.raises(ParameterError, match="accuracy_grade = 2: must be"):
         dynamic_factor_c(216.8, s, 1.4, 2)
 
 
 def test_method_c_is_worse_with_speed_and_grade_and_better_with_load() -> None:
-    measure, load = np.linspace(0, 2.9, 300), np.linspace(20, 900, 100)[:, None]
+    measure, load = np.r_[np.linspace(0, 2.9, 300), np.linspace(3.01, 9, 50)], np.linspace(20, 900, 100)[:, None]
     grades = np.array([dynamic_factor_c(load, measure, 0.4, grade) for grade in range(3, 13)])
     assert (np.diff(grades, axis=0)[:, :, 1:] > 0).all()
     assert (np.diff(grades, axis=2) > 0).all()

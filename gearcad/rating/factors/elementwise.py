@@ -18,6 +18,7 @@ __all__ = [
     "interpolated",
     "interpolated_in_logs",
     "interpolated_over_log",
+    "magnitude",
     "number_or_array",
     "power",
     "root",
@@ -40,6 +41,11 @@ def chosen(condition: bool | Bools, values: Values, others: Values) -> Values:
 def power(base: Values, exponent: Values) -> Values:
     """Base, positive, to the exponent: `**` of two numbers could be complex to a type checker."""
     return number_or_array(base, np.power(base, exponent))
+
+
+def magnitude(values: Values) -> Values:
+    """Without the sign."""
+    return number_or_array(values, np.abs(values))
 
 
 def root(values: Values) -> Values:

@@ -1,9 +1,10 @@
-"""Load factors of ISO 6336-1 and DIN 3990-1: K_v, K_Hbeta, K_Fbeta, K_Halpha, K_Falpha; pure functions of numbers or arrays.
+"""Load factors of ISO 6336-1 and DIN 3990-1: LoadFactors of a pair, and pure functions of numbers or arrays behind them.
 
 K_v of Method B is in `gearcad.rating.resonance`, K_Hbeta of a misalignment in `gearcad.rating.face_load`.
 """
 
 from gearcad.rating.load_factors.below_resonance import dynamic_factor_c, speed_measure
+from gearcad.rating.load_factors.load_factors import LoadFactors
 from gearcad.rating.load_factors.masses import body_mass, mass_of, pair_mass
 from gearcad.rating.load_factors.misalignment import (
     UNLOADED_ENDS,
@@ -22,6 +23,7 @@ from gearcad.rating.load_factors.transverse import flank_limit, root_limit, tran
 __all__ = [
     "UNLOADED_ENDS",
     "HelixFactors",
+    "LoadFactors",
     "arrangement_factor",
     "body_mass",
     "dynamic_factor_c",

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from gearcad.geometry import Gear
-from gearcad.rating.factors.elementwise import Values
+from gearcad.rating.factors.elementwise import Values, magnitude
 
 __all__ = ["body_mass", "inner_diameter", "mass_of", "pair_mass"]
 
@@ -21,8 +19,7 @@ def body_mass(
     of its outside, so that q is above 1.
     """
     middle = (tip_diameter + root_diameter) / 2
-    result: Values = math.pi / 8 * density * 1e-9 * np.abs(middle**4 - inner_diameter**4) / base_diameter**2
-    return result
+    return math.pi / 8 * density * 1e-9 * magnitude(middle**4 - inner_diameter**4) / base_diameter**2
 
 
 def pair_mass(pinion: Values, wheel: Values) -> Values:
@@ -44,4 +41,4 @@ def mass_of(gear: Gear, density: float) -> float:
     inside = inner_diameter(gear)
     if inside is None:
         return math.inf
-    return float(body_mass(gear.tip_diameter, gear.root_diameter, gear.base_diameter, inside, density))
+    return body_mass(gear.tip_diameter, gear.root_diameter, gear.base_diameter, inside, density)

@@ -7,10 +7,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-
 from gearcad.rating.editions import Edition
-from gearcad.rating.factors.elementwise import Values, chosen, root
+from gearcad.rating.factors.elementwise import Values, chosen, magnitude, root
 from gearcad.rating.load_factor_options import BearingArrangement, HelixModification
 
 __all__ = [
@@ -116,7 +114,7 @@ def shaft_deflection(
     """
     if double_helical:
         branch, compliance = branch + 0.5, 2 * compliance
-    bracket: Values = np.abs(branch + shaft_term - 0.3) + 0.3
+    bracket = magnitude(branch + shaft_term - 0.3) + 0.3
     return compliance * mean_load * bracket * (width / reference_diameter) ** 2
 
 
@@ -140,8 +138,7 @@ def proven_misalignment(deflection: Values, compensation: Values, factors: Helix
 
     `compensation` f_Hbeta5 is the helix slope deviation of accuracy grade 5 (corrigendum of 2008).
     """
-    left: Values = np.abs(1.33 * factors.deflection * deflection - compensation)
-    return larger(left, least)
+    return larger(magnitude(1.33 * factors.deflection * deflection - compensation), least)
 
 
 def larger(one: Values, other: Values) -> Values:

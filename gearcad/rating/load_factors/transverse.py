@@ -21,12 +21,12 @@ def transverse_load_factor(
 
 
 def flank_limit(total_contact_ratio: Values, transverse_contact_ratio: Values, contact_ratio_factor: Values) -> Values:
-    """eps_gamma/(eps_alpha Z_eps^2) (73): all of the load on one pair of teeth."""
+    """eps_gamma/(eps_alpha Z_eps^2): all of the load on one pair of teeth."""
     return total_contact_ratio / (transverse_contact_ratio * contact_ratio_factor**2)
 
 
 def root_limit(total_contact_ratio: Values, transverse_contact_ratio: Values) -> Values:
-    """eps_gamma/(0.25 eps_alpha + 0.75) (74)."""
+    """eps_gamma/(0.25 eps_alpha + 0.75): the same of the root."""
     return total_contact_ratio / (0.25 * transverse_contact_ratio + 0.75)
 
 

@@ -1,0 +1,97 @@
+"""LoadFactors: all load factors of a pair under a load, by ISO 6336-1 or DIN 3990-1."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.material import Material, of_both
+from gearcad.notice import Notice
+from gearcad.per_gear import PerGear
+from gearcad.rating.load_factors.across_face import face_load_factors
+from gearcad.rating.load_factors.between_pairs import transverse_load_factors
+from gearcad.rating.load_factors.dynamic import dynamic_factor
+from gearcad.rating.load_factors.finding import GIVEN
+from gearcad.rating.load_factors.loaded_mesh import LoadedMesh
+from gearcad.rating.options import RatingOptions
+from gearcad.rating.rate import require_ratable
+
+__all__ = ["LoadFactors"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadFactors:
+    """K_A, K_gamma, K_v, K_Hbeta, K_Fbeta, K_Halpha and K_Falpha; each is of the load times all before it.
+
+    `details` are the figures behind them under their symbols (µm, N/mm, N/(mm·µm), rpm, kg/mm; a mapping is of both gears),
+    `sources` the clause of each factor. `unknown` are symbols of factors in whose place 1 stands, `assumed` what was taken for
+    granted, `verify` factors that rest on a text that was not at hand.
+    """
+
+    application: float = 1.0
+    mesh_load: float = 1.0
+    dynamic: float = 1.0
+    face_flank: float = 1.0
+    face_root: float = 1.0
+    transverse_flank: float = 1.0
+    transverse_root: float = 1.0
+    details: Mapping[str, float | Mapping[str, float]] = field(default_factory=dict)
+    sources: Mapping[str, str] = field(default_factory=dict)
+    unknown: tuple[str, ...] = ()
+    notices: tuple[Notice, ...] = ()
+    assumed: tuple[str, ...] = ()
+    verify: tuple[str, ...] = ()
+
+    @classmethod
+    def of(
+        cls,
+        pair: GearPair,
+        materials: Material | PerGear[Material],
+        load: Load,
+        options: RatingOptions | None = None,
+    ) -> LoadFactors:
+        """Of a pair of one material or two, under a load; numbers in the options stand as they are given.
+
+        Raises ParameterError without a torque, for what a method needs and was not given, and beyond the tables of tolerances;
+        GeometryError for a pair whose contact the standard does not describe, double helical ones among them.
+        """
+        require_ratable(pair, load)
+        mesh = LoadedMesh(pair=pair, materials=of_both(materials), load=load, options=options or RatingOptions())
+        speed = dynamic_factor(mesh)
+        mean_load = mesh.specific_load * speed.factors["K_v"]
+        face = face_load_factors(mesh, mean_load)
+        across = transverse_load_factors(mesh, mean_load * face.factors["K_Hbeta"])
+        found = (speed, face, across)
+        return cls(
+            application=load.application_factor,
+            mesh_load=mesh.options.mesh_load_factor,
+            dynamic=speed.factors["K_v"],
+            face_flank=face.factors["K_Hbeta"],
+            face_root=face.factors["K_Fbeta"],
+            transverse_flank=across.factors["K_Halpha"],
+            transverse_root=across.factors["K_Falpha"],
+            details={symbol: value for each in found for symbol, value in each.details.items()},
+            sources={
+                **dict.fromkeys(("K_A", "K_gamma"), GIVEN),
+                **{symbol: clause for each in found for symbol, clause in each.sources.items()},
+            },
+            unknown=tuple(symbol for each in found for symbol in each.unknown),
+            notices=tuple(notice for each in found for notice in each.notices),
+            assumed=tuple(text for each in found for text in each.assumed),
+            verify=tuple(symbol for each in found for symbol in each.verify),
+        )
+
+    def to_dict(self) -> dict[str, float | None]:
+        """Values under their symbols; None of those that are not known."""
+        values = {
+            "K_A": self.application,
+            "K_gamma": self.mesh_load,
+            "K_v": self.dynamic,
+            "K_Hbeta": self.face_flank,
+            "K_Fbeta": self.face_root,
+            "K_Halpha": self.transverse_flank,
+            "K_Falpha": self.transverse_root,
+        }
+        return {symbol: None if symbol in self.unknown else value for symbol, value in values.items()}
