@@ -6,7 +6,8 @@ what it can be (its type, and a Range, a Whole or a Choice), and how it is writt
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from enum import Enum
 from functools import cache, cached_property
@@ -123,12 +124,24 @@ class FieldSchema:
         if self.permitted is None:
             return
         if not self.several:
-            self.permitted.require(parameter, value)
+            with self._naming_words(value):
+                self.permitted.require(parameter, value)
         elif isinstance(value, list | tuple):
             for each in value:
                 self.permitted.require(parameter, each)
         elif float in self.members:  # what else is no list, its type explains
             self.permitted.require(parameter, value)
+
+    @contextmanager
+    def _naming_words(self, value: Any) -> Iterator[None]:
+        """Let an error about a text name the words that may stand for a number."""
+        try:
+            yield
+        except ParameterError as error:
+            if not (self.words and isinstance(value, str)):
+                raise
+            words = " or ".join(f'"{word}"' for word in self.words)
+            raise ParameterError(error.parameter, value, f"{error.permitted}, or {words}") from None
 
     def _require_either(self, instance: DataclassInstance, parameter: str) -> None:
         """Raise ParameterError if neither this field nor the one in its place is given."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated
 
 from gearcad.check.options import CheckOptions
@@ -22,6 +22,7 @@ from gearcad.per_gear import Role
 from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad
 from gearcad.rating.options import RatingOptions
 from gearcad.schema import ELSEWHERE, FieldSchema, Words, parts_of, schema_of
+from gearcad.symbols import Symbol
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -104,13 +105,10 @@ class _OfSpecs:
     )
 
 
-@dataclass(frozen=True)
-class _NamesOfMaterials:
+def _names_of_materials(*owners: str) -> dict[str, FieldSchema]:
     """Keys of [material] that name that of one gear."""
-
-    pinion: Annotated[str | None, Words("material of the pinion", "", "ISO 6336-5")] = None
-    wheel: Annotated[str | None, Words("material of the wheel", "", "ISO 6336-5")] = None
-    rack: Annotated[str | None, Words("material of the rack", "", "ISO 6336-5")] = None
+    name = schema_of(Material)["name"]
+    return {owner: replace(name, name=owner, symbol=Symbol("", "", "ISO 6336-5", f"material of {owner}")) for owner in owners}
 
 
 def _flat(kind: type[DataclassInstance]) -> Iterator[tuple[str, FieldSchema]]:
@@ -158,7 +156,7 @@ FIELDS: dict[str, dict[str, FieldSchema]] = {
     "rack": _RACK | OWN_MATERIAL,
     **{table: dict(_flat(kind)) for table, kind in BESIDE.items()},
 }
-FIELDS["material"] |= {key: schema_of(_NamesOfMaterials)[key] for key in ("pinion", "wheel", "rack")}
+FIELDS["material"] |= _names_of_materials("pinion", "wheel", "rack")
 """What each key of each table says of itself, the keys flattened with dots."""
 
 KEYS = {table: tuple(fields) for table, fields in FIELDS.items()}
@@ -170,8 +168,8 @@ def _plain(kind: type[DataclassInstance], *others: str) -> dict[str, FieldSchema
     return {name: each for name, each in schema_of(kind).items() if each.part is None and name not in others}
 
 
-_CENTRAL = _GEAR | _plain(Central, "meshes")
-_RIM = _GEAR | _plain(Rim)
+_CENTRAL = _OF_PAIRS | _plain(Central, "meshes")
+_RIM = _OF_PAIRS | _plain(Rim)
 
 OF_SETS: dict[str, dict[str, FieldSchema]] = {
     "sun": _CENTRAL,
@@ -208,6 +206,7 @@ PLANETARY: dict[str, dict[str, FieldSchema]] = {
     **{table: dict(_flat(kind)) for table, kind in {**BESIDE, "load": TrainLoad}.items() if table != "mounting"},
     "dynamics": {key: schema_of(DynamicsOptions)[key] for key in _OF_VIBRATION},
 }
+PLANETARY["material"] |= _names_of_materials(*OF_SETS)
 """The tables of a planetary train, likewise: its [load] is that of the output."""
 
 _EACH = {
@@ -251,7 +250,7 @@ def explain_unknown_key(table: str, key: str) -> str:
     """The end of the message about a key that `table` does not have: where it belongs, or the nearest one."""
     if (moved := _MOVED.get(f"{table}.{key}")) is not None:
         return f"is no key any more: {moved}"
-    homes = [f"[{name}]" for name, keys in KEYS.items() if key in keys and name not in ("gear", "rack")]
+    homes = [f"[{name}]" for name, keys in KEYS.items() if key in keys and name not in ("gear", "rack") and key not in KEYS]
     if not homes and key in KEYS["rack"]:
         homes = ["[rack]"]
     if homes and table != "gear":

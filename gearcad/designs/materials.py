@@ -9,7 +9,7 @@ from gearcad.errors import SpecError, format_number
 from gearcad.material import Grade, Material, MaterialGroup, MaterialQuality, grade_of
 from gearcad.schema import schema_of
 
-__all__ = ["materials_of"]
+__all__ = ["common_material", "materials_of"]
 
 _TABLE = "material"
 
@@ -20,15 +20,27 @@ def materials_of(spec: Spec, gears: Sequence[str]) -> Material | dict[str, Mater
     What stands in a gear's own table counts before its name in [material], and that before the rest of [material]. A name
     such as "Eh MQ" takes the place of group and quality, and a group or a quality that of such a name.
     """
+    common = _common(spec, gears)
+    own = {gear: _own(spec, gear) for gear in gears}
+    if not any(own.values()):
+        return common_material(spec, gears) if common else None
+    return {gear: _made(spec, gear, _merged(common, layers)) for gear, layers in own.items()}
+
+
+def common_material(spec: Spec, gears: Sequence[str]) -> Material:
+    """That of what has none of its own. Raises SpecError."""
+    values = {key: given.value for key, given in _common(spec, gears).items()}
+    return spec.simple(_TABLE, Material, values=values)
+
+
+def _common(spec: Spec, gears: Sequence[str]) -> dict[str, Given]:
+    """What [material] says of all gears."""
     common = {key: given for key, given in spec.given_of(_TABLE).items() if key not in gears}
     for key in common.keys() - schema_of(Material).keys():
         full = f"{_TABLE}.{key}"
         there = f"those here are {' and '.join(gears)}" if gears else "here it is that of [material]: write name"
         raise SpecError(f"{spec.where(full)}: {full}: is the material of one gear among several; {there}", full)
-    own = {gear: _own(spec, gear) for gear in gears}
-    if not any(own.values()):
-        return spec.simple(_TABLE, Material) if common else None
-    return {gear: _made(spec, gear, _merged(common, layers)) for gear, layers in own.items()}
+    return common
 
 
 def _own(spec: Spec, gear: str) -> list[Mapping[str, Given]]:

@@ -12,6 +12,8 @@ from gearcad.designs.pair_text import pair_text
 from gearcad.dynamics.planetary.mesh_rating import ALTERNATING
 from gearcad.geometry import GearPair
 from gearcad.load import Load
+from gearcad.material import Materials
+from gearcad.planetary.materials import mesh_material, stage_material
 from gearcad.planetary.mesh_loads import FactorSource, MeshLoad, mesh_loads, stage_loads
 from gearcad.planetary.power import PowerFlow, power_flow
 
@@ -54,17 +56,23 @@ class MeshPairs:
     @cached_property
     def designs(self) -> dict[str, PairDesign]:
         """A design for each mesh, and for each stage, with the train's material and options of [rating], [check] and [mesh]."""
-        of_set = {mesh.name: (mesh.pair, self.loads.get(mesh.name)) for mesh in self.design.train.meshes}
-        found = {name: self._design(name, pair, load.load if load else None) for name, (pair, load) in of_set.items()}
-        stages = {stage.name: stage.pair for stage in self.design.train.stages}
-        return found | {name: self._design(name, pair, self.stage_loads.get(name)) for name, pair in stages.items()}
+        found, material = dict[str, PairDesign](), self.design.material
+        for mesh in self.design.train.meshes:
+            load = self.loads.get(mesh.name)
+            found[mesh.name] = self._design(
+                mesh.name, mesh.pair, load.load if load else None, mesh_material(material, mesh) if material else None
+            )
+        for stage in self.design.train.stages:
+            made_of = stage_material(material, stage) if material else None
+            found[stage.name] = self._design(stage.name, stage.pair, self.stage_loads.get(stage.name), made_of)
+        return found
 
     @property
     def texts(self) -> dict[str, str]:
         """The spec of each pair under the name of its file."""
         return {f"{name}.toml": pair_text(design, list(self._comments(name))) for name, design in self.designs.items()}
 
-    def _design(self, name: str, pair: GearPair, load: Load | None) -> PairDesign:
+    def _design(self, name: str, pair: GearPair, load: Load | None, material: Materials | None) -> PairDesign:
         own = self.design
         # By the train's name, too: results of the suns of two trains have folders of their own.
         full = own.pair_name(name)
@@ -72,7 +80,7 @@ class MeshPairs:
             name=full,
             pair=replace(pair, name=full),
             load=load,
-            material=own.material,
+            material=material,
             rating=own.rating,
             check=own.check,
             mesh=own.mesh,

@@ -63,7 +63,7 @@ class PlanetarySpec(Spec):
     def _explained(self, error: InputError, owner: str) -> SpecError:
         """A name at fault is that of a part, if one has it."""
         if error.parameter == "name" and owner == MAIN:
-            named = [key for key, given in self.values.items() if key.endswith(".name") and given.value == error.value]
+            named = [key for key, given in self.values.items() if _is_name(key) and given.value == error.value]
             owner = next((key.removesuffix(".name") for key in reversed(named) if key != f"{MAIN}.name"), owner)
         return super()._explained(error, owner)
 
@@ -120,7 +120,7 @@ class PlanetarySpec(Spec):
     def _check_names(self) -> None:
         """Each can name a file, so that messages about them stay one line."""
         for key, given in self.values.items():
-            if key.endswith(".name") and key not in ("material.name", f"{MAIN}.name"):
+            if _is_name(key) and key != f"{MAIN}.name":
                 with self.blame(key.removesuffix(".name")):
                     require_plain_name(given.value)
 
@@ -213,3 +213,8 @@ class PlanetarySpec(Spec):
                     raise GeometryError("teeth", gear["teeth"], f"{permitted}: write {-gear['teeth']}")
                 if gear.get("tip_alteration") == CLEAR and not table.startswith("ring"):
                     raise GeometryError("tip_alteration", CLEAR, f'must be a number, or "{AUTO}": "{CLEAR}" is for rings')
+
+
+def _is_name(key: str) -> bool:
+    """Whether a key names a part of the train, and not what it is made of."""
+    return key.endswith(".name") and not key.endswith("material.name")

@@ -136,7 +136,7 @@ def _unknown(owner: str, field: str, known: Mapping[str, FieldSchema]) -> str:
     """The end of the message about a key that a table does not have."""
     if field == SPEEDS or any(key.startswith(f"{field}.") for key in known):
         return f"must be a table, headed [{owner}.{field}]"
-    homes = [f"[{table}]" for table, keys in PLANETARY.items() if field in keys and table != owner]
+    homes = [f"[{table}]" for table, keys in PLANETARY.items() if field in keys and table != owner and field not in OF_SETS]
     if homes:
         return f"unknown key here; it belongs in {' or '.join(homes)}"
     if (near := nearest_key(field, known)) is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, Unpack
 
@@ -43,6 +44,8 @@ def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: 
             raise ParameterError(name, value, f"is nothing that a {subject.kind.words} has; it has {known}")
         if name == "material" and isinstance(subject, PairDesign | RackPairDesign) and isinstance(value, PerGear):
             value.map(_require_material)
+        elif name == "material" and isinstance(subject, PlanetaryDesign) and isinstance(value, Mapping):
+            list(map(_require_material, value.values()))
         elif value is not None and not isinstance(value, kinds[name]):
             raise ParameterError(name, value, f"must be a {kinds[name].__name__}")
     return replace(subject, **given)

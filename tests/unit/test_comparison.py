@@ -11,9 +11,11 @@ from support.checks import small_check
 
 from gearcad import Load, Material
 from gearcad.check.comparison import Comparison, Subject, Verdict, agrees, at_most, beside, verdict
+from gearcad.check.judge import compare_common
 from gearcad.cli.verdict import print_verdict
 from gearcad.notice import Notice
 from gearcad.output import json_text
+from gearcad.per_gear import PerGear
 
 
 def gate(computed: float | None, subject: Subject = Subject.NUMERICS, reason: str = "") -> Comparison:
@@ -110,3 +112,16 @@ def test_the_screen_keeps_columns_apart_and_tells_the_use_of_limits(capsys: pyte
     assert result.rating.warnings
     assert all(f"Warning: rating: {warning}" in text for warning in result.rating.warnings)
     assert lines[-1].startswith("pair at 30200 N·m: numerics NOT passed; strength not judged: no limit given")
+
+
+def test_limits_of_each_gear_are_judged() -> None:
+    small = small_check()
+    own = PerGear(Material(contact_limit=900.0, root_limit=500.0), Material(contact_limit=300.0))
+    task = replace(small.task, material=own)
+    every = tuple(compare_common(task, small.cycle, small.summary, (), equilibrium="", errors=()))
+    found = {each.quantity: each.reference for each in every if each.subject is Subject.STRENGTH}
+    assert found == {"contact pressure, pinion": 900.0, "contact pressure, wheel": 300.0, "root stress, pinion": 500.0}
+    result = replace(small, task=task, comparisons=every)
+    of_stress = [f"von Mises stress below the flank, {gear}" for gear in ("pinion", "wheel")]
+    assert result.without_limit == ("root stress, wheel", *of_stress)
+    assert result.verdict.endswith(f"not judged, no limit given: {', '.join(result.without_limit)}")

@@ -12,6 +12,7 @@ from gearcad.designs.files import Where
 from gearcad.designs.keys import BESIDE, SPEEDS
 from gearcad.designs.kinds.pair import PairSpec
 from gearcad.designs.kinds.toothed import ToothedDesign
+from gearcad.designs.materials import common_material, materials_of
 from gearcad.designs.planetary_spec import PlanetarySpec
 from gearcad.designs.planetary_tables import MAIN
 from gearcad.dynamics.options import DynamicsOptions
@@ -21,6 +22,7 @@ from gearcad.material import Material
 from gearcad.meshing.options import MeshOptions
 from gearcad.per_gear import Role
 from gearcad.planetary import Carrier, PairStage, PlanetaryTrain, TrainLoad
+from gearcad.planetary.materials import TrainMaterial
 from gearcad.planetary.speeds import check_speeds
 from gearcad.rating.options import RatingOptions
 
@@ -29,7 +31,7 @@ __all__ = ["PlanetaryDesign"]
 _OF_TRAINS = {each.name for each in fields(PlanetaryTrain)}
 _REQUIRED = ("planets", "input", "output")
 
-_TAKEN = ("kind", "name", "gearcad", SPEEDS, MAIN, *BESIDE)
+_TAKEN = ("kind", "name", "gearcad", "materials", SPEEDS, MAIN, *BESIDE)
 """What a document has beside its gears."""
 
 
@@ -45,7 +47,7 @@ class PlanetaryDesign(ToothedDesign):
     train: PlanetaryTrain
     load: TrainLoad | None = None
     speeds: Mapping[str, float] = field(default_factory=dict)
-    material: Material | None = None
+    material: TrainMaterial | None = None
     check: CheckOptions | None = None
     mesh: MeshOptions | None = None
     dynamics: DynamicsOptions | None = None
@@ -71,12 +73,13 @@ class PlanetaryDesign(ToothedDesign):
     def read(cls, tables: Mapping[str, Any], where: Where, default_name: str) -> Self:
         """That of [planetary] and the tables of its gears. Raises SpecError."""
         spec = cls.spec(tables, where)
-        given = {**BESIDE, "load": TrainLoad}
+        given = {table: kind for table, kind in {**BESIDE, "load": TrainLoad}.items() if table != "material"}
         beside: dict[str, Any] = {table: spec.simple(table, kind) for table, kind in given.items() if table in tables}
         name = spec.name(MAIN, default_name)
         inputs = _inputs(spec) | {"name": name}
         with spec.blame(MAIN):
             train = PlanetaryTrain(**inputs)
+            beside["material"] = _material(spec, train, given="material" in tables)
             return cls(name=name, train=train, speeds=_speeds(spec, train, beside.get("load")), **beside)
 
     @classmethod
@@ -112,6 +115,15 @@ class PlanetaryDesign(ToothedDesign):
     def to_dict(self) -> dict[str, Any]:
         """The document of `data.json`: gears under their names, the train under "planetary" (mm, degrees)."""
         return super().to_dict() | ({SPEEDS: dict(self.speeds)} if self.speeds else {})
+
+
+def _material(spec: PlanetarySpec, train: PlanetaryTrain, *, given: bool) -> TrainMaterial | None:
+    """That of all gears, or of each by its name; None where the spec says nothing. Raises SpecError."""
+    found = materials_of(spec, spec.tables)
+    if not isinstance(found, dict):
+        return Material() if found is None and given else found
+    common = common_material(spec, spec.tables)
+    return {**dict.fromkeys(train.gears, common), **{spec.name_of(table): material for table, material in found.items()}}
 
 
 def _inputs(spec: PlanetarySpec) -> dict[str, Any]:

@@ -45,16 +45,16 @@ class ToothedDesign(Design):
 
     def to_dict(self) -> dict[str, Any]:
         """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
-        given = {table: getattr(self, table) for table in BESIDE if hasattr(self, table)}
-        plain = {table: _plain(value) for table, value in given.items() if value is not None and not isinstance(value, PerGear)}
-        return {**super().to_dict(), **plain, **self._materials()}
-
-    def _materials(self) -> dict[str, Any]:
-        """The materials of gears that are not of the same one, by gear, under "materials"."""
-        material = getattr(self, "material", None)
-        if not isinstance(material, PerGear):
-            return {}
-        return {"materials": {name: asdict(each) for name, each in zip(self.made_of, material, strict=True)}}
+        document = super().to_dict()
+        for table in BESIDE:
+            value = getattr(self, table, None)
+            if isinstance(value, PerGear):  # a material for each gear
+                value = dict(zip(self.made_of, value, strict=True))
+            if isinstance(value, Mapping):
+                document["materials"] = {name: asdict(material) for name, material in value.items()}
+            elif value is not None:
+                document[table] = _plain(value)
+        return document
 
 
 def _plain(options: DataclassInstance) -> dict[str, Any]:

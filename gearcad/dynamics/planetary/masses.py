@@ -8,8 +8,8 @@ from typing import Any
 
 from gearcad.errors import GearcadError
 from gearcad.geometry import Gear
-from gearcad.material import Material
 from gearcad.planetary import Central, PlanetaryTrain
+from gearcad.planetary.materials import TrainMaterial, material_of
 
 __all__ = ["MemberMass", "TrainMasses", "train_masses"]
 
@@ -52,7 +52,7 @@ class TrainMasses:
         return {**{name: each.to_dict() for name, each in self.members.items()}, "planet": self.planet.to_dict()}
 
 
-def train_masses(train: PlanetaryTrain, material: Material | Mapping[str, Material] | None = None) -> TrainMasses:
+def train_masses(train: PlanetaryTrain, material: TrainMaterial | None = None) -> TrainMasses:
     """Of a train whose gears are of one `material`, or of one each, by the name of the central or rim.
 
     What is given wins; only what is not is weighed.
@@ -64,12 +64,9 @@ def train_masses(train: PlanetaryTrain, material: Material | Mapping[str, Materi
     return TrainMasses(members={**members, carrier.name: _carrier(train)}, planet=planet)
 
 
-def _densities(train: PlanetaryTrain, material: Material | Mapping[str, Material] | None) -> dict[str, float]:
+def _densities(train: PlanetaryTrain, material: TrainMaterial | None) -> dict[str, float]:
     """In kg/m³, of each central and rim."""
-    names = [each.name for each in (*train.centrals, *train.rims)]
-    if not isinstance(material, Mapping):
-        return dict.fromkeys(names, (material or Material()).density)
-    return {name: material.get(name, Material()).density for name in names}
+    return {each.name: material_of(material, each.name).density for each in (*train.centrals, *train.rims)}
 
 
 def _central(central: Central, density: float) -> MemberMass:

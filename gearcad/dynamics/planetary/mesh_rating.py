@@ -11,10 +11,11 @@ from gearcad.dynamics.planetary.masses import TrainMasses
 from gearcad.errors import InputError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Materials
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear
 from gearcad.planetary import PlanetaryTrain
+from gearcad.planetary.materials import TrainMaterial, mesh_material, stage_material
 from gearcad.planetary.mesh_loads import MeshLoad
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
@@ -101,11 +102,11 @@ def rate_train(
     loads: Mapping[str, MeshLoad],
     stages: Mapping[str, Load],
     masses: TrainMasses,
-    material: Material | None = None,
+    material: TrainMaterial | None = None,
     options: RatingOptions | None = None,
 ) -> TrainRating:
-    """Rate the meshes of a train under `loads`, and its stages, as `gearcad.rate` rates a pair, all of one material."""
-    material, options = material or Material(), options or RatingOptions()
+    """Rate the meshes of a train under `loads`, and its stages, as `gearcad.rate` rates a pair."""
+    options = options or RatingOptions()
     meshes, rated, unrated = dict[str, MeshRating](), dict[str, Rating](), dict[str, str]()
     for name, load in loads.items():
         try:
@@ -114,18 +115,19 @@ def rate_train(
             unrated[name] = str(error)
     for stage in train.stages:
         try:
-            rated[stage.name] = rate(stage.pair, material, stages[stage.name], options)
+            rated[stage.name] = rate(stage.pair, stage_material(material, stage), stages[stage.name], options)
         except InputError as error:
             unrated[stage.name] = str(error)
     return TrainRating(meshes=meshes, stages=rated, unrated=unrated)
 
 
 def _mesh_rating(
-    train: PlanetaryTrain, load: MeshLoad, masses: TrainMasses, material: Material, options: RatingOptions
+    train: PlanetaryTrain, load: MeshLoad, masses: TrainMasses, material: TrainMaterial | None, options: RatingOptions
 ) -> MeshRating:
     mesh = load.mesh
-    rating = rate(mesh.pair, material, load.load, options)
-    factor, why = _dynamic_factor(mesh.pair, material, load.load, _inertias(train, load, masses), options)
+    made_of = mesh_material(material, mesh)
+    rating = rate(mesh.pair, made_of, load.load, options)
+    factor, why = _dynamic_factor(mesh.pair, made_of, load.load, _inertias(train, load, masses), options)
     bends = PerGear.each(lambda role: ALTERNATING if role is mesh.rim_role and not train.stepped else 1.0)
     return MeshRating(load=load, rating=rating, dynamic_factor=factor, no_dynamic_factor=why, mean_stress_factor=bends)
 
@@ -143,7 +145,7 @@ def _inertias(train: PlanetaryTrain, load: MeshLoad, masses: TrainMasses) -> Per
 
 
 def _dynamic_factor(
-    pair: GearPair, material: Material, load: Load, inertias: PerGear[float] | str, options: RatingOptions
+    pair: GearPair, material: Materials, load: Load, inertias: PerGear[float] | str, options: RatingOptions
 ) -> tuple[float | None, str]:
     """K_v at the load's speed, or None and why."""
     if isinstance(inertias, str):

@@ -12,11 +12,12 @@ from numpy.typing import ArrayLike
 from gearcad.arrays import Floats
 from gearcad.errors import GeometryError, ParameterError
 from gearcad.load import Load
-from gearcad.material import Material
+from gearcad.material import Material, Materials
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.notice import Notice
 from gearcad.per_gear import Role
 from gearcad.planetary import PlanetaryTrain, SetMesh
+from gearcad.planetary.materials import TrainMaterial, mesh_material
 from gearcad.planetary.mesh_loads import MeshLoad
 from gearcad.planetary.phases import mesh_phases
 from gearcad.stiffness.methods import METHODS
@@ -126,7 +127,7 @@ def mesh_stiffness(
     *,
     driver: Role = Role.PINION,
     method: str = QUICK,
-    material: Material | None = None,
+    material: Materials | None = None,
     positions: int = 0,
 ) -> MeshStiffness:
     """The stiffness of a mesh under what one planet carries: `load`, of which the torque (N·m) is that on the pair's pinion.
@@ -173,7 +174,7 @@ def train_stiffness(
     loads: Mapping[str, MeshLoad] | None = None,
     *,
     method: str = QUICK,
-    material: Material | None = None,
+    material: TrainMaterial | None = None,
     positions: int = 0,
 ) -> dict[str, MeshStiffness]:
     """Of both meshes by their names, as `mesh_stiffness` under the even share of `loads` with K_A; without loads as the input
@@ -188,7 +189,7 @@ def train_stiffness(
             None if loads is None else loads[mesh.name].even,
             driver=drivers[mesh.name],
             method=method,
-            material=material,
+            material=mesh_material(material, mesh),
             positions=positions,
         )
         for mesh in train.meshes

@@ -21,10 +21,10 @@ from gearcad.dynamics.planetary.springs import train_springs
 from gearcad.dynamics.planetary.torsion import torsional_stiffness
 from gearcad.errors import InputError, ParameterError, SolverError
 from gearcad.load import Load
-from gearcad.material import Material
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.planetary import PlanetaryTrain, TrainLoad
 from gearcad.planetary.forces import forces
+from gearcad.planetary.materials import TrainMaterial, stage_material
 from gearcad.planetary.mesh_loads import mesh_loads, stage_loads
 from gearcad.planetary.phases import Drive, MeshPhases, drive_of, mesh_phases
 from gearcad.planetary.power import PowerFlow, power_flow
@@ -66,7 +66,7 @@ def study_planetary(
     load: TrainLoad | None = None,
     given_speeds: Mapping[str, float] | None = None,
     *,
-    material: Material | None = None,
+    material: TrainMaterial | None = None,
     dynamics: DynamicsOptions | None = None,
     rating: RatingOptions | None = None,
     response: bool = False,
@@ -225,12 +225,12 @@ def _drive(train: PlanetaryTrain, flow: PowerFlow) -> Drive:
 
 
 def _stage_cycles(
-    train: PlanetaryTrain, loads: Mapping[str, Load], method: str, material: Material | None
+    train: PlanetaryTrain, loads: Mapping[str, Load], method: str, material: TrainMaterial | None
 ) -> dict[str, MeshCycle]:
     """Those of the stages under their loads."""
-    kind, made_of = METHODS[method], material or Material()
+    kind = METHODS[method]
     return {
-        stage.name: kind(pair=stage.pair, material=made_of)(loads[stage.name])
+        stage.name: kind(pair=stage.pair, material=stage_material(material, stage))(loads[stage.name])
         for stage in train.stages
         if loads[stage.name].torque
     }
