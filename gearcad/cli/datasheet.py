@@ -49,6 +49,7 @@ _GEAR_BLOCKS = {
     "Tooth thickness": "normal_tooth_thickness transverse_tooth_thickness tip_thickness",
     "Inspection": "span_teeth span_spaces span_measurement span_contact_diameter ball_diameter over_balls over_pins"
     " between_balls between_pins pin_axial_shift",
+    "Within the tooth thickness allowance": _of_part("thickness_limits"),
     "Flank modifications": _of_part("modification"),
     "Body": _of_part("body"),
 }
@@ -71,6 +72,8 @@ _PAIR_BLOCKS = {
     " shifted_distance zero_backlash_distance pitch_line_height working_transverse_pressure_angle"
     " profile_shift_sum zero_backlash_shift_sum tip_alteration circumferential_backlash normal_backlash axial_force_ratio"
     " tip_clearances.pinion tip_clearances.rack",
+    "Backlash within tolerances": "centre_distance_tolerance "
+    + " ".join(k for k in _OF_PAIR if k.startswith("backlash_limits.")),
     "Motion": "travel_per_revolution travel_per_degree rack_force rack_speed",
     "Contact": "transverse_contact_ratio usable_contact_ratio overlap_ratio total_contact_ratio common_width.width"
     " common_width.offset contact_line_lengths.minimum contact_line_lengths.mean contact_line_lengths.maximum"

@@ -14,6 +14,7 @@ from gearcad.designs.train_keys import PARTS as TRAIN_PARTS
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.geometry import Gear, GearPair, Rack, RackPair, ShiftSplit
 from gearcad.geometry.diametral import MODULE_OR_PITCH
+from gearcad.geometry.tooth_allowance import THINNING_OR_ALLOWANCE
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.meshing.options import MeshOptions
@@ -135,19 +136,18 @@ _OF_PAIRS = _GEAR | OWN_MATERIAL
 _PAIR = schema_of(GearPair)
 _RACK = dict(_flat(Rack))
 
-_THINNING = ("tooth_thinning", "tooth_allowance")
 _OF_DRAWINGS = ("accuracy_grade", "flank_roughness", "root_roughness")
-_PLAIN_SHARED = (*MODULE_OR_PITCH, "helix_angle", "face_width", "tip_alteration", *_THINNING, *_OF_DRAWINGS)
+_PLAIN_SHARED = (*MODULE_OR_PITCH, "helix_angle", "face_width", "tip_alteration", *THINNING_OR_ALLOWANCE, *_OF_DRAWINGS)
 _OF_ONE = ("cutter",)
 SHARED = (*_PLAIN_SHARED, *(key for key in _GEAR if (part := key.partition(".")[0]) in PARTS and part not in _OF_ONE))
 """Keys of a gear that may stand in [pair] for both; the helix angle there is the pinion's, and no cutter makes both."""
 
-ALTERNATIVES = (MODULE_OR_PITCH, _THINNING)
+ALTERNATIVES = (MODULE_OR_PITCH, THINNING_OR_ALLOWANCE)
 """Keys of a gear one of which is given: its own counts before any of them that is shared."""
 
 FIELDS: dict[str, dict[str, FieldSchema]] = {
     "gear": _GEAR,
-    "pair": {key: _PAIR[key] for key in ("name", "centre_distance", "axial_offset")}
+    "pair": {key: _PAIR[key] for key in ("name", "centre_distance", "centre_distance_tolerance", "axial_offset")}
     | {"mounting_distance": schema_of(RackPair)["mounting_distance"]}
     | {"profile_shift_split": _OF_SPECS["profile_shift_split"]}
     | {key: _GEAR[key] for key in SHARED},

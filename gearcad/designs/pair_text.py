@@ -27,7 +27,7 @@ def pair_text(design: PairDesign, comments: Sequence[str] = ()) -> str:
     """The TOML of a design of a pair, led by `comments`, a line each. "auto" stands nowhere: what it gave does."""
     pair = design.pair
     tables = {
-        "pair": dict(_values(pair, ("name", "centre_distance", "axial_offset"), always=("name",))),
+        "pair": dict(_values(pair, ("name", "centre_distance", "centre_distance_tolerance", "axial_offset"), always=("name",))),
         **{role.value: dict(_values(gear, FIELDS[role.value], always=("name", *_ALWAYS))) for role, gear in pair.gears.items()},
         **{table: dict(_values(material, schema_of(Material))) for table, material in _materials(design).items()},
         **{

@@ -6,7 +6,6 @@ Raises ParameterError or GeometryError, whose limits can be used as they are pri
 from __future__ import annotations
 
 import math
-import re
 
 from gearcad.errors import GeometryError, ParameterError, require_name
 from gearcad.geometry.basic_rack import BasicRack
@@ -19,14 +18,13 @@ from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.shaping import check_shaper, tip_words
 from gearcad.geometry.tooling import shaped
+from gearcad.geometry.tooth_allowance import require_allowance
 from gearcad.schema import require_fields
 
 __all__ = ["check_fields", "check_numbers", "check_tool"]
 
 LEAST_HELIX = 1e-6
 """Smallest helix angle (degrees) of a helical gear; less moves a tooth by less than 2e-8 of the face width."""
-
-_ALLOWANCE = re.compile("(a|ab|b|bc|c|cd|d|e|f|g|h)(2[1-9]|30)")
 
 MOST_TWIST = 720.0
 """Largest twist of a tooth over the face width (degrees) that one screw surface spans to the accuracy promised."""
@@ -38,9 +36,8 @@ def check_fields(gear: GearData) -> None:
     require_fields(gear)
     if 0 < abs(gear.helix_angle) < LEAST_HELIX:
         raise ParameterError("helix_angle", gear.helix_angle, f"must be 0 or at least {LEAST_HELIX:g} deg", "deg")
-    if gear.tooth_allowance is not None and not _is_allowance(gear.tooth_allowance):
-        permitted = 'must be a letter a to h (ab, bc and cd too) and a series 21 to 30 of DIN 3967, such as "cd25"'
-        raise ParameterError("tooth_allowance", gear.tooth_allowance, permitted)
+    if gear.tooth_allowance is not None:
+        require_allowance(gear.tooth_allowance)
     parts: tuple[tuple[str, type], ...] = (
         ("rack", BasicRack),
         ("cutter", ShaperCutter),
@@ -51,10 +48,6 @@ def check_fields(gear: GearData) -> None:
     for part, kind in parts:
         if not isinstance(getattr(gear, part), kind):
             raise ParameterError(part, getattr(gear, part), f"must be a {kind.__name__}")
-
-
-def _is_allowance(text: object) -> bool:
-    return isinstance(text, str) and _ALLOWANCE.fullmatch(text) is not None
 
 
 def check_numbers(gear: GearData) -> None:
@@ -114,6 +107,10 @@ def _check_thickness(gear: GearData) -> None:
         khk = f" (KHK's sign: below {at_most(-least_shift)})" if gear.internal else ""
         permitted = f"must be above {at_least(least_shift)}{khk}: no tooth on the reference circle"
         raise GeometryError("profile_shift", gear.profile_shift, permitted)
+    if (allowance := gear.thickness_allowance) and gear.normal_tooth_thickness <= allowance.tolerance / 2000:
+        most = at_most(gear.normal_tooth_thickness + gear.tooth_thinning)
+        permitted = f"must be less: it takes up to {-allowance.lower / 1000:g} mm off teeth that are {most} mm thick without it"
+        raise GeometryError("tooth_allowance", gear.tooth_allowance, permitted)
     if gear.normal_tooth_thickness <= 0:
         raise GeometryError(
             "tooth_thinning",

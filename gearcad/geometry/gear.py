@@ -19,7 +19,9 @@ from gearcad.geometry.internal_profile import InternalProfile
 from gearcad.geometry.modification import FlankForm, check_flanks
 from gearcad.geometry.picture import gear_html
 from gearcad.geometry.profile import ToothProfile, base_half_angle
+from gearcad.geometry.thickness_limits import ThicknessLimits
 from gearcad.geometry.tooling import corner_notices, fillet_tool, shaper_tip
+from gearcad.geometry.tooth_allowance import derive_thinning
 from gearcad.geometry.trimming import trimming_notices
 from gearcad.geometry.walls import check_body
 from gearcad.notice import Notice, texts
@@ -48,7 +50,8 @@ class Gear(GearData):
 
     `normal_module`, or `normal_diametral_pitch` (1/inch), is given and the other derived (see `Derived`).
     `helix_angle` is signed: right hand positive. `profile_shift` x and `tip_alteration` k are coefficients of the
-    normal module; `tooth_thinning` is the reduction of the normal tooth thickness (mm). `tip_diameter` and
+    normal module; `tooth_thinning` is the reduction of the normal tooth thickness (mm), or follows from `tooth_allowance`
+    ("cd25" of DIN 3967) as its mean. `tip_diameter` and
     `root_diameter` may be given, else they are derived, and read as numbers either way (see `Derived`): a given tip
     circle wins over k, a given root circle prescribes the depth of the tool, which then follows from the gear.
     An internal gear has the signs of ISO 21771: teeth and all diameters are negative, and x > 0 makes its teeth thicker (KHK
@@ -63,6 +66,7 @@ class Gear(GearData):
     def __post_init__(self) -> None:
         check_fields(self)
         derive_module(self)
+        derive_thinning(self)
         check_numbers(self)
         derive(self, "tip_diameter", self.standard_tip_diameter)
         derive(self, "root_diameter", self.standard_root_diameter)
@@ -209,6 +213,12 @@ class Gear(GearData):
         """Distance along the axis between the two pins of `over_pins`."""
         return self.inspection.pin_axial_shift
 
+    @cached_property
+    def thickness_limits(self) -> ThicknessLimits | None:
+        """What gauges may find within the `tooth_allowance`; None without one."""
+        allowance = self.thickness_allowance
+        return None if allowance is None else ThicknessLimits.of(self.inspection, allowance)
+
     # ------------------------------------------------------------------ what to know of it, and how it shows itself
 
     @cached_property
@@ -247,5 +257,7 @@ class Gear(GearData):
         derived = {name: getattr(self, name) for name in names}
         if math.isinf(self.lead):
             derived["lead"] = None
+        if self.thickness_limits is not None:
+            derived["thickness_limits"] = self.thickness_limits.to_dict()
         warnings = {"warnings": list(self.warnings), "notices": [notice.to_dict() for notice in self.notices]}
         return {**inputs, **parts, **derived, **warnings}

@@ -10,10 +10,11 @@ from typing import Annotated
 from gearcad.geometry.basic_rack import ISO53_A, BasicRack
 from gearcad.geometry.body import Body
 from gearcad.geometry.cutter import ShaperCutter
-from gearcad.geometry.derived import NOT_GIVEN, is_given
+from gearcad.geometry.derived import NOT_GIVEN, Derived, is_given
 from gearcad.geometry.diametral import NormalDiametralPitch, NormalModule
 from gearcad.geometry.double_helix import DoubleHelix
 from gearcad.geometry.modification import FlankModification
+from gearcad.geometry.tooth_allowance import ToothAllowance, tooth_thickness_allowance
 from gearcad.ranges import Range, Whole
 from gearcad.schema import Words
 
@@ -29,6 +30,8 @@ _DIAMETER = Range("mm", -2e6, 2e6)
 
 
 _ROUGHNESS = Range("µm", 0.01, 1000)
+
+_NO_THINNING = Derived(0.0)
 
 _GAP_DEPTH = 0.5
 """How much less the diameter between the halves of a double helical gear is than the root circle's, in normal modules."""
@@ -49,7 +52,7 @@ class GearData:
     helix_angle: Annotated[float, Range("deg", -75, 75), Words("helix angle (right hand +)", "β", "4.2")] = 0.0
     profile_shift: Annotated[float, _COEFFICIENT, Words("profile shift coefficient", "x", "4.2")] = 0.0
     tip_alteration: Annotated[float, _COEFFICIENT, Words("tip alteration coefficient", "k", "4.5")] = 0.0
-    tooth_thinning: Annotated[float, Range("mm", 0, None), Words("tooth thinning (normal)", "A_sn", "7.3")] = 0.0
+    tooth_thinning: Annotated[float, Range("mm", 0, None), Words("tooth thinning (normal)", "A_sn", "7.3")] = _NO_THINNING
     tooth_allowance: Annotated[str | None, Words("tooth thickness allowance", "", "DIN 3967")] = None
     accuracy_grade: Annotated[int | None, Whole(0, 12), Words("accuracy grade", "", "ISO 1328-1")] = None
     flank_roughness: Annotated[float | None, _ROUGHNESS, Words("roughness of the flanks", "Rz")] = None
@@ -134,6 +137,13 @@ class GearData:
         """s_n = m_n (pi/2 + 2 x tan alpha_n) - thinning, on the reference circle."""
         tangent = math.tan(math.radians(self.rack.pressure_angle))
         return self.normal_module * (math.pi / 2 + 2 * self.profile_shift * tangent) - self.tooth_thinning
+
+    @cached_property
+    def thickness_allowance(self) -> ToothAllowance | None:
+        """A_sne and A_sni of `tooth_allowance`; None without one, whose thinning is exact."""
+        return (
+            None if self.tooth_allowance is None else tooth_thickness_allowance(self.tooth_allowance, self.reference_diameter)
+        )
 
     @property
     def transverse_tooth_thickness(self) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 from gearcad.errors import GeometryError, ParameterError, format_number, require_name
+from gearcad.geometry.centre_distance_tolerance import LARGEST_DISTANCE, require_class
 from gearcad.geometry.derived import is_given
 from gearcad.geometry.gear import Gear
 from gearcad.geometry.internal_mating import check_interference, ring_tip_limit
@@ -26,6 +27,7 @@ __all__ = [
     "check_ring",
     "check_shift_sum",
     "check_teeth",
+    "check_tolerance",
     "wrong_side",
 ]
 
@@ -43,6 +45,8 @@ def check_inputs(pair: PairData) -> None:
     require_fields(pair)
     if is_given(distance := pair.centre_distance) and distance * (pair.pinion.teeth + pair.wheel.teeth) <= 0:
         raise wrong_side(distance, ring=pair.internal)
+    if pair.centre_distance_tolerance is not None:
+        require_class(pair.centre_distance_tolerance)
     require_name("name", pair.name)
 
 
@@ -134,6 +138,19 @@ def check_centre_distance(pair: PairData) -> None:
     if pair.centre_distance <= least:
         permitted = f"must be above {at_least(least)} mm, where the base circles touch"
         raise GeometryError("centre_distance", pair.centre_distance, permitted, "mm")
+
+
+def check_tolerance(pair: PairData) -> None:
+    """That of the centre distance keeps the axes off where base circles touch."""
+    if (name := pair.centre_distance_tolerance) is None:
+        return
+    if abs(pair.centre_distance) > LARGEST_DISTANCE:
+        permitted = f"must be left out: ISO 286 has no tolerances above {LARGEST_DISTANCE:g} mm"
+        raise GeometryError("centre_distance_tolerance", name, permitted)
+    touching = abs(pair.pinion.base_diameter + pair.wheel.base_diameter) / 2
+    if abs(pair.centre_distance) - pair.centre_distance_allowance / 1000 <= touching:
+        permitted = f"must be finer: the axes could come within {at_most(touching)} mm, where the base circles touch"
+        raise GeometryError("centre_distance_tolerance", name, permitted)
 
 
 def check_teeth(pair: PairData) -> None:

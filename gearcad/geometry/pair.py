@@ -16,7 +16,14 @@ from gearcad.geometry.helix import twist
 from gearcad.geometry.interference import FilletCut, fillet_cut
 from gearcad.geometry.internal_interference import InterferenceMargins
 from gearcad.geometry.internal_mating import clear_tip_diameter, interference_margins, interference_notices
-from gearcad.geometry.mating import check_centre_distance, check_inputs, check_mates, check_shift_sum, check_teeth
+from gearcad.geometry.mating import (
+    check_centre_distance,
+    check_inputs,
+    check_mates,
+    check_shift_sum,
+    check_teeth,
+    check_tolerance,
+)
 from gearcad.geometry.pair_data import PairData
 from gearcad.geometry.path import BaseTangent, ContactLineLengths, ContactZone, PathOfContact
 from gearcad.geometry.picture import pair_html
@@ -48,7 +55,8 @@ class GearPair(PairData):
     """Two gears in mesh; the pinion drives. Lengths in mm, angles in degrees.
 
     `centre_distance` may be given; else it is the one without backlash for the gears' profile shifts (thinning then
-    gives the backlash). It is read as a number either way (see `Derived`). The gears stand with their middles in one
+    gives the backlash). It is read as a number either way (see `Derived`). `centre_distance_tolerance` ("js7" of DIN 3964) and
+    `tooth_allowance` of the gears leave the backlash between limits. The gears stand with their middles in one
     plane, moved apart by `axial_offset` (of the wheel, along +z).
     Raises GeometryError where the gears do not fit each other, or the teeth would overlap.
     """
@@ -62,6 +70,7 @@ class GearPair(PairData):
             check_shift_sum(self)
             derive(self, "centre_distance", self.centre_distance_for(self.profile_shift_sum))
         check_centre_distance(self)
+        check_tolerance(self)
         check_teeth(self)
 
     # ------------------------------------------------------------------ contact
@@ -177,6 +186,9 @@ class GearPair(PairData):
         if self.circumferential_backlash < -ROUNDING * self.pinion.normal_module:
             overlap = f"{-self.circumferential_backlash:.3g} mm"
             yield Notice("rounded-shifts", f"zero backlash: the printed profile shifts overlap by {overlap} (rounding)")
+        if (limits := self.backlash_limits) and limits.circumferential_least < 0 <= self.circumferential_backlash:
+            overlap = f"{-limits.circumferential_least:.3g} mm"
+            yield Notice("backlash-may-vanish", f"backlash: within the tolerances teeth may overlap by up to {overlap}")
         if (ratio := self.transverse_contact_ratio) < 1:
             yield Notice("low-contact-ratio", f"contact ratio: transverse contact ratio {ratio:.4f} is below 1")
 
@@ -208,6 +220,12 @@ class GearPair(PairData):
         figures = [(written[name], getattr(self, name)) for name in _SKETCHED]
         return pair_html(self.name, self.gears, self.gears.map(lambda gear: gear.profile), self.wheel_pose(), figures)
 
+    def _tolerated(self) -> dict[str, Any]:
+        """What a document has of tolerances, where there are any."""
+        limits, name = self.backlash_limits, self.centre_distance_tolerance
+        given = {} if name is None else {"centre_distance_tolerance": name}
+        return given if limits is None else given | {"backlash_limits": limits._asdict()}
+
     def to_dict(self) -> dict[str, Any]:
         """Derived properties of the pair under their names, for JSON (the gears have their own)."""
         derived = {name: getattr(self, name) for name in _DERIVED}
@@ -218,6 +236,7 @@ class GearPair(PairData):
             **{name: list(value) if isinstance(value, PerGear) else value for name, value in derived.items()},
             "path_of_contact": self.path_of_contact._asdict(),
             "contact_line_lengths": self.contact_line_lengths._asdict(),
+            **self._tolerated(),
             **({"interference_margins": margins._asdict()} if (margins := self.interference_margins) else {}),
             "warnings": list(self.warnings),
             "notices": [notice.to_dict() for notice in self.notices],

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any, NamedTuple
 
+from gearcad.geometry.backlash import Backlash, BacklashLimits, backlash
+from gearcad.geometry.centre_distance_tolerance import centre_distance_allowance
 from gearcad.geometry.derived import NOT_GIVEN
 from gearcad.geometry.gear import Gear
-from gearcad.geometry.involute import involute
+from gearcad.geometry.profile import base_half_angle
 from gearcad.geometry.shift import profile_shift_sum, zero_backlash_centre_distance
 from gearcad.per_gear import PerGear
 from gearcad.ranges import OFFSET, Range
@@ -42,6 +44,7 @@ class PairData:
     wheel: Gear
     centre_distance: Annotated[float, _DISTANCE, Words("centre distance", "a", "5.2")] = NOT_GIVEN
     axial_offset: Annotated[float, OFFSET, Words("axial offset of the wheel")] = 0.0
+    centre_distance_tolerance: Annotated[str | None, Words("tolerance of the centre distance", "", "DIN 3964")] = None
     name: Annotated[str, Words("name")] = "pair"
 
     @property
@@ -140,17 +143,49 @@ class PairData:
     @property
     def circumferential_backlash(self) -> float:
         """j_wt: working pitch less both tooth thicknesses on the working pitch circles (transverse)."""
-        working = involute(self.working_transverse_pressure_angle)
-        gap = 2 * math.pi / self.pinion.teeth
-        for gear, turn in ((self.pinion, 1.0), (self.wheel, self.gear_ratio)):
-            gap -= 2 * turn * (math.radians(gear.base_half_angle) - working)
-        return gap * self.working_pitch_diameters.pinion / 2
+        return self._backlash().circumferential
 
     @property
     def normal_backlash(self) -> float:
         """j_bn along the base normal: j_wt cos alpha_wt cos beta_b."""
-        across = math.cos(math.radians(self.working_transverse_pressure_angle))
-        return self.circumferential_backlash * across * math.cos(math.radians(self.pinion.base_helix_angle))
+        return self._backlash().normal
+
+    def _backlash(self, thicker: float = 0.0, farther: float = 0.0) -> Backlash:
+        """That of teeth `thicker` by a share of half their tolerances, with axes `farther` apart (mm)."""
+
+        def half_angle(gear: Gear) -> float:
+            allowance = gear.thickness_allowance
+            if allowance is None or not thicker:
+                return gear.base_half_angle
+            thickness = gear.normal_tooth_thickness + thicker * allowance.tolerance / 2000
+            return base_half_angle(gear.teeth, thickness, gear.normal_module, gear.transverse_pressure_angle)
+
+        return backlash(
+            teeth=self.gears.map(lambda gear: gear.teeth),
+            base_half_angles=self.gears.map(half_angle),
+            base_diameters=self.gears.map(lambda gear: gear.base_diameter),
+            base_helix_angle=self.pinion.base_helix_angle,
+            centre_distance=self.centre_distance + farther,
+        )
+
+    @property
+    def centre_distance_allowance(self) -> float:
+        """A_a (µm, ±) of `centre_distance_tolerance`; 0 without one."""
+        name = self.centre_distance_tolerance
+        return 0.0 if name is None else centre_distance_allowance(name, self.centre_distance)
+
+    @cached_property
+    def backlash_limits(self) -> BacklashLimits | None:
+        """Backlash at the least and at the most; None where neither tooth thickness nor centre distance has a tolerance."""
+        if self.centre_distance_tolerance is None and not any(gear.tooth_allowance for gear in self.gears):
+            return None
+        apart = self.centre_distance_allowance / 1000
+        # The backlash falls with thicker teeth; with a ring it falls where the axes are farther apart.
+        least = min(self._backlash(1.0, farther) for farther in (-apart, apart))
+        most = max(self._backlash(-1.0, farther) for farther in (-apart, apart))
+        return BacklashLimits(
+            self.centre_distance_allowance, least.circumferential, most.circumferential, least.normal, most.normal
+        )
 
     @cached_property
     def common_width(self) -> CommonWidth:

@@ -8,6 +8,7 @@ from enum import Enum
 
 from gearcad.errors import InputError
 from gearcad.geometry import Gear, GearPair
+from gearcad.geometry.derived import NOT_GIVEN
 from gearcad.geometry.pair_data import PairData
 from gearcad.per_gear import Role
 from gearcad.planetary.members import Central, Rim
@@ -81,9 +82,9 @@ class SetMesh:
         Raises InputError, whose parameter begins with the mesh's name.
         """
         mates, signed = mates_of(central, rim), -centre_distance if central.gear.internal else centre_distance
-        given = {} if math.isnan(signed) else {"centre_distance": signed}
+        distance = NOT_GIVEN if math.isnan(signed) else signed
         try:
-            pair = GearPair(pinion=mates.pinion, wheel=mates.wheel, name=mates.name, **given)
+            pair = GearPair(pinion=mates.pinion, wheel=mates.wheel, name=mates.name, centre_distance=distance)
         except InputError as error:
             raise error.within(mates.name) from None
         return cls(central=central, rim=rim, pair=pair)

@@ -28,7 +28,7 @@ def test_every_quantity_has_its_place() -> None:
     pair = {key for keys in datasheet._PAIR_BLOCKS.values() for key in keys.split()} | set(symbols.PER_GEAR)
     assert gear == {*symbols_of(Gear), *symbols.GEAR} - {"name"}
     of_racks = {"mounting_distance", "tip_clearances.pinion", *symbols.RACK_PAIR, *symbols.DRIVE}
-    assert pair == {"centre_distance", "axial_offset", *symbols.PAIR, *of_racks}
+    assert pair == {"centre_distance", "centre_distance_tolerance", "axial_offset", *symbols.PAIR, *of_racks}
     rack = {key for keys in datasheet._RACK_BLOCKS.values() for key in keys.split()}
     assert rack == {*symbols_of(Rack), *symbols.RACK} - {"name"}
 

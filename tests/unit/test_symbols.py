@@ -28,10 +28,11 @@ def _keys(document: dict[str, Any]) -> set[str]:
 
 
 def test_every_field_of_a_gear_has_a_symbol_and_every_symbol_a_field() -> None:
-    """Those of measurements are of external gears, or of rings."""
-    gear, ring = (Gear(teeth=teeth, normal_module=2.0, face_width=10.0) for teeth in (20, -60))
+    """Those of measurements are of external gears, or of rings; their limits where the tooth thickness has an allowance."""
+    gear, ring = (Gear(teeth=teeth, normal_module=2.0, face_width=10.0, tooth_allowance="cd25") for teeth in (20, -60))
     assert _keys(gear.to_dict()) | _keys(ring.to_dict()) == {*symbols_of(Gear), *symbols.GEAR}
     of_rings = {"profile_shift_khk", "span_spaces", "between_balls", "between_pins"}
+    of_rings |= {f"thickness_limits.between_{gauge}_{side}" for gauge in ("balls", "pins") for side in ("least", "greatest")}
     assert _keys(ring.to_dict()) - _keys(gear.to_dict()) == of_rings
 
 
@@ -43,8 +44,10 @@ def test_words_of_gears_and_pairs_fit_their_column_of_the_sheet() -> None:
 def test_every_field_of_a_pair_has_a_symbol_and_every_symbol_a_field() -> None:
     gear = Gear(teeth=20, normal_module=2.0, face_width=10.0)
     inputs = {name for name, field in schema_of(GearPair).items() if field.part is None} - {"name"}
-    pair = GearPair(pinion=gear, wheel=gear)
-    internal = GearPair(pinion=gear, wheel=Gear(teeth=-70, normal_module=2.0, face_width=10.0, profile_shift=-0.3))
+    pair = GearPair(pinion=gear, wheel=gear, centre_distance_tolerance="js7")
+    ring = Gear(teeth=-70, normal_module=2.0, face_width=10.0, profile_shift=-0.3)
+    internal = GearPair(pinion=gear, wheel=ring, centre_distance_tolerance="js7")
+    assert "centre_distance_tolerance" not in _keys(GearPair(pinion=gear, wheel=gear).to_dict())
     assert _keys(internal.to_dict()) == {*inputs, *symbols.PAIR}
     only_with_a_ring = {key for key in symbols.PAIR if key.startswith("interference_margins.")}
     assert _keys(pair.to_dict()) == {*inputs, *symbols.PAIR} - only_with_a_ring

@@ -30,7 +30,7 @@ __all__ = ["RackPairDesign"]
 
 _BESIDE = ("material", "load", "rating")
 _GEARS = ("pinion", "rack")
-_OF_GEAR_PAIRS = ("centre_distance", "axial_offset", "profile_shift_split")
+_OF_GEAR_PAIRS = ("centre_distance", "centre_distance_tolerance", "axial_offset", "profile_shift_split")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,170 @@
+"""Allowances of tooth thickness and centre distance: tables, and what they leave of spans, balls and backlash."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from gearcad import Gear, GearPair, GeometryError, ParameterError, SpecError
+from gearcad.designs import PairDesign
+from gearcad.geometry.centre_distance_tolerance import centre_distance_allowance
+from gearcad.geometry.iso286 import limit_deviations
+from gearcad.geometry.tooth_allowance import tooth_thickness_allowance
+
+DIN_3967 = [  # two public transcriptions
+    ("cd27", 100, -70, -170),
+    ("cd25", 40, -54, -84),
+    ("cd25", -82, -70, -110),  # of a ring
+    ("a25", 10, -100, -120),
+    ("a25", 10.001, -135, -165),
+    ("h21", 10_000, 0, -40),
+]
+
+ISO_286 = [  # full public tables; 60 M6 is the worked example of ISO 286-1
+    *[("H7", 40, 25, 0), ("g6", 40, -9, -25), ("f7", 40, -25, -50), ("k6", 40, 18, 2), ("n6", 40, 33, 17), ("p6", 40, 42, 26)],
+    *[("h6", 40, 0, -16), ("H7", 25, 21, 0), ("g6", 25, -7, -20), ("H7", 10, 15, 0), ("g6", 6, -4, -12), ("H8", 6, 18, 0)],
+    *[("H7", 100, 35, 0), ("K7", 20, 6, -15), ("F7", 90, 71, 36), ("M6", 60, -5, -24), ("N9", 3, -4, -29), ("N9", 14, 0, -43)],
+    *[("js7", 600, 35, -35), ("j6", 40, 11, -5), ("r6", 100, 73, 51), ("P9", 14, -18, -61), ("M6", 300, -9, -41)],
+]
+
+
+@pytest.mark.parametrize(("name", "diameter", "upper", "lower"), DIN_3967)
+def test_allowances_of_din_3967(name, diameter, upper, lower):
+    assert tooth_thickness_allowance(name, diameter) == (upper, lower)
+
+
+@pytest.mark.parametrize(("tolerance_class", "size", "upper", "lower"), ISO_286)
+def test_limit_deviations_of_iso_286(tolerance_class, size, upper, lower):
+    assert limit_deviations(tolerance_class, size) == (upper, lower)
+
+
+@pytest.mark.parametrize("wrong", ["J7", "hH7", "Js7", "j8", "h15", "x6", "7", "H", "", None])
+def test_a_class_that_iso_286_has_not_or_that_is_not_tabled(wrong):
+    with pytest.raises(ParameterError, match="must be a letter"):
+        limit_deviations(wrong, 40)
+
+
+@pytest.mark.parametrize(
+    ("tolerance_class", "size"), [("H7", 500.1), ("H7", 0.0), ("js12", 500.1), ("js7", 3150.1), ("H7", math.nan)]
+)
+def test_a_size_beyond_the_tables(tolerance_class, size):
+    with pytest.raises(ParameterError, match="size = "):
+        limit_deviations(tolerance_class, size)
+
+
+def test_centre_distances():
+    assert centre_distance_allowance("js7", 91.5) == 17.5 and centre_distance_allowance("js8", -120.0) == 27.0
+
+
+def _gear(teeth, helix=0.0, **given):
+    return Gear(teeth=teeth, normal_module=3.0, face_width=20.0, helix_angle=helix, **given)
+
+
+def test_the_thinning_is_the_mean_of_the_allowance():
+    """And follows it when another is asked for, or none."""
+    gear = _gear(21, tooth_allowance="cd25")
+    assert gear.tooth_thinning == 0.09
+    assert replace(gear, tooth_allowance="e24", profile_shift=0.1).tooth_thinning == 0.0525
+    assert replace(gear, tooth_allowance=None).tooth_thinning == 0.0
+    assert replace(gear, tooth_allowance=None, tooth_thinning=0.09).inspection == gear.inspection
+    assert eval(repr(gear)) == gear
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"tooth_allowance": "CD 25"}, r'= \'CD 25\': must be a letter .* \(write "cd25"\)$'),
+        ({"tooth_allowance": "cd31"}, 'such as "cd25"$'),
+        ({"tooth_allowance": "cd25", "tooth_thinning": 0.0}, r"must be left out where tooth_thinning is given \(0 mm\)"),
+        ({"tooth_allowance": "cd25", "teeth": 2000, "normal_module": 6.0}, "DIN 3967 ends at a reference diameter of 10000 mm"),
+        ({"tooth_allowance": "h30", "normal_module": 0.1}, "takes up to 0.2 mm off teeth that are 0.157079 mm thick"),
+    ],
+)
+def test_an_allowance_that_cannot_be(given, message):
+    with pytest.raises((ParameterError, GeometryError), match=message):
+        Gear(**{"teeth": 21, "normal_module": 3.0, "face_width": 20.0} | given)
+
+
+PAIRS = {
+    "spur": ((21, 40), 0.0, None),
+    "helical, far apart": ((21, 40), 15.0, 96.0),
+    "ring": ((21, -70), 0.0, None),
+}
+
+
+@pytest.mark.parametrize("case", PAIRS)
+def test_limits_are_those_of_the_gears_at_their_extremes(case):
+    """Gauges and backlash between tolerances are what gears as thick, or thin, as permitted have at the outer distances."""
+    (z1, z2), helix, distance = PAIRS[case]
+    hands = (helix, helix if z2 < 0 else -helix)
+    toleranced = [_gear(z, hand, tooth_allowance="cd26") for z, hand in zip((z1, z2), hands, strict=True)]
+    given = {} if distance is None else {"centre_distance": distance}
+    pair = GearPair(pinion=toleranced[0], wheel=toleranced[1], centre_distance_tolerance="js8", **given)
+    limits, apart = pair.backlash_limits, pair.centre_distance_allowance / 1000
+
+    def extremes(allowance):
+        gears = [replace(each, tooth_allowance=None, tooth_thinning=allowance(each) / -1000) for each in toleranced]
+        made = [GearPair(pinion=gears[0], wheel=gears[1], centre_distance=pair.centre_distance + s * apart) for s in (-1, 1)]
+        return gears, [(each.circumferential_backlash, each.normal_backlash) for each in made]
+
+    thick, least = extremes(lambda gear: gear.thickness_allowance.upper)
+    thin, most = extremes(lambda gear: gear.thickness_allowance.lower)
+    assert limits[1::2] == pytest.approx(min(least), abs=1e-12)
+    assert limits[2::2] == pytest.approx(max(most), abs=1e-12)
+    for gear, *pairs in zip(toleranced, thick, thin, strict=True):
+        count, ball, found = gear.inspection.spanned, gear.ball_diameter, gear.thickness_limits
+        spans = sorted(each.inspection.span_measurement(count) for each in pairs)
+        assert found.span_measurement == pytest.approx(spans, abs=1e-12)
+        over = [each.inspection.between_balls(ball) if gear.internal else each.inspection.over_balls(ball) for each in pairs]
+        assert (found.between_balls or found.over_balls) == pytest.approx(sorted(over), abs=1e-12)
+        # A_W = A_sn cos alpha_n (DIN 3967).
+        change = (found.span_measurement.greatest - found.span_measurement.least) / math.cos(math.radians(20))
+        assert change * 1000 == pytest.approx(gear.thickness_allowance.tolerance, rel=1e-9)
+
+
+def test_backlash_by_the_formula_of_din_3967():
+    """j_t = -(A_sn1 + A_sn2)/cos β ± 2 A_a tan α_wt holds to second order on gears without profile shift."""
+    pair = GearPair(
+        pinion=_gear(21, 15.0, tooth_allowance="cd25"),
+        wheel=_gear(40, -15.0, tooth_allowance="cd25"),
+        centre_distance_tolerance="js7",
+    )
+    thick, thin = (2 * each / 1000 / math.cos(math.radians(15)) for each in (70, 110))
+    apart = 2 * 0.0175 * math.tan(math.radians(pair.working_transverse_pressure_angle))
+    second_order = 0.02 * 0.0175  # (j_t A_a)/a and the change of tan α_wt, with room
+    assert pair.backlash_limits.circumferential_least == pytest.approx(thick - apart, abs=second_order)
+    assert pair.backlash_limits.circumferential_greatest == pytest.approx(thin + apart, abs=second_order)
+    assert pair.to_dict()["backlash_limits"]["centre_distance_allowance"] == 17.5
+    assert (
+        "backlash_limits"
+        not in replace(pair, pinion=_gear(21, 15.0), wheel=_gear(40, -15.0), centre_distance_tolerance=None).to_dict()
+    )
+
+
+def test_a_coarse_distance_for_fine_teeth_is_told():
+    pair = GearPair(pinion=_gear(21, tooth_allowance="h21"), wheel=_gear(40), centre_distance_tolerance="js10")
+    assert [notice.code for notice in pair.notices] == ["backlash-may-vanish"]
+    with pytest.raises(ParameterError, match=r"'JS7': must be one of js5 to js11 .* \(write \"js7\"\)"):
+        replace(pair, centre_distance_tolerance="JS7")
+    far = {"pinion": replace(pair.pinion, teeth=1200, tooth_allowance=None), "wheel": _gear(1200)}
+    with pytest.raises(GeometryError, match=r"ISO 286 has no tolerances above 3150 mm"):
+        replace(pair, **far)
+
+
+def test_what_a_spec_shares():
+    """An allowance in [pair] is both gears', unless one has its own or a thinning."""
+
+    def read(**tables):
+        main = {"normal_module": 3.0, "face_width": 20.0, "tooth_allowance": "cd25"}
+        given = {
+            "pair": main | tables.get("pair", {}),
+            "pinion": {"teeth": 21},
+            "wheel": {"teeth": 40} | tables.get("wheel", {}),
+        }
+        return PairDesign.read(given, lambda key: "pair.toml", "pair").pair.gears.map(lambda gear: gear.tooth_thinning)
+
+    assert tuple(read()) == (0.09, 0.09)
+    assert tuple(read(wheel={"tooth_allowance": "e24"})) == (0.09, 0.0525)
+    assert tuple(read(wheel={"tooth_thinning": 0.02})) == (0.09, 0.02)
+    with pytest.raises(SpecError, match=r"pair.tooth_allowance = 'cd25': must be left out where tooth_thinning is given"):
+        read(pair={"tooth_thinning": 0.02})
