@@ -178,11 +178,11 @@ def of_both(material: Materials) -> PerGear[Material]:
 
 
 def by_gear(material: Materials) -> dict[str, Material]:
-    """What to say behind words of a material, such as ", wheel", and the material: nothing where both are of one."""
+    """Those of "pinion" and "wheel"; under "" that of both where it is the same."""
     materials = of_both(material)
     if materials.pinion == materials.wheel:
         return {"": materials.pinion}
-    return {f", {role.value}": each for role, each in materials.items()}
+    return {role.value: each for role, each in materials.items()}
 
 
 def materials_document(material: Materials) -> dict[str, Any]:

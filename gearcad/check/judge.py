@@ -95,7 +95,7 @@ def _material_limits(task: CheckTask, summary: Summary) -> Iterator[Comparison]:
     """What the materials give a limit for."""
     deep = f"{summary.von_mises_depth:.3g} mm deep" if summary.von_mises_depth is not None else ""
     away, missing = "the greatest away from the corners of the flanks", summary.missing.get
-    every = by_gear(task.material).items()
+    every = [(f", {gear}" if gear else "", of) for gear, of in by_gear(task.material).items()]
     pressures = [(f"contact pressure{whose}", summary.contact_pressure, of, of.contact_limit) for whose, of in every]
     tensions = summary.root_tension
     roots = [(f"root stress, {role.value}", tensions.pick(role), of, of.root_limit) for role, of in task.materials.items()]

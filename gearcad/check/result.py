@@ -195,9 +195,9 @@ class CheckResult(ABC):
             "von Mises stress below the flank": "yield_strength",
         }
         return tuple(
-            f"{words}{whose}"
+            f"{words} of the {gear}" if gear else words
             for words, limit in limits.items()
-            for whose, material in by_gear(self.material).items()
+            for gear, material in by_gear(self.material).items()
             if getattr(material, limit) is None
         )
 

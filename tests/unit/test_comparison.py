@@ -122,6 +122,6 @@ def test_limits_of_each_gear_are_judged() -> None:
     found = {each.quantity: each.reference for each in every if each.subject is Subject.STRENGTH}
     assert found == {"contact pressure, pinion": 900.0, "contact pressure, wheel": 300.0, "root stress, pinion": 500.0}
     result = replace(small, task=task, comparisons=every)
-    of_stress = [f"von Mises stress below the flank, {gear}" for gear in ("pinion", "wheel")]
-    assert result.without_limit == ("root stress, wheel", *of_stress)
+    of_stress = [f"von Mises stress below the flank of the {gear}" for gear in ("pinion", "wheel")]
+    assert result.without_limit == ("root stress of the wheel", *of_stress)
     assert result.verdict.endswith(f"not judged, no limit given: {', '.join(result.without_limit)}")

@@ -11,7 +11,9 @@ import pytest
 
 import gearcad
 from gearcad import Body, Gear, GearPair, Load, Material, ParameterError
+from gearcad.check.task import check_task
 from gearcad.contact.plane.pair import plane_pair
+from gearcad.decks.treatable import require_treatable
 from gearcad.designs import PairDesign, PlanetaryDesign, design_from_tables, open_table, read_spec
 from gearcad.designs.pair_text import pair_text
 from gearcad.designs.variants import read_variants
@@ -200,6 +202,12 @@ def test_flanks_of_two_materials_run_in_by_the_mean() -> None:
     assert alone[1].effects(speed)[0] == pytest.approx(factor.single_stiffness / factor.specific_load * left, rel=1e-12)
     for mixed, *single in zip(factor.effects(speed)[:2], *(each.effects(speed)[:2] for each in alone), strict=True):
         assert float(mixed) == pytest.approx(sum(map(float, single)) / 2, rel=1e-12)
+
+
+def test_decks_have_one_elasticity() -> None:
+    require_treatable(check_task(pair(), PerGear(Material(name="Eh MQ"), Material(name="V MQ")), Load(torque=100)))
+    with pytest.raises(ParameterError, match=r"wheel\.material\.youngs_modulus = 118000 MPa: must be that of the pinion"):
+        require_treatable(check_task(pair(), PerGear(Material(), CAST_IRON), Load(torque=100)))
 
 
 def test_sections_of_two_materials_press_as_hertz_has_it() -> None:

@@ -59,8 +59,8 @@ def load_rows(material: Materials, load: Load, mounting: Mounting) -> list[Row]:
     """Material and load, and the mounting where it is not that of the drawing."""
     words = symbols_of(Material)
     rows: list[tuple[Symbol, Any]] = [
-        (words[key]._replace(words=f"{words[key].words}{whose}"), value)
-        for whose, each in by_gear(material).items()
+        (words[key]._replace(words=f"{words[key].words}{f', {gear}' if gear else ''}"), value)
+        for gear, each in by_gear(material).items()
         for key, value in vars(each).items()
     ]
     rows += [(symbols_of(Load)[key], value) for key, value in vars(load).items()]
