@@ -15,6 +15,7 @@ from gearcad.per_gear import PerGear
 from gearcad.rating import DynamicFactor, RatingOptions
 from gearcad.rating.face_load import face_load_factor
 from gearcad.rating.load_factors import LoadFactors
+from gearcad.symbols import LOAD_FACTOR_DETAILS
 
 EXACT = 1e-9
 """Relative: the same equations by another program, whose pressure angles are from a bisection."""
@@ -97,6 +98,20 @@ def test_each_is_of_the_load_times_all_before_it() -> None:
     assert (found.mesh_load, found.application, more.application) == (1.2, 1.25, 1.5)
 
 
+def test_every_figure_has_its_words() -> None:
+    named = {symbol for method in ("B", "C") for symbol in factors(dynamic_factor=method).details}
+    assert named == set(LOAD_FACTOR_DETAILS)
+
+
+def test_clauses_are_those_that_are_known() -> None:
+    """Of 2006, for that of 2019 too; DIN 3990 has no numbers of clauses here. What is from memory is marked."""
+    assert factors(standard="ISO 6336:2019").sources["K_v"] == "ISO 6336-1:2006, 6.5 (Method B)"
+    din = factors(standard="DIN 3990:1987", helix_modification="end relief")
+    assert din.sources["K_Hbeta"] == "DIN 3990-1:1987 (Method C)"
+    assert din.verify == ("K_Hbeta", "K_Fbeta")
+    assert factors().verify == ()
+
+
 def test_numbers_win() -> None:
     found = factors(dynamic_factor=1.3, face_load_factor=1.4, transverse_load_factor=1.1)
     assert (found.dynamic, found.face_flank, found.transverse_flank, found.transverse_root) == (1.3, 1.4, 1.1, 1.1)
@@ -169,6 +184,14 @@ def test_limits_of_light_and_coarse_gears() -> None:
     assert "narrow-bearing" in {each.code for each in found.notices}
     assert (even.transverse_flank, even.transverse_root) == (even.details["K_Halpha_max"], even.details["K_Falpha_max"])
     assert found.transverse_flank < even.transverse_flank
+
+
+def test_soft_slow_flanks_wear_until_they_fit() -> None:
+    """320/sigma_Hlim is above 1: nothing is left of F_beta_x."""
+    soft = Material(group="St", contact_endurance_limit=250.0)  # type: ignore[arg-type]
+    found = LoadFactors.of(HELICAL, soft, Load(torque=20.0, speed=300.0))
+    assert (found.details["F_betay"], found.face_flank, found.face_root) == (0.0, 1.0, 1.0)
+    assert all(math.isfinite(value) for value in found.details.values() if isinstance(value, float))
 
 
 def test_rings() -> None:

@@ -9,6 +9,7 @@ from gearcad.errors import ParameterError
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear
 from gearcad.rating.deviations import helix_slope_deviations, helix_slopes_of_grade_five
+from gearcad.rating.editions import Edition
 from gearcad.rating.face_load import (
     bearing_width,
     face_load_exponent,
@@ -85,7 +86,7 @@ def _method_c(mesh: LoadedMesh, mean_load: float) -> Finding:
     given = options.shaft_deflection is not None
     return Finding(
         factors={"K_Hbeta": face_load_factor(effective, stiffness, mean_load)},
-        sources={"K_Hbeta": f"{mesh.standard}, 7.5 (Method C)"},
+        sources={"K_Hbeta": mesh.cited("7.5", "Method C")},
         details={
             "F_m_b": mean_load,
             "f_sh": off.deflection,
@@ -98,12 +99,20 @@ def _method_c(mesh: LoadedMesh, mean_load: float) -> Finding:
             "y_beta": worn,
             "F_betay": effective,
             "c_gamma_beta": stiffness,
-            "b_cal_b": bearing_width(effective, stiffness, mean_load),
         },
         notices=(*(() if given else shaft_notices(mesh)), *_notices(mesh, effective, mean_load)),
         assumed=() if given else assumed_shaft(mesh),
-        verify=() if given or not options.pinion_offset else ("K_Hbeta",),
+        verify=("K_Hbeta",) if _recalled(mesh) else (),
     )
+
+
+def _recalled(mesh: LoadedMesh) -> bool:
+    """Whether figure 13, (53) or what DIN 3990-1 has of modified flanks is in K_Hbeta: each by one source, or from memory."""
+    options = mesh.options
+    of_shaft = bool(options.pinion_offset) and options.shaft_deflection is None
+    modified = options.helix_modification is not HelixModification.NONE
+    of_din = options.standard is Edition.DIN_1987 and modified
+    return of_shaft or of_din or options.contact_pattern is ContactPattern.PROVEN
 
 
 def _shaft_deflection(mesh: LoadedMesh, mean_load: float) -> float:
@@ -138,7 +147,7 @@ def _with_root(mesh: LoadedMesh, flank: Finding) -> Finding:
     exponent = 1.0 if unloaded else face_load_exponent(ratio)
     return Finding(
         factors={**flank.factors, "K_Fbeta": root},
-        sources={**flank.sources, "K_Fbeta": f"{mesh.standard}, 7.6"},
+        sources={**flank.sources, "K_Fbeta": mesh.cited("7.6", "from K_Hbeta")},
         details={**flank.details, "b_h": ratio, "N_F": exponent},
         notices=flank.notices,
         assumed=flank.assumed,

@@ -28,7 +28,7 @@ def transverse_load_factors(mesh: LoadedMesh, mean_load: float) -> Finding:
     of_root = root_limit(gamma, alpha)
     return Finding(
         factors={"K_Halpha": within(factor, of_flank), "K_Falpha": within(factor, of_root)},
-        sources=dict.fromkeys(("K_Halpha", "K_Falpha"), f"{mesh.standard}, 8.3 (Method B)"),
+        sources=dict.fromkeys(("K_Halpha", "K_Falpha"), mesh.cited("8.3", "Method B")),
         details={
             "F_tH_b": mean_load,
             "f_pb": pitch,

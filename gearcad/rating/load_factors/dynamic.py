@@ -55,7 +55,7 @@ def _method_b(mesh: LoadedMesh) -> Finding:
     }
     return Finding(
         factors={"K_v": float(found.values(speed))},
-        sources={"K_v": f"{mesh.standard}, 6.5 (Method B)"},
+        sources={"K_v": mesh.cited("6.5", "Method B")},
         details=details,
         notices=(*found.notices, *_resonance_notices(details["N_S"], ratio)),
         assumed=tuple(_assumed_masses(mesh)),
@@ -82,7 +82,7 @@ def _method_c(mesh: LoadedMesh) -> Finding:
     factor = dynamic_factor_c(mesh.specific_load, measure, pair.overlap_ratio, mesh.grade, edition)
     return Finding(
         factors={"K_v": factor},
-        sources={"K_v": f"{mesh.standard}, 6.6 (Method C)"},
+        sources={"K_v": mesh.cited("6.6", "Method C")},
         details={"v_z1_100": measure},
         notices=tuple(_notices_of_c(mesh, measure)),
         verify=("K_v",) if mesh.grade == _MEMORY_GRADE or measure > STATED else (),

@@ -12,6 +12,7 @@ from gearcad.material import Material
 from gearcad.per_gear import PerGear
 from gearcad.rating.deviations import accuracy_grades
 from gearcad.rating.dynamic_factor import flank_wear
+from gearcad.rating.editions import Edition
 from gearcad.rating.iso6336_1 import MeshStiffness, mesh_stiffness
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.running_in import FlankWear
@@ -59,7 +60,9 @@ class LoadedMesh:
         """The accuracy grade of the coarser gear."""
         return max(accuracy_grades(self.pair, self.options))
 
-    @property
-    def standard(self) -> str:
-        """Part 1 of the standard, with its year."""
-        return self.options.standard.dated_part(1)
+    def cited(self, clause: str, method: str) -> str:
+        """A clause of ISO 6336-1:2006, which later editions share as far as is known; DIN 3990-1 is cited without."""
+        edition = self.options.standard
+        if edition is Edition.DIN_1987:
+            return f"{edition.dated_part(1)} ({method})"
+        return f"{Edition.ISO_2006.dated_part(1)}, {clause} ({method})"
