@@ -1,4 +1,4 @@
-"""Tolerances of flanks: printed tables, single numbers and arrays by the same formulas, sizes beyond the standards."""
+"""Tolerances of flanks: formulas worked out by hand, numbers and arrays by the same formulas, sizes beyond the standards."""
 
 import math
 from dataclasses import replace
@@ -17,7 +17,7 @@ def of(accuracy=OLD, grade=5, **sizes):
     return GearTolerances(accuracy=accuracy, grade=grade, **given | sizes)
 
 
-TABLES = {  # of the standards, for d above 50 to 125, m above 2 to 3.5, b above 20 to 40 mm: grades 5, 6, 7
+BY_HAND = {  # for d above 50 to 125, m above 2 to 3.5, b above 20 to 40 mm, means 79.06, 2.646, 28.28 mm: grades 5, 6, 7
     "f_pt": (6.0, 8.5, 12.0),
     "F_p": (19.0, 27.0, 38.0),
     "F_alpha": (8.0, 11.0, 16.0),
@@ -30,13 +30,13 @@ TABLES = {  # of the standards, for d above 50 to 125, m above 2 to 3.5, b above
 }
 
 
-def test_grades_of_1995_are_those_of_the_printed_tables():
+def test_grades_of_1995():
     found = [of(grade=grade).to_dict() for grade in (5, 6, 7)]
-    assert {symbol: tuple(each[symbol] for each in found) for symbol in TABLES} == TABLES
+    assert {symbol: tuple(each[symbol] for each in found) for symbol in BY_HAND} == BY_HAND
 
 
-def test_radial_composite_deviations_are_those_of_the_printed_tables():
-    """ISO 1328-2:1997, annex A: d above 50 to 125, m above 2.5 to 4 mm; and the smallest gears."""
+def test_radial_composite_deviations():
+    """By hand for d above 50 to 125 and m above 2.5 to 4 mm, means 79.06 and 3.162 mm; and for small gears, 10 and 0.316 mm."""
     assert [of(grade=grade).radial_composite for grade in (5, 6, 7)] == [25.0, 36.0, 51.0]
     assert [of(grade=grade).radial_tooth_to_tooth for grade in (5, 6, 7)] == [10.0, 14.0, 20.0]
     assert of(reference_diameter=10.0, normal_module=0.4).radial_composite == 11.0
@@ -45,9 +45,8 @@ def test_radial_composite_deviations_are_those_of_the_printed_tables():
 
 
 def test_single_flank_composite_deviations_go_by_the_contact_ratio():
-    """ISO 1328-1:1995, annex A: f_i'/K is 18, 25, 36 µm in its table; K is 0.4 from a total contact ratio of 4 on."""
-    printed = (18.0, 25.0, 36.0)
-    for grade, of_unit_factor in zip((5, 6, 7), printed, strict=True):
+    """f_i'/K is 4.3 + 5.86 + 7.86 = 18.0 µm in grade 5; K is 0.4 from a total contact ratio of 4 on."""
+    for grade, of_unit_factor in zip((5, 6, 7), (18.0, 25.0, 36.0), strict=True):
         # K = 0.2 (ε + 4)/ε is 1 at ε = 1.
         assert of(grade=grade).tooth_to_tooth(1.0) == of_unit_factor
     assert of(grade=9).tooth_to_tooth(4.0) == of(grade=9).tooth_to_tooth(6.0)
@@ -65,7 +64,7 @@ def test_classes_of_2013():
     assert found["F_alphaT"] == round(math.hypot(5.32, 6.65) * 2) / 2
     assert found["F_betaT"] == 9.5  # 9.6999, of 6.4647 and 7.2315
     assert found["F_rT"] == round(0.9 * (0.24 + 0.55 * 120**0.5 + 2.1 + 12))
-    assert set(found) == {"accuracy", "grade", "not_covered", "F_rT"} | {
+    assert set(found) == {"accuracy", "grade", "not_covered", "verify", "F_rT"} | {
         f"{symbol}T" for symbol in ("f_p", "F_pk", "F_p", "f_Halpha", "f_falpha", "F_alpha", "f_Hbeta", "f_fbeta", "F_beta")
     }
 

@@ -38,6 +38,9 @@ _SYMBOLS = {
 }
 """The standard's symbols in ASCII, and the properties that they stand for: F_i2 and f_i2 are F_i'' and f_i''."""
 
+_RECALLED = {Accuracy.ISO_1995: ("F_i2", "f_i2"), Accuracy.ISO_2013: ("F_pkT",)}
+"""Whose text was not at hand: the ranges of sizes of radial composite deviations, and the equation of F_pkT."""
+
 _RADIAL_DIAMETER = Range("mm", 5, 10_000)
 _RADIAL_MODULE = Range("mm", 0.2, 70)
 _RADIAL_GRADES = (4, 12)
@@ -174,6 +177,7 @@ class GearTolerances(Generic[Values]):
     def to_dict(self, total_contact_ratio: Values | None = None) -> dict[str, Any]:
         """Under the standard's symbols in ASCII, in µm; None for those that it does not cover, and `not_covered` says why.
 
+        `verify` names those that rest on a text that was not at hand.
         With a contact ratio a grade of 1995 also has f_i1 and F_i1, which are f_i' and F_i' (as F_i2 is F_i'').
         """
         each: dict[str, Callable[[], Values]] = {
@@ -189,7 +193,8 @@ class GearTolerances(Generic[Values]):
                 found[symbol] = tolerance()
             except ParameterError as error:
                 reasons[str(error)] = None
-        return {"accuracy": self.accuracy.value, "grade": self.grade, **found, "not_covered": list(reasons)}
+        verify = [symbol for symbol in _RECALLED[self.accuracy] if found[symbol] is not None]
+        return {"accuracy": self.accuracy.value, "grade": self.grade, **found, "verify": verify, "not_covered": list(reasons)}
 
     # ------------------------------------------------------------------ sizes that the standard covers
 
