@@ -218,6 +218,8 @@ class GearTolerances(Generic[Values]):
     def _graded(self, fifth: Values) -> Values:
         """Of the grade, where also the sizes that no equation has are covered."""
         for name in ("teeth", "helix_angle"):
+            if name not in covered(self.accuracy):
+                continue
             fifth = number_or_array(fifth, np.where(np.isnan(self._covered(name)), np.nan, fifth))
         return graded(fifth, self.grade)
 
