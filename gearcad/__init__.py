@@ -17,7 +17,7 @@ What is done with gears is a verb. It takes a pair and a load, or a design such 
 
 >>> import gearcad
 >>> load = Load(torque=60)
->>> f"{gearcad.rate(pair, load).flank.nominal_stress:.0f} MPa"
+>>> f"{gearcad.rate(pair, load).nominal.flank.nominal_stress:.0f} MPa"
 '1058 MPa'
 >>> gearcad.stiffness(pair, load, methods=["iso6336", "potential-energy"])
 <StiffnessComparison of 'pair' at 60 N·m: iso6336 303.1, potential-energy 434.8 N/µm>
@@ -31,7 +31,7 @@ gearcad.errors.ParameterError: load = 60: must be a Load
     build(pair, folder)            STEP, STL, 3MF, GLB, DXF, points
     check(pair, load)              contact and root stress by finite elements, beside Hertz and ISO 6336
     mesh(gear)                     finite elements with named sides, of a section or a body, of a gear or a pair
-    rate(pair, load)               ISO 6336 or DIN 3990, Method B
+    rate(pair, load)               safeties by ISO 6336 or DIN 3990, life, permissible torque
     stiffness(pair, load)          mesh stiffness by every method
     dynamics(pair, load)           natural frequencies, K_v over speed; of trains too
     planetary(train, load)         speeds, torques, assembly, load sharing, stiffness and modes of a planetary train

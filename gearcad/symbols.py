@@ -30,6 +30,8 @@ __all__ = [
     "RING_FORMULA",
     "SCUFFING",
     "STIFFNESS",
+    "STRENGTH",
+    "STRENGTH_FIGURES",
     "Symbol",
 ]
 
@@ -239,6 +241,62 @@ GEAR_RATING = {
     "sigma_H": Symbol("σ_H", "MPa", "ISO 6336-2, 5", "contact stress with K_A"),
     "sigma_F": Symbol("σ_F", "MPa", "ISO 6336-3, 5", "root stress with K_A"),
 }
+
+STRENGTH = {
+    "K_A": RATING["K_A"],
+    "K_gamma": Symbol("K_γ", "", "ISO 6336-1, 4", "mesh load factor"),
+    "K_v": Symbol("K_v", "", "ISO 6336-1, 6", "dynamic factor"),
+    "K_Hbeta": Symbol("K_Hβ", "", "ISO 6336-1, 7", "face load factor of contact"),
+    "K_Fbeta": Symbol("K_Fβ", "", "ISO 6336-1, 7", "face load factor of the root"),
+    "K_Halpha": Symbol("K_Hα", "", "ISO 6336-1, 8", "transverse load factor of contact"),
+    "K_Falpha": Symbol("K_Fα", "", "ISO 6336-1, 8", "transverse load factor of the root"),
+    **{key: RATING[key] for key in ("Z_H", "Z_E", "Z_eps", "Z_beta", "Z_B", "Z_D")},
+    "Z_NT": Symbol("Z_NT", "", "ISO 6336-2, 11", "life factor of contact"),
+    "Z_L": Symbol("Z_L", "", "ISO 6336-2, 12", "lubricant factor"),
+    "Z_v": Symbol("Z_v", "", "ISO 6336-2, 12", "velocity factor"),
+    "Z_R": Symbol("Z_R", "", "ISO 6336-2, 12", "roughness factor of the flanks"),
+    "Z_W": Symbol("Z_W", "", "ISO 6336-2, 13", "work hardening factor"),
+    "Z_X": Symbol("Z_X", "", "ISO 6336-2, 14", "size factor of contact"),
+    **{key: GEAR_RATING[key] for key in ("Y_F", "Y_S", "Y_beta", "Y_B", "Y_DT")},
+    "Y_ST": Symbol("Y_ST", "", "ISO 6336-3, 5", "stress correction factor of the test gears"),
+    "Y_NT": Symbol("Y_NT", "", "ISO 6336-3, 12", "life factor of the root"),
+    "Y_delta_relT": Symbol("Y_δrelT", "", "ISO 6336-3, 13", "relative notch sensitivity factor"),
+    "Y_RrelT": Symbol("Y_RrelT", "", "ISO 6336-3, 14", "relative surface factor of the root"),
+    "Y_X": Symbol("Y_X", "", "ISO 6336-3, 15", "size factor of the root"),
+    "Y_M": Symbol("Y_M", "", "ISO 6336-3, B", "mean stress influence factor"),
+    "sigma_Hlim": Symbol("σ_Hlim", "MPa", "ISO 6336-5", "endurance limit of contact stress"),
+    "sigma_Flim": Symbol("σ_Flim", "MPa", "ISO 6336-5", "endurance limit of root stress"),
+    "sigma_H0": RATING["sigma_H0"],
+    "sigma_H": Symbol("σ_H", "MPa", "ISO 6336-2, 5", "contact stress with all load factors"),
+    "sigma_HG": Symbol("σ_HG", "MPa", "ISO 6336-2, 5", "pitting stress limit"),
+    "sigma_HP": Symbol("σ_HP", "MPa", "ISO 6336-2, 5", "permissible contact stress"),
+    "sigma_F0": GEAR_RATING["sigma_F0"],
+    "sigma_F": Symbol("σ_F", "MPa", "ISO 6336-3, 5", "root stress with all load factors"),
+    "sigma_FG": Symbol("σ_FG", "MPa", "ISO 6336-3, 5", "root stress limit"),
+    "sigma_FP": Symbol("σ_FP", "MPa", "ISO 6336-3, 5", "permissible root stress"),
+    "S_H": Symbol("S_H", "", "ISO 6336-2, 5", "safety of the flank against pitting"),
+    "S_F": Symbol("S_F", "", "ISO 6336-3, 5", "safety of the root against breakage"),
+    "S_int": Symbol("S_int", "", "ISO/TR 13989-2", "safety against scuffing, integral temperature"),
+    "S_B": Symbol("S_B", "", "ISO/TR 13989-1", "safety against scuffing, flash temperature"),
+    "N_L": Symbol("N_L", "", "ISO 6336-2, 11", "load cycles of a tooth"),
+}
+"""Of a full rating: symbols, clauses and words of its factors, stresses and safeties."""
+
+STRENGTH_FIGURES = {
+    "passed": Symbol("", "", "", "whether all required safeties are reached; empty where that was not judged"),
+    "strength": Symbol("", "", "", "verdict on strength"),
+    "S_H": STRENGTH["S_H"],
+    "S_F": STRENGTH["S_F"],
+    "S_H_min": Symbol("S_H", "", "ISO 6336-2, 5", "lower safety of both flanks"),
+    "S_F_min": Symbol("S_F", "", "ISO 6336-3, 5", "lower safety of both roots"),
+    "S_int": STRENGTH["S_int"],
+    "S_B": STRENGTH["S_B"],
+    "permissible_torque": Symbol("T_1", "N·m", "ISO 6336-1", "torque on the pinion with the required safeties"),
+    "life": Symbol("", "h", "ISO 6336-6", "life until failure, with the required safeties"),
+    **{key: STRENGTH[key] for key in ("K_v", "K_Hbeta", "K_Fbeta", "K_Halpha", "K_Falpha")},
+    **{key: STRENGTH[key] for key in ("sigma_H", "sigma_HG", "sigma_F", "sigma_FG")},
+}
+"""What a table of results has of a rating."""
 
 RING_FORMULA = {
     "rho_fPv": Symbol("ρ_fPv", "mm", "ISO 6336-3", "tip radius of the rack that stands for a ring's cutter, by formula"),

@@ -25,9 +25,6 @@ def stages(wanted: Sequence[Job[Any, Any]]) -> tuple[Job[Any, Any], ...]:
     """
     if not wanted:
         raise ParameterError("do", "", f"must be one or more of {', '.join(VERBS)}")
-    for job in wanted:
-        if not job.parts:
-            raise ParameterError("do", job.verb, "must be a job that writes files")
     others = sorted((job for job in wanted if job != Data()), key=lambda job: VERBS.index(job.verb))
     return tuple(others) if any(DATA in job.parts for job in others) else (Data(), *others)
 

@@ -8,7 +8,9 @@ from dataclasses import asdict, dataclass, field
 from enum import Enum
 from typing import Any
 
-__all__ = ["Comparison", "ComparisonRole", "Subject", "Verdict", "agrees", "at_most", "beside", "verdict"]
+from gearcad.verdict import Verdict
+
+__all__ = ["Comparison", "ComparisonRole", "Subject", "agrees", "at_least", "at_most", "beside", "verdict"]
 
 
 class ComparisonRole(Enum):
@@ -31,17 +33,10 @@ class Subject(Enum):
     """What ISO 6336 has for it."""
 
 
-class Verdict(Enum):
-    """What the gates about one subject say together."""
-
-    PASSED = "passed"
-    FAILED = "failed"
-    NOT_JUDGED = "not judged"
-
-
 @dataclass(frozen=True)
 class Comparison:
-    """`computed` and `reference` in `unit`; `tolerance` is relative, 0.01 for 1 %, None where the reference is a limit.
+    """`computed` and `reference` in `unit`; `tolerance` is relative, 0.01 for 1 %, None where the reference is a limit: the
+    greatest, or the `least` value that is permitted.
 
     None stands for what could not be evaluated, for the `reason`; a number that is not finite is none. Such a comparison is
     never passed.
@@ -57,6 +52,7 @@ class Comparison:
     subject: Subject = field(kw_only=True)
     note: str = ""
     reason: str = ""
+    least: bool = field(default=False, kw_only=True)
 
     def __post_init__(self) -> None:
         for name in ("computed", "reference"):
@@ -80,11 +76,13 @@ class Comparison:
 
     @property
     def passed(self) -> bool:
-        """Inside the tolerance, or not above the limit."""
+        """Inside the tolerance, or not beyond the limit."""
         deviation = self.deviation
         if deviation is None:
             return False
-        return deviation <= 0 if self.tolerance is None else abs(deviation) <= self.tolerance
+        if self.tolerance is not None:
+            return abs(deviation) <= self.tolerance
+        return deviation >= 0 if self.least else deviation <= 0
 
     def to_dict(self) -> dict[str, Any]:
         """As `check.json` has it."""
@@ -144,3 +142,9 @@ def at_most(
 ) -> Comparison:
     """A gate that is a limit."""
     return Comparison(quantity, computed, limit, None, unit, source, note, reason, role=ComparisonRole.GATE, subject=subject)
+
+
+def at_least(quantity: str, computed: float | None, limit: float, source: str, note: str = "", reason: str = "") -> Comparison:
+    """A gate of strength: a safety and the least one that is permitted."""
+    gate, strength = ComparisonRole.GATE, Subject.STRENGTH
+    return Comparison(quantity, computed, limit, None, "", source, note, reason, role=gate, subject=strength, least=True)

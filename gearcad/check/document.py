@@ -33,6 +33,8 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "torque_sweep": [point.to_dict() for point in result.sweep],
         "torque_trends": result.trends.to_dict(),
         "rating": result.rating.to_dict(),
+        "strength_rating": {key: value for key, value in result.safeties.rating.to_dict().items() if key != "nominal"},
+        "safeties": result.safeties.to_dict(),
         "convergence": [each.to_dict() for each in result.convergence],
         "comparisons": [comparison.to_dict() for comparison in result.comparisons],
         "explanations": result.explanations.to_dict(),

@@ -9,12 +9,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple
 
-from gearcad.check.comparison import Comparison, Subject, Verdict, verdict
+from gearcad.check.comparison import Comparison, Subject, verdict
 from gearcad.check.convergence import Convergence
 from gearcad.check.explanation import Explanations
 from gearcad.check.load_share import LoadShare
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.stiffness import StiffnessMethods, stiffness_methods
+from gearcad.check.strength import CheckStrength
 from gearcad.check.summary import Summary, root_peaks
 from gearcad.check.sweep import SweepPoint, SweepTrends
 from gearcad.check.task import CheckTask
@@ -26,7 +27,9 @@ from gearcad.mounting import Mounting
 from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
 from gearcad.rating import Rating
+from gearcad.rating.strength import Part
 from gearcad.stiffness import StiffnessMethod
+from gearcad.verdict import Verdict
 
 __all__ = ["CheckResult"]
 
@@ -92,8 +95,13 @@ class CheckResult(ABC):
 
     @property
     def rating(self) -> Rating:
-        """By ISO 6336 or DIN 3990, Method B."""
+        """By ISO 6336 or DIN 3990, Method B: nominal stresses with K_A."""
         return self.task.rating
+
+    @cached_property
+    def safeties(self) -> CheckStrength:
+        """The full rating, and safeties by the stresses of finite elements beside its own."""
+        return CheckStrength.of(self.task, self.summary)
 
     # ------------------------------------------------------------------ over the mesh
 
@@ -188,27 +196,39 @@ class CheckResult(ABC):
 
     @property
     def without_limit(self) -> tuple[str, ...]:
-        """What the material gives no limit for, in words."""
+        """What neither the material has a limit for nor the rating judges, in words."""
         limits = {
-            "contact pressure": "contact_limit",
-            "root stress": "root_limit",
-            "von Mises stress below the flank": "yield_strength",
+            "contact pressure": ("contact_limit", Part.FLANK),
+            "root stress": ("root_limit", Part.ROOT),
+            "von Mises stress below the flank": ("yield_strength", None),
         }
         return tuple(
             f"{words} of the {gear}" if gear else words
-            for words, limit in limits.items()
+            for words, (limit, part) in limits.items()
             for gear, material in by_gear(self.material).items()
-            if getattr(material, limit) is None
+            if getattr(material, limit) is None and not self._rates(part)
         )
+
+    def _rates(self, part: Part | None) -> bool:
+        """Whether the rating judges this of both gears."""
+        return part is not None and all(each.rated.safety is not None for each in self.safeties.parts[part])
 
     @property
     def verdict(self) -> str:
         """Numerics and strength in one line."""
         numerics = "NOT passed" if self.numerics is Verdict.FAILED else self.numerics.value
-        strength = "not judged: no limit given" if self.strength is Verdict.NOT_JUDGED else self.strength.value
+        strength = f"not judged: {self._not_judged}" if self.strength is Verdict.NOT_JUDGED else self.strength.value
         if self.without_limit and self.strength is not Verdict.NOT_JUDGED:
             strength += f"; not judged, no limit given: {', '.join(self.without_limit)}"
         return f"numerics {numerics}; strength {strength}"
+
+    @property
+    def _not_judged(self) -> str:
+        """Why strength was not: the first thing in the way of a rating, where the materials have what it needs."""
+        limits = self.safeties.rating.limits
+        if all(each.contact is None and each.root is None for each in limits):
+            return "no limit given"
+        return next(iter(self.safeties.rating.not_judged.values()))
 
     # ------------------------------------------------------------------ what to know before trusting it
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from gearcad.check.load_distribution import load_distribution
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.plane.run import PLANE_MEMORY, PLANE_STEPS, check_plane
 from gearcad.check.result import CheckResult
@@ -33,6 +36,9 @@ def check_pair(
     Raises ParameterError and GeometryError for input that cannot be checked, SolverError where a solver fails.
     """
     task = check_task(pair, material, load, options, mounting, rating)
+    if task.rating_options.face_load_factor == "fe":
+        found = load_distribution(pair, material, load, rating, mounting=mounting, check=options)
+        task = replace(task, face_load_factor=found.face_load_factor)
     if task.model is Model.PLANE:
         return check_plane(task, Agenda(progress, PLANE_STEPS))
     return check_solid(task, Agenda(progress, solid_steps(task)))

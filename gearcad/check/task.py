@@ -14,13 +14,14 @@ from gearcad.material import Material, Materials, of_both
 from gearcad.mounting import Mounting
 from gearcad.per_gear import PerGear
 from gearcad.rating import Rating, RatingOptions, rate
+from gearcad.rating.strength import StrengthRating, rate_strength
 
 __all__ = ["CheckTask", "check_task"]
 
 
 @dataclass(frozen=True, kw_only=True)
 class CheckTask:
-    """What is to be checked; `pair` is as mounted."""
+    """What is to be checked; `pair` is as mounted. `face_load_factor` is that of a load distribution, if one is asked for."""
 
     pair: GearPair
     material: Materials
@@ -28,6 +29,7 @@ class CheckTask:
     mounting: Mounting
     options: CheckOptions
     rating_options: RatingOptions = field(default_factory=RatingOptions)
+    face_load_factor: float | None = None
 
     @property
     def materials(self) -> PerGear[Material]:
@@ -57,8 +59,14 @@ class CheckTask:
 
     @cached_property
     def rating(self) -> Rating:
-        """By ISO 6336 or DIN 3990, Method B."""
+        """By ISO 6336 or DIN 3990, Method B: nominal stresses with K_A."""
         return rate(self.pair, self.material, self.load, self.rating_options)
+
+    @cached_property
+    def strength_rating(self) -> StrengthRating:
+        """The full rating. Raises what `rate_strength` raises."""
+        factor = self.face_load_factor
+        return rate_strength(self.pair, self.material, self.load, self.rating_options, face_load_factor=factor)
 
 
 def check_task(

@@ -8,7 +8,7 @@ import click
 
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.job import json_option, output_option, perform, quiet_option
-from gearcad.cli.verdict import print_verdict
+from gearcad.cli.verdict import print_verdict, verdict_line
 
 __all__ = ["check"]
 
@@ -29,5 +29,7 @@ def check(spec: Path, output: Path | None, model: str | None, as_json: bool, qui
     from gearcad.jobs.check import Check
 
     result = perform(Check(model=model), spec, output, print_verdict, as_json=as_json, quiet=quiet)
+    if as_json and not quiet:
+        click.echo(verdict_line(result.pair.name, result), err=True)
     if not result.passed:
         click.get_current_context().exit(1)

@@ -11,7 +11,7 @@ from gearcad.cli.job import echo_warnings
 if TYPE_CHECKING:
     from gearcad.check.result import CheckResult
 
-__all__ = ["print_verdict"]
+__all__ = ["print_verdict", "verdict_line"]
 
 _WIDE = 130
 """Console width from which the column of sources fits."""
@@ -49,8 +49,12 @@ def print_verdict(name: str, result: CheckResult) -> None:
         # Soft wrap: a narrow window may break a line, but never cut a number.
         console.print(Text(text, style=style), soft_wrap=True)
     echo_warnings(result.all_notices)
-    verdict = f"{name} at {result.torque:g} N·m: {result.verdict}"
-    console.print(Text(verdict, style="bold green" if result.passed else "bold red"), soft_wrap=True)
+    console.print(Text(verdict_line(name, result), style="bold green" if result.passed else "bold red"), soft_wrap=True)
+
+
+def verdict_line(name: str, result: CheckResult) -> str:
+    """What a check comes to."""
+    return f"{name} at {result.torque:g} N·m: {result.verdict}"
 
 
 def _row(of: Comparison) -> _Line:
@@ -61,7 +65,8 @@ def _row(of: Comparison) -> _Line:
         deviation = "-"
     else:
         deviation = f"{100 * (1 + of.deviation):.4g} %" if of.tolerance is None else f"{100 * of.deviation:+.2f} %"
-    permitted = "of limit" if of.tolerance is None else f"±{100 * of.tolerance:g} %"
+    limit = "at least" if of.least else "of limit"
+    permitted = limit if of.tolerance is None else f"±{100 * of.tolerance:g} %"
     figures = ("-" if value is None else f"{value:.5g}" for value in (of.computed, of.reference))
     cells = (word, of.quantity, *figures, of.unit, deviation, permitted, of.source.split(":")[0])
     return _Line(cells, "" if of.passed else "bold red" if gate else "yellow")

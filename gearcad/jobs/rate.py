@@ -1,20 +1,26 @@
-"""Rate: Hertz, and ISO 6336 or DIN 3990 by Method B."""
+"""Rate: whether a pair or a planetary train holds, how long, and what it would bear, by ISO 6336 or DIN 3990."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
 from typing import Any, Unpack
 
-from gearcad.designs import Inputs, PairDesign, RackPairDesign
+from gearcad.designs import Design, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
+from gearcad.designs.mesh_pairs import MeshPairs
+from gearcad.dynamics.planetary.masses import train_masses
+from gearcad.dynamics.planetary.mesh_strength import TrainStrength, train_strength
 from gearcad.jobs.job import Job, Writer
+from gearcad.jobs.rate_columns import rate_columns
 from gearcad.jobs.subject import Subject, as_design
 from gearcad.load import Load
 from gearcad.notice import Notice
+from gearcad.planetary import TrainLoad
 from gearcad.progress import Progress
-from gearcad.rating.rack_rating import rate_rack
-from gearcad.rating.rate import Rating
-from gearcad.rating.rate import rate as rate_pair
+from gearcad.rating.strength import StrengthRating, rate_strength
+from gearcad.version import __version__
 
 __all__ = ["Rate", "rate"]
 
@@ -22,50 +28,98 @@ _NO_LOAD = "without it there is no stress"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rate(Job[PairDesign | RackPairDesign, Rating]):
-    """The rating of a pair as mounted, by the standard that its design's [rating] names."""
+class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | TrainStrength]):
+    """The rating of a pair as mounted, or of the meshes of a planetary train, by the standard that its [rating] names.
+
+    Without `report` there is rate.json alone.
+    """
 
     verb = "rate"
-    accepts = (PairDesign, RackPairDesign)
+    accepts = (PairDesign, RackPairDesign, PlanetaryDesign)
     why = "a single gear carries nothing"
-    solves = False
 
-    def _run(self, design: PairDesign | RackPairDesign, _progress: Progress | None) -> Rating:
+    report: bool = True
+
+    def _run(
+        self, design: PairDesign | RackPairDesign | PlanetaryDesign, _progress: Progress | None
+    ) -> StrengthRating | TrainStrength:
+        if isinstance(design, PlanetaryDesign):
+            return _of_train(design)
+        load = design.loaded(_NO_LOAD)
         if isinstance(design, RackPairDesign):
-            return rate_rack(design.pair, design.materials, design.loaded(_NO_LOAD), design.rating)
+            return rate_strength(design.pair, design.materials, load, design.rating)
         pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)
-        return rate_pair(pair, design.materials, design.loaded(_NO_LOAD), design.rating)
+        return rate_strength(pair, design.materials, load, design.rating, face_load_factor=_of_bodies(design, load))
 
-    def document(self, result: Rating) -> dict[str, Any]:
-        """Values under their symbols, those of one gear under "pinion" and "wheel"; `gearcad.symbols.RATING` has the words."""
-        return {"kind": "rate", **result.to_dict()}
+    def document(self, result: StrengthRating | TrainStrength) -> dict[str, Any]:
+        """Values under their symbols, those of one gear under "pinion" and "wheel"; `symbols.STRENGTH` has the words."""
+        return {"kind": self.verb, "name": result.name, "gearcad": __version__, **result.to_dict()}
 
-    def notices(self, result: Rating) -> Sequence[Notice]:
+    def for_row(self, _design: Design, _parts: Collection[str]) -> Rate:
+        return replace(self, report=False)
+
+    def notices(self, result: StrengthRating | TrainStrength) -> Sequence[Notice]:
         return result.notices
 
-    def files(self, _result: Rating) -> dict[str, Writer]:
-        """None: a rating is not written by itself yet."""
-        return {}
+    def figures(self, document: dict[str, Any]) -> dict[str, Any]:
+        """What a line of a table has of it."""
+        return rate_columns(document)
 
-    @property
-    def parts(self) -> dict[str, dict[str, Any]]:
-        """None, as it has no files."""
-        return {}
+    def files(self, result: StrengthRating | TrainStrength) -> dict[str, Writer]:
+        """The document and the report; of a planetary train a report for each mesh."""
+        found: dict[str, Writer] = {"rate.json": partial(self.write_document, result)}
+        if not self.report:
+            return found
+        if isinstance(result, StrengthRating):
+            return {**found, "rate.html": partial(_write_report, result, result.name)}
+        reports = {
+            f"rate-{name}.html": partial(_write_report, each, f"{result.name}, {name}") for name, each in result.meshes.items()
+        }
+        return {**found, **reports}
 
 
-def rate(subject: Subject, load: Load | None = None, **inputs: Unpack[Inputs]) -> Rating:
-    """Rate a pair as mounted, under a load, by ISO 6336 or DIN 3990, Method B, and Hertz at the pitch point.
+def _of_bodies(design: PairDesign, load: Load) -> float | None:
+    """K_Hbeta of the load distribution of solid bodies, if the options ask for it."""
+    options = design.rating
+    if options is None or options.face_load_factor != "fe":
+        return None
+    from gearcad.check.load_distribution import load_distribution
 
-    `material` (of both gears, or PerGear of each), `mounting` and `rating` (RatingOptions), as the load, stand in place of
-    those of a design; a pair has the defaults. A pinion and a rack are rated as a wheel of infinitely many teeth, without
-    mounting.
+    found = load_distribution(design.pair, design.materials, load, options, mounting=design.mounting, check=design.check)
+    return found.face_load_factor
 
-    >>> from gearcad import Gear, GearPair, Load
+
+def _of_train(design: PlanetaryDesign) -> TrainStrength:
+    """With the loads of one planet and the masses of the train's members."""
+    design.loaded(_NO_LOAD)
+    pairs = MeshPairs(design=design)
+    masses = train_masses(design.train, design.material)
+    return train_strength(design.train, pairs.loads, pairs.stage_loads, masses, design.material, design.rating)
+
+
+def _write_report(result: StrengthRating, name: str, path: Path) -> None:
+    from gearcad.report import write_rate_report
+
+    write_rate_report(result, name, path)
+
+
+def rate(subject: Subject, load: Load | TrainLoad | None = None, **inputs: Unpack[Inputs]) -> StrengthRating | TrainStrength:
+    """Rate a pair as mounted, under a load, by ISO 6336 or DIN 3990: safeties of flanks and roots, life, permissible torque.
+
+    `material`, `mounting` and `rating` (RatingOptions), as the load, stand in place of those of a design; a pair has the
+    defaults. What the standard does not cover, or what is not known - without an endurance limit or a speed nothing is - is not
+    judged, and says why; `nominal` has the stresses that geometry and torque alone decide. A pinion and a rack are rated as a
+    wheel of infinitely many teeth, without mounting; a planetary train mesh by mesh, as TrainStrength.
+
+    >>> from gearcad import Gear, GearPair, Load, Material
     >>> gears = [Gear(teeth=z, normal_module=2, face_width=20) for z in (20, 30)]
-    >>> rating = rate(GearPair(pinion=gears[0], wheel=gears[1]), Load(torque=60))
-    >>> f"{rating.root_stresses[0]:.0f} and {rating.root_stresses[1]:.0f} MPa in the roots"
-    '221 and 211 MPa in the roots'
+    >>> pair, load = GearPair(pinion=gears[0], wheel=gears[1]), Load(torque=60, speed=1500)
+    >>> rating = rate(pair, load, material=Material(name="Eh MQ"))
+    >>> f"{rating.nominal.root_stresses[0]:.0f} and {rating.nominal.root_stresses[1]:.0f} MPa in the roots, nominally"
+    '221 and 211 MPa in the roots, nominally'
+    >>> rating
+    <StrengthRating of 'pair' at 60 N·m: strength passed>
 
     Raises ParameterError without a pair or a torque, GeometryError for a pair whose contact the standard does not describe.
     """
-    return Rate().run(as_design(subject, load, **inputs))
+    return Rate(report=False).run(as_design(subject, load, **inputs))

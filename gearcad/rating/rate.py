@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 from gearcad.errors import GeometryError, ParameterError
-from gearcad.geometry import GearPair, RackPair
+from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.halves import refuse_halves
 from gearcad.load import Load
 from gearcad.material import Materials, of_both
@@ -21,7 +21,7 @@ from gearcad.rating.iso6336_1 import MeshStiffness, mesh_stiffness, stiffness_no
 from gearcad.rating.iso6336_2 import FlankRating, flank_notices, flank_rating
 from gearcad.rating.iso6336_3 import RootMesh, RootRating, loaded_width, root_notices, root_rating
 from gearcad.rating.mesh_contact import base_normal_force, pitch_point_contact
-from gearcad.rating.options import RatingOptions
+from gearcad.rating.options import RatingOptions, RootShift
 
 __all__ = ["Rating", "fillet_notices", "rate", "require_ratable", "scope_notices"]
 
@@ -108,7 +108,7 @@ def rate(
     force = 2000 * abs(load.torque) / pair.pinion.reference_diameter
     specific = force * load.application_factor / pair.common_width.width
     mesh = RootMesh.of(pair, force, edition, options.accuracy_grade)
-    roots = PerGear.each(lambda role: root_rating(pair.gears.pick(role), mesh, loaded_width(pair, role)))
+    roots = PerGear.each(lambda role: root_rating(_as_cut(pair.gears.pick(role), options), mesh, loaded_width(pair, role)))
     return Rating(
         edition=edition,
         tangential_force=force,
@@ -137,6 +137,13 @@ def _recalled(pair: GearPair, edition: Edition, wheel: RootRating) -> tuple[str,
     formula = () if wheel.formula is None else ("wheel.formula",)
     ring = ("q_prime", "Z_D", "wheel.Y_B", *formula) if pair.internal else ()
     return (*ring, *(symbol for symbol in RECALLED if edition is Edition.ISO_2019 and symbol not in ring))
+
+
+def _as_cut(gear: Gear, options: RatingOptions) -> Gear:
+    """The gear whose root is rated: as it is thinned, or with the nominal thickness of its teeth."""
+    if options.root_shift is RootShift.GENERATING:
+        return gear
+    return replace(gear, tooth_thinning=0.0, tooth_allowance=None)
 
 
 def require_ratable(pair: GearPair | RackPair, load: Load) -> None:

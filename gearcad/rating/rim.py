@@ -32,8 +32,11 @@ RIM_LIMIT = 1.2
 RING_RIM_LIMIT = 3.5
 """s_R/m_n (rings) from which on it is."""
 
+THINNEST = 0.5
+"""s_R/h_t that the standard asks to stay above."""
+
 THINNEST_RING = 1.75
-"""s_R/m_n that the standard asks to stay above."""
+"""s_R/m_n that it asks of rings to stay above."""
 
 
 def rim_thickness_ratio(gear: Gear) -> float:
@@ -80,6 +83,10 @@ class Rim(ABC):
     def notices(self, edition: Edition, where: str) -> Iterator[Notice]:
         """What to know of its strength."""
 
+    @abstractmethod
+    def not_covered(self) -> str:
+        """Why the standard has no Y_B for it; "" where it has."""
+
 
 class ExternalRim(Rim):
     """Below the teeth of an external gear; `ratio` s_R/h_t."""
@@ -91,9 +98,14 @@ class ExternalRim(Rim):
 
     def notices(self, edition: Edition, where: str) -> Iterator[Notice]:
         if self.ratio < RIM_LIMIT:
-            avoid = "is at most 0.5, which the standard asks to avoid"
-            said = avoid if self.ratio <= 0.5 else f"weakens the root (below {RIM_LIMIT:g})"
+            avoid = f"is at most {THINNEST:g}, which the standard asks to avoid"
+            said = avoid if self.ratio <= THINNEST else f"weakens the root (below {RIM_LIMIT:g})"
             yield Notice("thin-rim", f"{self.ratio:.3g} tooth heights under the root {said}; {_known(self, edition)}", where)
+
+    def not_covered(self) -> str:
+        if self.ratio > THINNEST:
+            return ""
+        return f"Y_B holds for rims of more than {THINNEST:g} tooth heights under the root, here {self.ratio:.3g}"
 
 
 class RingRim(Rim):
@@ -110,6 +122,11 @@ class RingRim(Rim):
             avoid = f"is at most {THINNEST_RING:g}, which the standard asks to avoid"
             said = avoid if self.ratio <= THINNEST_RING else f"weakens the root (below {RING_RIM_LIMIT:g})"
             yield Notice("thin-rim", f"{self.ratio:.3g} m_n outside the root {said}; {_known(self, edition)}", where)
+
+    def not_covered(self) -> str:
+        if self.ratio is None or self.ratio > THINNEST_RING:
+            return ""
+        return f"Y_B holds for rims of more than {THINNEST_RING:g} m_n outside the root, here {self.ratio:.3g}"
 
 
 def _known(rim: Rim, edition: Edition) -> str:

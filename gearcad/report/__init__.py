@@ -1,17 +1,20 @@
-"""The reports of a check, of stiffness by several methods, of dynamics and of a planetary train: HTML files by themselves."""
+"""The reports of a check, of a rating, of stiffness by several methods, of dynamics, of a planetary train: HTML files."""
 
 from gearcad.report.check.report import report_html, write_report
 from gearcad.report.dynamics.report import dynamics_html, write_dynamics_report
 from gearcad.report.planetary.report import planetary_html, write_planetary_report
 from gearcad.report.stiffness.report import stiffness_html, write_stiffness_report
+from gearcad.report.strength.report import rate_html, write_rate_report
 
 __all__ = [
     "dynamics_html",
     "planetary_html",
+    "rate_html",
     "report_html",
     "stiffness_html",
     "write_dynamics_report",
     "write_planetary_report",
+    "write_rate_report",
     "write_report",
     "write_stiffness_report",
 ]

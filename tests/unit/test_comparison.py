@@ -10,12 +10,13 @@ import pytest
 from support.checks import small_check
 
 from gearcad import Load, Material
-from gearcad.check.comparison import Comparison, Subject, Verdict, agrees, at_most, beside, verdict
+from gearcad.check.comparison import Comparison, Subject, agrees, at_most, beside, verdict
 from gearcad.check.judge import compare_common
 from gearcad.cli.verdict import print_verdict
 from gearcad.notice import Notice
 from gearcad.output import json_text
 from gearcad.per_gear import PerGear
+from gearcad.verdict import Verdict
 
 
 def gate(computed: float | None, subject: Subject = Subject.NUMERICS, reason: str = "") -> Comparison:

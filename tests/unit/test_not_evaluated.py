@@ -13,7 +13,7 @@ from support.checks import small_check, small_solid_check
 from support.coarse import coarse_model
 
 from gearcad import Load, Material
-from gearcad.check.comparison import ComparisonRole, Verdict
+from gearcad.check.comparison import ComparisonRole
 from gearcad.check.document import check_document
 from gearcad.check.notices import common_notices
 from gearcad.check.plane.judge import compare_plane
@@ -30,6 +30,7 @@ from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.output import json_text
 from gearcad.report import report_html
 from gearcad.report.check.sections import CheckSections
+from gearcad.verdict import Verdict
 
 LIMITS = Material(name="tin", contact_limit=1e6, root_limit=1e6, yield_strength=1e6)
 """Limits that no stress here exceeds: a figure that is not there is not below them."""

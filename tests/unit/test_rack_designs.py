@@ -159,7 +159,7 @@ def test_a_pair_of_gears_has_no_mounting_distance() -> None:
 def test_jobs_take_racks_or_say_why_not(tmp_path: Path) -> None:
     pair = RackPair(pinion=Gear(teeth=20, normal_module=2, face_width=20), rack=Rack(**RACK))
     assert gearcad.data(pair)["pair"]["mounting_distance"] == 20
-    assert gearcad.rate(pair, Load(torque=50)).flank.nominal_stress > 0
+    assert gearcad.rate(pair, Load(torque=50)).nominal.flank.nominal_stress > 0
     files = gearcad.build(pair, tmp_path, ["stl", "3mf", "glb", "dxf", "csv"], circles=True)
     assert {file.name for file in files} == {"data.json", "assembly.3mf", "assembly.glb"} | {
         f"{part}.{kind}" for part in ("pinion", "rack") for kind in ("stl", "3mf", "glb", "dxf", "csv")

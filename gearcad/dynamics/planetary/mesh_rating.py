@@ -21,7 +21,7 @@ from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import Rating, rate
 
-__all__ = ["ALTERNATING", "MeshRating", "TrainRating", "rate_train"]
+__all__ = ["ALTERNATING", "MeshRating", "TrainRating", "mesh_dynamic_factor", "rate_train"]
 
 ALTERNATING = 0.7
 """Y_M of teeth that bend both ways in every turn, over that of teeth that bend one way: idlers and planets (recalled)."""
@@ -127,7 +127,7 @@ def _mesh_rating(
     mesh = load.mesh
     made_of = mesh_material(material, mesh)
     rating = rate(mesh.pair, made_of, load.load, options)
-    factor, why = _dynamic_factor(mesh.pair, made_of, load.load, _inertias(train, load, masses), options)
+    factor, why = mesh_dynamic_factor(train, load, masses, made_of, options)
     bends = PerGear.each(lambda role: ALTERNATING if role is mesh.rim_role and not train.stepped else 1.0)
     return MeshRating(load=load, rating=rating, dynamic_factor=factor, no_dynamic_factor=why, mean_stress_factor=bends)
 
@@ -142,6 +142,13 @@ def _inertias(train: PlanetaryTrain, load: MeshLoad, masses: TrainMasses) -> Per
         return planet.why if planet.inertia is None else central.why
     counted = {load.mesh.central_role: own / train.planets, load.mesh.rim_role: planet.inertia}
     return PerGear.each(lambda role: counted[role])
+
+
+def mesh_dynamic_factor(
+    train: PlanetaryTrain, load: MeshLoad, masses: TrainMasses, material: Materials, options: RatingOptions
+) -> tuple[float | None, str]:
+    """K_v of Method B at the speed of a mesh against the carrier, with the inertias that count there; or None and why."""
+    return _dynamic_factor(load.mesh.pair, material, load.load, _inertias(train, load, masses), options)
 
 
 def _dynamic_factor(

@@ -1,1 +1,7 @@
-"""What a pair bears: permissible stresses, safeties and life by ISO 6336-2, -3 and -6."""
+"""Full rating of a pair by ISO 6336 or DIN 3990: what it bears, how safely, for how long, up to which torque."""
+
+from gearcad.rating.strength.part import INFINITE, Part, PartStrength
+from gearcad.rating.strength.rating import StrengthRating
+from gearcad.rating.strength.run import rate_strength
+
+__all__ = ["INFINITE", "Part", "PartStrength", "StrengthRating", "rate_strength"]

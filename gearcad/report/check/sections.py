@@ -14,6 +14,7 @@ from gearcad.plots.check import plot_mesh_stiffness, plot_root_stress, plot_tran
 from gearcad.plots.paper import short
 from gearcad.plots.trends import plot_convergence, plot_sweep_pressure, plot_sweep_stiffness
 from gearcad.report.check.figures import Picture, pair_picture, picture_address
+from gearcad.report.check.strength import StrengthSection, strength_section
 from gearcad.report.check.tables import Row, gear_rows, load_rows, pair_rows, rating_rows
 from gearcad.report.check.views import ToothView
 from gearcad.report.sentences import sentences
@@ -145,6 +146,11 @@ class CheckSections(ABC, Generic[Checked]):
         """By other methods; why not, where they cannot be had."""
         return section_of_check(self.result.stiffness_methods)
 
+    @cached_property
+    def strength(self) -> StrengthSection:
+        """Safeties by finite elements and by the standard."""
+        return strength_section(self.result.safeties)
+
     # ------------------------------------------------------------------ inputs and rating
 
     @property
@@ -183,7 +189,7 @@ def _row(comparison: Comparison) -> ComparisonRow:
         computed=_number(comparison.computed),
         reference=_number(comparison.reference),
         unit=comparison.unit,
-        permitted="at most" if comparison.tolerance is None else f"± {100 * comparison.tolerance:g} %",
+        permitted=_permitted(comparison),
         deviation=_deviation(comparison),
         word=word,
         style="good" if comparison.passed else "bad" if gate else "aside",
@@ -191,6 +197,12 @@ def _row(comparison: Comparison) -> ComparisonRow:
         note=comparison.note,
         reason=comparison.reason,
     )
+
+
+def _permitted(comparison: Comparison) -> str:
+    if comparison.tolerance is not None:
+        return f"± {100 * comparison.tolerance:g} %"
+    return "at least" if comparison.least else "at most"
 
 
 def _number(value: float | None) -> str:

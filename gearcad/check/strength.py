@@ -1,0 +1,156 @@
+"""Safeties by the stresses of finite elements, beside those of the rating: what the model lacks comes in by load factors."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from gearcad.check.comparison import Comparison, at_least
+from gearcad.check.options import Model
+from gearcad.check.summary import Summary
+from gearcad.check.task import CheckTask
+from gearcad.per_gear import PerGear, Role
+from gearcad.rating.load_factors import LoadFactors
+from gearcad.rating.strength import Part, PartStrength, StrengthRating
+
+__all__ = ["CheckStrength", "FoundStrength", "strength_gates"]
+
+_FE = "finite elements"
+
+
+@dataclass(frozen=True, kw_only=True)
+class FoundStrength:
+    """Of one flank or root: `stress` by finite elements (MPa), and `raised` by the load factors that the model lacks.
+
+    `rated` is what the rating says of it. Without a `safety` it was not judged, for the `reason`.
+    """
+
+    rated: PartStrength
+    stress: float | None
+    raised: float | None
+    missing: str = ""
+
+    @cached_property
+    def safety(self) -> float | None:
+        """The rating's safety times sigma by the rating over that by finite elements: of one load sigma_G over the stress."""
+        rated = self.rated
+        if rated.safety is None or rated.stress is None or not self.raised:
+            return None
+        return rated.safety * rated.stress / self.raised
+
+    @property
+    def reason(self) -> str:
+        """Why there is no safety."""
+        return self.rated.reason or ("" if self.raised else self.missing)
+
+    def to_dict(self) -> dict[str, float | str | None]:
+        """Stresses and safeties of both."""
+        rated = self.rated
+        return {
+            "fe_stress": self.stress,
+            "fe_stress_with_factors": self.raised,
+            "rated_stress": rated.stress,
+            "strength": rated.strength,
+            "required": rated.required,
+            "fe_safety": self.safety,
+            "rated_safety": rated.safety,
+            **({"reason": self.reason} if self.reason else {}),
+        }
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckStrength:
+    """What finite elements and the rating say of strength, side by side."""
+
+    task: CheckTask
+    summary: Summary
+    rating: StrengthRating
+
+    @classmethod
+    def of(cls, task: CheckTask, summary: Summary) -> CheckStrength:
+        """Of a task and what its check found. Raises what `rate_strength` raises."""
+        return cls(task=task, summary=summary, rating=task.strength_rating)
+
+    @cached_property
+    def contained(self) -> Mapping[str, str]:
+        """Load factors that are in the model already, and how."""
+        mounting, solid = self.task.mounting, self.task.model is Model.SOLID
+        found = {"K_A": "the torque has it"}
+        if solid and mounting.tilted:
+            found |= dict.fromkeys(("K_Hbeta", "K_Fbeta"), "the bodies stand as misaligned as [mounting] says")
+        if mounting.pitch_error:
+            found |= dict.fromkeys(("K_Halpha", "K_Falpha"), "a pair of teeth stands proud by the pitch error of [mounting]")
+        return found
+
+    @cached_property
+    def applied(self) -> Mapping[Part, Mapping[str, float]]:
+        """Load factors that raise the stresses of flanks, and of roots."""
+        factors = self.rating.load_factors
+        if factors is None:
+            return {part: {} for part in Part}
+        return {part: {k: v for k, v in _factors(factors, part).items() if k not in self.contained} for part in Part}
+
+    @property
+    def flank(self) -> PerGear[FoundStrength]:
+        """By the greatest pressure, that of both flanks."""
+        missing = self.summary.missing.get("contact_pressure", "")
+        return PerGear.each(lambda role: self._found(Part.FLANK, role, self.summary.contact_pressure, missing))
+
+    @property
+    def root(self) -> PerGear[FoundStrength]:
+        """By the greatest tension in the fillets."""
+        return PerGear.each(lambda role: self._found(Part.ROOT, role, self.summary.root_tension.pick(role)))
+
+    @property
+    def parts(self) -> Mapping[Part, PerGear[FoundStrength]]:
+        """Flanks and roots."""
+        return {Part.FLANK: self.flank, Part.ROOT: self.root}
+
+    def _found(self, part: Part, role: Role, stress: float | None, missing: str = "") -> FoundStrength:
+        """Pressure goes with the square root of the load, tension with the load."""
+        raised = None
+        factors = self.rating.load_factors
+        if stress is not None and factors is not None and not factors.unknown:
+            product = math.prod(self.applied[part].values())
+            raised = stress * (math.sqrt(product) if part is Part.FLANK else product)
+        return FoundStrength(rated=self.rating.parts[part].pick(role), stress=stress, raised=raised, missing=missing)
+
+    @property
+    def judged(self) -> bool:
+        """Whether anything was."""
+        return any(each.rated.safety is not None for both in self.parts.values() for each in both)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As check.json has it."""
+        parts = {part.value: {role.value: each.to_dict() for role, each in both.items()} for part, both in self.parts.items()}
+        applied = {part.value: dict(factors) for part, factors in self.applied.items()}
+        return {**parts, "factors_applied": applied, "factors_contained": dict(self.contained)}
+
+
+def _factors(of: LoadFactors, part: Part) -> dict[str, float]:
+    """All but K_A, which every model contains, by symbols."""
+    common = {"K_gamma": of.mesh_load, "K_v": of.dynamic}
+    if part is Part.FLANK:
+        return {**common, "K_Hbeta": of.face_flank, "K_Halpha": of.transverse_flank}
+    return {**common, "K_Fbeta": of.face_root, "K_Falpha": of.transverse_root}
+
+
+def strength_gates(strength: CheckStrength) -> Iterator[Comparison]:
+    """Safeties of all parts that were judged, by the standard and by finite elements, against those required."""
+    edition = strength.rating.options.standard
+    for part, both in strength.parts.items():
+        symbol, clause = f"S_{part.index}", edition.dated_part(2 if part is Part.FLANK else 3)
+        applied = ", ".join(f"{name} {value:.4g}" for name, value in strength.applied[part].items())
+        for role, found in both.items():
+            rated = found.rated
+            if rated.safety is None:
+                continue
+            words = f"{symbol} of the {role.value}"
+            note = f"sigma_{part.index} = {rated.stress:.5g} MPa against {rated.strength:.5g} MPa"
+            yield at_least(f"{words}, {edition.part(2)[:-2]}", rated.safety, rated.required, f"{clause}, 5", note)
+            note = "" if found.raised is None else f"{found.stress:.5g} MPa by {_FE}, {found.raised:.5g} MPa with {applied}"
+            source = f"required; stress by {_FE}, strength by {clause}"
+            yield at_least(f"{words}, {_FE}", found.safety, rated.required, source, note, found.reason)

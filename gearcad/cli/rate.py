@@ -1,0 +1,32 @@
+"""The rating of a pair: rate."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from gearcad.cli.group import debug_option, spec_argument
+from gearcad.cli.job import json_option, output_option, perform, quiet_option
+from gearcad.cli.safeties import print_strength
+
+__all__ = ["rate"]
+
+
+@click.command(short_help="Rate SPEC's pair by ISO 6336: safeties, life, permissible torque.")
+@spec_argument
+@output_option
+@json_option
+@quiet_option
+@debug_option
+def rate(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
+    """Rate the pair of SPEC under its [load] by ISO 6336 or DIN 3990: safeties of flanks and roots, life, permissible torque.
+
+    Writes rate.json and rate.html. Exit status 1 if a required safety is not reached or strength could not be judged;
+    [rating] in SPEC sets standard, accuracy, life, oil and required safeties, [material] what the gears bear.
+    """
+    from gearcad.jobs.rate import Rate
+
+    result = perform(Rate(), spec, output, print_strength, as_json=as_json, quiet=quiet)
+    if not result.passed:
+        click.get_current_context().exit(1)

@@ -1,0 +1,164 @@
+"""Tables of a rating: safeties, factors by what they are of, materials, loads, tolerances."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import fields
+from typing import Any, NamedTuple
+
+from gearcad import symbols
+from gearcad.material import Material
+from gearcad.per_gear import PerGear
+from gearcad.plots.paper import short
+from gearcad.rating.options import RatingOptions
+from gearcad.rating.strength import INFINITE, Part, StrengthRating
+from gearcad.report.check.tables import Row
+from gearcad.schema import symbols_of
+from gearcad.symbols import Symbol
+
+__all__ = ["Group", "factor_groups", "material_rows", "option_rows", "safety_rows", "spectrum_rows", "tolerance_rows"]
+
+_NONE = "–"  # an en dash where there is no value
+
+_TOLD = {
+    "permissible_torque": Symbol("T_1", "N·m", "", "torque on the pinion at the required safety"),
+    "life": Symbol("", "h", "", "life until failure at the required safety"),
+    "damage": Symbol("D", "", "ISO 6336-6", "damage over the life at the required safety"),
+}
+
+_GROUPS = {
+    "Load factors": "K_A K_gamma K_v K_Hbeta K_Fbeta K_Halpha K_Falpha",
+    "Contact stress": "Z_H Z_E Z_eps Z_beta Z_B Z_D sigma_H0 sigma_H",
+    "What the flanks bear": "sigma_Hlim Z_NT Z_L Z_v Z_R Z_W Z_X sigma_HG sigma_HP",
+    "Root stress": "Y_F Y_S Y_beta Y_B Y_DT sigma_F0 sigma_F",
+    "What the roots bear": "sigma_Flim Y_ST Y_NT Y_delta_relT Y_RrelT Y_X Y_M sigma_FG sigma_FP",
+}
+
+
+class Group(NamedTuple):
+    """Rows of factors that belong together."""
+
+    title: str
+    rows: list[Row]
+
+
+def safety_rows(rating: StrengthRating, document: Mapping[str, Any]) -> list[Row]:
+    """Of flanks and roots: safety beside the required one, cycles, torque, life, damage; then of scuffing."""
+    rows = []
+    for part in Part:
+        safety = symbols.STRENGTH[f"S_{part.index}"]
+        rows.append(_row(safety, document["safety"][part.value], rating.names))
+        rows.append(
+            Row(
+                f"required safety of the {part.value}",
+                f"{safety.symbol}min",
+                (_text(document["required"][part.value]),),
+                "",
+                "",
+            )
+        )
+        for key in ("permissible_torque", "life", "damage"):
+            rows.append(_row(_TOLD[key], document[key][part.value], rating.names))
+        rows.append(_row(symbols.STRENGTH["N_L"], document["load_cycles"][part.value], rating.names))
+    for symbol, key in (("S_int", "integral"), ("S_B", "flash")):
+        rows.append(_row(symbols.STRENGTH[symbol], document["safety"]["scuffing"][key], rating.names))
+    return rows
+
+
+def factor_groups(rating: StrengthRating, document: Mapping[str, Any]) -> list[Group]:
+    """All factors and stresses, each with its clause."""
+    values, verify = {**document["factors"], **document["stresses"]}, {each.rpartition(".")[2] for each in rating.verify}
+    return [
+        Group(
+            title,
+            [_row(symbols.STRENGTH[key], values[key], rating.names, key in verify) for key in keys.split() if key in values],
+        )
+        for title, keys in _GROUPS.items()
+    ]
+
+
+def option_rows(options: RatingOptions) -> list[Row]:
+    """What [rating] says that is not left as it would be without it, and the standards."""
+    written = symbols_of(RatingOptions)
+    always = ("standard", "accuracy", "accuracy_grade")
+    return [
+        Row(
+            written[each.name].words,
+            written[each.name].symbol,
+            (_listed(value),),
+            written[each.name].unit,
+            written[each.name].source,
+        )
+        for each in fields(options)
+        if (value := getattr(options, each.name)) != each.default or each.name in always
+        if each.name != "spectrum"
+    ]
+
+
+def material_rows(materials: PerGear[Material]) -> list[Row]:
+    """What is known of both materials."""
+    written = symbols_of(Material)
+    found = ((written[each.name], [getattr(of, each.name) for of in materials]) for each in fields(Material))
+    return [
+        Row(of.words, of.symbol, tuple(map(_listed, values)), of.unit, of.source)
+        for of, values in found
+        if any(value is not None for value in values)
+    ]
+
+
+def spectrum_rows(rating: StrengthRating) -> list[tuple[str, ...]]:
+    """Each load of a spectrum: its share of the life, torque, speed, K_v, K_Hbeta, stresses of both gears."""
+    if not rating.options.bins:
+        return []
+    return [
+        tuple(
+            map(
+                _text,
+                (
+                    100 * case.life_share,
+                    case.load.torque,
+                    case.load.speed,
+                    case.factors.dynamic,
+                    case.factors.face_flank,
+                    *case.stresses[Part.FLANK],
+                    *case.stresses[Part.ROOT],
+                ),
+            )
+        )
+        for case in rating.cases
+    ]
+
+
+def tolerance_rows(document: Mapping[str, Any], names: PerGear[str]) -> list[Row]:
+    """Deviations that the accuracy grade permits."""
+    both = names.map(lambda name: _flat(document["tolerances"][name] or {}))
+    keys = dict.fromkeys(key for values in both for key, value in values.items() if isinstance(value, int | float))
+    return [Row(key, key, tuple(_text(values.get(key)) for values in both), "µm", "") for key in keys]
+
+
+def _flat(values: Mapping[str, Any], before: str = "") -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in values.items():
+        found |= _flat(value, f"{before}{key} ") if isinstance(value, Mapping) else {f"{before}{key}": value}
+    return found
+
+
+def _row(symbol: Symbol, value: Any, names: PerGear[str], verify: bool = False) -> Row:
+    values = tuple(_text(value[name]) for name in names) if isinstance(value, Mapping) else (_text(value),)
+    source = f"{symbol.source} (verify)" if verify else symbol.source
+    return Row(symbol.words, symbol.symbol, values, symbol.unit, source)
+
+
+def _listed(value: Any) -> str:
+    return ", ".join(map(_text, value)) if isinstance(value, Sequence) and not isinstance(value, str) else _text(value)
+
+
+def _text(value: Any) -> str:
+    if value is None:
+        return _NONE
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int | float):
+        return INFINITE if math.isinf(value) else short(value) if value else "0"
+    return str(value)
