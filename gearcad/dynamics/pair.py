@@ -66,6 +66,7 @@ def study_pair(
     options = (options or DynamicsOptions()).graded(rating := rating or RatingOptions())
     assert options.accuracy_grade is not None  # it has one now
     rating = replace(rating, accuracy_grade=options.accuracy_grade)
+    options = replace(options, accuracy_grade=max(map(rating.grade_of, pair.gears)))  # a gear's own counts before it
     train = pair_train(pair, cycle, inertias, torque=cycle.torque, speed=load.speed, damping_ratio=options.damping_ratio)
     excitation = pair_excitation(train, cycle, _smooth_errors(pair, rating, options))
     teeth = _single_teeth(pair, cycle, rating, options) if options.drawn else None

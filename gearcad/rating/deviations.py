@@ -24,7 +24,7 @@ _FIFTH = 5
 
 def accuracy_grades(pair: GearPair, options: RatingOptions) -> PerGear[int]:
     """Each gear's own grade, else that of the options."""
-    return pair.gears.map(lambda gear: options.accuracy_grade if gear.accuracy_grade is None else gear.accuracy_grade)
+    return pair.gears.map(options.grade_of)
 
 
 def base_pitch_deviations(pair: GearPair, options: RatingOptions) -> PerGear[float]:

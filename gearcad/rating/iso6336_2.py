@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
-from gearcad.material import Material, elastic_constants
+from gearcad.material import Material, MaterialGroup, elastic_constants
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.edition_2019 import modification_factor, relieved
@@ -23,6 +23,7 @@ __all__ = [
     "contact_factor",
     "contact_ratio_factor",
     "elasticity_factor",
+    "elasticity_notices",
     "elasticity_of",
     "flank_notices",
     "flank_rating",
@@ -73,9 +74,28 @@ def elasticity_factor(youngs_moduli: tuple[float, float], poisson_ratios: tuple[
     return math.sqrt(reduced_modulus(youngs_moduli, poisson_ratios) / math.pi)
 
 
+_LEAST_OF_STEEL = 190000.0
+
+_USUAL_MODULI = {
+    MaterialGroup.GREY_IRON: "118000 to 126000",
+    MaterialGroup.NODULAR_IRON: "173000",
+    MaterialGroup.FERRITIC_NODULAR_IRON: "173000",
+}
+"""Young's modulus (MPa) from which on a metal is a steel; and those of irons, as DIN 3990-2, table 1, has them (recalled)."""
+
+
 def elasticity_of(materials: PerGear[Material]) -> float:
     """Z_E of two gears."""
     return elasticity_factor(*elastic_constants(materials))
+
+
+def elasticity_notices(materials: PerGear[Material]) -> Iterator[Notice]:
+    """Irons whose Young's modulus is that of steel, which nobody may have meant."""
+    for material in dict.fromkeys(materials):
+        usual = _USUAL_MODULI.get(material.group) if material.group is not None else None
+        if usual is not None and material.youngs_modulus >= _LEAST_OF_STEEL:
+            here = f"{material.name} of group {material.group} has Young's modulus {material.youngs_modulus:g} MPa, as steel"
+            yield Notice("modulus-of-steel", f"Z_E: {here}; that of this group is usually {usual} MPa")
 
 
 def contact_ratio_factor(transverse_contact_ratio: float, overlap_ratio: float) -> float:

@@ -7,6 +7,7 @@ from enum import StrEnum
 from typing import Annotated
 
 from gearcad.errors import require_whole
+from gearcad.geometry import Gear
 from gearcad.rating.duty_options import DutyOptions
 from gearcad.rating.editions import Edition
 from gearcad.rating.load_factor_options import LoadFactorOptions
@@ -53,3 +54,7 @@ class RatingOptions(LubricantOptions, LoadFactorOptions, DutyOptions, _Standards
         self._check_duty()
         self._check_load_factors()
         self._check_lubricant()
+
+    def grade_of(self, gear: Gear) -> int:
+        """A gear's own accuracy grade, else that of both."""
+        return self.accuracy_grade if gear.accuracy_grade is None else gear.accuracy_grade

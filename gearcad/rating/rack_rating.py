@@ -32,6 +32,7 @@ from gearcad.rating.iso6336_2 import (
     FlankRating,
     contact_factor,
     contact_ratio_factor,
+    elasticity_notices,
     elasticity_of,
     helix_angle_factor,
     profile_factor,
@@ -64,7 +65,7 @@ def rate_rack(pair: RackPair, material: Materials, load: Load, options: RatingOp
     require_ratable(pair, load)
     force = pair.rack_force(abs(load.torque))
     specific = force * load.application_factor / pair.common_width
-    mesh = RootMesh.of(pair, force, options.standard, options.accuracy_grade)
+    mesh = RootMesh.of(pair, force, options.standard, options.grade_of(pair.pinion))
     roots = PerGear(root_rating(pair.pinion, mesh, _loaded_width(pair, pair.pinion.face_width)), _rack_root(pair, mesh))
     normal = force / math.cos(math.radians(pair.pinion.transverse_pressure_angle))
     normal /= math.cos(math.radians(pair.pinion.base_helix_angle))
@@ -83,6 +84,7 @@ def rate_rack(pair: RackPair, material: Materials, load: Load, options: RatingOp
         verify=("q_prime", *(RECALLED if options.standard is Edition.ISO_2019 else ())),
         notices=(
             *_rack_notices(pair),
+            *elasticity_notices(materials),
             *edition_notices(options.standard, modified=relieved(pair.pinion.modification)),
             *scope_notices(pair),
             *fillet_notices(pair, _FELT),

@@ -18,7 +18,7 @@ from gearcad.rating.edition_2019 import RECALLED, edition_notices, relieved
 from gearcad.rating.editions import Edition
 from gearcad.rating.hertz import LineContact
 from gearcad.rating.iso6336_1 import MeshStiffness, mesh_stiffness, stiffness_notices
-from gearcad.rating.iso6336_2 import FlankRating, flank_notices, flank_rating
+from gearcad.rating.iso6336_2 import FlankRating, elasticity_notices, flank_notices, flank_rating
 from gearcad.rating.iso6336_3 import RootMesh, RootRating, loaded_width, root_notices, root_rating
 from gearcad.rating.mesh_contact import base_normal_force, pitch_point_contact
 from gearcad.rating.options import RatingOptions, RootShift
@@ -107,7 +107,7 @@ def rate(
     require_ratable(pair, load)
     force = 2000 * abs(load.torque) / pair.pinion.reference_diameter
     specific = force * load.application_factor / pair.common_width.width
-    mesh = RootMesh.of(pair, force, edition, options.accuracy_grade)
+    mesh = RootMesh.of(pair, force, edition, max(map(options.grade_of, pair.gears)))
     roots = PerGear.each(lambda role: root_rating(_as_cut(pair.gears.pick(role), options), mesh, loaded_width(pair, role)))
     return Rating(
         edition=edition,
@@ -127,6 +127,7 @@ def rate(
             *fillet_notices(pair),
             *stiffness_notices(pair, specific),
             *flank_notices(pair),
+            *elasticity_notices(materials),
             *(notice for role, gear in pair.gears.items() for notice in root_notices(gear, role, roots.pick(role), mesh)),
         ),
     )

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import gearcad
-from gearcad import Body, Gear, GearPair, Load, Material, ParameterError
+from gearcad import BasicRack, Body, Gear, GearPair, Load, Material, ParameterError
 from gearcad.check.task import check_task
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.decks.treatable import require_treatable
@@ -183,6 +183,25 @@ def test_python_takes_both() -> None:
     assert swapped.nominal.contact_stresses == found.contact_stresses
     with pytest.raises(ParameterError, match=r"wheel\.material = 3: must be a Material"):
         gearcad.rate(pair(), Load(torque=100), material=PerGear(Material(), 3))  # type: ignore[type-var]
+
+
+def test_iron_as_stiff_as_steel_is_told() -> None:
+    iron = replace(CAST_IRON, group=MaterialGroup.GREY_IRON)
+    for material, told in ((Material(name="GG MQ"), True), (iron, False), (Material(name="V MQ"), False)):
+        codes = [notice.code for notice in rate(pair(), PerGear(Material(), material), Load(torque=100)).notices]
+        assert ("modulus-of-steel" in codes) is told
+
+
+def test_own_grades_of_deep_teeth() -> None:
+    """Y_DT counts from grade 4 on, of the coarser gear."""
+    rack = BasicRack(addendum=1.4, dedendum=1.6, root_radius=0.2)
+    deep = pair().gears.map(lambda gear: replace(gear, teeth=3 * gear.teeth, profile_shift=0.0, rack=rack))
+    found = []
+    for grades in ((None, None), (4, 4), (4, 6)):
+        pinion, wheel = (replace(gear, accuracy_grade=grade) for gear, grade in zip(deep, grades, strict=True))
+        own = GearPair(pinion=pinion, wheel=wheel)
+        found.append(rate(own, Material(), Load(torque=100)).roots.pinion.deep_tooth_factor)
+    assert found[1] < 1 and (found[0], found[2]) == (1.0, 1.0)
 
 
 def test_one_material_twice_is_one_material() -> None:

@@ -202,6 +202,6 @@ def pair_errors(
 ) -> TransmissionError:
     """Random pitch deviations of the rating's accuracy grade on the pinion's teeth, drawn with `seed`."""
     gear = pair.pinion
-    tolerances = flank_tolerances(rating.accuracy_grade, gear.reference_diameter, gear.normal_module, rating.accuracy)
+    tolerances = flank_tolerances(rating.grade_of(gear), gear.reference_diameter, gear.normal_module, rating.accuracy)
     deviations = random_deviations(gear.teeth, tolerances, seed, distribution=distribution)
     return tooth_errors(deviations, contact_ratio=max(pair.transverse_contact_ratio, 1.001), harmonics=_HARMONICS)

@@ -127,7 +127,7 @@ def pair_teeth(
         if rating is None
         else pair.gears.map(
             lambda gear: flank_tolerances(
-                rating.accuracy_grade, abs(gear.reference_diameter), gear.normal_module, rating.accuracy
+                rating.grade_of(gear), abs(gear.reference_diameter), gear.normal_module, rating.accuracy
             )
         )
     )
