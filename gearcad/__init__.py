@@ -113,7 +113,10 @@ __all__ = [
     "read",
 ]
 
-_ROOMS = ("batch", "check", "contact", "designs", "dynamics", "jobs", "meshing", "planetary", "rating", "solids", "stiffness")
+_ROOMS = (
+    *("batch", "check", "contact", "designs", "dynamics", "jobs", "meshing", "planetary", "rating", "sizing", "solids"),
+    "stiffness",
+)
 
 if not TYPE_CHECKING:
     import sys

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import is_dataclass
 from enum import Enum
 from functools import reduce
@@ -17,7 +17,7 @@ from gearcad.material import Material
 from gearcad.per_gear import PerGear
 from gearcad.schema import schema_of
 
-__all__ = ["pair_text"]
+__all__ = ["pair_text", "toml_text"]
 
 _ALWAYS = ("helix_angle", "profile_shift", "tip_alteration")
 """Of gears: what a spec without them takes from the mate, or as "auto"."""
@@ -36,6 +36,11 @@ def pair_text(design: PairDesign, comments: Sequence[str] = ()) -> str:
             if getattr(design, table) is not None and table != "material"
         },
     }
+    return toml_text(tables, comments)
+
+
+def toml_text(tables: Mapping[str, Mapping[str, Any]], comments: Sequence[str] = ()) -> str:
+    """The TOML of tables with flattened keys, led by `comments`, a line each."""
     blocks = ["\n".join(f"# {line}".rstrip() for line in comments)] if comments else []
     for table, values in tables.items():
         blocks.append("\n".join([f"[{table}]", *(f"{key} = {_toml(value)}" for key, value in values.items())]))

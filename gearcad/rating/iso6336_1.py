@@ -15,6 +15,7 @@ from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.material import Material
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear
+from gearcad.rating.factors.elementwise import Values
 from gearcad.rating.rim import RIM_LIMIT, rim_thickness_ratio, ring_rim_ratio
 
 __all__ = [
@@ -109,8 +110,10 @@ class MeshStiffness:
         }
 
 
-def tooth_flexibility(virtual_teeth: tuple[float, float], profile_shifts: tuple[float, float]) -> float:
+def tooth_flexibility(virtual_teeth: tuple[Values, Values], profile_shifts: tuple[Values, Values]) -> Values:
     """q' (82): least flexibility of a pair of teeth, by the series of table 9. Gear 1, with fewer teeth, comes first.
+
+    Numbers, or arrays of many pairs.
 
     `math.inf` virtual teeth are those of a rack, or of a ring.
     """

@@ -22,7 +22,7 @@ from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength.conditions import Conditions
 from gearcad.rating.strength.resistance import Resistance
 
-__all__ = ["WorkHardening", "flank_resistance", "work_hardening"]
+__all__ = ["HARD", "WorkHardening", "brinell", "flank_resistance", "is_soft", "work_hardening"]
 
 _BRINELL_OF_VICKERS = 0.95
 """HB over HV of steel (ISO 18265): part 5 has the hardness of through-hardened steel in HV, Z_W asks for HB."""
@@ -32,7 +32,8 @@ _SLOWEST = 1e-6
 
 _WROUGHT_OR_CAST = (Family.STRUCTURAL, Family.THROUGH_HARDENED)
 _IRON = (MaterialGroup.NODULAR_IRON, MaterialGroup.MALLEABLE_IRON)
-_HARD = (Family.CASE_HARDENED, Family.SURFACE_HARDENED, Family.NITRIDED, Family.NITROCARBURISED)
+HARD = (Family.CASE_HARDENED, Family.SURFACE_HARDENED, Family.NITRIDED, Family.NITROCARBURISED)
+"""Flanks that smooth and harden those of a soft mate."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,24 +48,25 @@ class WorkHardening:
 def work_hardening(materials: PerGear[Material], conditions: Conditions) -> WorkHardening:
     """Clause 13: of a soft steel wheel whose pinion is hard (13.2) or harder (13.3). Of a pinion it is 1."""
     pinion, wheel = materials
-    if pinion.group is None or wheel.group is None or not _soft(wheel.group):
+    if pinion.group is None or wheel.group is None or not is_soft(wheel.group):
         return WorkHardening()
-    hard, soft = _brinell(pinion), _brinell(wheel)
+    hard, soft = brinell(pinion), brinell(wheel)
     if soft is None:
         return WorkHardening(assumed="the hardness of the wheel is not given: Z_W = 1")
-    if Family.of(pinion.group) in _HARD:
+    if Family.of(pinion.group) in HARD:
         return _by_hard_pinion(soft, conditions)
-    if hard is None or not _soft(pinion.group):
+    if hard is None or not is_soft(pinion.group):
         return WorkHardening()
     return WorkHardening(endurance=through_hardened_factor(hard, soft, conditions.gear_ratio))
 
 
-def _soft(group: MaterialGroup) -> bool:
+def is_soft(group: MaterialGroup) -> bool:
     """Structural or through-hardened steel."""
     return Family.of(group) in _WROUGHT_OR_CAST and group not in _IRON
 
 
-def _brinell(material: Material) -> float | None:
+def brinell(material: Material) -> float | None:
+    """Hardness of flanks in HB, by that of their group; None where it is not known."""
     if material.hardness is None or material.group is None:
         return None
     structural = Family.of(material.group) is Family.STRUCTURAL

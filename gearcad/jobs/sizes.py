@@ -1,0 +1,39 @@
+"""The files of a search for sizes: a design table, the spec of the best, a picture and the document."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from gearcad.designs.found_pairs import write_pair, write_pairs
+from gearcad.output import json_text, staged_files
+from gearcad.plots.sizing import save_front
+from gearcad.sizing import SizedPair, Sizing
+
+__all__ = ["write_sizing"]
+
+_TABLE, _BEST, _PICTURE, _DOCUMENT = _EVERY = ["pairs.csv", "best.toml", "front.png", "size.json"]
+
+
+def write_sizing(result: Sizing, folder: Path) -> list[Path]:
+    """Write them, complete or not at all; where nothing was found the document alone. Raises OutputError."""
+    names = _EVERY if result.found else [_DOCUMENT]
+    with staged_files(folder) as staging:
+        if (best := result.best) is not None:
+            write_pairs(result, staging / _TABLE)
+            write_pair(best, list(_comments(best)), staging / _BEST)
+            save_front(result, staging / _PICTURE)
+        (staging / _DOCUMENT).write_text(json_text(result.to_dict()), encoding="utf-8")
+    for former in set(_EVERY).difference(names):
+        (folder / former).unlink(missing_ok=True)  # of another search
+    return [folder / name for name in names]
+
+
+def _comments(best: SizedPair) -> Iterator[str]:
+    """What the best is for, and what it has."""
+    load, rating = best.task.load, best.task.rating
+    life = "the endurance limit" if rating.life is None else f"{rating.life:g} h"
+    yield f"{load.torque:g} N·m at {load.speed:g} rpm, u = {best.task.ratio:g}, {life}: best by {best.task.criterion.value}"
+    roots = " and ".join(f"{each:.3f}" for each in best.root_safeties)
+    yield f"{best.mass:.3g} kg, S_H {min(best.flank_safeties):.3f}, S_F {roots}; face width at least {best.least_width:.4g} mm"
+    yield "no backlash yet: tooth_thinning or tooth_allowance gives it"

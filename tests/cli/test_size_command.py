@@ -1,0 +1,67 @@
+"""`gearcad size`: its table, its files, what it says where nothing is found."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from gearcad.cli import main
+from gearcad.designs import PairDesign, read_spec
+from gearcad.designs.table import open_table
+from gearcad.rating.strength import rate_strength
+
+RANGES = (
+    "--teeth 17:20 --module 2,2.5 --helix-angle 0,15 --width-ratio 0.8,1 --shift 0.2:0.6:0.2 --shift-sum 0.5 "
+    "--errors 0 --count 3"
+)
+
+
+def run(*words: object, **options: str) -> Result:
+    given = {"--torque": "100", "--speed": "1500", "--ratio": "2", "--material": "Eh MQ", "--life": "1e4"}
+    given |= {f"--{name.replace('_', '-')}": value for name, value in options.items()}
+    return CliRunner().invoke(
+        main, ["size", *RANGES.split(), *(each for item in given.items() for each in item), *map(str, words)]
+    )
+
+
+def test_files_and_table(tmp_path: Path) -> None:
+    found = run("-o", tmp_path, "--quiet", wheel_material="V MQ", wheel_hardness="320", safety_flank="0.5")
+    assert found.exit_code == 0, found.output
+    heading, first, *_ = found.stdout.splitlines()
+    assert heading.split()[:3] == ["pair", "a", "mm"]
+    document = json.loads((tmp_path / "size.json").read_text(encoding="utf-8"))
+    best = document["found"][0]
+    assert first.split()[0] == best["name"]
+    assert document["considered"] == 4 * 2 * 2 * 3 * 2
+    design = read_spec(tmp_path / "best.toml")
+    assert isinstance(design, PairDesign) and design.load is not None
+    one = rate_strength(design.pair, design.materials, design.load, design.rating)
+    assert one.passed
+    assert [each.safety for each in one.root] == pytest.approx(list(best["root_safeties"].values()), rel=1e-9)
+    rows = list(open_table(tmp_path / "pairs.csv").rows())
+    made = [row.design() for row in rows]
+    assert [each.name for each in made] == [each["name"] for each in document["found"]]
+    assert isinstance(made[0], PairDesign) and made[0].pair.to_dict() == design.pair.to_dict()
+    assert (tmp_path / "front.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_nothing_found_says_why_and_what_would_help(tmp_path: Path) -> None:
+    found = run("-o", tmp_path, "--quiet", torque="10000")
+    assert found.exit_code == 1
+    assert not found.stdout.startswith("pair")
+    lines = found.stderr.splitlines()
+    assert lines[0].startswith("No pair of")
+    assert "by flank safety" in lines[0]
+    assert lines[1].startswith("the safest is")
+    assert lines[-1] == "what would help: a larger --module, --width-ratio or --centre-distance, or a harder material"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["size.json"]
+
+
+def test_an_impossible_centre_distance(tmp_path: Path) -> None:
+    found = run("-o", tmp_path, "--quiet", centre_distance="500")
+    assert found.exit_code == 1
+    assert "by centre distance" in found.stderr
+    assert "another --centre-distance" in found.stderr

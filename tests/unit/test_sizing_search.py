@@ -1,0 +1,187 @@
+"""The search for sizes: complete, in no order but its own, and the same each time; fronts, ripple, rounding."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gearcad import GearPair, Load, Material, PerGear
+from gearcad.errors import InputError
+from gearcad.geometry import Gear
+from gearcad.geometry.shift import profile_shift_sum, zero_backlash_centre_distance
+from gearcad.rating import RatingOptions
+from gearcad.rating.strength import rate_strength
+from gearcad.sizing import Criterion, SizeTask
+from gearcad.sizing.grid import Grid, rounded_distance, rounded_width
+from gearcad.sizing.ranking import front, ranked
+from gearcad.sizing.rated import Rated, line_ripple
+from gearcad.sizing.rating import rate_many
+from gearcad.sizing.refine import least_width, refined
+from gearcad.sizing.search import survey
+
+EH = Material(name="Eh MQ")
+SMALL = SizeTask(
+    load=Load(torque=100.0, speed=1500.0, application_factor=1.25),
+    ratio=2.0,
+    materials=PerGear(EH, EH),
+    rating=RatingOptions(life=10_000.0),
+    ratio_tolerance=0.0,
+    teeth=(18, 18),
+    modules=(2.0, 2.5),
+    helix_angles=(15.0,),
+    width_ratios=(0.8, 1.0),
+    shifts=(0.2, 0.4),
+    shift_sums=(0.5,),
+)
+MORE = replace(
+    SMALL, teeth=(13, 20), helix_angles=(0.0, 15.0), shifts=(0.1, 0.3, 0.5), shift_sums=(0.25, 0.75), ratio_tolerance=3.0
+)
+WIDE = replace(MORE, teeth=(16, 24), modules=(1.5, 2.0, 2.5), shifts=(0.0, 0.2, 0.4), shift_sums=(0.0, 0.5))
+
+
+def by_loops(task: SizeTask) -> list[tuple[float, tuple[float, ...]]]:
+    """Every variant made as a GearPair and rated one by one, with none of the arrays: mass, and what it is."""
+    found = []
+    for (z_1, z_2), m, beta, total, x_1, ratio in itertools.product(
+        task.teeth_pairs, task.modules, task.helix_angles, task.shift_sums, task.shifts, task.width_ratios
+    ):
+        sizes = {"normal_module": m, "teeth": PerGear(z_1, z_2), "helix_angle": beta, "pressure_angle": 20.0}
+        distance = round(zero_backlash_centre_distance(**sizes, shift_sum=total) * 2) / 2
+        x_2 = profile_shift_sum(**sizes, centre_distance=distance) - x_1
+        d_1 = m * z_1 / np.cos(np.radians(beta))
+        width = round(ratio * d_1)
+
+        def gear(z: int, x: float, hand: int, k: float, m: float = m, b: float = width, beta: float = beta) -> Gear:
+            return Gear(teeth=z, normal_module=m, face_width=b, helix_angle=hand * beta, profile_shift=x, tip_alteration=k)
+
+        try:
+            k = 0.0
+            for _ in range(2):
+                pair = GearPair(pinion=gear(z_1, x_1, 1, k), wheel=gear(z_2, x_2, -1, k), centre_distance=distance)
+                k = pair.tip_alteration
+        except InputError:
+            continue
+        if any(each.undercut or each.tip_thickness < 0.4 * m for each in pair.gears) or width > 30 * m:
+            continue
+        if pair.transverse_contact_ratio < 1.2 or pair.usable_contact_ratio < pair.transverse_contact_ratio - 1e-9:
+            continue
+        one = rate_strength(pair, task.materials, task.load, task.rating)
+        if one.passed:
+            areas = sum(np.pi / 8 * (each.tip_diameter**2 + each.root_diameter**2) for each in pair.gears)
+            found.append((float(areas * width * 7850e-9), (z_1, z_2, m, beta, x_1, width)))
+    return sorted(found)
+
+
+def described(rated: Rated, place: int) -> tuple[float, ...]:
+    pairs = rated.pairs
+    columns = (*pairs.teeth, pairs.normal_module, pairs.helix_angle, pairs.shifts.pinion, rated.width)
+    return tuple(float(each[place]) for each in columns)
+
+
+@pytest.mark.parametrize("task", [SMALL, pytest.param(MORE, marks=pytest.mark.long)], ids=["small", "more"])
+def test_the_optimum_is_that_of_plain_loops(task: SizeTask) -> None:
+    expected = by_loops(task)
+    seen = survey(task)
+    assert seen.best is not None
+    assert seen.considered == task.variants
+    assert 0 < sum(seen.removed.values()) == task.variants - len(expected)
+    mass, variant = expected[0]
+    first = int(ranked(seen.best, Criterion.MASS)[0])
+    assert described(seen.best, first) == pytest.approx(variant)
+    assert seen.best.mass[first] == pytest.approx(mass, rel=1e-12)
+
+
+def test_the_order_of_ranges_has_no_say() -> None:
+    one = survey(WIDE)
+    turned = {
+        name: tuple(reversed(getattr(WIDE, name))) * 2
+        for name in ("modules", "helix_angles", "width_ratios", "shifts", "shift_sums")
+    }
+    other = survey(replace(WIDE, **turned))
+    again = survey(WIDE)
+    assert one.best is not None
+    for each in (other, again):
+        assert each.best is not None and each.removed == one.removed
+        for name in ("order", "mass", "margin", "width"):
+            assert np.array_equal(getattr(each.best, name), getattr(one.best, name))
+
+
+def test_chunks_have_no_say(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = survey(WIDE)
+    monkeypatch.setattr("gearcad.sizing.grid.CHUNK", 37)
+    monkeypatch.setattr("gearcad.sizing.search._KEPT", 10)
+    parts = survey(WIDE)
+    assert whole.best is not None and whole.front is not None and parts.best is not None and parts.front is not None
+    assert np.array_equal(whole.best.order, parts.best.order)
+    assert np.array_equal(np.sort(whole.front.order), np.sort(parts.front.order))
+    assert whole.removed == parts.removed
+
+
+@pytest.mark.parametrize("criterion", Criterion)
+def test_refinement_stays_in_the_ranges_and_is_no_worse(criterion: Criterion) -> None:
+    task = replace(WIDE, criterion=criterion)
+    best = survey(task).best
+    assert best is not None
+    variant = best.picked(ranked(best, criterion)[:1])
+    found = refined(task, variant)
+    assert found.safe(task)[0]
+    assert task.shifts[0] <= found.pairs.shifts.pinion[0] <= task.shifts[-1]
+    assert found.width[0] >= rounded_width(task.width_ratios[0] * found.pairs.diameters.pinion)[0]
+    if criterion is Criterion.MASS:
+        assert found.width[0] <= variant.width[0]
+    else:
+        assert ranked(Rated.joined([variant, found]), criterion)[0] == 1 or np.array_equal(found.width, variant.width)
+
+
+def test_least_width_has_just_the_safety_that_is_required() -> None:
+    best = survey(WIDE).best
+    assert best is not None
+    variant = best.picked(ranked(best, Criterion.MASS)[:1])
+    width = least_width(WIDE, variant)
+    assert width <= variant.width[0]
+    there = np.ones((1, 1), bool)
+    found = rate_many(WIDE, variant.pairs, np.array([[width]]), there, np.zeros((1, 1), int))
+    assert found.margin[0] == pytest.approx(1, abs=1e-6)
+
+
+def test_what_has_no_tolerances_is_left_out() -> None:
+    """ISO 1328-1 begins at face widths of 4 mm."""
+    tiny = replace(WIDE, load=Load(torque=0.02, speed=1500.0), modules=(0.5,), width_ratios=(0.3, 0.7))
+    seen = survey(tiny)
+    assert seen.removed["range of the rating"] > 0
+    assert seen.best is not None
+    assert seen.best.width.min() >= 4
+
+
+def test_front_of_mass_and_safety() -> None:
+    best = survey(WIDE).best
+    assert best is not None
+    mass, margin, there = best.mass, best.margin, front(best)
+    for place in range(len(mass)):
+        beaten = np.any((mass <= mass[place]) & (margin >= margin[place]) & ((mass < mass[place]) | (margin > margin[place])))
+        assert there[place] != beaten
+
+
+def test_ripple_of_the_lines_of_contact() -> None:
+    pair = GearPair(
+        pinion=Gear(teeth=20, normal_module=2.0, face_width=22.0, helix_angle=17.0),
+        wheel=Gear(teeth=31, normal_module=2.0, face_width=22.0, helix_angle=-17.0),
+    )
+    lengths = pair.contact_line_lengths
+    expected = (lengths.maximum - lengths.minimum) / lengths.mean
+    found = line_ripple(np.array([pair.transverse_contact_ratio, 1.6]), np.array([pair.overlap_ratio, 0.0]))
+    assert found == pytest.approx([expected, 1 / 1.6], rel=1e-9)
+
+
+def test_figures() -> None:
+    distances = rounded_distance(np.array([9.4567, 91.4567, 153.456, 1534.6]), np.array([0.3, 1.0, 2.0, 12.0]))
+    assert distances == pytest.approx([9.45, 91.4, 153.5, 1534.0], rel=1e-15)
+    assert rounded_width(np.array([3.14, 9.99, 10.4, 100.6])) == pytest.approx([3.1, 10.0, 10.0, 101.0])
+
+
+def test_keys_name_every_variant_once() -> None:
+    keys = np.concatenate([pairs.key for pairs in Grid(WIDE).chunks()])
+    assert np.array_equal(keys, np.arange(len(Grid(WIDE))))
