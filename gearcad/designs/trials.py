@@ -12,6 +12,7 @@ from gearcad.designs.train_keys import ALL, TrainKey
 from gearcad.designs.train_values import missing_fault, missing_keys
 from gearcad.errors import GeometryError, SpecError
 from gearcad.geometry.diametral import MODULE_OR_PITCH
+from gearcad.per_gear import Role
 
 __all__ = ["fault_alone", "missing_faults", "permitted_alone"]
 
@@ -110,8 +111,10 @@ def _home(key: str) -> DesignKind:
     owner = key.partition(".")[0]
     if owner == "rack":
         return DesignKind.RACK
-    if key == "pair.mounting_distance":
+    if key in ("pair.mounting_distance", "material.rack"):
         return DesignKind.RACK_PAIR
+    if key in (f"material.{role.value}" for role in Role):
+        return DesignKind.PAIR
     return DesignKind.PAIR if owner in MAIN_TABLES[DesignKind.PAIR] else DesignKind.GEAR
 
 

@@ -15,7 +15,9 @@ from gearcad.check.task import check_task
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.decks.treatable import require_treatable
 from gearcad.designs import PairDesign, PlanetaryDesign, design_from_tables, open_table, read_spec
+from gearcad.designs.columns import column_of_train, column_symbol
 from gearcad.designs.pair_text import pair_text
+from gearcad.designs.trials import fault_alone, permitted_alone
 from gearcad.designs.variants import read_variants
 from gearcad.errors import SpecError
 from gearcad.material import MaterialGroup, MaterialQuality
@@ -145,6 +147,19 @@ def test_columns_of_a_table(tmp_path: Path) -> None:
     )
     assert first.rating == expected
     assert second.material is None and second.rating == RatingOptions(load_cycles=1e7, dynamic_factor=1.1)
+
+
+def test_columns_of_results_are_known() -> None:
+    for heading in ("materials.wheel.hardness", "wheel.material.hardness", "material.hardness"):
+        found = column_symbol(heading)
+        assert found is not None and found[1].words.startswith("hardness of the flanks")
+    assert (column_of_train("materials.sun.youngs_modulus") or ("",))[0] == "sun"
+
+
+def test_names_are_tried_alone_as_those_of_a_pair() -> None:
+    assert permitted_alone("material.wheel", "V MQ") and permitted_alone("material.rack", "V MQ")
+    fault = fault_alone("material.wheel", "V MX", where=str)
+    assert fault is not None and 'such as "Eh MQ"' in str(fault)
 
 
 def test_values_of_a_study(tmp_path: Path) -> None:
