@@ -11,6 +11,7 @@ import click
 from gearcad.cli.group import debug_option
 from gearcad.cli.job import echo_warnings, json_option, output_option, perform, quiet_option
 from gearcad.cli.planetary_search import require_no_search, search_options, search_sets
+from gearcad.cli.train_strength import train_strength_lines
 from gearcad.notice import joined
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ def planetary(
 ) -> None:
     """What comes of the planetary train of SPEC under its [load]: speeds and torques of its members, with losses; forces on
     teeth and pins; phases of the meshes; how planets share the load with the errors that are given; torsional stiffness of
-    the output; natural frequencies and modes.
+    the output; natural frequencies and modes; safeties of all gears, where [material] and [rating] let them be judged.
 
     Writes planetary.html with the scheme and pictures of all, planetary.json, data.json, and a spec for each mesh, such as
     sun-planet.toml, which every command of pairs takes: `gearcad check`, `gearcad stiffness` and the others. What cannot be
@@ -83,6 +84,8 @@ def _lines(study: PlanetaryStudy) -> Iterator[str]:
     yield from _force_lines(study)
     yield from _stiffness_lines(study)
     yield from _frequency_lines(study)
+    if study.rating is not None:
+        yield from train_strength_lines(study.rating.strength)
 
 
 def _member_lines(study: PlanetaryStudy) -> Iterator[str]:

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gearcad.cli.job import echo_warnings
+from gearcad.cli.train_strength import train_strength_lines
 
 if TYPE_CHECKING:
-    from gearcad.dynamics.planetary.mesh_strength import TrainStrength
+    from gearcad.dynamics.planetary.strength import TrainStrength
     from gearcad.rating.strength import StrengthRating
 
 __all__ = ["print_strength", "strength_lines"]
@@ -33,12 +34,17 @@ _GROUPS = {
 
 def print_strength(name: str, result: StrengthRating | TrainStrength) -> None:
     """All of a rating, or of those of the meshes of a train, its notices, and the verdict."""
-    meshes = getattr(result, "meshes", {"": result})
-    for mesh, rating in meshes.items():
-        heading = [f"{mesh}: {_load(rating)}"] if mesh else []
-        click.echo("\n".join([*heading, *strength_lines(rating)]))
+    from gearcad.rating.strength import StrengthRating
+
+    at = name
+    if isinstance(result, StrengthRating):
+        click.echo("\n".join(strength_lines(result)))
+        at = f"{name} at {_load(result)}"
+    else:
+        for mesh, rating in result.meshes.items():
+            click.echo("\n".join([f"{mesh}: {_load(rating)}", *strength_lines(rating)]))
+        click.echo("\n".join(train_strength_lines(result, verdict=False)))
     echo_warnings(result.notices)
-    at = f"{name} at {_load(meshes[''])}" if "" in meshes else name
     colour = {True: "green", False: "red", None: "yellow"}[result.passed]
     click.secho(f"{at}: {result.verdict}", fg=None if os.environ.get("NO_COLOR") else colour, bold=True)
 

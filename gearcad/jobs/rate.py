@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any, Unpack
 
 from gearcad.designs import Design, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
-from gearcad.designs.mesh_pairs import MeshPairs
-from gearcad.dynamics.planetary.masses import train_masses
-from gearcad.dynamics.planetary.mesh_strength import TrainStrength, train_strength
+from gearcad.dynamics.planetary.strength import TrainStrength
+from gearcad.dynamics.planetary.study import study_planetary
+from gearcad.errors import SolverError
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.rate_columns import rate_columns
 from gearcad.jobs.subject import Subject, as_design
@@ -90,11 +90,14 @@ def _of_bodies(design: PairDesign, load: Load) -> float | None:
 
 
 def _of_train(design: PlanetaryDesign) -> TrainStrength:
-    """With the loads of one planet and the masses of the train's members."""
-    design.loaded(_NO_LOAD)
-    pairs = MeshPairs(design=design)
-    masses = train_masses(design.train, design.material)
-    return train_strength(design.train, pairs.loads, pairs.stage_loads, masses, design.material, design.rating)
+    """That of its study, in which planets share the load. Raises SolverError where it has none."""
+    load = design.loaded(_NO_LOAD)
+    found = study_planetary(
+        design.train, load, design.speeds, material=design.material, dynamics=design.dynamics, rating=design.rating
+    )
+    if found.rating is None:
+        raise SolverError(f"{design.name} is not rated: {found.why_not['rating']}")
+    return found.rating.strength
 
 
 def _write_report(result: StrengthRating, name: str, path: Path) -> None:

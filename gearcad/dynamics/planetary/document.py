@@ -9,6 +9,7 @@ from gearcad.dynamics.planetary.result import PlanetaryStudy
 from gearcad.planetary import PlanetaryTrain
 from gearcad.planetary.harmonics import train_harmonics
 from gearcad.planetary.poses import TrainPose
+from gearcad.verdict import Verdict
 
 __all__ = ["study_document"]
 
@@ -46,11 +47,21 @@ def study_document(study: PlanetaryStudy) -> dict[str, Any]:
         "campbell": _document(study.campbell),
         "response": _document(study.response),
         "rating": _document(study.rating),
+        **_strength(study),
         "gears": {name: gear.to_dict() for name, gear in train.gears.items()},
         "why_not": _why_not(study),
         "warnings": list(study.warnings),
         "notices": [notice.to_dict() for notice in study.notices],
     }
+
+
+def _strength(study: PlanetaryStudy) -> dict[str, Any]:
+    """Safeties of the gears and the verdict; of a train that has no rating that it was not judged."""
+    if study.rating is not None:
+        return study.rating.strength.summary()
+    why = study.why_not["rating"]
+    unknown = dict.fromkeys(("safety", "required", "life"))
+    return {**unknown, "strength": Verdict.NOT_JUDGED.value, "passed": None, "not_judged": {"train": why}}
 
 
 def _why_not(study: PlanetaryStudy) -> dict[str, str]:

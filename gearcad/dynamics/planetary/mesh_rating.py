@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gearcad.dynamics.planetary.masses import TrainMasses
+from gearcad.dynamics.planetary.strength import MeshFactors, TrainStrength, train_strength
 from gearcad.errors import InputError
 from gearcad.geometry import GearPair
 from gearcad.load import Load
@@ -21,7 +22,7 @@ from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import Rating, rate
 
-__all__ = ["ALTERNATING", "MeshRating", "TrainRating", "mesh_dynamic_factor", "rate_train"]
+__all__ = ["ALTERNATING", "MeshRating", "TrainRating", "rate_train"]
 
 ALTERNATING = 0.7
 """Y_M of teeth that bend both ways in every turn, over that of teeth that bend one way: idlers and planets (recalled)."""
@@ -74,6 +75,7 @@ class TrainRating:
     meshes: Mapping[str, MeshRating]
     stages: Mapping[str, Rating]
     unrated: Mapping[str, str]
+    strength: TrainStrength
 
     @property
     def notices(self) -> tuple[Notice, ...]:
@@ -91,10 +93,13 @@ class TrainRating:
         return tuple(notice.within("rating") for notice in found)
 
     def to_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """For JSON: nominal ratings by the names of meshes and stages, and the full one of each as its "rate"."""
         meshes = {name: each.to_dict() for name, each in self.meshes.items()}
         stages = {name: each.to_dict() for name, each in self.stages.items()}
-        return meshes | stages | {name: {"unrated": why} for name, why in self.unrated.items()}
+        found = meshes | stages | {name: {"unrated": why} for name, why in self.unrated.items()}
+        for name, each in self.strength.meshes.items():
+            found[name]["rate"] = {key: value for key, value in each.to_dict().items() if key != "nominal"}
+        return found
 
 
 def rate_train(
@@ -104,8 +109,13 @@ def rate_train(
     masses: TrainMasses,
     material: TrainMaterial | None = None,
     options: RatingOptions | None = None,
+    *,
+    torques: bool = True,
 ) -> TrainRating:
-    """Rate the meshes of a train under `loads`, and its stages, as `gearcad.rate` rates a pair."""
+    """Rate the meshes of a train under `loads`, and its stages, as `gearcad.rate` rates a pair.
+
+    Without `torques` permissible ones, which take most of the time, are left out.
+    """
     options = options or RatingOptions()
     meshes, rated, unrated = dict[str, MeshRating](), dict[str, Rating](), dict[str, str]()
     for name, load in loads.items():
@@ -118,7 +128,11 @@ def rate_train(
             rated[stage.name] = rate(stage.pair, stage_material(material, stage), stages[stage.name], options)
         except InputError as error:
             unrated[stage.name] = str(error)
-    return TrainRating(meshes=meshes, stages=rated, unrated=unrated)
+    factors = {
+        name: MeshFactors(each.dynamic_factor, each.no_dynamic_factor, each.mean_stress_factor) for name, each in meshes.items()
+    }
+    strength = train_strength(train, loads, stages, factors, material, options, unrated, torques=torques)
+    return TrainRating(meshes=meshes, stages=rated, unrated=unrated, strength=strength)
 
 
 def _mesh_rating(
@@ -127,7 +141,7 @@ def _mesh_rating(
     mesh = load.mesh
     made_of = mesh_material(material, mesh)
     rating = rate(mesh.pair, made_of, load.load, options)
-    factor, why = mesh_dynamic_factor(train, load, masses, made_of, options)
+    factor, why = _dynamic_factor(mesh.pair, made_of, load.load, _inertias(train, load, masses), options)
     bends = PerGear.each(lambda role: ALTERNATING if role is mesh.rim_role and not train.stepped else 1.0)
     return MeshRating(load=load, rating=rating, dynamic_factor=factor, no_dynamic_factor=why, mean_stress_factor=bends)
 
@@ -142,13 +156,6 @@ def _inertias(train: PlanetaryTrain, load: MeshLoad, masses: TrainMasses) -> Per
         return planet.why if planet.inertia is None else central.why
     counted = {load.mesh.central_role: own / train.planets, load.mesh.rim_role: planet.inertia}
     return PerGear.each(lambda role: counted[role])
-
-
-def mesh_dynamic_factor(
-    train: PlanetaryTrain, load: MeshLoad, masses: TrainMasses, material: Materials, options: RatingOptions
-) -> tuple[float | None, str]:
-    """K_v of Method B at the speed of a mesh against the carrier, with the inertias that count there; or None and why."""
-    return _dynamic_factor(load.mesh.pair, material, load.load, _inertias(train, load, masses), options)
 
 
 def _dynamic_factor(

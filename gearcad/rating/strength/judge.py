@@ -13,8 +13,11 @@ from gearcad.rating.strength.spectrum import damage_sum, life_at_failure, safety
 __all__ = ["judged"]
 
 
-def judged(part: Part, role: Role, duty: Duty, resistance: Resistance, required: float) -> PartStrength:
-    """What a part bears of its duty: of a spectrum the safety is that at which the damage is 1 (ISO 6336-6)."""
+def judged(part: Part, role: Role, duty: Duty, resistance: Resistance, required: float, *, torque: bool = True) -> PartStrength:
+    """What a part bears of its duty: of a spectrum the safety is that at which the damage is 1 (ISO 6336-6).
+
+    Without `torque` the permissible one is left out.
+    """
     cycles, rate = duty.cycles.pick(role), duty.cycles_per_hour.pick(role)
     shares, stresses = duty.stresses(part, role)
     spectrum = bool(duty.options.bins)
@@ -36,7 +39,7 @@ def judged(part: Part, role: Role, duty: Duty, resistance: Resistance, required:
         safety=safety(1.0),
         damage=None if cycles is None else cycles * per_cycle,
         life=life_at_failure(1.0, rate * per_cycle) if rate else None,
-        permissible_torque=_torque(abs(duty.load.torque) * torque_at_safety(safety, required, 1.0)),
+        permissible_torque=_torque(abs(duty.load.torque) * torque_at_safety(safety, required, 1.0)) if torque else None,
     )
 
 

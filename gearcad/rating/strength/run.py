@@ -42,13 +42,16 @@ def rate_strength(
     options: RatingOptions | None = None,
     *,
     face_load_factor: float | None = None,
+    driver: Role = Role.PINION,
+    torques: bool = True,
 ) -> StrengthRating:
     """Rate a pair, of one material or each gear of its own: safeties of flanks and roots, life, permissible torque, scuffing.
 
-    `face_load_factor` stands in place of that of the options: K_Hbeta of a load distribution, for "fe". What the standard does
-    not cover, or what is not known, is not judged, each for its reason. Raises ParameterError without a torque, for a spectrum
-    beside an application factor, and for a hardness that its material has no limit of; GeometryError for a pair whose contact
-    the standard does not describe.
+    `face_load_factor` stands in place of that of the options: K_Hbeta of a load distribution, for "fe". `driver` is the gear
+    that drives, for scuffing; without `torques` the permissible ones, which take most of the time, are left out. What the
+    standard does not cover, or what is not known, is not judged, each for its reason. Raises ParameterError without a torque,
+    for a spectrum beside an application factor, and for a hardness that its material has no limit of; GeometryError for a pair
+    whose contact the standard does not describe.
     """
     options = options or RatingOptions()
     if options.bins and load.application_factor != 1:
@@ -56,7 +59,7 @@ def rate_strength(
         raise ParameterError("load.application_factor", load.application_factor, permitted)
     if face_load_factor is not None:
         options = replace(options, face_load_factor=face_load_factor)
-    return _Task(pair=pair, materials=of_both(materials), load=load, options=options).rating
+    return _Task(pair=pair, materials=of_both(materials), load=load, options=options, driver=driver, torques=torques).rating
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,6 +70,8 @@ class _Task:
     materials: PerGear[Material]
     load: Load
     options: RatingOptions
+    driver: Role
+    torques: bool
 
     # ------------------------------------------------------------------ what is held against each other
 
@@ -149,7 +154,7 @@ class _Task:
         required = options.required_safety_flank if part is Part.FLANK else options.required_safety_root
         resistance = self.resistance(part, role)
         if resistance is not None and not reason:
-            found = judged(part, role, self.duty, resistance, required)
+            found = judged(part, role, self.duty, resistance, required, torque=self.torques)
             torque = found.permissible_torque
             return replace(found, permissible_torque=2 * torque) if self.halved and torque is not None else found
         known = not isinstance(self.load_factors, InputError) and not self.load_factors.unknown
@@ -184,10 +189,13 @@ class _Task:
 
     @cached_property
     def scuffing(self) -> Scuffing | None:
-        """Against scuffing, of gears whose load factors are known."""
-        if isinstance(self.rated, RackPair) or isinstance(self.load_factors, InputError):
+        """Against scuffing, of gears whose load factors are known: under the hottest of the loads."""
+        pair = self.rated
+        if isinstance(pair, RackPair) or isinstance(self.load_factors, InputError):
             return None
-        return scuffing(self.rated, self.materials, self.rated_load, self.load_factors, self.options)
+        cases = self.duty.cases()
+        found = [scuffing(pair, self.materials, case.load, case.factors, self.options, self.driver) for case in cases]
+        return max(found, key=lambda each: 0.0 if each.integral is None else float(each.integral.value))
 
     @cached_property
     def tolerances(self) -> PerGear[GearTolerances[float] | None]:

@@ -11,6 +11,7 @@ from gearcad.report.page import page_html
 from gearcad.report.planetary.bending import sections_of_bending
 from gearcad.report.planetary.rating import section_of_rating
 from gearcad.report.planetary.sections import said, sections_of_build, sections_of_load
+from gearcad.report.planetary.strength import section_of_strength
 from gearcad.report.planetary.vibration import sections_of_vibration
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ def planetary_html(study: PlanetaryStudy, name: str) -> str:
     parts = (sections_of_build, sections_of_load, sections_of_bending, sections_of_vibration)
     sections = list(chain.from_iterable(part(study) for part in parts))
     if study.rating is not None:
-        sections.append(section_of_rating(study.train, study.rating))
+        sections += [section_of_rating(study.train, study.rating), section_of_strength(study.rating.strength)]
     figures = [figure.title for section in sections for figure in section.figures]
     return page_html(
         "planetary.html",
