@@ -32,6 +32,7 @@ __all__ = [
     "STIFFNESS",
     "STRENGTH",
     "STRENGTH_FIGURES",
+    "TOLERANCES",
     "Symbol",
 ]
 
@@ -241,6 +242,36 @@ GEAR_RATING = {
     "sigma_H": Symbol("σ_H", "MPa", "ISO 6336-2, 5", "contact stress with K_A"),
     "sigma_F": Symbol("σ_F", "MPa", "ISO 6336-3, 5", "root stress with K_A"),
 }
+
+_OF_FLANKS = {
+    "f_pt": ("f_pt", "1", "single pitch deviation"),
+    "F_pk": ("F_pk", "1", "sector pitch deviation, over z/8 pitches"),
+    "F_p": ("F_p", "1", "cumulative pitch deviation"),
+    "f_Halpha": ("f_Hα", "1", "profile slope deviation"),
+    "f_falpha": ("f_fα", "1", "profile form deviation"),
+    "F_alpha": ("F_α", "1", "profile deviation"),
+    "f_Hbeta": ("f_Hβ", "1", "helix slope deviation"),
+    "f_fbeta": ("f_fβ", "1", "helix form deviation"),
+    "F_beta": ("F_β", "1", "helix deviation"),
+    "F_r": ("F_r", "2", "runout"),
+}
+_COMPOSITE = {
+    "F_i2": ("F_i″", "2", "radial composite deviation"),
+    "f_i2": ("f_i″", "2", "radial tooth-to-tooth deviation"),
+    "f_i1": ("f_i′", "1", "tooth-to-tooth deviation, single flank"),
+    "F_i1": ("F_i′", "1", "composite deviation, single flank"),
+}
+
+TOLERANCES = {
+    **{
+        key: Symbol(symbol, "µm", f"ISO 1328-{part}", words) for key, (symbol, part, words) in (_OF_FLANKS | _COMPOSITE).items()
+    },
+    **{
+        "f_pT" if key == "f_pt" else f"{key}T": Symbol(f"{symbol.removesuffix('t')}T", "µm", "ISO 1328-1:2013", words)
+        for key, (symbol, _, words) in _OF_FLANKS.items()
+    },
+}
+"""Of flanks, by the editions of 1995 and of 2013."""
 
 STRENGTH = {
     "K_A": RATING["K_A"],

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gearcad import Gear, ParameterError
+from gearcad import Gear, ParameterError, symbols
 from gearcad.rating.tolerances import Accuracy, GearTolerances, flank_tolerances, gear_tolerances
 
 OLD, NEW = Accuracy.ISO_1995, Accuracy.ISO_2013
@@ -110,3 +110,8 @@ def test_a_ring_has_the_tolerances_of_its_magnitudes():
     gear = Gear(teeth=70, normal_module=2.0, face_width=20.0, helix_angle=10.0)
     ring = replace(gear, teeth=-70)
     assert gear_tolerances(ring, 7).to_dict() == gear_tolerances(gear, 7).to_dict()
+
+
+def test_every_tolerance_has_a_symbol():
+    beside = {"accuracy", "grade", "verify", "not_covered"}
+    assert {*of().to_dict(2.0), *of(NEW).to_dict()} - beside == set(symbols.TOLERANCES)

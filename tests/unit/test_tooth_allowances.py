@@ -5,11 +5,13 @@ from dataclasses import replace
 
 import pytest
 
-from gearcad import Gear, GearPair, GeometryError, ParameterError, SpecError
+from gearcad import Gear, GearPair, GeometryError, Load, Material, ParameterError, SpecError
 from gearcad.designs import PairDesign
 from gearcad.geometry.centre_distance_tolerance import centre_distance_allowance
 from gearcad.geometry.iso286 import limit_deviations
 from gearcad.geometry.tooth_allowance import tooth_thickness_allowance
+from gearcad.rating.strength import rate_strength
+from gearcad.report.strength.tables import backlash_rows, tolerance_rows
 
 DIN_3967 = [  # two public transcriptions
     ("cd27", 100, -70, -170),
@@ -168,3 +170,19 @@ def test_what_a_spec_shares():
     assert tuple(read(wheel={"tooth_thinning": 0.02})) == (0.09, 0.02)
     with pytest.raises(SpecError, match=r"pair.tooth_allowance = 'cd25': must be left out where tooth_thinning is given"):
         read(pair={"tooth_thinning": 0.02})
+
+
+def test_a_rating_tells_the_limits_of_its_gears():
+    """In its document and in the tables of its report, where lengths have the digits in which limits differ."""
+    pair = GearPair(pinion=_gear(21, tooth_allowance="cd25"), wheel=_gear(40), centre_distance_tolerance="js7")
+    rating = rate_strength(pair, Material(), Load(torque=100.0, speed=500.0))
+    document = rating.to_dict()
+    tolerances = document["tolerances"]
+    assert tolerances["pinion"]["thickness_limits"] == pair.pinion.thickness_limits.to_dict()
+    assert "thickness_limits" not in tolerances["wheel"] and tolerances["backlash_limits"] == pair.backlash_limits._asdict()
+    rows = {row.words: row.values for row in tolerance_rows(document, rating.names)}
+    assert rows["upper allowance of tooth thickness"] == ("-70", "–")
+    assert rows["single pitch deviation"] == ("8.5", "8.5")
+    spans = pair.pinion.thickness_limits.span_measurement
+    assert rows["span measurement, least"] == (f"{spans.least:.4f}", "–")
+    assert next(row.values for row in backlash_rows(document)) == ("17.5",)

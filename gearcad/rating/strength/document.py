@@ -7,7 +7,8 @@ from dataclasses import asdict
 from typing import Any
 
 from gearcad import symbols
-from gearcad.per_gear import PerGear
+from gearcad.geometry import RackPair
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating.factors import citations
 from gearcad.rating.strength.part import Part, PartStrength, told
 from gearcad.rating.strength.rating import StrengthRating
@@ -35,7 +36,7 @@ def strength_document(of: StrengthRating) -> dict[str, Any]:
         "spectrum": _spectrum(of),
         "load_factors": None if of.load_factors is None else _plain(of.load_factors.details),
         "scuffing": None if of.scuffing is None else of.scuffing.to_dict(),
-        "tolerances": _gears(of, of.tolerances.map(lambda each: None if each is None else each.to_dict(of.contact_ratio))),
+        "tolerances": _tolerances(of),
         "sources": _sources(of, (*factors, *stresses)),
         "assumed": list(of.assumed),
         "verify": list(of.verify),
@@ -51,6 +52,26 @@ def strength_document(of: StrengthRating) -> dict[str, Any]:
         "warnings": list(of.warnings),
         "nominal": of.nominal.to_dict(),
     }
+
+
+def _tolerances(of: StrengthRating) -> dict[str, Any]:
+    """Of both gears; of a pair with allowances the limits of its backlash."""
+    backlash = None if isinstance(of.pair, RackPair) else of.pair.backlash_limits
+    gears = _gears(of, PerGear(*(_tolerances_of(of, role) for role in Role)))
+    return gears if backlash is None else gears | {"backlash_limits": backlash._asdict()}
+
+
+def _tolerances_of(of: StrengthRating, role: Role) -> dict[str, Any] | None:
+    """Those of the flanks of a gear, and what an allowance leaves of its tooth thickness; None of a rack."""
+    if isinstance(of.pair, RackPair):
+        limits = of.pair.pinion.thickness_limits if role is Role.PINION else None
+    else:
+        limits = of.pair.gears.pick(role).thickness_limits
+    flanks = of.tolerances.pick(role)
+    found = {} if flanks is None else flanks.to_dict(of.contact_ratio)
+    if limits is not None:
+        found["thickness_limits"] = limits.to_dict()
+    return found or None
 
 
 def _sources(of: StrengthRating, keys: tuple[str, ...]) -> dict[str, str]:

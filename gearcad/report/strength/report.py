@@ -13,12 +13,14 @@ from gearcad.report.check.tables import gear_rows, pair_rows
 from gearcad.report.page import page_html
 from gearcad.report.sentences import sentences
 from gearcad.report.strength.tables import (
+    backlash_rows,
     factor_groups,
     material_rows,
     option_rows,
     safety_rows,
     spectrum_rows,
     tolerance_rows,
+    uncovered_tolerances,
 )
 
 __all__ = ["rate_html", "write_rate_report"]
@@ -43,6 +45,8 @@ def rate_html(rating: StrengthRating, design_name: str) -> str:
         groups=factor_groups(rating, document),
         spectrum=spectrum_rows(rating),
         tolerances=tolerance_rows(document, rating.names),
+        backlash=backlash_rows(document),
+        uncovered=uncovered_tolerances(document, rating.names),
         options=option_rows(rating.options),
         gear_rows=[] if pair is None else gear_rows(pair),
         pair_rows=[] if pair is None else pair_rows(pair),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import fields
 from typing import Any, NamedTuple
 
@@ -17,7 +17,17 @@ from gearcad.report.check.tables import Row
 from gearcad.schema import symbols_of
 from gearcad.symbols import Symbol
 
-__all__ = ["Group", "factor_groups", "material_rows", "option_rows", "safety_rows", "spectrum_rows", "tolerance_rows"]
+__all__ = [
+    "Group",
+    "backlash_rows",
+    "factor_groups",
+    "material_rows",
+    "option_rows",
+    "safety_rows",
+    "spectrum_rows",
+    "tolerance_rows",
+    "uncovered_tolerances",
+]
 
 _NONE = "–"  # an en dash where there is no value
 
@@ -131,17 +141,44 @@ def spectrum_rows(rating: StrengthRating) -> list[tuple[str, ...]]:
 
 
 def tolerance_rows(document: Mapping[str, Any], names: PerGear[str]) -> list[Row]:
-    """Deviations that the accuracy grade permits."""
-    both = names.map(lambda name: _flat(document["tolerances"][name] or {}))
-    keys = dict.fromkeys(key for values in both for key, value in values.items() if isinstance(value, int | float))
-    return [Row(key, key, tuple(_text(values.get(key)) for values in both), "µm", "") for key in keys]
+    """What the accuracy grade permits the flanks, and the dimensions that an allowance of the tooth thickness leaves."""
+    both = names.map(lambda name: document["tolerances"][name] or {})
+    thickness = PerGear(*(values.get("thickness_limits", {}) for values in both))
+    flanks = {"grade": Symbol("", "", "ISO 1328-1", "accuracy grade")} | symbols.TOLERANCES
+    doubtful = {key for values in both for key in values.get("verify", ())}
+    return [*_given(flanks, both, doubtful), *_given(_below("thickness_limits", symbols.GEAR), thickness)]
 
 
-def _flat(values: Mapping[str, Any], before: str = "") -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for key, value in values.items():
-        found |= _flat(value, f"{before}{key} ") if isinstance(value, Mapping) else {f"{before}{key}": value}
-    return found
+def uncovered_tolerances(document: Mapping[str, Any], names: PerGear[str]) -> list[str]:
+    """Why the standard has not all of them."""
+    return [f"{name}: {why}" for name in names for why in (document["tolerances"][name] or {}).get("not_covered", ())]
+
+
+def backlash_rows(document: Mapping[str, Any]) -> list[Row]:
+    """Between what the backlash is, where tolerances say."""
+    return _given(_below("backlash_limits", symbols.PAIR), [document["tolerances"].get("backlash_limits", {})])
+
+
+def _below(part: str, written: Mapping[str, Symbol]) -> dict[str, Symbol]:
+    """Symbols of a part of a document, under its own keys."""
+    return {key.removeprefix(f"{part}."): symbol for key, symbol in written.items() if key.startswith(f"{part}.")}
+
+
+def _given(written: Mapping[str, Symbol], columns: Sequence[Mapping[str, Any]], doubtful: Collection[str] = ()) -> list[Row]:
+    """Rows of what some column has, each under its symbol."""
+    rows = []
+    for key, of in written.items():
+        values = [column.get(key) for column in columns]
+        if any(value is not None for value in values):
+            text = _length if of.unit == "mm" else _text
+            source = f"{of.source} (verify)" if key in doubtful else of.source
+            rows.append(Row(of.words, of.symbol, tuple(map(text, values)), of.unit, source))
+    return rows
+
+
+def _length(value: float | None) -> str:
+    """To 0.1 µm: limits differ in digits that short numbers do not have."""
+    return _NONE if value is None else f"{value:.4f}"
 
 
 def _row(symbol: Symbol, value: Any, names: PerGear[str], verify: bool = False) -> Row:
