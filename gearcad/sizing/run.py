@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -37,6 +38,8 @@ _REFINE, _ERROR = "refinement", "transmission error"
 def search_pairs(task: SizeTask, *, count: int = 20, errors: int = 20, progress: Progress | None = None) -> Sizing:
     """The best `count` pairs for a task, the first of them, as many as `errors`, with their transmission error.
 
+    By Criterion.QUIET they are in the order of that in the end, of which the lines of contact know only half.
+
     All variants of the task are gone through, and the best refined; each that is shown is rated by `rate_strength`, and left
     out unless it passes that, too.
     """
@@ -52,6 +55,8 @@ def search_pairs(task: SizeTask, *, count: int = 20, errors: int = 20, progress:
     for number in range(min(errors, len(found))):
         agenda(_ERROR, number / errors, found[number].name)
         found[number] = _with_error(found[number])
+    if task.criterion is Criterion.QUIET:
+        found.sort(key=lambda each: math.inf if each.transmission_error is None else round(each.transmission_error, 2))
     return Sizing(
         task=task,
         found=tuple(found),

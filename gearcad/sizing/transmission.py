@@ -1,6 +1,6 @@
 """A quick transmission error: the contact of flexible bodies, with a coarse mesh and few positions.
 
-Plane strain for spur gears, solid bodies for helical ones. Half as fine as a check, it is off by a few percent, which is
+Plane strain for spur gears, solid bodies for helical ones. Half as fine as a check, it is off by some percent, which is
 enough to tell quiet pairs from others.
 """
 
