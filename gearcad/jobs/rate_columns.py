@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -18,14 +17,11 @@ _VERDICT = ("passed", "strength")
 def rate_columns(document: Mapping[str, Any]) -> dict[str, Any]:
     """Of rate.json: verdict, safeties of each gear and the least, torque, life, scuffing, load factors, stresses.
 
-    Of a planetary train verdict, least safeties and life of all its meshes. A life without end is an infinite number.
+    Of a planetary train verdict, least safeties and life of all its meshes. A life without end is no number: it has a column.
     """
     verdict, warnings = {name: document[name] for name in _VERDICT}, {"warnings": document["warnings"]}
     if "meshes" in document:
-        every = [_least_of(each) for each in document["meshes"].values()]
-        least = {key: _least(each[key] for each in every) for key in (every[0] if every else ())}
-        least.pop("permissible_torque", None)  # those of the meshes are on different gears
-        return {**verdict, **least, **warnings}
+        return {**verdict, **_of_meshes([_least_of(each) for each in document["meshes"].values()]), **warnings}
     safety = document["safety"]
     return {
         **verdict,
@@ -40,14 +36,26 @@ def rate_columns(document: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _least_of(document: Mapping[str, Any]) -> dict[str, float | None]:
+def _of_meshes(every: list[dict[str, Any]]) -> dict[str, Any]:
+    """The least of all meshes, whose torques are on different gears."""
+    finite = [each["life"] for each in every if each["life_infinite"] is False]
+    known = bool(every) and all(each["life_infinite"] is not None for each in every)
+    return {
+        **{key: _least(each[key] for each in every) for key in ("S_H_min", "S_F_min") if every},
+        "life": min(finite) if known and finite else None,
+        "life_infinite": not finite if known else None,
+    }
+
+
+def _least_of(document: Mapping[str, Any]) -> dict[str, Any]:
     """The least of both gears, and of flanks and roots."""
     life = document["life"]["least"]
     return {
         "S_H_min": _least(document["safety"]["flank"].values()),
         "S_F_min": _least(document["safety"]["root"].values()),
         "permissible_torque": document["permissible_torque"]["least"],
-        "life": math.inf if life == INFINITE else life,
+        "life": None if life == INFINITE else life,
+        "life_infinite": None if life is None else life == INFINITE,
     }
 
 

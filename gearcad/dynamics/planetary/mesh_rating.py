@@ -109,13 +109,8 @@ def rate_train(
     masses: TrainMasses,
     material: TrainMaterial | None = None,
     options: RatingOptions | None = None,
-    *,
-    torques: bool = True,
 ) -> TrainRating:
-    """Rate the meshes of a train under `loads`, and its stages, as `gearcad.rate` rates a pair.
-
-    Without `torques` permissible ones, which take most of the time, are left out.
-    """
+    """Rate the meshes of a train under `loads`, and its stages, as `gearcad.rate` rates a pair."""
     options = options or RatingOptions()
     meshes, rated, unrated = dict[str, MeshRating](), dict[str, Rating](), dict[str, str]()
     for name, load in loads.items():
@@ -131,7 +126,7 @@ def rate_train(
     factors = {
         name: MeshFactors(each.dynamic_factor, each.no_dynamic_factor, each.mean_stress_factor) for name, each in meshes.items()
     }
-    strength = train_strength(train, loads, stages, factors, material, options, unrated, torques=torques)
+    strength = train_strength(train, loads, stages, factors, material, options, unrated)
     return TrainRating(meshes=meshes, stages=rated, unrated=unrated, strength=strength)
 
 

@@ -185,14 +185,12 @@ def train_strength(
     material: TrainMaterial | None,
     options: RatingOptions,
     unrated: Mapping[str, str] | None = None,
-    *,
-    torques: bool = True,
 ) -> TrainStrength:
     """Rate every mesh of a set under `loads`, and every stage, as `rate_strength` rates a pair.
 
     Of a mesh with planets K_gamma is that of its load, K_v of Method B and Y_M are those of its `factors`; a central has a
     contact with each planet in one turn against the carrier, a planet one on each of its flanks. `unrated` are those that have
-    no rating even without load factors, and why; without `torques` permissible ones are left out.
+    no rating even without load factors, and why.
     """
     pairs = {mesh.name: mesh.pair for mesh in train.meshes} | {stage.name: stage.pair for stage in train.stages}
     made_of = {mesh.name: mesh_material(material, mesh) for mesh in train.meshes}
@@ -203,10 +201,10 @@ def train_strength(
             continue
         try:
             if name not in loads:
-                rated[name] = rate_strength(pair, made_of[name], stages[name], options, torques=torques)
+                rated[name] = rate_strength(pair, made_of[name], stages[name], options)
                 continue
             load, own = loads[name], _of_mesh(loads[name], factors[name], options)
-            rating = rate_strength(pair, made_of[name], load.even, own, driver=load.driver, torques=torques)
+            rating = rate_strength(pair, made_of[name], load.even, own, driver=load.driver)
             rated[name] = replace(rating, assumed=(*_assumed(load), *rating.assumed))
         except InputError as error:
             without[name] = str(error)

@@ -39,13 +39,15 @@ class LoadCase:
 class Duty:
     """The `load` over the life as `bins` of shares have it; `factors` finds the load factors of a load.
 
-    `nominal` is the rating of the load's torque without load factors.
+    `nominal` is the rating of the load's torque without load factors; `whole_torque` (N·m) is that of the pair, of which a
+    double helical pair's half has half.
     """
 
     nominal: Rating
     load: Load
     options: RatingOptions
     gear_ratio: float
+    whole_torque: float
     factors: Callable[[Load], LoadFactors]
 
     @property

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cached_property
 from typing import Any
 
 from gearcad.rating.strength.resistance import Resistance
@@ -34,8 +35,8 @@ class PartStrength:
     """Of one gear: stresses in MPa, torque in N·m on the pinion, life in hours; None is what is not known.
 
     `stress` is sigma_H or sigma_F under all load factors, `strength` sigma_HG or sigma_FG after the load `cycles` (None: the
-    endurance limit), whose `factors` stand under their symbols. `damage`, `life` and `permissible_torque` are those at the
-    `required` safety; a life can be infinite. Without a `safety` it was not judged, for the `reason`.
+    endurance limit), whose `factors` stand under their symbols. `damage` and `life` are those at the `required` safety; a life
+    can be infinite. Without a `safety` it was not judged, for the `reason`. `find_torque` finds the permissible torque.
     """
 
     part: Part
@@ -46,12 +47,18 @@ class PartStrength:
     safety: float | None = None
     damage: float | None = None
     life: float | None = None
-    permissible_torque: float | None = None
     reason: str = ""
-    factors: Mapping[str, float] = field(init=False)
+    find_torque: Callable[[], float | None] | None = field(default=None, repr=False, compare=False)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "factors", {} if self.resistance is None else self.resistance.factors(self.cycles))
+    @cached_property
+    def factors(self) -> Mapping[str, float]:
+        """Of permissible stress, under their symbols; none where they are not known."""
+        return {} if self.resistance is None else self.resistance.factors(self.cycles)
+
+    @cached_property
+    def permissible_torque(self) -> float | None:
+        """On the pinion at the required safety, with load factors of its own; sought when it is first asked for."""
+        return None if self.find_torque is None else self.find_torque()
 
     @property
     def strength(self) -> float | None:

@@ -43,15 +43,13 @@ def rate_strength(
     *,
     face_load_factor: float | None = None,
     driver: Role = Role.PINION,
-    torques: bool = True,
 ) -> StrengthRating:
     """Rate a pair, of one material or each gear of its own: safeties of flanks and roots, life, permissible torque, scuffing.
 
     `face_load_factor` stands in place of that of the options: K_Hbeta of a load distribution, for "fe". `driver` is the gear
-    that drives, for scuffing; without `torques` the permissible ones, which take most of the time, are left out. What the
-    standard does not cover, or what is not known, is not judged, each for its reason. Raises ParameterError without a torque,
-    for a spectrum beside an application factor, and for a hardness that its material has no limit of; GeometryError for a pair
-    whose contact the standard does not describe.
+    that drives, for scuffing. What the standard does not cover, or what is not known, is not judged, each for its reason.
+    Raises ParameterError without a torque, for a spectrum beside an application factor, and for a hardness that its material
+    has no limit of; GeometryError for a pair whose contact the standard does not describe.
     """
     options = options or RatingOptions()
     if options.bins and load.application_factor != 1:
@@ -59,7 +57,7 @@ def rate_strength(
         raise ParameterError("load.application_factor", load.application_factor, permitted)
     if face_load_factor is not None:
         options = replace(options, face_load_factor=face_load_factor)
-    return _Task(pair=pair, materials=of_both(materials), load=load, options=options, driver=driver, torques=torques).rating
+    return _Task(pair=pair, materials=of_both(materials), load=load, options=options, driver=driver).rating
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +69,6 @@ class _Task:
     load: Load
     options: RatingOptions
     driver: Role
-    torques: bool
 
     # ------------------------------------------------------------------ what is held against each other
 
@@ -116,6 +113,7 @@ class _Task:
             load=self.rated_load,
             options=self.options,
             gear_ratio=ratio,
+            whole_torque=self.load.torque,
             factors=self.load_factors_of,
         )
 
@@ -154,9 +152,7 @@ class _Task:
         required = options.required_safety_flank if part is Part.FLANK else options.required_safety_root
         resistance = self.resistance(part, role)
         if resistance is not None and not reason:
-            found = judged(part, role, self.duty, resistance, required, torque=self.torques)
-            torque = found.permissible_torque
-            return replace(found, permissible_torque=2 * torque) if self.halved and torque is not None else found
+            return judged(part, role, self.duty, resistance, required)
         known = not isinstance(self.load_factors, InputError) and not self.load_factors.unknown
         cases = self.duty.cases() if known else ()
         return PartStrength(

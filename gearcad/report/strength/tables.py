@@ -37,6 +37,9 @@ _TOLD = {
     "damage": Symbol("D", "", "ISO 6336-6", "damage over the life at the required safety"),
 }
 
+_LONGEST_LIFE = 1e6
+"""Hours above which a life is told as more than that."""
+
 _GROUPS = {
     "Load factors": "K_A K_gamma K_v K_Hbeta K_Fbeta K_Halpha K_Falpha",
     "Contact stress": "Z_H Z_E Z_eps Z_beta Z_B Z_D sigma_H0 sigma_H",
@@ -68,8 +71,10 @@ def safety_rows(rating: StrengthRating, document: Mapping[str, Any]) -> list[Row
                 "",
             )
         )
-        for key in ("permissible_torque", "life", "damage"):
+        for key in ("permissible_torque", "damage"):
             rows.append(_row(_TOLD[key], document[key][part.value], rating.names))
+        hours = {name: _hours(value) for name, value in document["life"][part.value].items()}
+        rows.append(_row(_TOLD["life"], hours, rating.names))
         rows.append(_row(symbols.STRENGTH["N_L"], document["load_cycles"][part.value], rating.names))
     for symbol, key in (("S_int", "integral"), ("S_B", "flash")):
         rows.append(_row(symbols.STRENGTH[symbol], document["safety"]["scuffing"][key], rating.names))
@@ -79,13 +84,16 @@ def safety_rows(rating: StrengthRating, document: Mapping[str, Any]) -> list[Row
 def factor_groups(rating: StrengthRating, document: Mapping[str, Any]) -> list[Group]:
     """All factors and stresses, each with its clause."""
     values, verify = {**document["factors"], **document["stresses"]}, {each.rpartition(".")[2] for each in rating.verify}
-    return [
-        Group(
-            title,
-            [_row(symbols.STRENGTH[key], values[key], rating.names, key in verify) for key in keys.split() if key in values],
-        )
-        for title, keys in _GROUPS.items()
-    ]
+    sources = document["sources"]
+
+    def row(key: str) -> Row:
+        symbol = symbols.STRENGTH[key]
+        return _row(symbol._replace(source=sources.get(key, symbol.source)), values[key], rating.names, key in verify)
+
+    found = [Group(title, [row(key) for key in keys.split() if key in values]) for title, keys in _GROUPS.items()]
+    written, details = symbols.LOAD_FACTOR_DETAILS, document["load_factors"] or {}
+    behind = [_row(written[key], value, rating.names) for key, value in details.items() if key in written]
+    return [*found[:1], Group("Behind the load factors", behind), *found[1:]] if behind else found
 
 
 def option_rows(options: RatingOptions) -> list[Row]:
@@ -179,6 +187,11 @@ def _given(written: Mapping[str, Symbol], columns: Sequence[Mapping[str, Any]], 
 def _length(value: float | None) -> str:
     """To 0.1 µm: limits differ in digits that short numbers do not have."""
     return _NONE if value is None else f"{value:.4f}"
+
+
+def _hours(value: float | str | None) -> float | str | None:
+    """A life; beyond all machines no digits are told."""
+    return f"> {short(_LONGEST_LIFE)}" if isinstance(value, float) and value > _LONGEST_LIFE else value
 
 
 def _row(symbol: Symbol, value: Any, names: PerGear[str], verify: bool = False) -> Row:

@@ -1,0 +1,111 @@
+"""Safeties by the stresses of finite elements: what load factors raise them, what gates and verdicts they make."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+from support.checks import small_check, small_solid_check
+
+from gearcad import Load, Material, Mounting
+from gearcad.check.comparison import ComparisonRole, Subject, verdict
+from gearcad.check.document import check_document
+from gearcad.check.result import CheckResult
+from gearcad.check.strength import strength_gates
+from gearcad.output import json_text
+from gearcad.rating import RatingOptions
+from gearcad.rating.strength import Part
+from gearcad.report import report_html
+from gearcad.verdict import Verdict
+
+EXACT = 1e-12
+
+OPTIONS = RatingOptions(life=1000.0, mesh_load_factor=1.1)
+
+
+def strong(check: CheckResult, options: RatingOptions = OPTIONS, **inputs: object) -> CheckResult:
+    """A check whose material is Eh MQ, at a speed, with the gates of that."""
+    load = Load(torque=check.load.torque, speed=1500.0)
+    task = replace(check.task, material=Material(name="Eh MQ"), load=load, rating_options=options, **inputs)
+    found = replace(check, task=task, comparisons=())
+    return replace(found, comparisons=tuple(strength_gates(found.safeties)))
+
+
+def test_stresses_are_raised_by_what_the_model_lacks() -> None:
+    result = strong(small_check())
+    found, k = result.safeties, result.safeties.rating.load_factors
+    assert k is not None
+    assert found.applied[Part.ROOT] == {
+        "K_gamma": 1.1,
+        "K_v": k.dynamic,
+        "K_Fbeta": k.face_root,
+        "K_Falpha": k.transverse_root,
+    }
+    factors = k.mesh_load * k.dynamic * k.face_root * k.transverse_root
+    root = found.root.wheel
+    assert root.raised == pytest.approx(result.summary.root_tension.wheel * factors, rel=EXACT)
+    assert root.safety == pytest.approx(root.rated.strength / root.raised, rel=EXACT)
+    factors = k.mesh_load * k.dynamic * k.face_flank * k.transverse_flank
+    assert found.flank.pinion.raised == pytest.approx(result.summary.contact_pressure * math.sqrt(factors), rel=EXACT)
+
+
+def test_what_the_model_has_is_not_multiplied_again() -> None:
+    solid = strong(small_solid_check())
+    assert set(solid.safeties.contained) == {"K_A", "K_Hbeta", "K_Fbeta"}  # it is misaligned
+    assert set(solid.safeties.applied[Part.FLANK]) == {"K_gamma", "K_v", "K_Halpha"}
+    proud = strong(small_check(), mounting=Mounting(pinion_pitch_error=5.0))
+    assert set(proud.safeties.applied[Part.ROOT]) == {"K_gamma", "K_v", "K_Fbeta"}
+    aligned = strong(small_solid_check(), mounting=Mounting())
+    assert set(aligned.safeties.contained) == {"K_A"}
+
+
+def test_safeties_are_gates_of_strength() -> None:
+    result = strong(small_check())
+    quantities = [each.quantity for each in result.comparisons]
+    assert quantities[:2] == ["S_H of the pinion, ISO 6336", "S_H of the pinion, finite elements"]
+    assert len(quantities) == 8
+    assert all(each.role is ComparisonRole.GATE and each.subject is Subject.STRENGTH for each in result.comparisons)
+    assert result.strength is Verdict.FAILED
+    assert verdict(result.comparisons, Subject.NUMERICS) is Verdict.NOT_JUDGED
+    weak = [each for each in result.comparisons if not each.passed]
+    assert weak
+    assert all(each.computed < each.reference for each in weak)
+    easy = strong(small_check(), replace(OPTIONS, required_safety_flank=0.5, required_safety_root=0.5))
+    assert easy.strength is Verdict.PASSED
+    assert "von Mises stress below the flank" in easy.verdict
+    assert "contact pressure" not in easy.verdict  # the rating judges it
+
+
+def test_documents_have_both() -> None:
+    document = check_document(strong(small_check()))
+    json_text(document)
+    root = document["safeties"]["root"]["pinion"]
+    assert root["fe_safety"] / root["rated_safety"] == pytest.approx(root["rated_stress"] / root["fe_stress_with_factors"])
+    assert document["strength_rating"]["strength"] == "failed"
+    assert document["strength_rating"]["load"]["speed"] == 1500
+
+
+@pytest.mark.long
+def test_reports_have_a_section_of_it() -> None:
+    page = report_html(strong(small_check()), "pair")
+    assert "Strength by ISO 6336:2006" in page
+    assert "What the roots bear" in page
+
+
+@pytest.mark.parametrize(
+    ("material", "speed", "words"),
+    [
+        (Material(), 1500.0, "strength not judged: no limit given"),
+        (Material(name="Eh MQ"), 0.0, "strength not judged: the speed is 0 rpm"),
+    ],
+)
+def test_strength_that_was_not_judged_is_said(material: Material, speed: float, words: str) -> None:
+    check = small_check()
+    task = replace(check.task, material=material, load=Load(torque=302.0, speed=speed))
+    result = replace(check, task=task, comparisons=())
+    assert list(strength_gates(result.safeties)) == []
+    assert words in result.verdict
+    document = check_document(result)
+    assert document["strength"] == "not judged"
+    assert document["safeties"]["root"]["pinion"]["fe_safety"] is None

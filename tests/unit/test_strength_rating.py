@@ -1,0 +1,203 @@
+"""Full ratings: closed forms between their results, what is not judged and why, and faults in one line."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from gearcad import (
+    BasicRack,
+    Body,
+    DoubleHelix,
+    Gear,
+    GearPair,
+    GeometryError,
+    Load,
+    Material,
+    ParameterError,
+    Rack,
+    RackPair,
+    rate,
+)
+from gearcad.output import json_text
+from gearcad.per_gear import PerGear
+from gearcad.rating import RatingOptions, RootShift
+from gearcad.rating.strength import Part, StrengthRating, rate_strength
+from gearcad.verdict import Verdict
+
+EXACT = 1e-9
+CASE_HARDENED = Material(name="Eh MQ")
+LOAD = Load(torque=250.0, speed=1500.0, application_factor=1.25)
+LIFE = RatingOptions(life=2000.0)
+
+
+def spur_pair(**inputs: Any) -> GearPair:
+    gears = (Gear(teeth=z, normal_module=3, face_width=30, body=Body(bore=20), **inputs) for z in (20, 50))
+    return GearPair(**dict(zip(("pinion", "wheel"), gears, strict=True)))
+
+
+def rated(options: RatingOptions = LIFE, load: Load = LOAD, **inputs: Any) -> StrengthRating:
+    return rate_strength(spur_pair(**inputs), CASE_HARDENED, load, options)
+
+
+def test_stress_and_strength_are_their_products() -> None:
+    rating = rated()
+    k, flank = rating.load_factors, rating.nominal.flank
+    assert k is not None
+    factors = k.application * k.mesh_load * k.dynamic * k.face_flank * k.transverse_flank
+    assert rating.flank.pinion.stress == pytest.approx(
+        flank.contact_factors.pinion * flank.nominal_stress * math.sqrt(factors), rel=EXACT
+    )
+    factors *= k.face_root * k.transverse_root / (k.face_flank * k.transverse_flank)
+    assert rating.root.wheel.stress == pytest.approx(rating.nominal.roots.wheel.nominal_stress * factors, rel=EXACT)
+    assert rating.flank.wheel.strength == pytest.approx(1500 * math.prod(rating.flank.wheel.factors.values()), rel=EXACT)
+    assert rating.root.pinion.strength == pytest.approx(2 * 425 * math.prod(rating.root.pinion.factors.values()), rel=EXACT)
+    assert rating.flank.pinion.cycles == 60 * 1500 * 2000
+    assert rating.flank.wheel.cycles == pytest.approx(60 * 1500 * 2000 / 2.5, rel=EXACT)
+    assert rating.root.pinion.safety == rating.root.pinion.strength / rating.root.pinion.stress
+
+
+def test_life_and_torque_are_those_at_which_the_required_safety_is_left() -> None:
+    rating = rated(load=replace(LOAD, torque=350.0))
+    life = rating.life
+    assert life is not None
+    assert life == rating.flank.pinion.life < 2000
+    assert rated(replace(LIFE, life=life), replace(LOAD, torque=350.0)).flank.pinion.safety == pytest.approx(1, rel=EXACT)
+    for part, role in ((Part.FLANK, "pinion"), (Part.ROOT, "wheel")):
+        torque = getattr(rating.parts[part], role).permissible_torque
+        found = getattr(rated(load=replace(LOAD, torque=torque)).parts[part], role)
+        assert found.safety == pytest.approx(found.required, rel=EXACT)
+
+
+def test_a_spectrum_of_one_load_is_that_load() -> None:
+    """Up to 10^10 cycles; with two parts of it, each at its own speed, too."""
+    plain = rated(load=replace(LOAD, application_factor=1.0))
+    for spectrum in ([[1.0, 1.0]], [[0.25, 1.0], [0.75, 1.0, 1.0]]):
+        several = rated(replace(LIFE, spectrum=spectrum), replace(LOAD, application_factor=1.0))
+        for one, other in zip(plain.every, several.every, strict=True):
+            assert other[1].safety == pytest.approx(one[1].safety, rel=EXACT)
+            assert other[1].cycles == pytest.approx(one[1].cycles, rel=EXACT)
+
+
+def test_a_spectrum_is_between_its_least_and_its_greatest_load() -> None:
+    plain = replace(LOAD, application_factor=1.0)
+    found = rated(replace(LIFE, spectrum=[[0.1, 1.25], [0.9, 0.8, 1.2]]), plain).flank.pinion.safety
+    least, most = (rated(load=replace(plain, torque=250 * share)).flank.pinion.safety for share in (1.25, 0.8))
+    assert least < found < most
+
+
+def test_a_double_helical_pair_is_two_halves() -> None:
+    def pair(width: float, torque: float, **inputs: Any) -> StrengthRating:
+        gears = (
+            Gear(teeth=z, normal_module=3, face_width=width, helix_angle=helix, **inputs) for z, helix in ((20, 25), (50, -25))
+        )
+        pair = GearPair(**dict(zip(("pinion", "wheel"), gears, strict=True)))
+        return rate_strength(pair, CASE_HARDENED, replace(LOAD, torque=torque), replace(LIFE, shaft_deflection=3.0))
+
+    half, whole = pair(25, 200), pair(60, 400, double_helix=DoubleHelix(gap_width=10))
+    for one, other in zip(half.every, whole.every, strict=True):
+        assert other[1].safety == pytest.approx(one[1].safety, rel=EXACT)
+        assert other[1].permissible_torque == pytest.approx(2 * one[1].permissible_torque, rel=1e-6)
+
+
+def test_the_softer_gear_says_what_the_film_is() -> None:
+    soft = Material(name="V MQ", hardness=250.0, yield_strength=600.0)
+    rating = rate_strength(spur_pair(), PerGear(CASE_HARDENED, soft), LOAD, LIFE)
+    assert (
+        rating.flank.pinion.factors["Z_L"] > rated().flank.pinion.factors["Z_L"] > 1
+    )  # thick oil, which soft flanks gain more by
+    assert rating.flank.wheel.factors["Z_W"] > 1 == rating.flank.pinion.factors["Z_W"]
+
+
+def test_root_shift() -> None:
+    thin = {"tooth_thinning": 0.2}
+    nominal = rated(replace(LIFE, root_shift=RootShift.NOMINAL), **thin).nominal.roots
+    assert nominal.pinion.form_factor == pytest.approx(rated().nominal.roots.pinion.form_factor, rel=EXACT)
+    assert rated(**thin).nominal.roots.pinion.form_factor > nominal.pinion.form_factor
+
+
+STEEL = Material()
+LIGHT = replace(LOAD, torque=150.0)
+GIVEN = RatingOptions(dynamic_factor=1.1, load_cycles=1e7)
+
+
+@pytest.mark.parametrize(
+    ("material", "load", "options", "inputs", "unjudged", "reason"),
+    [
+        (STEEL, LIGHT, LIFE, {}, 4, "is not known: the material has no group"),
+        (CASE_HARDENED, replace(LIGHT, speed=0.0), LIFE, {}, 4, "the speed is 0 rpm"),
+        (CASE_HARDENED, replace(LIGHT, speed=0.0), GIVEN, {}, 0, ""),
+        (Material(group="Eh", contact_endurance_limit=1500.0), LIGHT, LIFE, {}, 2, "sigma_Flim is not known"),
+        (Material(contact_endurance_limit=1500.0, root_endurance_limit=430.0), LIGHT, LIFE, {}, 4, "the material has no group"),
+        (CASE_HARDENED, LIGHT, LIFE, {"body": Body(bore=50)}, 1, "Y_B holds for rims of more than 0.5 tooth heights"),
+        (CASE_HARDENED, LIGHT, LIFE, {"addendum": 1.3}, 2, "hold for a transverse contact ratio up to 2"),
+        (CASE_HARDENED, replace(LIGHT, application_factor=1.0), RatingOptions(spectrum=[[1, 1]]), {}, 4, "needs life or load"),
+        (CASE_HARDENED, LIGHT, replace(LIFE, face_load_factor="fe"), {}, 4, "face_load_factor = 'fe': must be"),
+        (CASE_HARDENED, LIGHT, replace(LIFE, required_safety_scuffing=1.5), {}, 1, "scuffing_stage"),
+    ],
+)
+def test_what_is_not_judged_says_why(
+    material: Material, load: Load, options: RatingOptions, inputs: dict[str, Any], unjudged: int, reason: str
+) -> None:
+    gears = [
+        Gear(
+            teeth=z,
+            normal_module=3,
+            face_width=30,
+            body=inputs.get("body", Body()) if z == 20 else Body(),
+            rack=BasicRack(addendum=inputs.get("addendum", 1.0), dedendum=inputs.get("addendum", 1.0) + 0.25, root_radius=0.2),
+        )
+        for z in (20, 50)
+    ]
+    rating = rate_strength(GearPair(pinion=gears[0], wheel=gears[1]), material, load, options)
+    assert len(rating.not_judged) == unjudged
+    assert rating.passed is (None if unjudged else True)
+    assert all(reason in why for why in rating.not_judged.values())
+    assert reason in rating.verdict
+    json.loads(json_text(rating.to_dict()))
+
+
+def test_a_failure_outweighs_what_was_not_judged() -> None:
+    material = Material(group="Eh", contact_endurance_limit=500.0)
+    rating = rate_strength(spur_pair(), material, LOAD, LIFE)
+    assert (rating.strength, rating.passed) == (Verdict.FAILED, False)
+    assert rating.verdict.startswith("strength NOT passed: flank of the pinion, flank of the wheel; not judged: root of")
+
+
+@pytest.mark.parametrize(
+    ("material", "load", "options", "text"),
+    [
+        (Material(name="Eh MQ", hardness=500.0), LOAD, LIFE, r"hardness = 500 HV: must be from 660 to 800 HV"),
+        (Material(name="V MQ"), LOAD, LIFE, r"hardness is missing: must be given, from 200 to 360 HV"),
+        (CASE_HARDENED, replace(LOAD, torque=0.0), LIFE, r"^torque = 0 N·m: must not be 0"),
+        (CASE_HARDENED, LOAD, replace(LIFE, spectrum=[[1, 1]]), r"^load\.application_factor = 1\.25: must be 1 with a load"),
+    ],
+)
+def test_faults_are_one_line(material: Material, load: Load, options: RatingOptions, text: str) -> None:
+    with pytest.raises(ParameterError, match=text) as caught:
+        rate_strength(spur_pair(), material, load, options)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_contact_ratio_below_one_is_no_pair_to_rate() -> None:
+    gears = [Gear(teeth=z, normal_module=3, face_width=30, tip_alteration=-0.8) for z in (20, 50)]
+    with pytest.raises(GeometryError, match=r"transverse_contact_ratio = 0\.\d+: must be at least 1"):
+        rate(GearPair(pinion=gears[0], wheel=gears[1]), LOAD)
+
+
+def test_a_rack_is_judged_by_load_factors_that_are_given() -> None:
+    pair = RackPair(
+        pinion=Gear(teeth=24, normal_module=3, face_width=30),
+        rack=Rack(teeth=40, normal_module=3, face_width=30, height=30.0),
+    )
+    rating = rate_strength(pair, CASE_HARDENED, LOAD, LIFE)
+    assert "must be a number for a rack" in rating.verdict
+    given = replace(LIFE, dynamic_factor=1.1, face_load_factor=1.3, transverse_load_factor=1.0)
+    rating = rate_strength(pair, CASE_HARDENED, LOAD, given)
+    assert rating.passed is not None
+    assert rating.root.wheel.stress == pytest.approx(rating.nominal.roots.wheel.nominal_stress * 1.25 * 1.1 * 1.3, rel=EXACT)
+    assert set(rating.to_dict()["safety"]["flank"]) == {"pinion", "rack"}
