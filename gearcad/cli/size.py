@@ -12,6 +12,7 @@ from gearcad.cli.group import debug_option
 from gearcad.cli.job import quiet_option
 from gearcad.cli.progress import job_progress
 from gearcad.cli.size_options import size_options, task_of
+from gearcad.cli.size_sets import require_no_sets, set_options, size_planetary
 from gearcad.cli.size_table import nothing_lines, table_lines
 from gearcad.errors import ParameterError
 from gearcad.reprs import grouped
@@ -24,8 +25,9 @@ __all__ = ["size"]
 _COUNT, _MOST_COUNT = 20, 1000
 
 
-@click.command(short_help="Pairs for a torque, a ratio, a life and a material: the best of all within ranges.")
+@click.command(short_help="Pairs, or planetary sets, for a torque, a ratio, a life and a material.")
 @size_options
+@set_options
 @click.option("--count", type=int, metavar="N", help="Most pairs that are listed.  [default: 20]")
 @click.option("--errors", type=int, metavar="N", help="How many of them get a transmission error by FE.  [default: all]")
 @click.option("-o", "--output", type=click.Path(path_type=Path), metavar="DIR", help="Folder.  [default: output/size]")
@@ -39,19 +41,29 @@ def size(count: int | None, errors: int | None, output: Path | None, as_json: bo
     Writes pairs.csv, a design table for `gearcad batch`; best.toml, the spec of the first; front.png, masses over safeties; and
     size.json. Lists of numbers have commas, ranges are FIRST:LAST:STEP.
 
+    With --planetary sets of planets for the ratio, torque and speed of the input: tooth numbers as `gearcad planetary --ratio`
+    finds them, then the module of ISO 54 and the face width that just have the safeties, lightest first; writes sets.csv,
+    best.toml and size.json. --wheel-material is that of rings.
+
     \b
     gearcad size --torque 302 --ratio 1.5 --life 20000 --material "Eh MQ" --speed 1500
     gearcad size --power 5 --speed 400 --ratio 4 --life 5000 --material "Eh MQ" --application-factor 1.25 --by quiet
+    gearcad size --planetary --torque 300 --speed 1500 --ratio 5.2 --life 20000 --material "Eh MQ"
     """
     from gearcad.jobs.sizes import write_sizing
     from gearcad.output import json_text
     from gearcad.sizing import search_pairs
     from gearcad.sizing.run import expected
 
-    task, number = task_of(given), _COUNT if count is None else count
+    number = _COUNT if count is None else count
     for name, value, least in (("count", number, 1), ("errors", errors, 0)):
         if value is not None and not least <= value <= _MOST_COUNT:
             raise ParameterError(name, value, f"must be a whole number from {least} to {_MOST_COUNT}")
+    if given["planetary"]:
+        size_planetary({**given, "errors": errors}, number, output, as_json=as_json, quiet=quiet)
+        return
+    require_no_sets(given)
+    task = task_of(given)
     wanted = number if errors is None else min(errors, number)
     with job_progress(shown=not quiet, expected=None if quiet else expected(task, number, wanted)) as progress:
         result = search_pairs(task, count=number, errors=wanted, progress=progress)

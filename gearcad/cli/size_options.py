@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from gearcad.rating.options import RatingOptions
     from gearcad.sizing import SizeTask
 
-__all__ = ["size_options", "task_of", "values_of"]
+__all__ = ["ends_of", "load_of", "material_of", "modules_of", "rating_of", "size_options", "task_of", "values_of"]
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -106,17 +106,17 @@ def _task(given: Mapping[str, Any]) -> SizeTask:
     for needed, what in (("ratio", "teeth of the wheel over those of the pinion"), ("material", 'such as "Eh MQ"')):
         if given[needed] is None:
             raise ParameterError(needed, None, f"must be given, {what}")
-    pinion = _material("material", given["material"], given["hardness"])
+    pinion = material_of("material", given["material"], given["hardness"])
     wheel_hardness = given["wheel_hardness"]
     if wheel_hardness is None and given["wheel_material"] is None:
         wheel_hardness = given["hardness"]
-    wheel = _material("wheel_material", given["wheel_material"] or given["material"], wheel_hardness)
+    wheel = material_of("wheel_material", given["wheel_material"] or given["material"], wheel_hardness)
     fields: dict[str, Any] = {field: given[name] for name, field in _FIELDS.items() if given[name] is not None}
     fields |= {field: values_of(name, given[name]) for name, field in _RANGES.items() if given[name] is not None}
     if given["teeth"] is not None:
-        fields["teeth"] = _ends("teeth", given["teeth"])
+        fields["teeth"] = ends_of("teeth", given["teeth"])
     if given["module"] is not None or given["second_series"]:
-        fields["modules"] = _modules(given["module"] or "1:10", second=given["second_series"])
+        fields["modules"] = modules_of(given["module"] or "1:10", second=given["second_series"])
     if given["rack"] is not None:
         racks = {name.removeprefix("ISO53_"): rack for name, rack in NAMED_RACKS.items()}
         if (rack := racks.get(given["rack"].upper())) is None:
@@ -124,10 +124,10 @@ def _task(given: Mapping[str, Any]) -> SizeTask:
         fields["rack"] = rack
     if given["by"] is not None:
         fields["criterion"] = given["by"]
-    return SizeTask(load=_load(given), materials=PerGear(pinion, wheel), rating=_rating(given), **fields)
+    return SizeTask(load=load_of(given), materials=PerGear(pinion, wheel), rating=rating_of(given), **fields)
 
 
-def _load(given: Mapping[str, Any]) -> Load:
+def load_of(given: Mapping[str, Any]) -> Load:
     from gearcad.load import Load
 
     torque, power, speed = given["torque"], given["power"], given["speed"]
@@ -145,7 +145,7 @@ def _load(given: Mapping[str, Any]) -> Load:
     return Load(torque=torque, speed=speed, application_factor=1.0 if factor is None else factor)
 
 
-def _material(option: str, name: str, hardness: float | None) -> Material:
+def material_of(option: str, name: str, hardness: float | None) -> Material:
     from gearcad.material import Material, MaterialGroup, grade_of
 
     if grade_of(name) is None:
@@ -155,7 +155,7 @@ def _material(option: str, name: str, hardness: float | None) -> Material:
     return Material(name=name.strip(), hardness=hardness)
 
 
-def _rating(given: Mapping[str, Any]) -> RatingOptions:
+def rating_of(given: Mapping[str, Any]) -> RatingOptions:
     from gearcad.rating.options import RatingOptions
     from gearcad.schema import schema_of
 
@@ -208,7 +208,7 @@ def _number(name: str, text: str, part: str) -> Fraction:
         raise ParameterError(name, text, "must be numbers with commas between, or FIRST:LAST:STEP: 0,10:25:5") from None
 
 
-def _ends(name: str, text: str) -> tuple[int, int]:
+def ends_of(name: str, text: str) -> tuple[int, int]:
     """Least and most of "14:40", or twice the one of "17"."""
     try:
         ends = [int(each) for each in text.split(":")]
@@ -219,7 +219,7 @@ def _ends(name: str, text: str) -> tuple[int, int]:
     return ends[0], ends[-1]
 
 
-def _modules(text: str, *, second: bool) -> tuple[float, ...]:
+def modules_of(text: str, *, second: bool) -> tuple[float, ...]:
     """Those of a list, or those of ISO 54 from the least to the most of a range. Raises ParameterError."""
     from gearcad.sizing import ISO_54_I, ISO_54_II
 

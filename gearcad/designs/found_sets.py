@@ -12,7 +12,7 @@ from gearcad.errors import ParameterError
 from gearcad.output import staged_files
 from gearcad.planetary.search import Candidate, SearchResult
 
-__all__ = ["write_found"]
+__all__ = ["set_keys", "write_found"]
 
 _GEARS = ("sun", "planet", "ring", "planet_2", "sun_2", "ring_2")
 
@@ -45,7 +45,12 @@ def _columns(rows: Sequence[dict[str, str]]) -> list[str]:
 
 
 def _cells(candidate: Candidate) -> dict[str, str]:
-    """A row by its columns. The shifts of centrals follow from the centre distance, so it fits to the last digit.
+    """A row by its columns."""
+    return {"name": candidate.name} | {key: _plain(value) for key, value in set_keys(candidate).items()}
+
+
+def set_keys(candidate: Candidate) -> dict[str, object]:
+    """What a spec has of a set, by the keys of all tables. The shifts of centrals follow from the centre distance, so it fits.
 
     The thinning is there to be given: without it no set has backlash.
     """
@@ -61,10 +66,10 @@ def _cells(candidate: Candidate) -> dict[str, str]:
     }
     if task.helix_angle:
         train["helix_angle"] = task.helix_angle
-    row = {"name": candidate.name} | {f"planetary.{key}": _plain(value) for key, value in train.items()}
+    found = {f"planetary.{key}": value for key, value in train.items()}
     for name in candidate.teeth:
-        row |= {f"{name}.{key}": _plain(value) for key, value in _of_gear(candidate, name).items()}
-    return row
+        found |= {f"{name}.{key}": value for key, value in _of_gear(candidate, name).items()}
+    return found
 
 
 def _plain(value: object) -> str:

@@ -120,3 +120,22 @@ def test_wrong_words_get_one_line(words: tuple[object, ...], message: str) -> No
     assert result.exit_code == 2
     (line,) = result.stderr.splitlines()
     assert line.startswith(f"Error: {message}")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--planetary",), "ratio is missing: must be given, speed of the input over that of the output"),
+        (("--planetary", "--ratio", 5, "--shift", "0.2"), "shift = '0.2': is of pairs: leave it out with --planetary"),
+        (("--ratio", 5, "--planets", "3"), "planets = '3': is of planetary sets: needs --planetary"),
+        (("--planetary", "--ratio", 5, "--helix-angle", "0,10"), "must be one number with --planetary"),
+        (("--planetary", "--ratio", 5, "--wheel-hardness", 90), "ring_material.hardness = 90 HV: must be from 660 to 800 HV"),
+    ],
+)
+def test_sizes_of_sets_need_what_sets_have(words: tuple[object, ...], said: str, tmp_path: Path) -> None:
+    common = ("size", "--torque", 300, "--speed", 1500, "--material", "Eh MQ", "-o", tmp_path / "out")
+    result = CliRunner().invoke(main, [str(each) for each in (*common, *words)])
+    assert result.exit_code == 2
+    assert said in result.output
+    assert len(result.output.strip().splitlines()) == 1
+    assert not (tmp_path / "out").exists()
