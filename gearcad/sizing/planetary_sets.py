@@ -244,7 +244,7 @@ def made(task: SetSizeTask, candidate: Candidate, module: float, width: float) -
     materials = {name: task.material_of(name) for name in train.gears}
     sections = {name: _section(gear, materials[name].density) for name, gear in train.gears.items()}
     loads = mesh_loads(train, power_flow(train, load))
-    rating = rate_train(train, loads, {}, _masses(train, sections), materials, task.rating, torques=False)
+    rating = rate_train(train, loads, {}, _masses(train, sections), materials, task.rating)
     return SizedSet(
         candidate=own,
         train=train,
