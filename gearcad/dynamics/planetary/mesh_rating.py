@@ -124,7 +124,8 @@ def rate_train(
         except InputError as error:
             unrated[stage.name] = str(error)
     factors = {
-        name: MeshFactors(each.dynamic_factor, each.no_dynamic_factor, each.mean_stress_factor) for name, each in meshes.items()
+        name: MeshFactors(each.dynamic_factor, each.no_dynamic_factor, each.mean_stress_factor, each.planets_verify)
+        for name, each in meshes.items()
     }
     strength = train_strength(train, loads, stages, factors, material, options, unrated)
     return TrainRating(meshes=meshes, stages=rated, unrated=unrated, strength=strength)

@@ -22,11 +22,13 @@ __all__ = ["GearStrength", "LeastSafety", "MeshFactors", "TrainStrength", "train
 
 
 class MeshFactors(NamedTuple):
-    """What the mesh with a planet has of its own: K_v with the masses of the set, None where it is not known, and why; Y_M."""
+    """What the mesh with a planet has of its own: K_v with the masses of the set, None where it is not known, and why; Y_M;
+    symbols of what of it is to be verified."""
 
     dynamic: float | None
     unknown: str
     mean_stress: PerGear[float]
+    verify: tuple[str, ...]
 
 
 class LeastSafety(NamedTuple):
@@ -205,7 +207,9 @@ def train_strength(
                 continue
             load, own = loads[name], _of_mesh(loads[name], factors[name], options)
             rating = rate_strength(pair, made_of[name], load.even, own, driver=load.driver)
-            rated[name] = replace(rating, assumed=(*_assumed(load), *rating.assumed))
+            rated[name] = replace(
+                rating, assumed=(*_assumed(load), *rating.assumed), verify=(*factors[name].verify, *rating.verify)
+            )
         except InputError as error:
             without[name] = str(error)
     gears = {mesh.name: _names(mesh) for mesh in train.meshes}
