@@ -93,6 +93,17 @@ class CheckStrength:
             return {part: {} for part in Part}
         return {part: {k: v for k, v in _factors(factors, part).items() if k not in self.contained} for part in Part}
 
+    @cached_property
+    def contact_ratio_factor(self) -> float:
+        """What of Z_eps is none of the load that the model shares: sqrt((4 - eps_alpha)/3 (1 - eps_beta) + eps_beta).
+
+        sigma_Hlim was told from tests by the standard's stress, which has Z_eps. Of spur gears it relieves the one pair of
+        teeth that carries all; with eps_beta from 1 on it is the length of the lines of contact, which solid bodies have.
+        """
+        pair = self.task.pair
+        overlap = min(pair.overlap_ratio, 1.0)
+        return math.sqrt((4 - pair.transverse_contact_ratio) / 3 * (1 - overlap) + overlap)
+
     @property
     def flank(self) -> PerGear[FoundStrength]:
         """By the greatest pressure, that of both flanks."""
@@ -110,12 +121,12 @@ class CheckStrength:
         return {Part.FLANK: self.flank, Part.ROOT: self.root}
 
     def _found(self, part: Part, role: Role, stress: float | None, missing: str = "") -> FoundStrength:
-        """Pressure goes with the square root of the load, tension with the load."""
+        """Pressure goes with the square root of the load, tension with the load; pressure has its part of Z_eps, too."""
         raised = None
         factors = self.rating.load_factors
         if stress is not None and factors is not None and not factors.unknown:
             product = math.prod(self.applied[part].values())
-            raised = stress * (math.sqrt(product) if part is Part.FLANK else product)
+            raised = stress * (math.sqrt(product) * self.contact_ratio_factor if part is Part.FLANK else product)
         return FoundStrength(rated=self.rating.parts[part].pick(role), stress=stress, raised=raised, missing=missing)
 
     @property
@@ -127,6 +138,7 @@ class CheckStrength:
         """As check.json has it."""
         parts = {part.value: {role.value: each.to_dict() for role, each in both.items()} for part, both in self.parts.items()}
         applied = {part.value: dict(factors) for part, factors in self.applied.items()}
+        applied["flank"] |= {"Z_eps": self.contact_ratio_factor}
         return {**parts, "factors_applied": applied, "factors_contained": dict(self.contained)}
 
 
@@ -143,7 +155,8 @@ def strength_gates(strength: CheckStrength) -> Iterator[Comparison]:
     edition = strength.rating.options.standard
     for part, both in strength.parts.items():
         symbol, clause = f"S_{part.index}", edition.dated_part(2 if part is Part.FLANK else 3)
-        applied = ", ".join(f"{name} {value:.4g}" for name, value in strength.applied[part].items())
+        factors = {**strength.applied[part], **({"Z_eps": strength.contact_ratio_factor} if part is Part.FLANK else {})}
+        applied = ", ".join(f"{name} {value:.4g}" for name, value in factors.items())
         for role, found in both.items():
             rated = found.rated
             if rated.safety is None:
