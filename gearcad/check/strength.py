@@ -15,6 +15,7 @@ from gearcad.check.task import CheckTask
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.load_factors import LoadFactors
 from gearcad.rating.strength import Part, PartStrength, StrengthRating
+from gearcad.rating.strength.duty import stresses_of
 
 __all__ = ["CheckStrength", "FoundStrength", "strength_gates"]
 
@@ -25,10 +26,12 @@ _FE = "finite elements"
 class FoundStrength:
     """Of one flank or root: `stress` by finite elements (MPa), and `raised` by the load factors that the model lacks.
 
-    `rated` is what the rating says of it. Without a `safety` it was not judged, for the `reason`.
+    `rated` is what the rating says of it, `rated_stress` its stress under that load: of a spectrum under its nominal torque.
+    Without a `safety` it was not judged, for the `reason`.
     """
 
     rated: PartStrength
+    rated_stress: float | None
     stress: float | None
     raised: float | None
     missing: str = ""
@@ -36,10 +39,9 @@ class FoundStrength:
     @cached_property
     def safety(self) -> float | None:
         """The rating's safety times sigma by the rating over that by finite elements: of one load sigma_G over the stress."""
-        rated = self.rated
-        if rated.safety is None or rated.stress is None or not self.raised:
+        if self.rated.safety is None or self.rated_stress is None or not self.raised:
             return None
-        return rated.safety * rated.stress / self.raised
+        return self.rated.safety * self.rated_stress / self.raised
 
     @property
     def reason(self) -> str:
@@ -52,7 +54,7 @@ class FoundStrength:
         return {
             "fe_stress": self.stress,
             "fe_stress_with_factors": self.raised,
-            "rated_stress": rated.stress,
+            "rated_stress": self.rated_stress,
             "strength": rated.strength,
             "required": rated.required,
             "fe_safety": self.safety,
@@ -122,12 +124,14 @@ class CheckStrength:
 
     def _found(self, part: Part, role: Role, stress: float | None, missing: str = "") -> FoundStrength:
         """Pressure goes with the square root of the load, tension with the load; pressure has its part of Z_eps, too."""
-        raised = None
+        raised = rated_stress = None
         factors = self.rating.load_factors
         if stress is not None and factors is not None and not factors.unknown:
             product = math.prod(self.applied[part].values())
             raised = stress * (math.sqrt(product) * self.contact_ratio_factor if part is Part.FLANK else product)
-        return FoundStrength(rated=self.rating.parts[part].pick(role), stress=stress, raised=raised, missing=missing)
+            rated_stress = stresses_of(self.rating.nominal, factors)[part].pick(role)
+        rated = self.rating.parts[part].pick(role)
+        return FoundStrength(rated=rated, rated_stress=rated_stress, stress=stress, raised=raised, missing=missing)
 
     @property
     def judged(self) -> bool:

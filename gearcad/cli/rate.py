@@ -8,7 +8,7 @@ import click
 
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.job import json_option, output_option, perform, quiet_option
-from gearcad.cli.safeties import print_strength
+from gearcad.cli.safeties import print_strength, verdict_line
 
 __all__ = ["rate"]
 
@@ -22,11 +22,15 @@ __all__ = ["rate"]
 def rate(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
     """Rate the pair of SPEC under its [load] by ISO 6336 or DIN 3990: safeties of flanks and roots, life, permissible torque.
 
+    Of a planetary train each mesh is rated, under what one planet carries.
+
     Writes rate.json and rate.html. Exit status 1 if a required safety is not reached or strength could not be judged;
     [rating] in SPEC sets standard, accuracy, life, oil and required safeties, [material] what the gears bear.
     """
     from gearcad.jobs.rate import Rate
 
     result = perform(Rate(), spec, output, print_strength, as_json=as_json, quiet=quiet)
+    if as_json and not quiet:
+        click.echo(verdict_line(result.name, result), err=True)
     if not result.passed:
         click.get_current_context().exit(1)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from gearcad.dynamics.planetary.strength import TrainStrength
     from gearcad.rating.strength import StrengthRating
 
-__all__ = ["print_strength", "strength_lines"]
+__all__ = ["print_strength", "strength_lines", "verdict_line"]
 
 _WIDTH = 110
 _LONGEST_LIFE = 1e6
@@ -36,17 +36,23 @@ def print_strength(name: str, result: StrengthRating | TrainStrength) -> None:
     """All of a rating, or of those of the meshes of a train, its notices, and the verdict."""
     from gearcad.rating.strength import StrengthRating
 
-    at = name
     if isinstance(result, StrengthRating):
         click.echo("\n".join(strength_lines(result)))
-        at = f"{name} at {_load(result)}"
     else:
         for mesh, rating in result.meshes.items():
             click.echo("\n".join([f"{mesh}: {_load(rating)}", *strength_lines(rating)]))
         click.echo("\n".join(train_strength_lines(result, verdict=False)))
     echo_warnings(result.notices)
     colour = {True: "green", False: "red", None: "yellow"}[result.passed]
-    click.secho(f"{at}: {result.verdict}", fg=None if os.environ.get("NO_COLOR") else colour, bold=True)
+    click.secho(verdict_line(name, result), fg=None if os.environ.get("NO_COLOR") else colour, bold=True)
+
+
+def verdict_line(name: str, result: StrengthRating | TrainStrength) -> str:
+    """What a rating comes to."""
+    from gearcad.rating.strength import StrengthRating
+
+    at = f" at {_load(result)}" if isinstance(result, StrengthRating) else ""
+    return f"{name}{at}: {result.verdict}"
 
 
 def _load(rating: StrengthRating) -> str:

@@ -80,6 +80,7 @@ def test_exit_statuses(tmp_path: Path, change: tuple[str, str], words: str, stat
         assert result.stdout == ""
         assert len(result.stderr.splitlines()) == 1
     else:
+        assert words in result.stderr
         document = json.loads(result.stdout)
         assert document["passed"] is (False if document["strength"] == "failed" else None)
 

@@ -51,6 +51,14 @@ def test_stresses_are_raised_by_what_the_model_lacks() -> None:
     assert found.flank.pinion.raised == pytest.approx(result.summary.contact_pressure * math.sqrt(factors) * spur, rel=EXACT)
 
 
+def test_a_spectrum_is_held_against_the_stress_of_its_nominal_torque() -> None:
+    several = replace(OPTIONS, spectrum=[[0.1, 1.25], [0.9, 0.8]])
+    one, other = (strong(small_check(), options).safeties.root.pinion for options in (OPTIONS, several))
+    assert other.raised == one.raised
+    assert other.safety / other.rated.safety == pytest.approx(one.safety / one.rated.safety, rel=EXACT)
+    assert other.rated.stress > one.rated.stress
+
+
 def test_what_the_model_has_is_not_multiplied_again() -> None:
     solid = strong(small_solid_check())
     assert set(solid.safeties.contained) == {"K_A", "K_Hbeta", "K_Fbeta"}  # it is misaligned

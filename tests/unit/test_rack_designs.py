@@ -170,7 +170,9 @@ def test_jobs_take_racks_or_say_why_not(tmp_path: Path) -> None:
     for verb in ("check", "mesh", "stiffness", "dynamics", "modify"):
         with pytest.raises(ParameterError, match=r"^kind = 'rack and pinion': must be a .*pair.*: finite elements, stiffness"):
             getattr(gearcad, verb)(pair)
-    with pytest.raises(ParameterError, match=r"^kind = 'rack': must be a pair or a rack and pinion: a rack by itself is for"):
+    with pytest.raises(
+        ParameterError, match=r"^kind = 'rack': must be a pair, a rack and pinion or a planetary train: a rack by itself is for"
+    ):
         gearcad.rate(pair.rack)
     with pytest.raises(
         ParameterError, match=r"^mounting = None: is nothing that a rack and pinion has; it has material, load,"

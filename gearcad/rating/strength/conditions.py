@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.load import Load
-from gearcad.per_gear import PerGear, Role
+from gearcad.per_gear import PerGear
 from gearcad.rating.factors import mesh_radius
 from gearcad.rating.options import RatingOptions
 
@@ -52,7 +52,7 @@ class Conditions:
             root_roughness=_or(given["root_roughness"], ROOT_ROUGHNESS),
             normal_module=pinion.normal_module,
             gear_ratio=pair.gear_ratio if isinstance(pair, GearPair) else math.inf,
-            assumed=tuple(_assumed(given, options)),
+            assumed=tuple(_assumed(given, options, "wheel" if isinstance(pair, GearPair) else "rack")),
         )
 
 
@@ -71,10 +71,10 @@ def _reduced_radius(pair: GearPair | RackPair) -> float:
     return mesh_radius(pair.pinion.base_diameter, pair.wheel.base_diameter, tangent)
 
 
-def _assumed(given: dict[str, PerGear[float | None]], options: RatingOptions) -> Iterator[str]:
+def _assumed(given: dict[str, PerGear[float | None]], options: RatingOptions, mate: str) -> Iterator[str]:
     if options.oil_viscosity_40 is None:
         yield f"oil_viscosity_40 = {VISCOSITY:g} mm²/s: oil ISO VG 220"
     for name, roughness in given.items():
-        lacking = [role.value for role in Role if roughness.pick(role) is None]
+        lacking = [gear for gear, value in zip(("pinion", mate), roughness, strict=True) if value is None]
         if lacking:
             yield f"{name} = {_ROUGHNESS[name]:g} µm (Rz) of {' and '.join(lacking)}"

@@ -19,7 +19,7 @@ from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import Rating
 from gearcad.rating.strength.part import Part
 
-__all__ = ["Duty", "LoadCase"]
+__all__ = ["Duty", "LoadCase", "stresses_of"]
 
 _MINUTES = 60
 
@@ -90,22 +90,27 @@ class Duty:
 
     def _case(self, of: LoadBin, scale: float) -> LoadCase:
         load = replace(self.load, torque=self.load.torque * of.torque * scale, speed=self.load.speed * of.speed)
-        factors, share = self.factors(load), of.torque * scale
-        common = factors.application * factors.mesh_load * factors.dynamic
-        flank = math.sqrt(common * factors.face_flank * factors.transverse_flank * share) * self.nominal.flank.nominal_stress
-        root = common * factors.face_root * factors.transverse_root * share
+        factors = self.factors(load)
         return LoadCase(
             load=load,
             life_share=of.life,
             cycle_share=of.life * of.speed / self._turns,
             factors=factors,
-            stresses={
-                Part.FLANK: self.nominal.flank.contact_factors.map(lambda factor: factor * flank),
-                Part.ROOT: self.nominal.roots.map(lambda each: each.nominal_stress * root),
-            },
+            stresses=stresses_of(self.nominal, factors, of.torque * scale),
         )
 
     def stresses(self, part: Part, role: Role, scale: float = 1.0) -> tuple[Floats, Floats]:
         """Shares of the load cycles (n,), and the stress of each (n,) in MPa, of one part."""
         cases = self.cases(scale)
         return np.array([case.cycle_share for case in cases]), np.array([case.stresses[part].pick(role) for case in cases])
+
+
+def stresses_of(nominal: Rating, factors: LoadFactors, share: float = 1.0) -> dict[Part, PerGear[float]]:
+    """sigma_H and sigma_F (MPa) of both gears with all load factors, at a share of the torque of the nominal rating."""
+    common = factors.application * factors.mesh_load * factors.dynamic * share
+    flank = math.sqrt(common * factors.face_flank * factors.transverse_flank) * nominal.flank.nominal_stress
+    root = common * factors.face_root * factors.transverse_root
+    return {
+        Part.FLANK: nominal.flank.contact_factors.map(lambda factor: factor * flank),
+        Part.ROOT: nominal.roots.map(lambda each: each.nominal_stress * root),
+    }

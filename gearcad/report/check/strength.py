@@ -79,7 +79,7 @@ def _row(of: CheckStrength, part: Part, role: Role, found: FoundStrength) -> Str
         words=f"{_PARTS[part]}, {role.value}",
         nominal=short(stress.pick(role)),
         found=_text(found.stress),
-        rated=_text(rated.stress),
+        rated=_text(found.rated_stress),
         raised=_text(found.raised),
         strength=_text(rated.strength),
         required=short(rated.required),

@@ -1,0 +1,67 @@
+"""What to know of a full rating: what was assumed, what is to be verified, notices."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from gearcad.errors import InputError
+from gearcad.geometry import GearPair
+from gearcad.notice import Notice
+from gearcad.per_gear import Role
+from gearcad.rating.factors import to_verify
+from gearcad.rating.factors.life import endurance_cycles
+from gearcad.rating.strength.part import Part
+from gearcad.rating.strength.root import notch_strength
+from gearcad.rating.strength.task import StrengthTask
+
+__all__ = ["assumed_of", "notices_of", "verify_of"]
+
+
+def assumed_of(task: StrengthTask) -> Iterator[str]:
+    """What was not given."""
+    yield from task.conditions.assumed
+    if task.hardening.assumed:
+        yield task.hardening.assumed
+    for role, material in task.materials.items():
+        if material.group is not None and task.limits.pick(role).root is not None:
+            notch = task.nominal.roots.pick(role).section.notch_parameter
+            if said := notch_strength(material, material.group, notch).assumed:
+                yield f"{said} ({task.nominal.names.pick(role)})"
+    if task.duty.cycles.pinion is None and task.load.speed:
+        yield "no life and no load cycles are given: endurance limits hold, with Z_NT = Y_NT = 1"
+    if not isinstance(task.load_factors, InputError):
+        yield from task.load_factors.assumed
+    if task.scuffing is not None and task.scuffing.judged:
+        yield from task.scuffing.assumed
+
+
+def verify_of(task: StrengthTask) -> Iterator[str]:
+    """Symbols of what is to be verified."""
+    yield from task.nominal.verify
+    for each in task.limits:
+        yield from each.verify
+    yield from to_verify(
+        task.options.standard,
+        internal=isinstance(task.rated, GearPair) and task.rated.internal,
+        limited_flank=_limited(task, Part.FLANK),
+        limited_root=_limited(task, Part.ROOT),
+    )
+    if not isinstance(task.load_factors, InputError):
+        yield from task.load_factors.verify
+    if task.scuffing is not None and task.scuffing.judged:
+        yield from task.scuffing.verify
+
+
+def _limited(task: StrengthTask, part: Part) -> bool:
+    """Whether a gear has fewer load cycles than its endurance limit asks for."""
+    found = ((task.resistance(part, role), task.duty.cycles.pick(role)) for role in Role)
+    return any(each is not None and cycles is not None and cycles < endurance_cycles(each.points) for each, cycles in found)
+
+
+def notices_of(task: StrengthTask) -> Iterator[Notice]:
+    """Of the nominal rating, of load factors and scuffing."""
+    yield from task.nominal.notices
+    if not isinstance(task.load_factors, InputError):
+        yield from task.load_factors.notices
+    if task.scuffing is not None and task.scuffing.judged:
+        yield from task.scuffing.notices
