@@ -116,12 +116,12 @@ Limit = float | tuple[float, float] | None
 class Material:
     """Linear elastic material. `youngs_modulus` and the limits in MPa, `density` in kg/m³.
 
-    `contact_limit` and `root_limit` are allowable stresses, or the range (low, high) in which that of the material lies;
-    None gives no verdict. `group` says how flanks run in, and `contact_endurance_limit` (sigma_H_lim, MPa) how much where
-    they are not hardened on the surface. With a `quality`, and the `hardness` of the flanks (HV; HBW of St, GGG, GTS and GG), a
-    group has endurance limits by ISO 6336-5, unless they are given; `core_hardness` (HRC) counts for Eh MQ. A name such as
-    "Eh MQ" gives group and quality. `yield_strength` is sigma_S or sigma_0.2, `tensile_strength` sigma_B. Raises
-    ParameterError, and GeometryError for a group or a quality that is not that of the name.
+    `contact_limit` and `root_limit` are what a check holds local stresses against, or the range (low, high) in which that
+    of the material lies; None gives no verdict. `group` says how flanks run in, and `contact_endurance_limit` (sigma_H_lim,
+    MPa) how much where they are not hardened on the surface. With a `quality`, and the `hardness` of the flanks (HV; HBW of
+    St, GGG, GTS and GG), a group has endurance limits by ISO 6336-5, unless they are given; `core_hardness` (HRC) counts
+    for Eh MQ. A name such as "Eh MQ" gives group and quality. `yield_strength` is sigma_S or sigma_0.2, `tensile_strength`
+    sigma_B. Raises ParameterError, and GeometryError for a group or a quality that is not that of the name.
     """
 
     name: Annotated[str, Words("material")] = "steel"
@@ -129,8 +129,8 @@ class Material:
     poisson_ratio: Annotated[float, POISSON_RATIO, Words("Poisson's ratio", "ν")] = 0.3
     density: Annotated[float, DENSITY, Words("density", "ρ")] = 7850.0
     yield_strength: Annotated[float | None, STRENGTH, Words("yield strength", "σ_y")] = None
-    contact_limit: Annotated[Limit, STRENGTH, Words("permissible contact stress", "σ_HP", "ISO 6336-2")] = None
-    root_limit: Annotated[Limit, STRENGTH, Words("permissible root stress", "σ_FP", "ISO 6336-3")] = None
+    contact_limit: Annotated[Limit, STRENGTH, Words("given limit of contact pressure")] = None
+    root_limit: Annotated[Limit, STRENGTH, Words("given limit of local root stress")] = None
     group: Annotated[MaterialGroup | None, Words("material group", "", "ISO 6336-5")] = None
     contact_endurance_limit: Annotated[
         float | None, STRENGTH, Words("endurance limit of contact stress", "σ_Hlim", "ISO 6336-5")

@@ -57,14 +57,15 @@ def verdict_line(name: str, result: StrengthRating | TrainStrength) -> str:
 
 def _load(rating: StrengthRating) -> str:
     load = rating.load
-    return f"{load.torque:.6g} N·m, {load.speed:.6g} rpm" if load.speed else f"{load.torque:.6g} N·m"
+    torque = f"{load.torque:.6g} N·m" if rating.own_names is None else f"{load.torque:.6g} N·m on {rating.own_names.pinion}"
+    return f"{torque}, {load.speed:.6g} rpm" if load.speed else torque
 
 
 def strength_lines(rating: StrengthRating) -> Iterator[str]:
     """All but notices and verdict, line by line."""
     document, names = rating.to_dict(), tuple(rating.names)
     yield f"{document['standard']}, {rating.options.accuracy.value}"
-    yield _row("", (*names, "required"))
+    yield _row("", (*rating.gear_names, "required"))
     yield from _safeties(document, names)
     yield from _wrapped("scuffing", _scuffing(rating))
     for words, symbols in _GROUPS.items():

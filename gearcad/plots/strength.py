@@ -32,7 +32,7 @@ def plot_life(rating: StrengthRating, part: Part, ax: Axes | None = None) -> Axe
         of = rating.parts[part].pick(role)
         if of.resistance is None:
             continue
-        (_, colour, _), own = GEARS.pick(role), rating.names.pick(role)
+        (_, colour, _), own = GEARS.pick(role), rating.gear_names.pick(role)
         cycles, stress = map(np.array, zip(*of.resistance.curve, strict=True))
         ends = np.concatenate([[_FEWEST], cycles, [_MOST]]), np.concatenate([stress[:1], stress, stress[-1:]])
         style = "-" if role is Role.PINION else "--"
@@ -53,7 +53,7 @@ def _loads(axes: Axes, rating: StrengthRating, part: Part, role: Role) -> list[f
     """A mark for each load of a gear; a line where its cycles are not known. Returns the stresses (MPa)."""
     (_, colour, marker), cycles = GEARS.pick(role), rating.parts[part].pick(role).cycles
     stresses = [case.stresses[part].pick(role) for case in rating.cases]
-    words = f"stress of the {rating.names.pick(role)}"
+    words = f"stress of the {rating.gear_names.pick(role)}"
     if cycles is not None:
         counts = [cycles * case.cycle_share for case in rating.cases]
         axes.plot(np.clip(counts, _FEWEST, _MOST), stresses, marker, color=colour, markersize=7, label=words)
@@ -74,6 +74,7 @@ def plot_flash(scuffing: Scuffing, ax: Axes | None = None) -> Axes:
         limit = scuffing.limits.flash
         axes.axhline(limit, color=DARK, linestyle="-.", linewidth=1.2, label=f"scuffing, {short(limit)} °C")
     axes.axvline(0, color=MARKED, linewidth=0.8)
+    axes.set_ymargin(0.1)
     axes.set_ylim(bottom=0)
     legend_above(axes, 2)
     return axes

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearcad.output import source_date
 from gearcad.plots.paper import short
+from gearcad.report.written import indexed, listed, written
 from gearcad.shipped import templates
 from gearcad.version import __version__
 
@@ -34,7 +35,8 @@ def page_html(template: str, design_name: str, **values: Any) -> str:
 
     loader = FileSystemLoader(templates())
     environment = Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=StrictUndefined)
-    environment.filters |= {"short": short, "indexed": _indexed, "finished": _finished}
+    environment.filters |= {"short": short, "finished": _finished}
+    environment.filters |= {"written": written, "indexed": indexed, "listed": listed}
     fixed = source_date()
     made = {"version": __version__, "versions": _versions(), "date": (fixed.date() if fixed else date.today()).isoformat()}
     return environment.get_template(template).render(name=design_name, **made, **values)
@@ -68,10 +70,3 @@ def _anchor(title: str, taken: Container[str]) -> str:
     plain = html.unescape(re.sub(r"<[^>]*>", "", title)).lower()
     words = "-".join(re.findall(r"[a-z0-9]+", plain)) or "section"
     return next(name for number in count(1) if (name := f"section-{words}" + f"-{number}" * (number > 1)) not in taken)
-
-
-def _indexed(text: str) -> Markup:
-    """Symbols with their indices lowered: Y_F, F_t K_A/b."""
-    from markupsafe import Markup, escape
-
-    return Markup(re.sub(r"_([^\s*/,;)]+)", r"<sub>\1</sub>", str(escape(text))))

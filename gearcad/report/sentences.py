@@ -7,6 +7,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from gearcad.plots.paper import short
+from gearcad.report.written import listed
 from gearcad.shipped import templates
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def _plain() -> Environment:
 
     loader = FileSystemLoader(templates())
     environment = Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, undefined=StrictUndefined)
-    environment.filters |= {"short": _short, "to": format, "beyond": _beyond}
+    environment.filters |= {"short": _short, "to": format, "beyond": _beyond, "listed": listed}
     return environment
 
 

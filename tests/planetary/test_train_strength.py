@@ -121,7 +121,7 @@ def test_nominal_ratings_stay_as_they_were() -> None:
         assert full["factors"]["K_gamma"] == 1.1
         assert full["factors"]["K_v"] == each.dynamic_factor
         assert "nominal" not in full
-        assert {"K_v", "pinion.Y_M"} <= set(full["verify"])
+        assert {"K_v", "planet.Y_M"} <= set(full["verify"])
 
 
 def test_stepped_trains_with_a_stage() -> None:

@@ -15,6 +15,7 @@ from gearcad.planetary.materials import TrainMaterial, mesh_material, stage_mate
 from gearcad.planetary.mesh_loads import FactorSource, MeshLoad
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import Part, PartStrength, StrengthRating, rate_strength
+from gearcad.rating.strength.called import called
 from gearcad.rating.strength.part import told
 from gearcad.verdict import Verdict, together
 
@@ -197,23 +198,22 @@ def train_strength(
     pairs = {mesh.name: mesh.pair for mesh in train.meshes} | {stage.name: stage.pair for stage in train.stages}
     made_of = {mesh.name: mesh_material(material, mesh) for mesh in train.meshes}
     made_of |= {stage.name: stage_material(material, stage) for stage in train.stages}
+    gears = {mesh.name: _names(mesh) for mesh in train.meshes}
+    gears |= {stage.name: stage.pair.gears.map(lambda gear: gear.name) for stage in train.stages}
     rated, without = dict[str, StrengthRating](), dict(unrated or {})
     for name, pair in pairs.items():
         if name in without:
             continue
         try:
             if name not in loads:
-                rated[name] = rate_strength(pair, made_of[name], stages[name], options)
+                rated[name] = called(rate_strength(pair, made_of[name], stages[name], options), gears[name])
                 continue
             load, own = loads[name], _of_mesh(loads[name], factors[name], options)
             rating = rate_strength(pair, made_of[name], load.even, own, driver=load.driver)
-            rated[name] = replace(
-                rating, assumed=(*_assumed(load), *rating.assumed), verify=(*factors[name].verify, *rating.verify)
-            )
+            rating = replace(rating, assumed=(*_assumed(load), *rating.assumed), verify=(*factors[name].verify, *rating.verify))
+            rated[name] = called(rating, gears[name])
         except InputError as error:
             without[name] = str(error)
-    gears = {mesh.name: _names(mesh) for mesh in train.meshes}
-    gears |= {stage.name: stage.pair.gears.map(lambda gear: gear.name) for stage in train.stages}
     names = tuple(dict.fromkeys((*train.gears, *(name for pair in gears.values() for name in pair))))
     return TrainStrength(name=train.name, options=options, meshes=rated, unrated=without, gears=gears, names=names)
 

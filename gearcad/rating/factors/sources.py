@@ -20,6 +20,7 @@ _CLAUSES = {
         "Z_R": "12",
         "Z_W": "13",
         "Z_X": "14",
+        **dict.fromkeys(("sigma_H0", "sigma_H", "sigma_HG", "sigma_HP"), "5"),
     },
     3: {
         "Y_F": "6",
@@ -32,6 +33,7 @@ _CLAUSES = {
         "Y_RrelT": "14",
         "Y_X": "15",
         "Y_M": "annex B",
+        **dict.fromkeys(("Y_ST", "sigma_F0", "sigma_F", "sigma_FG", "sigma_FP"), "5"),
     },
 }
 """Of ISO 6336:2006, by part."""

@@ -24,6 +24,7 @@ def strength_document(of: StrengthRating) -> dict[str, Any]:
     factors, stresses = _factors(of), _stresses(of)
     return {
         "standard": of.options.standard.value,
+        **({} if of.own_names is None else {"gears": _gears(of, of.own_names)}),
         "load": asdict(of.load),
         "materials": _gears(of, of.materials.map(asdict)),
         "factors": factors,
@@ -77,7 +78,12 @@ def _tolerances_of(of: StrengthRating, role: Role) -> dict[str, Any] | None:
 def _sources(of: StrengthRating, keys: tuple[str, ...]) -> dict[str, str]:
     """Clauses: of load factors those by which they were found."""
     found = {} if of.load_factors is None else of.load_factors.sources
-    clauses = {**citations(of.options.standard), **found}
+    limits = {
+        "sigma_Hlim": of.limits.map(lambda each: each.contact_source),
+        "sigma_Flim": of.limits.map(lambda each: each.root_source),
+    }
+    told_of = {key: "; ".join(dict.fromkeys(both)) for key, both in limits.items()}
+    clauses = {**citations(of.options.standard), **told_of, **found}
     return {key: clauses.get(key, symbols.STRENGTH[key].source) for key in keys if key in symbols.STRENGTH}
 
 

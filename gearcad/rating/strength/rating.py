@@ -31,6 +31,7 @@ class StrengthRating:
     `nominal` is the rating by geometry and torque alone, with K_A. `load_factors` are those of the load, of a spectrum those of
     its nominal torque, and `cases` its loads; None where they are not known, for the reason that the parts have. `assumed` says
     in words what was not given, `verify` has the symbols of what rests on one source or on memory.
+    Gears of a set have `own_names`.
     """
 
     pair: GearPair | RackPair
@@ -48,6 +49,7 @@ class StrengthRating:
     assumed: tuple[str, ...]
     verify: tuple[str, ...]
     notices: tuple[Notice, ...]
+    own_names: PerGear[str] | None = None
 
     def __repr__(self) -> str:
         return f"<StrengthRating of {self.pair.name!r} at {self.load.torque:g} N·m: {self.verdict}>"
@@ -59,8 +61,13 @@ class StrengthRating:
 
     @property
     def names(self) -> PerGear[str]:
-        """What both gears are called in documents."""
+        """Under what documents have the values of both gears."""
         return self.nominal.names
+
+    @property
+    def gear_names(self) -> PerGear[str]:
+        """What both gears are called where a rating is told: pinion and wheel, or as in their set."""
+        return self.own_names or self.names
 
     @property
     def contact_ratio(self) -> float:
@@ -77,7 +84,7 @@ class StrengthRating:
         """Each part with its name, such as "flank of the pinion"."""
         for part, both in self.parts.items():
             for role in Role:
-                yield f"{part.value} of the {self.names.pick(role)}", both.pick(role)
+                yield f"{part.value} of the {self.gear_names.pick(role)}", both.pick(role)
 
     # ------------------------------------------------------------------ the least
 

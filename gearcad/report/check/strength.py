@@ -10,13 +10,11 @@ from gearcad.plots.paper import short
 from gearcad.rating.strength import Part
 from gearcad.report.sentences import sentences
 from gearcad.report.strength.tables import Group, factor_groups
-from gearcad.symbols import STRENGTH
+from gearcad.report.written import written
 
 __all__ = ["StrengthRow", "StrengthSection", "strength_section"]
 
 _NONE = "–"  # an en dash where there is no value
-
-_K = ("K_gamma", "K_Hbeta", "K_Fbeta", "K_Halpha", "K_Falpha")
 
 _PARTS = {Part.FLANK: "contact", Part.ROOT: "root"}
 
@@ -53,7 +51,7 @@ class StrengthSection(NamedTuple):
 def strength_section(of: CheckStrength) -> StrengthSection:
     """Of a check."""
     rows = [_row(of, part, role, found) for part, both in of.parts.items() for role, found in both.items()]
-    told = [_written(sentences("strength_check.txt", macro, of)) for macro in ("applied", "contained", "nonlinear", "contact")]
+    told = [written(sentences("strength_check.txt", macro, of)) for macro in ("applied", "contained", "nonlinear", "contact")]
     groups = factor_groups(of.rating, of.rating.to_dict()) if of.judged else []
     reasons: dict[str, list[str]] = {}
     for part, both in of.parts.items():
@@ -61,13 +59,6 @@ def strength_section(of: CheckStrength) -> StrengthSection:
             if found.reason:
                 reasons.setdefault(found.reason, []).append(f"{part.value} of the {role.value}")
     return StrengthSection(rows, reasons, [each for each in told if each], groups, of.rating.assumed, of.rating.verify)
-
-
-def _written(text: str) -> str:
-    """With symbols as the standard writes them."""
-    for key in _K:
-        text = text.replace(key, STRENGTH[key].symbol)
-    return text
 
 
 def _row(of: CheckStrength, part: Part, role: Role, found: FoundStrength) -> StrengthRow:

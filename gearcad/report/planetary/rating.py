@@ -24,7 +24,7 @@ def section_of_rating(train: PlanetaryTrain, rating: TrainRating) -> Section:
     heads = ("mesh", "gear", "K_A", "K_γ", "K_v", "σ_H0, MPa", "σ_H, MPa", "σ_F0, MPa", "σ_F, MPa", "Y_M")
     rows = [*_of_set(train, rating), *_of_stages(train, rating)]
     unread = [each.verify for each in rating.meshes.values()] + [each.verify for each in rating.stages.values()]
-    note = said("rating_note", list(dict.fromkeys(each.replace("q_prime", "q'") for each in chain.from_iterable(unread))))
+    note = said("rating_note", list(dict.fromkeys(chain.from_iterable(unread))))
     tables = (Table("", grid=WordTable(heads, rows, 2), note=note, symbols=True),) if rows else ()
     unrated = tuple(said("unrated", name, why) for name, why in rating.unrated.items())
     return Section("Rating of the meshes", words=(said("rating_words", rating), *unrated), tables=tables)

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from gearcad import symbols
 from gearcad.material import Material
-from gearcad.per_gear import PerGear
+from gearcad.per_gear import PerGear, Role
 from gearcad.plots.paper import short
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import INFINITE, Part, StrengthRating
@@ -37,6 +37,9 @@ _TOLD = {
     "damage": Symbol("D", "", "ISO 6336-6", "damage over the life at the required safety"),
 }
 
+_CYCLES = {Part.FLANK: "ISO 6336-2, 11", Part.ROOT: "ISO 6336-3, 12"}
+"""Where the standard counts load cycles."""
+
 _LONGEST_LIFE = 1e6
 """Hours above which a life is told as more than that."""
 
@@ -47,6 +50,10 @@ _GROUPS = {
     "Root stress": "Y_F Y_S Y_beta Y_B Y_DT sigma_F0 sigma_F",
     "What the roots bear": "sigma_Flim Y_ST Y_NT Y_delta_relT Y_RrelT Y_X Y_M sigma_FG sigma_FP",
 }
+
+
+_OF_ONE = {"Z_B": Role.PINION, "Z_D": Role.WHEEL}
+"""Whose factor it is, of those that documents have by themselves."""
 
 
 class Group(NamedTuple):
@@ -71,11 +78,13 @@ def safety_rows(rating: StrengthRating, document: Mapping[str, Any]) -> list[Row
                 "",
             )
         )
-        for key in ("permissible_torque", "damage"):
-            rows.append(_row(_TOLD[key], document[key][part.value], rating.names))
+        torque = _TOLD["permissible_torque"]._replace(words=f"torque on the {rating.gear_names.pinion} at the required safety")
+        for told, key in ((torque, "permissible_torque"), (_TOLD["damage"], "damage")):
+            rows.append(_row(told, document[key][part.value], rating.names))
         hours = {name: _hours(value) for name, value in document["life"][part.value].items()}
         rows.append(_row(_TOLD["life"], hours, rating.names))
-        rows.append(_row(symbols.STRENGTH["N_L"], document["load_cycles"][part.value], rating.names))
+        cycles = symbols.STRENGTH["N_L"]._replace(source=_CYCLES[part])
+        rows.append(_row(cycles, document["load_cycles"][part.value], rating.names))
     for symbol, key in (("S_int", "integral"), ("S_B", "flash")):
         rows.append(_row(symbols.STRENGTH[symbol], document["safety"]["scuffing"][key], rating.names))
     return rows
@@ -88,12 +97,19 @@ def factor_groups(rating: StrengthRating, document: Mapping[str, Any]) -> list[G
 
     def row(key: str) -> Row:
         symbol = symbols.STRENGTH[key]
-        return _row(symbol._replace(source=sources.get(key, symbol.source)), values[key], rating.names, key in verify)
+        value, words = values[key], symbol.words
+        if key in _OF_ONE:
+            role = _OF_ONE[key]
+            value = _of_one(rating.names, role, value)
+            words = words.replace(role.value, rating.gear_names.pick(role))
+        symbol = symbol._replace(source=sources.get(key, symbol.source), words=words)
+        return _row(symbol, value, rating.names, key in verify)
 
     found = [Group(title, [row(key) for key in keys.split() if key in values]) for title, keys in _GROUPS.items()]
     written, details = symbols.LOAD_FACTOR_DETAILS, document["load_factors"] or {}
     behind = [_row(written[key], value, rating.names) for key, value in details.items() if key in written]
-    return [*found[:1], Group("Behind the load factors", behind), *found[1:]] if behind else found
+    found.insert(1, Group("Behind the load factors", behind))
+    return [group for group in found if group.rows]
 
 
 def option_rows(options: RatingOptions) -> list[Row]:
@@ -157,9 +173,10 @@ def tolerance_rows(document: Mapping[str, Any], names: PerGear[str]) -> list[Row
     return [*_given(flanks, both, doubtful), *_given(_below("thickness_limits", symbols.GEAR), thickness)]
 
 
-def uncovered_tolerances(document: Mapping[str, Any], names: PerGear[str]) -> list[str]:
+def uncovered_tolerances(rating: StrengthRating, document: Mapping[str, Any]) -> list[str]:
     """Why the standard has not all of them."""
-    return [f"{name}: {why}" for name in names for why in (document["tolerances"][name] or {}).get("not_covered", ())]
+    found = ((own, document["tolerances"][name] or {}) for name, own in zip(rating.names, rating.gear_names, strict=True))
+    return [f"{own}: {why}" for own, values in found for why in values.get("not_covered", ())]
 
 
 def backlash_rows(document: Mapping[str, Any]) -> list[Row]:
@@ -198,6 +215,11 @@ def _row(symbol: Symbol, value: Any, names: PerGear[str], verify: bool = False) 
     values = tuple(_text(value[name]) for name in names) if isinstance(value, Mapping) else (_text(value),)
     source = f"{symbol.source} (verify)" if verify else symbol.source
     return Row(symbol.words, symbol.symbol, values, symbol.unit, source)
+
+
+def _of_one(names: PerGear[str], role: Role, value: float) -> dict[str, float | None]:
+    """A value of one gear; the other has none."""
+    return {name: value if each is role else None for each, name in names.items()}
 
 
 def _listed(value: Any) -> str:
