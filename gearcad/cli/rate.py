@@ -22,10 +22,13 @@ __all__ = ["rate"]
 def rate(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
     """Rate the pair of SPEC under its [load] by ISO 6336 or DIN 3990: safeties of flanks and roots, life, permissible torque.
 
-    Of a planetary train each mesh is rated, under what one planet carries.
+    Of a planetary train each mesh is rated, under what the planet carries that carries most.
 
-    Writes rate.json and rate.html. Exit status 1 if a required safety is not reached or strength could not be judged;
-    [rating] in SPEC sets standard, accuracy, life, oil and required safeties, [material] what the gears bear.
+    [rating] in SPEC sets standard, accuracy, life, oil, shafts and required safeties; [material] what the gears bear, by group,
+    quality and hardness of ISO 6336-5. What is not given is assumed and told; without its limit a flank or root is not judged.
+
+    Writes rate.json and rate.html, of a train rate-MESH.html of each mesh. Exit status 1 if a required safety is not reached or
+    strength could not be judged.
     """
     from gearcad.jobs.rate import Rate
 
