@@ -323,7 +323,7 @@ STRENGTH_FIGURES = {
     "S_int": STRENGTH["S_int"],
     "S_B": STRENGTH["S_B"],
     "permissible_torque": Symbol("T_1", "N·m", "ISO 6336-1", "torque on the pinion with the required safeties"),
-    "life": Symbol("", "h", "ISO 6336-6", "life until failure, with the required safeties; empty without end"),
+    "life": Symbol("", "h", "ISO 6336-6", "life at the required safeties; empty without end"),
     "life_infinite": Symbol("", "", "ISO 6336-6", "whether that is without end"),
     **{key: STRENGTH[key] for key in ("K_v", "K_Hbeta", "K_Fbeta", "K_Halpha", "K_Falpha")},
     **{key: STRENGTH[key] for key in ("sigma_H", "sigma_HG", "sigma_F", "sigma_FG")},

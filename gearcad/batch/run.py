@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import errno
 import shutil
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
 from itertools import islice
@@ -25,7 +25,7 @@ from gearcad.jobs.job import Job
 from gearcad.output import UNWRITABLE, unwritable
 from gearcad.progress import Progress
 
-__all__ = ["Summary", "run_table"]
+__all__ = ["Summary", "falls_short", "run_table"]
 
 WORKSPACE = ".gearcad-batch"
 """Folder inside the output folder where rows grow; it is there during a run, and after one that was killed."""
@@ -41,7 +41,7 @@ _LONGEST_LIMIT = 1e6
 class Summary:
     """How a run ended: its files, rows by status, one line for each failed row, and why it stopped early if it did.
 
-    `short` of the rows that are ok have a check with a gate that is not passed.
+    `short` of the rows that are ok have a check with a gate that is not passed, or a rating that is not.
     """
 
     results: tuple[Path, ...]
@@ -167,7 +167,7 @@ class _Run:
         errors, short = [], 0
         for _, record in self.journal.results():
             states[record.status] += 1
-            short += record.values.get("check.passed") is False
+            short += falls_short(record.values)
             if record.error:
                 errors.append(record.error)
         return Summary(
@@ -179,6 +179,11 @@ class _Run:
             errors=tuple(errors),
             stopped=self.stopped,
         )
+
+
+def falls_short(values: Mapping[str, Any]) -> bool:
+    """Whether a check failed, or a rating failed or judged not all, as their commands end with status 1."""
+    return values.get("check.passed") is False or values.get("rate.passed", True) is not True
 
 
 def _checked(outcome: Outcome[list[Row], list[list[str]]]) -> list[list[str]]:

@@ -82,7 +82,7 @@ def batch(
             progress=progress,
         )
     _report(summary, time.perf_counter() - began, as_json=as_json, quiet=quiet)
-    if summary.failed or summary.not_run or summary.stopped:
+    if summary.failed or summary.not_run or summary.short or summary.stopped:
         click.get_current_context().exit(1)
 
 
@@ -115,6 +115,6 @@ def _report(summary: Summary, seconds: float, *, as_json: bool, quiet: bool) -> 
         click.echo(f"Error: {line}", err=True)
     if not quiet:
         rest = f", {summary.not_run} not run" if summary.not_run else ""
-        rest += f", {summary.short} checks not passed" if summary.short else ""
+        rest += f", {summary.short} with checks or ratings not passed" if summary.short else ""
         rate = (summary.ok + summary.failed) / seconds
         click.echo(f"{summary.ok} rows ok, {summary.failed} failed{rest} in {seconds:.1f} s ({rate:.3g} rows/s)", err=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import click
@@ -9,6 +11,7 @@ import click
 from gearcad.cli.group import debug_option, spec_argument
 from gearcad.cli.job import json_option, output_option, perform, quiet_option
 from gearcad.cli.safeties import print_strength, verdict_line
+from gearcad.errors import InputError, OutputError, SpecError
 
 __all__ = ["rate"]
 
@@ -32,8 +35,25 @@ def rate(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
     """
     from gearcad.jobs.rate import Rate
 
-    result = perform(Rate(), spec, output, print_strength, as_json=as_json, quiet=quiet)
+    with _blaming(spec):
+        result = perform(Rate(), spec, output, print_strength, as_json=as_json, quiet=quiet)
     if as_json and not quiet:
         click.echo(verdict_line(result.name, result), err=True)
     if not result.passed:
         click.get_current_context().exit(1)
+
+
+_KEYS = {"torque": "load.torque", "hardness": "material.hardness"}
+"""Keys of values that only the rating finds to be wrong."""
+
+
+@contextmanager
+def _blaming(spec: Path) -> Iterator[None]:
+    """All that a rating goes by is in the spec: an InputError becomes a SpecError that names it, and the key."""
+    try:
+        yield
+    except OutputError:
+        raise
+    except InputError as error:
+        key = _KEYS.get(error.parameter, error.parameter)
+        raise SpecError(f"{spec}: {type(error)(key, error.value, error.permitted, error.unit)}", key) from error

@@ -67,6 +67,7 @@ def strength_lines(rating: StrengthRating) -> Iterator[str]:
     yield f"{document['standard']}, {rating.options.accuracy.value}"
     yield _row("", (*rating.gear_names, "required"))
     yield from _safeties(document, names)
+    yield from _wrapped("spectrum", [rating.told_load], "; ")
     yield from _wrapped("scuffing", _scuffing(rating))
     for words, symbols in _GROUPS.items():
         yield from _wrapped(words, (_factor(symbol, document["factors"].get(symbol), names) for symbol in symbols.split()))
@@ -89,7 +90,7 @@ def _safeties(document: Mapping[str, Any], names: tuple[str, ...]) -> Iterator[s
         for symbol, words in ((f"sigma_{index}", "stress"), (f"sigma_{index}G", "strength")):
             yield _row(f"  {symbol}, {words} (MPa)", [_text(document["stresses"][symbol][name]) for name in names])
         yield _row("  permissible torque (N·m)", [_text(document["permissible_torque"][part][name]) for name in names])
-        yield _row("  life until failure (h)", [_hours(document["life"][part][name]) for name in names])
+        yield _row("  life at the required safety (h)", [_hours(document["life"][part][name]) for name in names])
 
 
 def _scuffing(rating: StrengthRating) -> Iterator[str]:
@@ -113,7 +114,7 @@ def _factor(symbol: str, value: Any, names: tuple[str, ...]) -> str:
 
 
 def _row(words: str, cells: Iterable[str]) -> str:
-    return f"{words:<28}" + "".join(f"{cell:>12}" for cell in cells)
+    return f"{words:<34}" + "".join(f"{cell:>12}" for cell in cells)
 
 
 def _wrapped(words: str, items: Iterable[str], between: str = "  ") -> Iterator[str]:

@@ -61,6 +61,10 @@ class DutyOptions:
     def _check_duty(self) -> None:
         """Lists of both gears, and the spectrum. Raises ParameterError."""
         take_both(self, "load_cycles", "contacts_per_turn", "mean_stress_factor")
+        if self.load_cycles is not None and self.life is not None:
+            both = self.load_cycles
+            given = list(both) if isinstance(both, tuple) else both
+            raise ParameterError("load_cycles", given, f"must be left out beside life = {format_number(self.life)} h, or life")
         if self.spectrum is not None:
             object.__setattr__(self, "spectrum", _spectrum(self.spectrum))
 

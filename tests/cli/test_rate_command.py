@@ -11,6 +11,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad import read
+from gearcad.batch import Summary
+from gearcad.batch.run import falls_short
 from gearcad.cli import main
 from gearcad.designs.columns import column_symbol
 from gearcad.jobs.rate import Rate
@@ -61,12 +63,42 @@ def test_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "Strength passed." in page.text_content()
 
 
+def test_a_small_part_of_the_width_and_what_a_life_is_of_are_seen(tmp_path: Path) -> None:
+    lines = run(written(tmp_path, ("torque = 200.0", "torque = 2.0"))).stdout.splitlines()
+    assert any(line.startswith("Warning: K_Hbeta: only 43% of the face width would carry") for line in lines)
+    assert sum(line.startswith("  life at the required safety (h)  ") for line in lines) == 2
+
+
+@pytest.mark.parametrize(
+    ("values", "short"),
+    [
+        ({}, False),
+        ({"check.passed": True, "rate.passed": True}, False),
+        ({"check.passed": None}, False),
+        ({"check.passed": False}, True),
+        ({"rate.passed": False}, True),
+        ({"rate.passed": None}, True),
+    ],
+)
+def test_rows_that_fall_short(values: dict[str, bool | None], short: bool) -> None:
+    assert falls_short(values) is short
+
+
+def test_a_table_with_a_row_that_falls_short(monkeypatch: pytest.MonkeyPatch) -> None:
+    summary = Summary(results=(), ok=2, failed=0, not_run=0, short=1, errors=())
+    monkeypatch.setattr("gearcad.batch.run_table", lambda *_, **__: summary)
+    result = CliRunner().invoke(main, ["batch", "table.csv", "--do", "rate"])
+    assert result.exit_code == 1
+    assert "2 rows ok, 0 failed, 1 with checks or ratings not passed" in result.stderr
+
+
 @pytest.mark.parametrize(
     ("change", "words", "status"),
     [
         (("torque = 200.0", "torque = 400.0"), "strength NOT passed: flank of the pinion", 1),
         (("speed = 1450.0", "# speed"), "strength not judged: the speed is 0 rpm", 1),
-        (("hardness = 720.0", "hardness = 300.0"), "hardness = 300 HV: must be from 660 to 800 HV", 2),
+        (("hardness = 720.0", "hardness = 300.0"), "pair.toml: material.hardness = 300 HV: must be from 660 to 800 HV", 2),
+        (("torque = 200.0", "torque = 0.0"), "pair.toml: load.torque = 0 N·m: must not be 0", 2),
         (('quality = "MQ"', 'quality = "MX"'), "quality", 2),
         (("accuracy_grade = 6", "accuracy_grade = 14"), "rating.accuracy_grade = 14: must be", 2),
         (("oil_viscosity_40 = 220.0", "# none"), "oil_viscosity_40 is missing: must be given", 2),

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from gearcad.cli import main
-from gearcad.designs import PairDesign, read_spec
+from gearcad.designs import PairDesign, PlanetaryDesign, read_spec
 from gearcad.designs.table import open_table
 from gearcad.rating.strength import rate_strength
 
@@ -65,3 +65,19 @@ def test_an_impossible_centre_distance(tmp_path: Path) -> None:
     assert found.exit_code == 1
     assert "by centre distance" in found.stderr
     assert "another --centre-distance" in found.stderr
+
+
+SETS = (
+    "size --planetary --torque 300 --speed 1500 --ratio 5 --life 1000 --module 3 --planets 3 --ratio-tolerance 0.1 "
+    "--teeth 18:27 --ring-teeth 72:72 --quiet"
+)
+
+
+def test_planetary_sets(tmp_path: Path) -> None:
+    found = CliRunner().invoke(main, [*SETS.split(), "--material", "Eh MQ", "-o", str(tmp_path)])
+    assert found.exit_code == 0, found.output
+    assert json.loads((tmp_path / "size.json").read_text(encoding="utf-8"))["found"]
+    design = read_spec(tmp_path / "best.toml")
+    assert isinstance(design, PlanetaryDesign)
+    assert design.train.ratio == pytest.approx(5, rel=1e-3)
+    assert (tmp_path / "sets.csv").exists()

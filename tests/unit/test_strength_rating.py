@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from dataclasses import replace
+from itertools import product
 from typing import Any
 
 import pytest
@@ -33,6 +35,9 @@ EXACT = 1e-9
 CASE_HARDENED = Material(name="Eh MQ")
 LOAD = Load(torque=250.0, speed=1500.0, application_factor=1.25)
 LIFE = RatingOptions(life=2000.0)
+UNSHAKEN = replace(LOAD, application_factor=1.0)
+SINGLE = (([[1.0, 1.0]], 1.0), ([[0.25, 1.0], [0.75, 1.0, 1.0]], 1.0), ([[0.25, 1.0], [0.75, 0.0]], 0.25))
+"""Spectra of one load, and the share of the life that it has."""
 
 
 def spur_pair(**inputs: Any) -> GearPair:
@@ -74,13 +79,52 @@ def test_life_and_torque_are_those_at_which_the_required_safety_is_left() -> Non
 
 
 def test_a_spectrum_of_one_load_is_that_load() -> None:
-    """Up to 10^10 cycles; with two parts of it, each at its own speed, too."""
-    plain = rated(load=replace(LOAD, application_factor=1.0))
-    for spectrum in ([[1.0, 1.0]], [[0.25, 1.0], [0.75, 1.0, 1.0]]):
-        several = rated(replace(LIFE, spectrum=spectrum), replace(LOAD, application_factor=1.0))
-        for one, other in zip(plain.every, several.every, strict=True):
-            assert other[1].safety == pytest.approx(one[1].safety, rel=EXACT)
-            assert other[1].cycles == pytest.approx(one[1].cycles, rel=EXACT)
+    """Also beyond 10^10 load cycles; parts of the life without torque have no load cycles."""
+    for life, (spectrum, share) in product((2000.0, 2e6), SINGLE):
+        plain = rated(replace(LIFE, life=share * life), UNSHAKEN)
+        several = rated(RatingOptions(life=life, spectrum=spectrum), UNSHAKEN)
+        for (_, one), (_, other) in zip(plain.every, several.every, strict=True):
+            assert (other.safety, other.stress, other.cycles) == pytest.approx((one.safety, one.stress, one.cycles), rel=EXACT)
+            assert (other.damage, share * other.life) == pytest.approx((one.damage, one.life), rel=EXACT)
+        assert "beyond-knee" not in {notice.code for notice in several.notices}
+
+
+def test_what_is_told_of_a_spectrum_is_of_its_greatest_torque() -> None:
+    several = rated(RatingOptions(life=2e5, spectrum=[[0.9, 0.8, 1.5], [0.1, 1.25, 0.5]]), UNSHAKEN)
+    alone = rated(load=Load(torque=1.25 * 250, speed=750))
+    assert (several.governing_number, several.governing.load.speed) == (2, 750.0)
+    assert "load 2: 312.5 N·m, 750 rpm" in several.told_load and not alone.told_load
+    assert several.governing.factors.to_dict() == pytest.approx(alone.load_factors.to_dict(), rel=EXACT)
+    for (_, one), (_, other) in zip(several.every, alone.every, strict=True):
+        assert one.stress == pytest.approx(other.stress, rel=EXACT)
+    speed_factor = several.flank.pinion.resistance.endurance["Z_v"]
+    assert speed_factor == pytest.approx(alone.flank.pinion.resistance.endurance["Z_v"], rel=EXACT)
+
+
+def test_damage_beyond_the_last_corner_is_told() -> None:
+    """The line of ISO 6336-6 goes on where Z_NT and Y_NT stay, which 10^11 load cycles tell apart."""
+    spectrum = [[0.5, 0.9], [0.5, 1.0]]
+    codes = [
+        {notice.code for notice in rated(RatingOptions(life=life, spectrum=spectrum), UNSHAKEN).notices} for life in (20, 2e6)
+    ]
+    assert ["beyond-knee" in each for each in codes] == [False, True]
+
+
+def test_scuffing_that_no_safety_is_asked_of_is_told_with_the_verdict() -> None:
+    options = replace(LIFE, scuffing_stage=5, oil_viscosity_40=100.0)
+    verdict = rated(options, replace(UNSHAKEN, speed=6000.0)).verdict
+    assert re.search(r"; scuffing not judged \(no required_safety_scuffing\): risk (high|critical), S_int \d\.\d\d", verdict)
+    assert "scuffing" not in rated(replace(options, scuffing_stage=12), replace(UNSHAKEN, torque=20.0)).verdict
+
+
+def test_a_life_and_load_cycles_are_not_both_given() -> None:
+    with pytest.raises(ParameterError, match=r"^load_cycles = 10000000: must be left out beside life = 2000 h, or life$"):
+        replace(LIFE, load_cycles=1e7)
+
+
+def test_an_uneven_load_that_is_given_says_how_much_of_the_width_carries() -> None:
+    texts = rated(replace(LIFE, face_load_factor=4.0)).warnings
+    assert any("carried by 50% of the face width" in text for text in texts)
 
 
 def test_a_spectrum_is_between_its_least_and_its_greatest_load() -> None:
@@ -201,3 +245,4 @@ def test_a_rack_is_judged_by_load_factors_that_are_given() -> None:
     assert rating.passed is not None
     assert rating.root.wheel.stress == pytest.approx(rating.nominal.roots.wheel.nominal_stress * 1.25 * 1.1 * 1.3, rel=EXACT)
     assert set(rating.to_dict()["safety"]["flank"]) == {"pinion", "rack"}
+    assert "load cycles of the rack are those of the pinion" in rating.assumed

@@ -165,11 +165,11 @@ def test_names_are_tried_alone_as_those_of_a_pair() -> None:
 def test_values_of_a_study(tmp_path: Path) -> None:
     path = tmp_path / "it.toml"
     path.write_text(SPEC, encoding="utf-8")
-    varied = read_variants(path, ["wheel.material.hardness=250,350", "material.pinion=Eh MQ,Eh ME", "rating.life=1000"])
+    varied = read_variants(path, ["wheel.material.hardness=250,350", "material.pinion=Eh MQ,Eh ME", "rating.load_cycles=1000"])
     designs = [design for design in varied.designs if isinstance(design, PairDesign)]
     assert [design.materials.wheel.hardness for design in designs] == [250.0, 250.0, 350.0, 350.0]
     assert [design.materials.pinion.name for design in designs] == ["Eh MQ", "Eh ME"] * 2
-    assert designs[0].rating is not None and designs[0].rating.life == 1000.0
+    assert designs[0].rating is not None and designs[0].rating.load_cycles == 1000.0
     varied = read_variants(path, ["rating.spectrum=1:0.8,0.5:1 0.5:2:0.5"])
     assert isinstance(varied.designs[1], PairDesign) and varied.designs[1].rating is not None
     assert varied.designs[1].rating.spectrum == ((0.5, 1.0), (0.5, 2.0, 0.5))

@@ -132,10 +132,15 @@ class TrainStrength:
     def verdict(self) -> str:
         """In one line."""
         if self.strength is Verdict.FAILED:
-            return f"strength NOT passed: {', '.join(self.failed)}"
+            return "; ".join((f"strength NOT passed: {', '.join(self.failed)}", *self._scuffing_unasked))
         if self.strength is Verdict.PASSED:
-            return "strength passed"
+            return "; ".join(("strength passed", *self._scuffing_unasked))
         return f"strength not judged: {'; '.join(dict.fromkeys(self.not_judged.values()))}"
+
+    @property
+    def _scuffing_unasked(self) -> Iterator[str]:
+        """Of meshes that may scuff where no safety is required."""
+        return (f"{name}: {each.scuffing_unasked}" for name, each in self.meshes.items() if each.scuffing_unasked)
 
     @property
     def assumed(self) -> tuple[str, ...]:

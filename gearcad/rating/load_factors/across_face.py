@@ -43,7 +43,7 @@ def face_load_factors(mesh: LoadedMesh, mean_load: float) -> Finding:
     if method == "fe":
         raise ParameterError("rating.face_load_factor", method, _NOT_FOUND)
     flank = (
-        Finding(factors={"K_Hbeta": method}, sources={"K_Hbeta": GIVEN})
+        Finding(factors={"K_Hbeta": method}, sources={"K_Hbeta": GIVEN}, notices=tuple(_notices_of_given(method)))
         if not isinstance(method, str)
         else _method_c(mesh, mean_load)
     )
@@ -137,6 +137,13 @@ def _notices(mesh: LoadedMesh, effective: float, mean_load: float) -> Iterator[N
     if modified and mesh.options.helix_modification is HelixModification.NONE:
         text = "flanks are modified along the face width, which Method C leaves out: helix_modification tells, or "
         yield Notice("helix-modification-unsaid", f'K_Hbeta: {text}face_load_factor = "fe"', " and ".join(modified))
+
+
+def _notices_of_given(factor: float) -> Iterator[Notice]:
+    """Above 2 a load that falls off evenly does not reach the other end: b_cal/b = 2/K_Hbeta (ISO 6336-1:2006, 7.5)."""
+    if factor > 2:
+        text = f"a load that falls off evenly so much would be carried by {2 / factor:.0%} of the face width"
+        yield Notice("narrow-bearing", f"K_Hbeta = {factor:.4g}: {text}")
 
 
 def _with_root(mesh: LoadedMesh, flank: Finding) -> Finding:

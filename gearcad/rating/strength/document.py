@@ -35,7 +35,8 @@ def strength_document(of: StrengthRating) -> dict[str, Any]:
         "life": {**_by_part(of, lambda each: told(each.life)), "least": told(of.life)},
         "damage": _by_part(of, lambda each: told(each.damage)),
         "spectrum": _spectrum(of),
-        "load_factors": None if of.load_factors is None else _plain(of.load_factors.details),
+        "governing": _governing(of),
+        "load_factors": None if of.governing is None else _plain(of.governing.factors.details),
         "scuffing": None if of.scuffing is None else of.scuffing.to_dict(),
         "tolerances": _tolerances(of),
         "sources": _sources(of, (*factors, *stresses)),
@@ -77,7 +78,7 @@ def _tolerances_of(of: StrengthRating, role: Role) -> dict[str, Any] | None:
 
 def _sources(of: StrengthRating, keys: tuple[str, ...]) -> dict[str, str]:
     """Clauses: of load factors those by which they were found."""
-    found = {} if of.load_factors is None else of.load_factors.sources
+    found = {} if of.governing is None else of.governing.factors.sources
     limits = {
         "sigma_Hlim": of.limits.map(lambda each: each.contact_source),
         "sigma_Flim": of.limits.map(lambda each: each.root_source),
@@ -114,7 +115,7 @@ def _factors(of: StrengthRating) -> dict[str, Any]:
     flank = of.nominal.flank.to_dict()
     flank.pop("sigma_H0")
     return {
-        **({} if of.load_factors is None else of.load_factors.to_dict()),
+        **({} if of.governing is None else of.governing.factors.to_dict()),
         **flank,
         **_by_symbol(of, permissible[Part.FLANK]),
         **_by_symbol(of, roots.map(lambda root: {key: root[key] for key in _OF_ROOTS})),
@@ -141,6 +142,14 @@ def _scuffing_safety(of: StrengthRating) -> dict[str, float | None]:
         "integral": None if found is None else found.integral_safety,
         "flash": None if found is None else found.flash_safety,
     }
+
+
+def _governing(of: StrengthRating) -> dict[str, Any] | None:
+    """The load of a spectrum, counted from 1, of which stresses and load factors are; None without a spectrum."""
+    if not of.options.bins or of.governing is None:
+        return None
+    load = of.governing.load
+    return {"load": of.governing_number, "torque": load.torque * of.halves, "speed": load.speed}
 
 
 def _spectrum(of: StrengthRating) -> list[dict[str, Any]] | None:

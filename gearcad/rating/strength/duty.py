@@ -55,6 +55,26 @@ class Duty:
         """The load spectrum; without one, a single load."""
         return self.options.bins or (LoadBin(1.0, 1.0),)
 
+    @property
+    def steady(self) -> bool:
+        """Whether there is one load level: the parts of the life that carry have one torque at one speed."""
+        return len({(each.torque, each.speed) for each in self.bins if each.torque}) == 1
+
+    @cached_property
+    def governing(self) -> LoadCase:
+        """The load with the greatest torque, the first of equals: stresses and load factors that are told are of it."""
+        return max(self.cases(), key=lambda case: abs(case.load.torque))
+
+    @cached_property
+    def loaded_cycles(self) -> PerGear[float] | PerGear[None]:
+        """Those of `cycles` that carry."""
+        return self.cycles.map(lambda cycles: None if cycles is None else cycles * self._loaded)
+
+    @cached_property
+    def _loaded(self) -> float:
+        """Share of the turns under torque."""
+        return math.fsum(each.life * each.speed for each in self.bins if each.torque) / self._turns
+
     @cached_property
     def _turns(self) -> float:
         """Mean share of the speed over the life."""

@@ -36,7 +36,8 @@ class PartStrength:
 
     `stress` is sigma_H or sigma_F under all load factors, `strength` sigma_HG or sigma_FG after the load `cycles` (None: the
     endurance limit), whose `factors` stand under their symbols. `damage` and `life` are those at the `required` safety; a life
-    can be infinite. Without a `safety` it was not judged, for the `reason`. `find_torque` finds the permissible torque.
+    can be infinite. `beyond_knee` is the share of the damage of a spectrum, at the safety, that its loads below the last corner
+    of the S-N line do. Without a `safety` it was not judged, for the `reason`. `find_torque` finds the permissible torque.
     """
 
     part: Part
@@ -47,6 +48,7 @@ class PartStrength:
     safety: float | None = None
     damage: float | None = None
     life: float | None = None
+    beyond_knee: float = 0.0
     reason: str = ""
     find_torque: Callable[[], float | None] | None = field(default=None, repr=False, compare=False)
 

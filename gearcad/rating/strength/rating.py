@@ -15,7 +15,7 @@ from gearcad.rating.iso6336_5 import EnduranceLimits
 from gearcad.rating.load_factors import LoadFactors
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import Rating
-from gearcad.rating.scuffing import Scuffing
+from gearcad.rating.scuffing import Risk, Scuffing
 from gearcad.rating.strength.duty import LoadCase
 from gearcad.rating.strength.part import Part, PartStrength
 from gearcad.rating.tolerances import GearTolerances
@@ -29,9 +29,10 @@ class StrengthRating:
     """The full rating of a pair by ISO 6336 or DIN 3990: of each flank and root stress, strength and safety.
 
     `nominal` is the rating by geometry and torque alone, with K_A. `load_factors` are those of the load, of a spectrum those of
-    its nominal torque, and `cases` its loads; None where they are not known, for the reason that the parts have. `assumed` says
-    in words what was not given, `verify` has the symbols of what rests on one source or on memory.
-    Gears of a set have `own_names`.
+    its nominal torque, and `cases` its loads; None where they are not known, for the reason that the parts have. `governing` is
+    the load with the greatest torque: stresses, speed factors and what is told of load factors are of it, safeties and lives of
+    the whole spectrum. `assumed` says in words what was not given, `verify` has the symbols of what rests on one source or on
+    memory. Gears of a set have `own_names`.
     """
 
     pair: GearPair | RackPair
@@ -42,6 +43,7 @@ class StrengthRating:
     limits: PerGear[EnduranceLimits]
     load_factors: LoadFactors | None
     cases: tuple[LoadCase, ...]
+    governing: LoadCase | None
     flank: PerGear[PartStrength]
     root: PerGear[PartStrength]
     scuffing: Scuffing | None
@@ -115,6 +117,35 @@ class StrengthRating:
         return Verdict.PASSED if min(known) >= required else Verdict.FAILED
 
     @property
+    def scuffing_unasked(self) -> str:
+        """What is to be said of flanks that may scuff where no safety is required; "" where there is nothing to say."""
+        found = self.scuffing
+        if self.options.required_safety_scuffing is not None or found is None or found.risk in (None, Risk.LOW):
+            return ""
+        safeties = {"S_int": found.integral_safety, "S_B": found.flash_safety}
+        known = "".join(f", {symbol} {value:.2f}" for symbol, value in safeties.items() if value is not None)
+        return f"scuffing not judged (no required_safety_scuffing): risk {found.risk.value}{known}"
+
+    @property
+    def told_load(self) -> str:
+        """Of a spectrum, in words: of which load the stresses and load factors are that are told; "" without one."""
+        if not self.options.bins or self.governing is None:
+            return ""
+        load = self.governing.load
+        at = f"{self.halves * load.torque:.6g} N·m, {load.speed:.6g} rpm, the greatest torque"
+        return f"stresses, load factors and Z_v are of load {self.governing_number}: {at}; safeties and lives of all loads"
+
+    @property
+    def governing_number(self) -> int | None:
+        """Which of `cases` it is, counted from 1."""
+        return next((number for number, case in enumerate(self.cases, 1) if case is self.governing), None)
+
+    @property
+    def halves(self) -> int:
+        """Of how many pairs `cases` have one: of a double helical pair each half has its share of the torque."""
+        return 2 if self.pair.pinion.double_helix.present else 1
+
+    @property
     def strength(self) -> Verdict:
         """Passed if flanks and roots of both gears have their required safeties, and against scuffing where one is required."""
         scuffing = [] if self.options.required_safety_scuffing is None else [self.scuffing_verdict]
@@ -141,7 +172,8 @@ class StrengthRating:
         failed = [name for name, each in self.every if each.verdict is Verdict.FAILED]
         failed += ["scuffing"] if self.scuffing_verdict is Verdict.FAILED else []
         words = "strength passed" if not failed else f"strength NOT passed: {', '.join(failed)}"
-        return words if not self.not_judged else f"{words}; not judged: {', '.join(self.not_judged)}"
+        words += f"; not judged: {', '.join(self.not_judged)}" if self.not_judged else ""
+        return f"{words}; {self.scuffing_unasked}" if self.scuffing_unasked else words
 
     @property
     def warnings(self) -> tuple[str, ...]:

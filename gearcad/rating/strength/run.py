@@ -56,11 +56,12 @@ def _rating(task: StrengthTask) -> StrengthRating:
         limits=task.limits,
         load_factors=factors,
         cases=() if factors is None else task.duty.cases(),
+        governing=None if factors is None else task.duty.governing,
         flank=parts[Part.FLANK],
         root=parts[Part.ROOT],
         scuffing=task.scuffing,
         tolerances=task.tolerances,
         assumed=tuple(dict.fromkeys(assumed_of(task))),
         verify=tuple(dict.fromkeys(verify_of(task))),
-        notices=tuple(dict.fromkeys(notices_of(task))),
+        notices=tuple(dict.fromkeys(notices_of(task, parts))),
     )

@@ -72,8 +72,9 @@ class StrengthTask:
 
     @cached_property
     def conditions(self) -> Conditions:
-        """Oil, speed, roughness."""
-        return Conditions.of(self.pair, self.load, self.options)
+        """Oil, speed, roughness; under a spectrum the speed is that of its greatest torque."""
+        speed = max(self.options.bins, key=lambda each: each.torque).speed if self.options.bins else 1.0
+        return Conditions.of(self.pair, replace(self.load, speed=self.load.speed * speed), self.options)
 
     @cached_property
     def duty(self) -> Duty:
@@ -125,13 +126,12 @@ class StrengthTask:
         if resistance is not None and not reason:
             return judged(part, role, self.duty, resistance, required)
         known = not isinstance(self.load_factors, InputError) and not self.load_factors.unknown
-        cases = self.duty.cases() if known else ()
         return PartStrength(
             part=part,
             required=required,
-            stress=max((case.stresses[part].pick(role) for case in cases), default=None),
+            stress=self.duty.governing.stresses[part].pick(role) if known else None,
             resistance=resistance,
-            cycles=self.duty.cycles.pick(role),
+            cycles=self.duty.loaded_cycles.pick(role),
             reason=reason,
         )
 

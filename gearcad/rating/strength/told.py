@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from gearcad.errors import InputError
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.notice import Notice
-from gearcad.per_gear import Role
+from gearcad.per_gear import PerGear, Role
 from gearcad.rating.factors import to_verify
 from gearcad.rating.factors.life import endurance_cycles
-from gearcad.rating.strength.part import Part
+from gearcad.rating.strength.part import Part, PartStrength
 from gearcad.rating.strength.root import notch_strength
 from gearcad.rating.strength.task import StrengthTask
 
@@ -27,6 +27,8 @@ def assumed_of(task: StrengthTask) -> Iterator[str]:
             notch = task.nominal.roots.pick(role).section.notch_parameter
             if said := notch_strength(material, material.group, notch).assumed:
                 yield f"{said} ({task.nominal.names.pick(role)})"
+    if isinstance(task.rated, RackPair) and task.duty.cycles.wheel is not None and task.options.load_cycles is None:
+        yield "load cycles of the rack are those of the pinion"
     if task.duty.cycles.pinion is None and task.load.speed:
         yield "no life and no load cycles are given: endurance limits hold, with Z_NT = Y_NT = 1"
     if not isinstance(task.load_factors, InputError):
@@ -58,10 +60,28 @@ def _limited(task: StrengthTask, part: Part) -> bool:
     return any(each is not None and cycles is not None and cycles < endurance_cycles(each.points) for each, cycles in found)
 
 
-def notices_of(task: StrengthTask) -> Iterator[Notice]:
-    """Of the nominal rating, of load factors and scuffing."""
+_MATTERS = 0.01
+"""Share of a damage from which it is told what it rests on."""
+
+
+def notices_of(task: StrengthTask, parts: Mapping[Part, PerGear[PartStrength]]) -> Iterator[Notice]:
+    """Of the nominal rating, of load factors and scuffing, and of damage by loads that a life factor would have none of."""
     yield from task.nominal.notices
     if not isinstance(task.load_factors, InputError):
         yield from task.load_factors.notices
     if task.scuffing is not None and task.scuffing.judged:
         yield from task.scuffing.notices
+    yield from _beyond_knee(parts, task.nominal.names)
+
+
+def _beyond_knee(parts: Mapping[Part, PerGear[PartStrength]], names: PerGear[str]) -> Iterator[Notice]:
+    """Of all parts in one."""
+    found = [
+        f"{share:.0%} of the {part.value} of the {names.pick(role)}"
+        for part, both in parts.items()
+        for role, each in both.items()
+        if (share := each.beyond_knee) >= _MATTERS
+    ]
+    if found:
+        text = "damage by loads that alone could be borne beyond 10^10 load cycles, where the S-N line goes on (ISO 6336-6)"
+        yield Notice("beyond-knee", f"spectrum: {text}: {', '.join(found)}")

@@ -51,7 +51,7 @@ def _rows(strength: TrainStrength) -> Iterator[tuple[str, ...]]:
 
 
 def _load_factors(rating: StrengthRating) -> Iterator[str]:
-    of = rating.load_factors
+    of = None if rating.governing is None else rating.governing.factors
     if of is not None:
         values = of.to_dict()
         names = ("K_A", "K_gamma", "K_v", "K_Hbeta", "K_Fbeta", "K_Halpha", "K_Falpha")

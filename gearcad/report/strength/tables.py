@@ -33,7 +33,7 @@ _NONE = "–"  # an en dash where there is no value
 
 _TOLD = {
     "permissible_torque": Symbol("T_1", "N·m", "", "torque on the pinion at the required safety"),
-    "life": Symbol("", "h", "", "life until failure at the required safety"),
+    "life": Symbol("", "h", "", "life at the required safety"),
     "damage": Symbol("D", "", "ISO 6336-6", "damage over the life at the required safety"),
 }
 
