@@ -10,7 +10,7 @@ from typing import Any
 
 from gearcad.verdict import Verdict
 
-__all__ = ["Comparison", "ComparisonRole", "Subject", "agrees", "at_least", "at_most", "beside", "verdict"]
+__all__ = ["Comparison", "ComparisonRole", "Subject", "agrees", "at_least", "at_most", "beside", "beside_required", "verdict"]
 
 
 class ComparisonRole(Enum):
@@ -148,3 +148,11 @@ def at_least(quantity: str, computed: float | None, limit: float, source: str, n
     """A gate of strength: a safety and the least one that is permitted."""
     gate, strength = ComparisonRole.GATE, Subject.STRENGTH
     return Comparison(quantity, computed, limit, None, "", source, note, reason, role=gate, subject=strength, least=True)
+
+
+def beside_required(
+    quantity: str, computed: float | None, limit: float, source: str, note: str = "", reason: str = ""
+) -> Comparison:
+    """Information on strength: a safety beside the least one that is required, which another decides."""
+    information, strength = ComparisonRole.INFORMATION, Subject.STRENGTH
+    return Comparison(quantity, computed, limit, None, "", source, note, reason, role=information, subject=strength, least=True)

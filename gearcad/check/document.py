@@ -43,6 +43,7 @@ def check_document(result: CheckResult) -> dict[str, Any]:
         "numerics": result.numerics.value,
         "strength": result.strength.value,
         "passed": result.passed,
+        "verdict": result.verdict,
     }
 
 

@@ -9,7 +9,7 @@ from gearcad.check.comparison import Comparison, Subject, agrees, at_most, besid
 from gearcad.check.convergence import LEAST_ORDER, Convergence
 from gearcad.check.extremes import PRESSURE, ROOTS
 from gearcad.check.rim import bending_limits, bending_notes, rim_gates
-from gearcad.check.strength import CheckStrength, strength_gates
+from gearcad.check.strength import CheckStrength, strength_comparisons
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
 from gearcad.contact.shared.loaded import Cycle
@@ -45,7 +45,7 @@ def compare_common(
     yield from rim_gates(task)
     yield from _material_limits(task, summary)
     yield from bending_limits(task, summary)
-    yield from strength_gates(CheckStrength.of(task, summary))
+    yield from strength_comparisons(CheckStrength.of(task, summary))
     yield from standards(task, summary)
 
 

@@ -218,6 +218,9 @@ class CheckResult(ABC):
         """Numerics and strength in one line."""
         numerics = "NOT passed" if self.numerics is Verdict.FAILED else self.numerics.value
         strength = f"not judged: {self._not_judged}" if self.strength is Verdict.NOT_JUDGED else self.strength.value
+        if below := self.safeties.below_required:
+            standard = self.safeties.rating.options.standard.part(2)[:-2]
+            strength += f" by {standard}; by finite elements {', '.join(below)}"
         if self.without_limit and self.strength is not Verdict.NOT_JUDGED:
             strength += f"; not judged, no limit given: {', '.join(self.without_limit)}"
         return f"numerics {numerics}; strength {strength}"

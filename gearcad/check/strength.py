@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from gearcad.check.comparison import Comparison, at_least
+from gearcad.check.comparison import Comparison, at_least, beside_required
 from gearcad.check.options import Model
 from gearcad.check.summary import Summary
 from gearcad.check.task import CheckTask
@@ -17,7 +17,7 @@ from gearcad.rating.load_factors import LoadFactors
 from gearcad.rating.strength import Part, PartStrength, StrengthRating
 from gearcad.rating.strength.duty import stresses_of
 
-__all__ = ["CheckStrength", "FoundStrength", "strength_gates"]
+__all__ = ["CheckStrength", "FoundStrength", "strength_comparisons"]
 
 _FE = "finite elements"
 
@@ -47,6 +47,11 @@ class FoundStrength:
     def reason(self) -> str:
         """Why there is no safety."""
         return self.rated.reason or ("" if self.raised else self.missing)
+
+    @property
+    def below(self) -> bool:
+        """Whether finite elements give less than the safety that is required."""
+        return self.safety is not None and self.safety < self.rated.required
 
     def to_dict(self) -> dict[str, float | str | None]:
         """Stresses and safeties of both."""
@@ -79,13 +84,19 @@ class CheckStrength:
     @cached_property
     def contained(self) -> Mapping[str, str]:
         """Load factors that are in the model already, and how."""
-        mounting, solid = self.task.mounting, self.task.model is Model.SOLID
+        mounting = self.task.mounting
         found = {"K_A": "the torque has it"}
-        if solid and mounting.tilted:
+        if self.task.model is Model.SOLID and mounting.tilted:
             found |= dict.fromkeys(("K_Hbeta", "K_Fbeta"), "the bodies stand as misaligned as [mounting] says")
         if mounting.pitch_error:
             found |= dict.fromkeys(("K_Halpha", "K_Falpha"), "a pair of teeth stands proud by the pitch error of [mounting]")
         return found
+
+    @cached_property
+    def own(self) -> Mapping[str, float]:
+        """Face load factors of the model itself, aligned: its peaks have them, so those of the rating come in as far as they
+        exceed them. A tilted model has them all."""
+        return {symbol: value for symbol, value in self.summary.own_face_factors.items() if symbol not in self.contained}
 
     @cached_property
     def applied(self) -> Mapping[Part, Mapping[str, float]]:
@@ -93,7 +104,31 @@ class CheckStrength:
         factors = self.rating.load_factors
         if factors is None:
             return {part: {} for part in Part}
-        return {part: {k: v for k, v in _factors(factors, part).items() if k not in self.contained} for part in Part}
+        return {
+            part: {k: self._lacking(k, v) for k, v in _factors(factors, part).items() if k not in self.contained}
+            for part in Part
+        }
+
+    def _lacking(self, symbol: str, factor: float) -> float:
+        """What of a factor the model's own leaves to be applied."""
+        return max(factor / self.own[symbol], 1.0) if symbol in self.own else factor
+
+    def applied_words(self, part: Part) -> str:
+        """What the stress of a part is multiplied by."""
+        of_flank = {"Z_eps": self.contact_ratio_factor} if part is Part.FLANK else {}
+        factors = {**self.applied[part], **of_flank}
+        words = (f"{name}{' beyond its own' if name in self.own else ''} {value:.4g}" for name, value in factors.items())
+        return ", ".join(words)
+
+    @property
+    def below_required(self) -> tuple[str, ...]:
+        """Safeties by finite elements that are less than required, in words."""
+        return tuple(
+            f"S_{part.index} of the {role.value} is {found.safety:.3g}, below {found.rated.required:.3g} required"
+            for part, both in self.parts.items()
+            for role, found in both.items()
+            if found.below
+        )
 
     @cached_property
     def contact_ratio_factor(self) -> float:
@@ -143,7 +178,13 @@ class CheckStrength:
         parts = {part.value: {role.value: each.to_dict() for role, each in both.items()} for part, both in self.parts.items()}
         applied = {part.value: dict(factors) for part, factors in self.applied.items()}
         applied["flank"] |= {"Z_eps": self.contact_ratio_factor}
-        return {**parts, "factors_applied": applied, "factors_contained": dict(self.contained)}
+        return {
+            **parts,
+            "factors_applied": applied,
+            "factors_contained": dict(self.contained),
+            "factors_of_model": dict(self.own),
+            "below_required": list(self.below_required),
+        }
 
 
 def _factors(of: LoadFactors, part: Part) -> dict[str, float]:
@@ -154,13 +195,15 @@ def _factors(of: LoadFactors, part: Part) -> dict[str, float]:
     return {**common, "K_Fbeta": of.face_root, "K_Falpha": of.transverse_root}
 
 
-def strength_gates(strength: CheckStrength) -> Iterator[Comparison]:
-    """Safeties of all parts that were judged, by the standard and by finite elements, against those required."""
+def strength_comparisons(strength: CheckStrength) -> Iterator[Comparison]:
+    """Safeties of all parts that were judged, against those required: gates by the standard, information by finite elements.
+
+    What a material endures was told from tests by the standard's own stress, so the standard decides.
+    """
     edition = strength.rating.options.standard
     for part, both in strength.parts.items():
         symbol, clause = f"S_{part.index}", edition.dated_part(2 if part is Part.FLANK else 3)
-        factors = {**strength.applied[part], **({"Z_eps": strength.contact_ratio_factor} if part is Part.FLANK else {})}
-        applied = ", ".join(f"{name} {value:.4g}" for name, value in factors.items())
+        where = f"by {_FE}, of both flanks" if part is Part.FLANK else f"by {_FE}"
         for role, found in both.items():
             rated = found.rated
             if rated.safety is None:
@@ -168,6 +211,7 @@ def strength_gates(strength: CheckStrength) -> Iterator[Comparison]:
             words = f"{symbol} of the {role.value}"
             note = f"sigma_{part.index} = {rated.stress:.5g} MPa against {rated.strength:.5g} MPa"
             yield at_least(f"{words}, {edition.part(2)[:-2]}", rated.safety, rated.required, f"{clause}, 5", note)
-            note = "" if found.raised is None else f"{found.stress:.5g} MPa by {_FE}, {found.raised:.5g} MPa with {applied}"
+            raised = "" if found.raised is None else f", {found.raised:.5g} MPa with {strength.applied_words(part)}"
+            note = "" if found.stress is None else f"{found.stress:.5g} MPa {where}{raised}"
             source = f"required; stress by {_FE}, strength by {clause}"
-            yield at_least(f"{words}, {_FE}", found.safety, rated.required, source, note, found.reason)
+            yield beside_required(f"{words}, {_FE}", found.safety, rated.required, source, note, found.reason)

@@ -65,6 +65,11 @@ class Summary:
         return PerGear(self.bore_tension_pinion, self.bore_tension_wheel)
 
     @property
+    def own_face_factors(self) -> dict[str, float]:
+        """K_Hbeta and K_Fbeta that the stresses have from the model itself, by symbols; a plane has none."""
+        return {}
+
+    @property
     def sampling_error(self) -> dict[str, float]:
         """By name, what the positions may miss: of an extreme, relative to it or to its swing, and of the mean stiffness."""
         known = {name: of.error for name, of in self.extremes.items() if of is not None}

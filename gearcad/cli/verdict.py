@@ -24,7 +24,8 @@ _TO_THE_RIGHT = (2, 3, 5, 6)
 
 _WORDS = (
     "ok, FAILED: gates, which decide. in band, OUTSIDE: information; how far it may be from ISO 6336 is set in [check] "
-    "(root_band, stiffness_band, contact_band) and decides nothing."
+    "(root_band, stiffness_band, contact_band) and decides nothing. reached, BELOW: safeties by finite elements beside those "
+    "required: the standard's decide."
 )
 
 
@@ -60,7 +61,8 @@ def verdict_line(name: str, result: CheckResult) -> str:
 def _row(of: Comparison) -> _Line:
     """A comparison; a limit is told by how much of it is used up."""
     gate = of.role is ComparisonRole.GATE
-    word = ("ok" if of.passed else "FAILED") if gate else ("in band" if of.passed else "OUTSIDE" if of.evaluated else "-")
+    good, bad = ("ok", "FAILED") if gate else ("reached", "BELOW") if of.least else ("in band", "OUTSIDE")
+    word = good if of.passed else bad if gate or of.evaluated else "-"
     if of.deviation is None:
         deviation = "-"
     else:

@@ -12,7 +12,7 @@ from gearcad import Load, Material, Mounting
 from gearcad.check.comparison import ComparisonRole, Subject, verdict
 from gearcad.check.document import check_document
 from gearcad.check.result import CheckResult
-from gearcad.check.strength import strength_gates
+from gearcad.check.strength import strength_comparisons
 from gearcad.output import json_text
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import Part
@@ -29,7 +29,7 @@ def strong(check: CheckResult, options: RatingOptions = OPTIONS, **inputs: objec
     load = Load(torque=check.load.torque, speed=1500.0)
     task = replace(check.task, material=Material(name="Eh MQ"), load=load, rating_options=options, **inputs)
     found = replace(check, task=task, comparisons=())
-    return replace(found, comparisons=tuple(strength_gates(found.safeties)))
+    return replace(found, comparisons=tuple(strength_comparisons(found.safeties)))
 
 
 def test_stresses_are_raised_by_what_the_model_lacks() -> None:
@@ -69,12 +69,30 @@ def test_what_the_model_has_is_not_multiplied_again() -> None:
     assert set(aligned.safeties.contained) == {"K_A"}
 
 
-def test_safeties_are_gates_of_strength() -> None:
+def test_the_model_has_a_face_load_factor_of_its_own() -> None:
+    solid = small_solid_check()
+    own = solid.summary.face_load_factor
+    assert own > 1
+    assert strong(solid).safeties.own == {}  # what a tilted model has is all in it
+    uneven = strong(solid, replace(OPTIONS, face_load_factor=2.0), mounting=Mounting()).safeties
+    assert uneven.applied[Part.FLANK]["K_Hbeta"] == pytest.approx(2 / own, rel=EXACT)
+    k, root = uneven.rating.load_factors, min(solid.summary.root_face_load_factor)
+    assert uneven.applied[Part.ROOT]["K_Fbeta"] == pytest.approx(k.face_root / root, rel=EXACT)
+    even = strong(solid, replace(OPTIONS, face_load_factor=1.0), mounting=Mounting()).safeties
+    assert even.applied[Part.FLANK]["K_Hbeta"] == 1.0
+    assert "K_Hbeta beyond its own 1" in even.applied_words(Part.FLANK)
+    assert even.to_dict()["factors_of_model"]["K_Hbeta"] == own
+
+
+def test_safeties_of_the_standard_are_gates_and_those_of_finite_elements_inform() -> None:
     result = strong(small_check())
     quantities = [each.quantity for each in result.comparisons]
     assert quantities[:2] == ["S_H of the pinion, ISO 6336", "S_H of the pinion, finite elements"]
     assert len(quantities) == 8
-    assert all(each.role is ComparisonRole.GATE and each.subject is Subject.STRENGTH for each in result.comparisons)
+    roles = {each.quantity.split(", ")[1]: each.role for each in result.comparisons}
+    assert roles == {"ISO 6336": ComparisonRole.GATE, "finite elements": ComparisonRole.INFORMATION}
+    assert all(each.subject is Subject.STRENGTH for each in result.comparisons)
+    assert "of both flanks" in result.comparisons[1].note
     assert result.strength is Verdict.FAILED
     assert verdict(result.comparisons, Subject.NUMERICS) is Verdict.NOT_JUDGED
     weak = [each for each in result.comparisons if not each.passed]
@@ -84,6 +102,21 @@ def test_safeties_are_gates_of_strength() -> None:
     assert easy.strength is Verdict.PASSED
     assert "von Mises stress below the flank" in easy.verdict
     assert "contact pressure" not in easy.verdict  # the rating judges it
+
+
+def test_what_finite_elements_have_below_the_required_is_said() -> None:
+    check = small_check()
+    rated = strong(check).safeties.flank.pinion.rated.safety
+    harder = replace(check, summary=replace(check.summary, contact_pressure=3 * check.summary.contact_pressure))
+    result = strong(harder, replace(OPTIONS, required_safety_flank=0.9 * rated, required_safety_root=0.1))
+    low = result.safeties.flank.pinion
+    assert low.safety < 0.9 * rated
+    assert result.strength is Verdict.PASSED
+    beside = f"S_H of the pinion is {low.safety:.3g}, below {0.9 * rated:.3g} required"
+    assert f"strength passed by ISO 6336; by finite elements {beside}" in result.verdict
+    document = check_document(result)
+    assert document["verdict"] == result.verdict
+    assert len(document["safeties"]["below_required"]) == 2
 
 
 def test_documents_have_both() -> None:
@@ -113,7 +146,7 @@ def test_strength_that_was_not_judged_is_said(material: Material, speed: float, 
     check = small_check()
     task = replace(check.task, material=material, load=Load(torque=302.0, speed=speed))
     result = replace(check, task=task, comparisons=())
-    assert list(strength_gates(result.safeties)) == []
+    assert list(strength_comparisons(result.safeties)) == []
     assert words in result.verdict
     document = check_document(result)
     assert document["strength"] == "not judged"

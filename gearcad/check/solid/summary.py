@@ -43,6 +43,11 @@ class SolidSummary(Summary):
     face_load_factor: float
     root_face_load_factor: PerGear[float]
 
+    @property
+    def own_face_factors(self) -> dict[str, float]:
+        """K_F_beta is the lesser of both gears."""
+        return {"K_Hbeta": self.face_load_factor, "K_Fbeta": min(self.root_face_load_factor)}
+
 
 class WorstPlace(NamedTuple):
     """Where the greatest pressure away from the edges of the flanks is: `place` in cells of the line."""

@@ -79,7 +79,12 @@ class CheckSections(ABC, Generic[Checked]):
     def outside(self) -> list[ComparisonRow]:
         """Information outside its band."""
         found = (each for each in self.result.comparisons if each.role is ComparisonRole.INFORMATION)
-        return [_row(each) for each in found if each.evaluated and not each.passed]
+        return [_row(each) for each in found if each.evaluated and not each.passed and not each.least]
+
+    @property
+    def below(self) -> tuple[str, ...]:
+        """Safeties by finite elements that are less than required."""
+        return self.result.safeties.below_required
 
     # ------------------------------------------------------------------ why they differ
 
@@ -181,9 +186,11 @@ def _common(title: str, draw: Callable[[Axes], Axes], caption: str, of: object) 
 def _row(comparison: Comparison) -> ComparisonRow:
     gate = comparison.role is ComparisonRole.GATE
     if comparison.passed:
-        word = "passed" if gate else "in the band"
+        word = "passed" if gate else "reached" if comparison.least else "in the band"
+    elif gate or not comparison.evaluated:
+        word = "NOT PASSED" if gate else "not evaluated"
     else:
-        word = "NOT PASSED" if gate else "outside the band" if comparison.evaluated else "not evaluated"
+        word = "below" if comparison.least else "outside the band"
     return ComparisonRow(
         quantity=comparison.quantity,
         computed=_number(comparison.computed),

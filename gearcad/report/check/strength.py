@@ -32,6 +32,7 @@ class StrengthRow(NamedTuple):
     rated_safety: str
     found_safety: str
     style: str
+    found_style: str
 
 
 class StrengthSection(NamedTuple):
@@ -64,8 +65,7 @@ def strength_section(of: CheckStrength) -> StrengthSection:
 def _row(of: CheckStrength, part: Part, role: Role, found: FoundStrength) -> StrengthRow:
     rated, nominal = found.rated, of.rating.nominal
     stress = nominal.contact_stresses if part is Part.FLANK else nominal.root_stresses
-    safeties = [each for each in (rated.safety, found.safety) if each is not None]
-    style = "" if not safeties else "good" if min(safeties) >= rated.required else "bad"
+    style = "" if rated.safety is None else "good" if rated.safety >= rated.required else "bad"
     return StrengthRow(
         words=f"{_PARTS[part]}, {role.value}",
         nominal=short(stress.pick(role)),
@@ -77,6 +77,7 @@ def _row(of: CheckStrength, part: Part, role: Role, found: FoundStrength) -> Str
         rated_safety=_text(rated.safety),
         found_safety=_text(found.safety),
         style=style,
+        found_style="" if found.safety is None else "aside" if found.below else "good",
     )
 
 
