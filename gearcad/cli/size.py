@@ -13,7 +13,7 @@ from gearcad.cli.job import quiet_option
 from gearcad.cli.progress import job_progress
 from gearcad.cli.size_options import size_options, task_of
 from gearcad.cli.size_sets import require_no_sets, set_options, size_planetary
-from gearcad.cli.size_table import nothing_lines, table_lines
+from gearcad.cli.size_table import basis_lines, nothing_lines, notice_texts, scuffing_line, table_lines
 from gearcad.errors import ParameterError
 from gearcad.reprs import grouped
 
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 __all__ = ["size"]
 
 _COUNT, _MOST_COUNT = 20, 1000
+_MODIFIED = "best-modified.toml"
 
 
 @click.command(short_help="Pairs, or planetary sets, for a torque, a ratio, a life and a material.")
@@ -38,8 +39,8 @@ def size(count: int | None, errors: int | None, output: Path | None, as_json: bo
     """Pairs of external gears that carry a torque for a life: every combination of teeth, module, helix angle, shifts and face
     width within ranges is rated by ISO 6336, Method B, and the best of each teeth, module and helix angle are refined.
 
-    Writes pairs.csv, a design table for `gearcad batch`; best.toml, the spec of the first; front.png, masses over safeties; and
-    size.json. Lists of numbers have commas, ranges are FIRST:LAST:STEP.
+    Writes pairs.csv, a design table for `gearcad batch`; best.toml, the spec of the first; front.csv and front.png, variants
+    that none is both lighter and safer than; and size.json. Lists of numbers have commas, ranges are FIRST:LAST:STEP.
 
     With --planetary sets of planets for the ratio, torque and speed of the input: tooth numbers as `gearcad planetary --ratio`
     finds them, then the module of ISO 54 and the face width that just have the safeties, lightest first; writes sets.csv,
@@ -76,17 +77,27 @@ def size(count: int | None, errors: int | None, output: Path | None, as_json: bo
         click.echo("\n".join(nothing_lines(result)), err=True)
         click.get_current_context().exit(1)
     if not quiet:
-        click.echo("\n".join(_remarks(result)), err=True)
+        click.echo("\n".join(_remarks(result, files[1])), err=True)
     if not as_json:
         click.echo("".join(f"{file}\n" for file in files), nl=False)
 
 
-def _remarks(result: Sizing) -> Iterator[str]:
-    """What the columns are, what was left out, and how to go on."""
+def _remarks(result: Sizing, best: Path) -> Iterator[str]:
+    """What the safeties go by, what the columns are, what was left out, and how to go on from the spec of the best."""
+    rating = result.task.rating
+    yield from basis_lines(rating, result.task.load.application_factor, result.assumed)
+    if (line := scuffing_line(rating)) is not None:
+        yield line
+    for number, texts in enumerate(notice_texts(result).values(), 1):
+        yield f"notice {number}: {texts[0]}{f' (and alike of others, {len(texts)} in all)' if len(texts) > 1 else ''}"
     yield f"{grouped(result.considered)} variants, {grouped(result.rated)} rated; a line for each teeth, module and helix angle"
     yield "ripple: of the length of the lines of contact; TE: transmission error, peak to peak, FE, no modifications;"
-    yield "front: none of the best is both lighter and safer"
+    yield "front: none of the best is both lighter and safer; front.csv has pairs along the front of all variants"
     yield "mass of plain discs; no pair has backlash yet: tooth_thinning or tooth_allowance gives it"
     if result.unmade:
         yield f"{len(result.unmade)} could not be made or did not pass the full rating; the first: {result.unmade[0]}"
-    yield "Next: gearcad rate best.toml, gearcad check best.toml, gearcad batch pairs.csv"
+    yield "Next, in this order (edges of teeth without tip relief touch, which a check in 3D may not pass):"
+    yield f"  gearcad rate {best}"
+    yield f"  gearcad modify {best} -o {best.with_name(_MODIFIED)}"
+    yield f"  gearcad check {best.with_name(_MODIFIED)}"
+    yield f"  gearcad batch {best.with_name('pairs.csv')} --do rate"

@@ -110,13 +110,15 @@ def _task(given: Mapping[str, Any]) -> SizeTask:
     wheel_hardness = given["wheel_hardness"]
     if wheel_hardness is None and given["wheel_material"] is None:
         wheel_hardness = given["hardness"]
-    wheel = material_of("wheel_material", given["wheel_material"] or given["material"], wheel_hardness)
+    wheel = material_of(
+        "wheel_material", given["material" if given["wheel_material"] is None else "wheel_material"], wheel_hardness
+    )
     fields: dict[str, Any] = {field: given[name] for name, field in _FIELDS.items() if given[name] is not None}
     fields |= {field: values_of(name, given[name]) for name, field in _RANGES.items() if given[name] is not None}
     if given["teeth"] is not None:
         fields["teeth"] = ends_of("teeth", given["teeth"])
     if given["module"] is not None or given["second_series"]:
-        fields["modules"] = modules_of(given["module"] or "1:10", second=given["second_series"])
+        fields["modules"] = modules_of("1:10" if given["module"] is None else given["module"], second=given["second_series"])
     if given["rack"] is not None:
         racks = {name.removeprefix("ISO53_"): rack for name, rack in NAMED_RACKS.items()}
         if (rack := racks.get(given["rack"].upper())) is None:
@@ -223,6 +225,8 @@ def modules_of(text: str, *, second: bool) -> tuple[float, ...]:
     """Those of a list, or those of ISO 54 from the least to the most of a range. Raises ParameterError."""
     from gearcad.sizing import ISO_54_I, ISO_54_II
 
+    if not text.strip():
+        raise ParameterError("module", text, "must be numbers with commas between, or the least and the most: 1:10")
     if ":" not in text:
         return values_of("module", text)
     parts = [float(_number("module", text, each)) for each in text.split(":")]

@@ -32,7 +32,20 @@ _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("--mesh-load-factor", {"type": float, "metavar": "K_G", "help": "Sets: K_gamma.  [default: by the planets, ABS]"}),
 )
 
-_OF_PAIRS = (*("centre_distance", "shift", "shift_sum", "max_width", "contact_ratio", "tip_thickness", "rack", "by", "errors"),)
+_OF_PAIRS = (
+    *(
+        "centre_distance",
+        "max_mass",
+        "shift",
+        "shift_sum",
+        "max_width",
+        "contact_ratio",
+        "tip_thickness",
+        "rack",
+        "by",
+        "errors",
+    ),
+)
 """Options of pairs that sets do not have."""
 
 _PLAIN = {"fixed": "fixed", "in": "input", "out": "output", "ratio_tolerance": "tolerance"}
@@ -59,11 +72,11 @@ def size_planetary(given: Mapping[str, Any], count: int, output: Path | None, *,
     """Size sets for what options ask for, write the files and show the table; ends with status 1 where none holds."""
     from gearcad.jobs.set_sizes import write_set_sizes
     from gearcad.output import json_text
-    from gearcad.sizing.planetary_sets import size_sets
+    from gearcad.sizing.planetary_sets import expected, size_sets
 
     task = _task(given)
     try:
-        with job_progress(shown=not quiet, expected=None) as progress:
+        with job_progress(shown=not quiet, expected=None if quiet else expected(task, count)) as progress:
             result = size_sets(task, count, progress)
     except SolverError as error:
         click.echo(str(error), err=True)
@@ -104,7 +117,7 @@ def _task(given: Mapping[str, Any]) -> SetSizeTask:
     if given["width_ratio"] is not None:
         others["width_ratio"] = max(values_of("width_ratio", given["width_ratio"]))
     if given["module"] is not None or given["second_series"]:
-        others["modules"] = modules_of(given["module"] or "0.5:50", second=given["second_series"])
+        others["modules"] = modules_of("0.5:50" if given["module"] is None else given["module"], second=given["second_series"])
     load = load_of(given)
     return SetSizeTask(
         sets=SearchTask(ratio=given["ratio"], module=1.0, **fields),
@@ -124,7 +137,7 @@ def _of_rings(given: Mapping[str, Any]) -> Material | None:
 
     if given["wheel_material"] is None and given["wheel_hardness"] is None:
         return None
-    name, hardness = given["wheel_material"] or given["material"], given["wheel_hardness"]
+    name, hardness = given["material" if given["wheel_material"] is None else "wheel_material"], given["wheel_hardness"]
     found: Material = material_of("wheel_material", name, hardness)
     return found
 
@@ -137,7 +150,7 @@ def _single(name: str, values: tuple[float, ...]) -> float:
 
 # ---------------------------------------------------------------------- what is shown
 
-_HEADING = ("set", "ratio", "off %", "m mm", "b mm", "diameter mm", "a mm", "N", "K_gamma", "kg", "S_H", "S_F", "least in")
+_HEADING = ("set", "ratio", "off %", "m mm", "b mm", "diameter mm", "a mm", "planets", "K_gamma", "kg", "S_H", "S_F", "weakest")
 
 
 def _table(result: SizedSets) -> Iterator[str]:
@@ -158,7 +171,7 @@ def _row(each: SizedSet) -> tuple[str, ...]:
     places = [(least, name) for name, gear in each.strength.members.items() if (least := gear.least(worst)) is not None]
     least, gear = min(places)
     return (
-        own.name,
+        each.name,
         f"{own.ratio:.5g}",
         f"{own.deviation:+.3f}" if own.deviation else "0",
         f"{own.task.module:g}",
@@ -174,8 +187,15 @@ def _row(each: SizedSet) -> tuple[str, ...]:
 
 
 def _remarks(result: SizedSets) -> Iterator[str]:
-    """How many were looked at, and what the columns are."""
+    """What the safeties go by, how many were looked at, and what the columns are."""
+    from gearcad.cli.size_table import basis_lines, scuffing_line
+
+    options, task = result.task.rating, result.task
+    yield from basis_lines(options, task.application_factor, result.assumed)
+    if (line := scuffing_line(options)) is not None:
+        yield line
     yield f"{result.considered} sets of tooth numbers, {result.refined} of them sized; lightest first"
+    yield "weakest: the part that more torque takes first; off: ratio over the one asked for, less 1"
     yield "mass without bores, rings with rims of 3.5 m_n; diameter over all teeth"
     yield "S_H and S_F are the least of all gears under all load factors; no set has backlash yet: planetary.tooth_thinning"
     if result.refused:

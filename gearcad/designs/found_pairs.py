@@ -13,12 +13,12 @@ from gearcad.designs.csv_cells import cell_text
 from gearcad.designs.pair_text import toml_text
 from gearcad.geometry import ISO53_A
 from gearcad.material import Grade, Material, grade_of
-from gearcad.sizing import SizedPair, Sizing
+from gearcad.sizing import SizedPair, SizeTask, Sizing
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
-__all__ = ["pair_keys", "write_pair", "write_pairs"]
+__all__ = ["pair_keys", "write_front", "write_pair", "write_pairs"]
 
 _DIGITS = 12
 """Of numbers of a task, without those that are rounding."""
@@ -70,13 +70,24 @@ def _material(prefix: str, material: Material) -> dict[str, Any]:
 
 def write_pairs(result: Sizing, path: Path) -> None:
     """Write the design table of all that was found, best first."""
-    rows = [dict(_cells(sized)) for sized in result.found]
+    said = f"best by {result.task.criterion.value} first. Next: gearcad batch {path.name}"
+    _write_table(result.task, [dict(_cells(sized)) for sized in result.found], said, path)
+
+
+def write_front(result: Sizing, path: Path) -> None:
+    """Write the design table of the front's sample, lightest first; names are numbered, for some differ in width alone."""
+    rows = [{**dict(_cells(each)), "name": f"{number:02d}-{each.name}"} for number, each in enumerate(result.front_sample, 1)]
+    said = f"{len(rows)} of {len(result.front)} variants on the front of mass and safety / lightest first / not refined"
+    _write_table(result.task, rows, f"{said}. Next: gearcad batch {path.name} --do rate", path)
+
+
+def _write_table(task: SizeTask, rows: list[dict[str, str]], said: str, path: Path) -> None:
+    """Write rows under a comment without commas, which some programs would take for cells."""
     columns = list(dict.fromkeys(key for row in rows for key in row))
-    task = result.task
     wanted = f"{task.load.torque:g} N·m at {task.load.speed:g} rpm / u = {task.ratio:g} within {task.ratio_tolerance:g} %"
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([f"# Pairs for {wanted}; best by {task.criterion.value} first. Next: gearcad batch {path.name}"])
+        writer.writerow([f"# Pairs for {wanted}; {said}"])
         writer.writerow(columns)
         writer.writerows([row.get(column, "") for column in columns] for row in rows)
 

@@ -9,6 +9,7 @@ from gearcad.designs.sized_sets import write_sized_set, write_sized_sets
 from gearcad.output import json_text, staged_files
 from gearcad.rating.strength import Part
 from gearcad.sizing.planetary_sets import SizedSet, SizedSets
+from gearcad.sizing.sized import unjudged_scuffing
 
 __all__ = ["write_set_sizes"]
 
@@ -33,3 +34,5 @@ def _comments(result: SizedSets, best: SizedSet) -> Iterator[str]:
     flank, root = (best.least[part] for part in (Part.FLANK, Part.ROOT))
     safeties = f"S_H {flank:.3f}, S_F {root:.3f}"
     yield f"{best.mass:.3g} kg without bores, {safeties}; no backlash yet: planetary.tooth_thinning gives it"
+    if (why := unjudged_scuffing(task.rating)) is not None:
+        yield why

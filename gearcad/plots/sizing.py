@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from gearcad.plots.paper import GEARS, new_figure, prepared
 
 if TYPE_CHECKING:
@@ -25,8 +27,8 @@ def plot_front(result: Sizing, ax: Axes | None = None) -> Axes:
     given = ax if ax is not None else new_figure(_INCHES).subplots()
     axes = prepared(given, "mass of both gears in kg", "least safety over that required")
     axes.plot(*result.cloud, ".", color="#bbbbbb", markersize=3, label="best of each teeth, module and helix angle")
-    places = result.front[:, result.front[0].argsort()]
-    axes.step(*places, where="post", color=_RED, linewidth=1.2, label="front: nothing is lighter and safer")
+    places = np.array([(each.mass, each.margin) for each in result.front]).T
+    axes.step(*places, where="post", color=_RED, linewidth=1.2, label="front: none of the variants is lighter and safer")
     listed = [(each.mass, each.margin) for each in result.found]
     axes.plot(*zip(*listed, strict=True), "o", color=_BLUE, markersize=4, label="listed, refined")
     load = result.task.load

@@ -20,17 +20,18 @@ from gearcad.planetary import Central, PlanetaryTrain, TrainLoad
 from gearcad.planetary.mesh_loads import mesh_loads
 from gearcad.planetary.power import power_flow
 from gearcad.planetary.search import Candidate, SearchTask, search
-from gearcad.progress import Progress
+from gearcad.progress import Agenda, Expected, Progress
 from gearcad.ranges import Range, Whole
 from gearcad.rating.iso6336_5 import EnduranceLimits, endurance_limits
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import Part
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
+from gearcad.sizing.sized import unjudged_scuffing
 from gearcad.sizing.task import ISO_54_I
 from gearcad.verdict import Verdict
 
-__all__ = ["SetSizeTask", "SizedSet", "SizedSets", "size_sets"]
+__all__ = ["SetSizeTask", "SizedSet", "SizedSets", "expected", "size_sets"]
 
 REFINED, MORE = 2, 10
 """Of these, as many times the sets that are asked for, and some more, are given a module and a width."""
@@ -43,6 +44,11 @@ RING_RIM = 3.5
 
 LEAST_WIDTH = 5.0
 """Least face width in modules."""
+
+_ROUGH, _SIZED = "tooth numbers", "sizes"
+_ROUGH_SECONDS, _SIZED_SECONDS = 0.035, 0.37
+_MEMORY = 4e8
+"""Seconds of each set in both steps; bytes, numpy and scipy included."""
 
 _FINE_WIDTH = 20.0
 """Face width (mm) up to which it goes by half millimetres."""
@@ -159,6 +165,7 @@ class SizedSet:
             "safety": {part.value: value for part, value in self.least.items()},
             "members": {name: gear.to_dict() for name, gear in self.strength.members.items()},
             "K_gamma": self.load.mesh_load_factor,
+            "notices": [notice.to_dict() for notice in self.strength.notices],
         }
 
 
@@ -173,6 +180,11 @@ class SizedSets:
     refined: int
     refused: dict[str, str]
 
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What was not given and goes into the rating of what was found, in words."""
+        return tuple(dict.fromkeys(text for each in self.found for text in each.strength.assumed))
+
     def to_dict(self) -> dict[str, Any]:
         """For JSON."""
         return {
@@ -181,6 +193,8 @@ class SizedSets:
             "torque": self.task.torque,
             "speed": self.task.speed,
             "found": [each.to_dict() for each in self.found],
+            "assumed": list(self.assumed),
+            "not_judged": {} if (why := unjudged_scuffing(self.task.rating)) is None else {"scuffing": why},
             "considered": self.considered,
             "refined": self.refined,
             "refused": dict(self.refused),
@@ -190,6 +204,7 @@ class SizedSets:
 def size_sets(task: SetSizeTask, count: int = 20, progress: Progress | None = None) -> SizedSets:
     """The `count` lightest sets that bear the task. Raises SolverError where none does."""
     result = search(task.sets, task.considered)
+    agenda = Agenda(progress, _seconds(len(result.found), count))
     rough: list[_Rough] = []
     refused: dict[str, str] = {}
     for place, candidate in enumerate(result.found):
@@ -197,8 +212,7 @@ def size_sets(task: SetSizeTask, count: int = 20, progress: Progress | None = No
             rough.append(_rough(task, candidate))
         except InputError as error:
             refused[candidate.name] = str(error)
-        if progress is not None:
-            progress("sets", place + 1.0, 2.0 * len(result.found))
+        agenda(_ROUGH, (place + 1) / len(result.found))
     rough.sort(key=lambda each: (round(each.mass, 9), each.candidate.name))
     refined = rough[: REFINED * count + MORE]
     found: list[SizedSet] = []
@@ -208,12 +222,22 @@ def size_sets(task: SetSizeTask, count: int = 20, progress: Progress | None = No
             refused[each.candidate.name] = "no module and width within the limits let it hold"
         else:
             found.append(sized)
-        if progress is not None:
-            progress("sizes", 1.0 + (place + 1) / len(refined), 2.0)
+        agenda(_SIZED, (place + 1) / len(refined), each.candidate.name)
     if not found:
         raise SolverError(_nothing(task, len(result.found), refused))
     found.sort(key=lambda each: (round(each.mass, 9), each.name))
     return SizedSets(task=task, found=tuple(found[:count]), considered=len(result.found), refined=len(refined), refused=refused)
+
+
+def expected(task: SetSizeTask, count: int) -> Expected:
+    """What that takes at the most: the search may find fewer tooth numbers."""
+    steps = _seconds(task.considered, count)
+    return Expected(sum(steps.values()), _MEMORY, f"up to {task.considered} sets of tooth numbers")
+
+
+def _seconds(sets: int, count: int) -> dict[str, float]:
+    """Seconds of each step."""
+    return {_ROUGH: sets * _ROUGH_SECONDS, _SIZED: min(REFINED * count + MORE, sets) * _SIZED_SECONDS}
 
 
 def _nothing(task: SetSizeTask, considered: int, refused: dict[str, str]) -> str:

@@ -15,7 +15,7 @@ from gearcad.sizing.ranking import ranked
 from gearcad.sizing.rated import Rated
 from gearcad.sizing.refine import refined
 from gearcad.sizing.search import STEP, Survey, survey
-from gearcad.sizing.sized import SizedPair, Sizing
+from gearcad.sizing.sized import SizedPair, Sizing, front_pairs
 from gearcad.sizing.task import Criterion, SizeTask
 from gearcad.sizing.transmission import transmission_error
 from gearcad.verdict import Verdict
@@ -65,8 +65,9 @@ def search_pairs(task: SizeTask, *, count: int = 20, errors: int = 20, progress:
         removed=seen.removed,
         unmade=tuple(unmade),
         cloud=_places(seen.best),
-        front=_places(seen.front),
+        front=front_pairs(task, seen.front),
         strongest=None if seen.strongest is None else SizedPair.of(task, seen.strongest),
+        lightest=None if seen.lightest is None else SizedPair.of(task, seen.lightest),
     )
 
 

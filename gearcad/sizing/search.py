@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ from gearcad.sizing.geometry import ManyPairs
 from gearcad.sizing.grid import Grid, rounded_width
 from gearcad.sizing.limits import LIMITS, width_within
 from gearcad.sizing.ranking import best_of_each, front
-from gearcad.sizing.rated import REQUIRED, Rated
+from gearcad.sizing.rated import MASS, REQUIRED, Rated
 from gearcad.sizing.rating import RATED, rate_many
 from gearcad.sizing.task import SizeTask
 
@@ -25,6 +25,8 @@ STEP = "variants"
 WIDTH = "face width"
 CONDITIONS = (*LIMITS, WIDTH, RATED, *REQUIRED)
 """What variants must meet, in the order in which it is asked of them."""
+
+_SAFETIES = tuple(name for name in REQUIRED if name != MASS)
 
 _KEPT = 1 << 16
 """Variants that are kept before the best of them are picked."""
@@ -39,6 +41,7 @@ class _Keeper:
     best: list[Rated] = field(default_factory=list)
     front: list[Rated] = field(default_factory=list)
     strongest: list[Rated] = field(default_factory=list)
+    lightest: list[Rated] = field(default_factory=list)
 
     def add(self, rated: Rated) -> None:
         """Variants that meet all conditions."""
@@ -59,15 +62,26 @@ class _Keeper:
 
     def add_strongest(self, rated: Rated) -> None:
         """The one of most safety, of variants that need not be safe enough."""
-        if len(rated.order):
-            found = [*self.strongest, rated.picked([int(np.lexsort((rated.order, -rated.margin))[0])])]
-            joined = Rated.joined(found)
-            self.strongest = [joined.picked([int(np.lexsort((joined.order, -joined.margin))[0])])]
+        self.strongest = _first([*self.strongest, rated], lambda each: -each.margin)
+
+    def add_lightest(self, rated: Rated) -> None:
+        """The lightest, of variants that are safe, whatever mass is permitted."""
+        self.lightest = _first([*self.lightest, rated], lambda each: each.mass)
+
+
+def _first(rated: list[Rated], key: Callable[[Rated], Floats]) -> list[Rated]:
+    """The one whose key is least, of all; none of none."""
+    some = [each.picked([int(np.lexsort((each.order, key(each)))[0])]) for each in rated if len(each.order)]
+    if not some:
+        return []
+    joined = Rated.joined(some)
+    return [joined.picked([int(np.lexsort((joined.order, key(joined)))[0])])]
 
 
 class Survey(NamedTuple):
     """What a search saw: the best of each combination of teeth, module and helix angle; the front of mass and safety; how many
-    variants there were, and how many each condition removed; the strongest, if any was rated."""
+    variants there were, and how many each condition removed;
+    the strongest, if any was rated, and the lightest that is safe, of any mass."""
 
     best: Rated | None
     front: Rated | None
@@ -75,6 +89,7 @@ class Survey(NamedTuple):
     removed: dict[str, int]
     rated: int
     strongest: Rated | None
+    lightest: Rated | None
 
 
 def survey(task: SizeTask, tell: Tell = untold) -> Survey:
@@ -86,14 +101,16 @@ def survey(task: SizeTask, tell: Tell = untold) -> Survey:
         for variants in _variants(task, _within_limits(task, pairs, removed, widths), removed):
             rated += len(variants.order)
             keeper.add_strongest(variants)
-            safe = _safe(task, variants, removed)
-            if len(safe.order):
-                keeper.add(safe)
+            safe = _meeting(task, variants, _SAFETIES, removed)
+            keeper.add_lightest(safe)
+            held = _meeting(task, safe, (MASS,), removed)
+            if len(held.order):
+                keeper.add(held)
         done += len(pairs.key)
         tell(STEP, done / len(grid))
     keeper.settle()
-    first = [each[0] if each else None for each in (keeper.best, keeper.front, keeper.strongest)]
-    return Survey(first[0], first[1], len(grid) * widths, removed, rated, first[2])
+    first = [each[0] if each else None for each in (keeper.best, keeper.front, keeper.strongest, keeper.lightest)]
+    return Survey(first[0], first[1], len(grid) * widths, removed, rated, first[2], first[3])
 
 
 def _within_limits(task: SizeTask, pairs: ManyPairs, removed: dict[str, int], widths: int) -> ManyPairs:
@@ -118,10 +135,10 @@ def _variants(task: SizeTask, pairs: ManyPairs, removed: dict[str, int]) -> Iter
     yield found
 
 
-def _safe(task: SizeTask, variants: Rated, removed: dict[str, int]) -> Rated:
-    """Those with all safeties that are required."""
+def _meeting(task: SizeTask, variants: Rated, conditions: Iterable[str], removed: dict[str, int]) -> Rated:
+    """Those that meet some of the REQUIRED."""
     left = variants
-    for name in REQUIRED:
+    for name in conditions:
         mask = left.meets(name, task)
         removed[name] += int(np.count_nonzero(~mask))
         left = left.picked(mask)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,19 +11,21 @@ import numpy as np
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.shift import profile_shift_sum
 from gearcad.per_gear import PerGear
+from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import StrengthRating
 from gearcad.sizing.rated import Rated
 from gearcad.sizing.refine import least_width
 from gearcad.sizing.task import SizeTask
 
-__all__ = ["SizedPair", "Sizing"]
+__all__ = ["FRONT_SAMPLE", "SizedPair", "Sizing", "front_pairs", "unjudged_scuffing"]
 
 
 @dataclass(frozen=True, kw_only=True)
 class SizedPair:
     """A pair by what one writes on a drawing, and what it is ranked by. Lengths in mm, helix angle in degrees, mass in kg.
 
-    At `least_width`, unrounded, the least safety is just the one required; `margin` is the least of S_H/S_Hmin and S_F/S_Fmin.
+    At `least_width`, unrounded, the least safety is just the one required, None where it was not sought; `margin` is the
+    least of S_H/S_Hmin and S_F/S_Fmin.
     `ripple` is how much the lines of contact change in length, `temperature` the integral temperature (°C, None without one).
     `strength` is the full rating of the pair, and `transmission_error` (µm, peak to peak at the torque of the load) that of its
     flexible bodies, where they were worked out; `front` says that nothing among the best is both lighter and safer.
@@ -34,7 +36,7 @@ class SizedPair:
     normal_module: float
     helix_angle: float
     face_width: float
-    least_width: float
+    least_width: float | None
     centre_distance: float
     pinion_shift: float
     mass: float
@@ -51,8 +53,8 @@ class SizedPair:
     transmission_error: float | None = None
 
     @classmethod
-    def of(cls, task: SizeTask, rated: Rated) -> SizedPair:
-        """That of a variant, n = 1."""
+    def of(cls, task: SizeTask, rated: Rated, *, narrowed: bool = True) -> SizedPair:
+        """That of a variant, n = 1; its least width is sought unless it is not `narrowed`."""
         pairs, temperature = rated.pairs, float(rated.temperature[0])
 
         def number(values: Any) -> float:
@@ -64,7 +66,7 @@ class SizedPair:
             normal_module=number(pairs.normal_module),
             helix_angle=number(pairs.helix_angle),
             face_width=number(rated.width),
-            least_width=least_width(task, rated),
+            least_width=least_width(task, rated) if narrowed else None,
             centre_distance=number(pairs.centre_distance),
             pinion_shift=number(pairs.shifts.pinion),
             mass=number(rated.mass),
@@ -135,10 +137,14 @@ class SizedPair:
             **given,
             "shift_sum": self.shift_sum,
             "strength": judged,
+            "notices": [] if self.strength is None else [notice.to_dict() for notice in self.strength.notices],
             "transmission_error": self.transmission_error,
             "front": self.front,
         }
 
+
+FRONT_SAMPLE = 50
+"""Most pairs of a front that go into a design table."""
 
 _FIGURES = (
     "normal_module helix_angle face_width least_width centre_distance pinion_shift mass margin transverse_contact_ratio "
@@ -151,9 +157,9 @@ class Sizing:
     """What a search found: the best, a pair for each combination of teeth, module and helix angle; and what became of the rest.
 
     Of `considered` variants `removed` has how many each condition took, in the order in which it was asked; `rated` were rated.
-    `unmade` says of good ones why they cannot be made. `cloud` and `front` are masses (kg) and margins (2, n), of the best of
-    each combination, and of all that nothing is both lighter and safer than; `strongest` is the safest of all, where nothing
-    was found.
+    `unmade` says of good ones why they cannot be made. `cloud` has masses (kg) and margins (2, n) of the best of each
+    combination; `front` are the variants that none is both lighter and safer than, lightest first, before refinement and the
+    full rating. `strongest` is the safest that was rated, `lightest` the lightest that is safe, whatever mass is permitted.
     """
 
     task: SizeTask
@@ -163,8 +169,9 @@ class Sizing:
     removed: dict[str, int]
     unmade: tuple[str, ...]
     cloud: np.ndarray[Any, np.dtype[np.float64]]
-    front: np.ndarray[Any, np.dtype[np.float64]]
+    front: tuple[SizedPair, ...]
     strongest: SizedPair | None
+    lightest: SizedPair | None
 
     def __repr__(self) -> str:
         best = f", best {self.found[0].name}" if self.found else ""
@@ -174,6 +181,19 @@ class Sizing:
     def best(self) -> SizedPair | None:
         """The first."""
         return self.found[0] if self.found else None
+
+    @property
+    def front_sample(self) -> tuple[SizedPair, ...]:
+        """At most FRONT_SAMPLE of the front, evenly by their places on it, the lightest and the safest among them."""
+        number = len(self.front)
+        places = dict.fromkeys(np.linspace(0, number - 1, min(number, FRONT_SAMPLE)).round().astype(int).tolist())
+        return tuple(self.front[place] for place in places)
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What was not given and goes into the rating of what was found, in words."""
+        rated = (each.strength for each in self.found)
+        return tuple(dict.fromkeys(text for strength in rated if strength is not None for text in strength.assumed))
 
     def to_dict(self) -> dict[str, Any]:
         """What size.json holds."""
@@ -194,9 +214,31 @@ class Sizing:
             "removed": self.removed,
             "unmade": list(self.unmade),
             "strongest": None if self.strongest is None else self.strongest.to_dict(),
-            "front": {"mass": self.front[0].tolist(), "margin": self.front[1].tolist()},
+            "lightest": None if self.lightest is None else self.lightest.to_dict(),
+            "assumed": list(self.assumed),
+            "not_judged": {} if (why := unjudged_scuffing(task.rating)) is None else {"scuffing": why},
+            "front": [{name: value for name, value in each.to_dict().items() if name not in _OF_RATED} for each in self.front],
         }
 
+
+def front_pairs(task: SizeTask, rated: Rated | None) -> tuple[SizedPair, ...]:
+    """Variants as pairs, lightest first."""
+    if rated is None:
+        return ()
+    order = np.lexsort((rated.margin, rated.mass))
+    return tuple(replace(SizedPair.of(task, rated.picked([place]), narrowed=False), front=True) for place in order)
+
+
+def unjudged_scuffing(options: RatingOptions) -> str | None:
+    """Why no proposal is judged against scuffing; None where all are."""
+    if options.required_safety_scuffing is not None:
+        return None
+    lacking = ["required_safety_scuffing", *([] if options.scuffing_stage is not None else ["scuffing_stage"])]
+    return f"scuffing not judged: {' and '.join(lacking)} not given"
+
+
+_OF_RATED = ("least_width", "strength", "notices", "transmission_error")
+"""What only those have that were refined and rated in full."""
 
 _OF_TASKS = (
     "ratio ratio_tolerance teeth modules helix_angles width_ratios shifts shift_sums centre_distance max_diameter max_mass "

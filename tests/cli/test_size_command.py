@@ -45,6 +45,15 @@ def test_files_and_table(tmp_path: Path) -> None:
     made = [row.design() for row in rows]
     assert [each.name for each in made] == [each["name"] for each in document["found"]]
     assert isinstance(made[0], PairDesign) and made[0].pair.to_dict() == design.pair.to_dict()
+    front = list(open_table(tmp_path / "front.csv").rows())
+    points = document["front"]
+    assert [row.design().name[3:] for row in front] == [each["name"] for each in points]
+    assert [each["mass"] for each in points] == sorted(each["mass"] for each in points)
+    lightest = front[0].design()
+    assert isinstance(lightest, PairDesign) and lightest.load is not None
+    rated = rate_strength(lightest.pair, lightest.materials, lightest.load, lightest.rating)
+    assert [each.safety for each in rated.flank] == pytest.approx(list(points[0]["flank_safeties"].values()), rel=1e-9)
+    assert points[0]["teeth"]["pinion"] == lightest.pair.pinion.teeth
     assert (tmp_path / "front.png").read_bytes().startswith(b"\x89PNG")
 
 
@@ -81,3 +90,44 @@ def test_planetary_sets(tmp_path: Path) -> None:
     assert isinstance(design, PlanetaryDesign)
     assert design.train.ratio == pytest.approx(5, rel=1e-3)
     assert (tmp_path / "sets.csv").exists()
+
+
+def test_the_advice_follows_the_condition_that_took_the_last(tmp_path: Path) -> None:
+    found = run("-o", tmp_path, "--quiet", max_mass="0.1")
+    assert found.exit_code == 1
+    lightest = json.loads((tmp_path / "size.json").read_text(encoding="utf-8"))["lightest"]
+    *_, said, advice = found.stderr.splitlines()
+    assert f"{lightest['name']}, b {lightest['face_width']:g} mm: {lightest['mass']:.3g} kg" in said
+    mass = float(advice.split("--max-mass ")[1].split()[0])
+    assert lightest["mass"] <= mass <= 1.01 * lightest["mass"]
+    assert run("-o", tmp_path, "--quiet", max_mass=str(mass)).exit_code == 0
+
+
+def test_what_safeties_go_by_and_what_was_not_judged(tmp_path: Path) -> None:
+    found = run("-o", tmp_path, by="scuffing", max_mass="100")
+    said = found.stderr
+    document = json.loads((tmp_path / "size.json").read_text(encoding="utf-8"))
+    why = document["not_judged"]["scuffing"]
+    assert why == "scuffing not judged: required_safety_scuffing and scuffing_stage not given"
+    assert said.count(why) == 1
+    assert f"# {why}" in (tmp_path / "best.toml").read_text(encoding="utf-8")
+    assert "required S_H 1, S_F 1.4; K_A 1; accuracy grade 6" in said
+    assert "in the middle between its bearings" in " ".join(said.split())
+    assert "gearcad modify" in said
+    notices = [each["notices"] for each in document["found"]]
+    heading, *rows = found.stdout.splitlines()[: len(notices) + 1]
+    assert any(notices) and heading.endswith("notice")
+    assert [row.endswith(" 1") for row in rows] == [bool(each) for each in notices]
+
+
+@pytest.mark.parametrize("name", ["module", "wheel-material", "teeth"])
+def test_empty_options_are_refused(name: str, tmp_path: Path) -> None:
+    found = run(f"--{name}=", "-o", tmp_path)
+    assert found.exit_code != 0
+    assert f"{name.replace('-', '_')} = ''" in found.stderr
+
+
+def test_sets_have_no_most_mass(tmp_path: Path) -> None:
+    words = "size --planetary --torque 300 --speed 1500 --ratio 5.2 --max-mass 3 -o"
+    found = CliRunner().invoke(main, [*words.split(), str(tmp_path), "--material", "Eh MQ"])
+    assert "max_mass = 3: is of pairs" in found.stderr
