@@ -73,7 +73,10 @@ _OF_RATING = {
     "safety_root": "required_safety_root",
     "safety_scuffing": "required_safety_scuffing",
 }
-_CALLED = {field: option for table in (_FIELDS, _RANGES, _OF_RATING) for option, field in table.items()} | {"modules": "module"}
+_CALLED = {field: option for table in (_FIELDS, _RANGES, _OF_RATING) for option, field in table.items()} | {
+    "modules": "module",
+    "criterion": "by",
+}
 
 _MOST_VALUES = 1000
 _KILOWATTS = 30_000 / math.pi

@@ -103,7 +103,8 @@ def test_the_advice_follows_the_condition_that_took_the_last(tmp_path: Path) -> 
     assert run("-o", tmp_path, "--quiet", max_mass=str(mass)).exit_code == 0
 
 
-def test_what_safeties_go_by_and_what_was_not_judged(tmp_path: Path) -> None:
+def test_what_safeties_go_by_and_what_was_not_judged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gearcad.sizing.sized.FRONT_SAMPLE", 2)
     found = run("-o", tmp_path, by="scuffing", max_mass="100")
     said = found.stderr
     document = json.loads((tmp_path / "size.json").read_text(encoding="utf-8"))
@@ -114,13 +115,17 @@ def test_what_safeties_go_by_and_what_was_not_judged(tmp_path: Path) -> None:
     assert "required S_H 1, S_F 1.4; K_A 1; accuracy grade 6" in said
     assert "in the middle between its bearings" in " ".join(said.split())
     assert "gearcad modify" in said
+    lightest, *between, safest = document["front"]
+    assert between
+    rows = list(open_table(tmp_path / "front.csv").rows())
+    assert [row.design().name for row in rows] == [f"01-{lightest['name']}", f"02-{safest['name']}"]
     notices = [each["notices"] for each in document["found"]]
-    heading, *rows = found.stdout.splitlines()[: len(notices) + 1]
+    heading, *lines = found.stdout.splitlines()[: len(notices) + 1]
     assert any(notices) and heading.endswith("notice")
-    assert [row.endswith(" 1") for row in rows] == [bool(each) for each in notices]
+    assert [line.endswith(" 1") for line in lines] == [bool(each) for each in notices]
 
 
-@pytest.mark.parametrize("name", ["module", "wheel-material", "teeth"])
+@pytest.mark.parametrize("name", ["module", "wheel-material", "teeth", "by"])
 def test_empty_options_are_refused(name: str, tmp_path: Path) -> None:
     found = run(f"--{name}=", "-o", tmp_path)
     assert found.exit_code != 0
