@@ -12,12 +12,12 @@ from functools import cached_property
 
 import numpy as np
 
-from gearcad.arrays import Floats, Wholes
+from gearcad.arrays import Floats, Indices, Wholes
 from gearcad.per_gear import PerGear
 from gearcad.sizing.geometry import ManyPairs, distance_for, shift_sum_at
 from gearcad.sizing.task import SizeTask
 
-__all__ = ["CHUNK", "Grid", "rounded_distance", "rounded_width"]
+__all__ = ["CHUNK", "Grid", "distances_within", "rounded_distance", "rounded_width"]
 
 CHUNK = 1 << 14
 """Pairs at a time: few enough for the cache of a core, enough for numpy's overhead not to count."""
@@ -83,9 +83,30 @@ class Grid:
 
 def rounded_distance(distance: Floats, module: Floats) -> Floats:
     """To steps of 1, 2 or 5, tenths and so on, as coarse as the module lets the shifts take up: 0.5 mm from 2 to 3.99 mm."""
-    step = _STEPS[np.searchsorted(_STEPS, _COARSENESS * module * (1 + 1e-9), side="right") - 1]
+    step = _distance_step(module)
     result: Floats = np.round(np.round(distance / step) * step, 6)
     return result
+
+
+def _distance_step(module: Floats) -> Floats:
+    result: Floats = _STEPS[np.searchsorted(_STEPS, _COARSENESS * module * (1 + 1e-9), side="right") - 1]
+    return result
+
+
+def distances_within(
+    sums: tuple[float, float], teeth: Floats, module: Floats, helix_angle: Floats, pressure_angle: float
+) -> tuple[Indices, Floats]:
+    """All round centre distances (mm) at which x_1 + x_2 of pairs is from the first to the second sum.
+
+    Those of each pair after each other, with the places of the pairs; `teeth` are z_1 + z_2.
+    """
+    ends = [distance_for(np.array(each), teeth, module, helix_angle, pressure_angle) for each in sums]
+    step = _distance_step(module)
+    least, most = np.ceil(ends[0] / step - 1e-6), np.floor(ends[1] / step + 1e-6)
+    count = np.nan_to_num(np.maximum(most - least + 1, 0)).astype(int)
+    place = np.repeat(np.arange(len(count)), count)
+    number = np.arange(len(place)) - np.repeat(np.cumsum(count) - count, count)
+    return place, np.round((least[place] + number) * step[place], 6)
 
 
 def rounded_width(width: Floats) -> Floats:

@@ -10,7 +10,7 @@ from gearcad.arrays import Bools, Floats
 from gearcad.sizing.geometry import ManyPairs
 from gearcad.sizing.task import SizeTask
 
-__all__ = ["LIMITS", "width_within"]
+__all__ = ["LIMITS", "shift_sums_within", "width_within"]
 
 ROUNDING = 1e-9
 """Of lengths, in normal modules, and of ratios."""
@@ -22,12 +22,15 @@ _NEAR = 0.15
 """How far x_1 + x_2 may be beyond those wanted, for round centre distances."""
 
 
+def shift_sums_within(task: SizeTask) -> tuple[float, float]:
+    """The least and the most x_1 + x_2 where no centre distance is given."""
+    return task.shift_sums[0] - _NEAR, task.shift_sums[-1] + _NEAR
+
+
 def _centre_distance(pairs: ManyPairs, task: SizeTask) -> Bools:
     """Where profile shift takes up the centre distance."""
     total = pairs.shifts.pinion + pairs.shifts.wheel
-    least, most = SHIFT_SUMS
-    if task.centre_distance is None:
-        least, most = task.shift_sums[0] - _NEAR, task.shift_sums[-1] + _NEAR
+    least, most = SHIFT_SUMS if task.centre_distance is not None else shift_sums_within(task)
     result: Bools = (total >= least) & (total <= most)  # false of nan
     return result
 

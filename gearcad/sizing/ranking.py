@@ -10,7 +10,11 @@ from gearcad.arrays import Bools, Floats, Indices, Wholes
 from gearcad.sizing.rated import Rated
 from gearcad.sizing.task import Criterion
 
-__all__ = ["best_of_each", "front", "ranked"]
+__all__ = ["NEARLY", "best_of_each", "front", "lightest_of_each", "ranked"]
+
+NEARLY, _BAND = 1.005, 0.002
+"""How many times as heavy as the lightest is as good as that, where x_1 < x_2 is avoided; by what part of the lightest masses
+count as equal, where sliding is less."""
 
 _DIGITS = 9
 """Significant figures by which variants are told apart: what is beyond is rounding, and ties are decided by place."""
@@ -46,6 +50,21 @@ def best_of_each(rated: Rated, group: Wholes, criterion: Criterion) -> Rated:
     order = ranked(rated, criterion)
     _, first = np.unique(group[order], return_index=True)
     return rated.picked(order[first])
+
+
+def lightest_of_each(rated: Rated, group: Wholes) -> Rated:
+    """The lightest of each group; of those nearly as light, x_1 >= x_2 first, as q' is stated for it, then least sliding."""
+    groups, place = np.unique(group, return_inverse=True)
+    least = np.full(len(groups), np.inf)
+    np.minimum.at(least, place, rated.mass)
+    excess = rated.mass / least[place] - 1
+    there = np.flatnonzero(excess <= NEARLY - 1)
+    near, place = rated.picked(there), place[there]
+    uneven = near.pairs.shifts.pinion < near.pairs.shifts.wheel - 1e-9
+    bands = np.floor(excess[there] / _BAND + 1e-9)
+    order = np.lexsort((_figures(near.mass), _figures(near.sliding), bands, uneven, place))
+    _, first = np.unique(place[order], return_index=True)
+    return near.picked(order[first])
 
 
 def front(rated: Rated) -> Bools:

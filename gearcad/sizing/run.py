@@ -11,7 +11,6 @@ import numpy as np
 from gearcad.errors import GearcadError, InputError
 from gearcad.progress import Agenda, Expected, Progress
 from gearcad.rating.strength import rate_strength
-from gearcad.sizing.ranking import ranked
 from gearcad.sizing.rated import Rated
 from gearcad.sizing.refine import refined
 from gearcad.sizing.search import STEP, Survey, survey
@@ -26,9 +25,9 @@ REACH = 1.5
 """How many times as heavy as the lightest a pair may be, for which something else than mass comes first."""
 
 _REFINED, _LEAST_REFINED = 2, 40
-"""How many times the wanted number is refined, since that may change the order; and at the least how many are."""
+"""How many times the wanted number is kept, since not all of them may pass the full rating; and at the least how many are."""
 
-_VARIANTS_A_SECOND, _REFINEMENT_SECONDS, _ERROR_SECONDS = 4e5, 0.05, 2.0
+_VARIANTS_A_SECOND, _REFINEMENT_SECONDS, _ERROR_SECONDS = 4e5, 0.03, 2.0
 _MEMORY = 4e8
 """Bytes, numpy and scipy included."""
 
@@ -83,28 +82,20 @@ def _seconds(task: SizeTask) -> float:
 
 
 def _refined(task: SizeTask, seen: Survey, most: int, agenda: Agenda) -> Rated | None:
-    """The best of all combinations after refinement, best first."""
+    """The best combinations after refinement, best first."""
     if seen.best is None:
         return None
-    order = ranked(seen.best, task.criterion)[:most]
-    made = []
-    for number, place in enumerate(order):
-        agenda(_REFINE, number / len(order))
-        made.append(refined(task, seen.best.picked(np.array([place]))))
-    found = Rated.joined(made)
-    return found.picked(ranked(found, task.criterion))
+    return refined(task, seen.best, most, lambda part: agenda(_REFINE, part))
 
 
 def _judged(task: SizeTask, best: Rated | None, count: int, unmade: list[str]) -> Iterator[SizedPair]:
     """The first `count` that can be made and pass the full rating; `unmade` hears why others do not."""
-    names: set[str] = set()
+    passed = 0
     for place in range(0 if best is None else len(best.order)):
         assert best is not None
-        if len(names) == count:
+        if passed == count:
             return
         sized = SizedPair.of(task, best.picked(np.array([place])))
-        if sized.name in names:
-            continue  # a neighbour was refined to the same
         try:
             judged = _rated(sized)
         except InputError as error:
@@ -113,7 +104,7 @@ def _judged(task: SizeTask, best: Rated | None, count: int, unmade: list[str]) -
         if judged.strength is not None and judged.strength.strength is not Verdict.PASSED:
             unmade.append(f"{sized.name}: {judged.strength.verdict}")
             continue
-        names.add(sized.name)
+        passed += 1
         yield replace(judged, front=_on_front(best, place))
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,9 +16,11 @@ from gearcad.geometry import Gear
 from gearcad.geometry.shift import profile_shift_sum, zero_backlash_centre_distance
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import rate_strength
-from gearcad.sizing import Criterion, SizeTask
+from gearcad.sizing import Criterion, SizeTask, search_pairs
+from gearcad.sizing.geometry import ManyPairs
 from gearcad.sizing.grid import Grid, rounded_distance, rounded_width
-from gearcad.sizing.ranking import front, ranked
+from gearcad.sizing.limits import LIMITS
+from gearcad.sizing.ranking import NEARLY, front, ranked
 from gearcad.sizing.rated import Rated, line_ripple
 from gearcad.sizing.rating import rate_many
 from gearcad.sizing.refine import least_width, refined
@@ -107,6 +111,8 @@ def test_the_order_of_ranges_has_no_say() -> None:
         assert each.best is not None and each.removed == one.removed
         for name in ("order", "mass", "margin", "width"):
             assert np.array_equal(getattr(each.best, name), getattr(one.best, name))
+    assert other.best is not None and one.best is not None
+    assert np.array_equal(refined(replace(WIDE, **turned), other.best, 40).mass, refined(WIDE, one.best, 40).mass)
 
 
 def test_chunks_have_no_say(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -118,6 +124,9 @@ def test_chunks_have_no_say(monkeypatch: pytest.MonkeyPatch) -> None:
     assert np.array_equal(whole.best.order, parts.best.order)
     assert np.array_equal(np.sort(whole.front.order), np.sort(parts.front.order))
     assert whole.removed == parts.removed
+    fine = refined(WIDE, whole.best, 40)
+    monkeypatch.setattr("gearcad.sizing.refine._AT_A_TIME", 5)
+    assert np.array_equal(refined(WIDE, whole.best, 40).mass[:20], fine.mass[:20])
 
 
 @pytest.mark.parametrize("criterion", Criterion)
@@ -125,15 +134,90 @@ def test_refinement_stays_in_the_ranges_and_is_no_worse(criterion: Criterion) ->
     task = replace(WIDE, criterion=criterion)
     best = survey(task).best
     assert best is not None
-    variant = best.picked(ranked(best, criterion)[:1])
-    found = refined(task, variant)
-    assert found.safe(task)[0]
-    assert task.shifts[0] <= found.pairs.shifts.pinion[0] <= task.shifts[-1]
-    assert found.width[0] >= rounded_width(task.width_ratios[0] * found.pairs.diameters.pinion)[0]
-    if criterion is Criterion.MASS:
-        assert found.width[0] <= variant.width[0]
-    else:
-        assert ranked(Rated.joined([variant, found]), criterion)[0] == 1 or np.array_equal(found.width, variant.width)
+    found = refined(task, best, 40)
+    pairs, slack = found.pairs, 1e-9
+    assert found.safe(task).all() and np.array_equal(ranked(found, criterion), np.arange(len(found.order)))
+    assert np.all((pairs.shifts.pinion >= task.shifts[0]) & (pairs.shifts.pinion <= task.shifts[-1]))
+    assert np.all((pairs.helix_angle == 0) | (pairs.helix_angle == 15))
+    least, most = (rounded_width(task.width_ratios[end] * pairs.diameters.pinion) for end in (0, -1))
+    assert np.all((found.width >= least - slack) & (found.width <= most + slack))
+    assert np.all(pairs.centre_distance == rounded_distance(pairs.centre_distance, pairs.normal_module))
+    first = Rated.joined([found.picked([0]), best])
+    assert ranked(first, criterion)[0] == 0 or first.mass[0] == pytest.approx(first.mass.min(), rel=1e-9)
+
+
+PLAIN = replace(
+    SMALL,
+    load=Load(torque=302.0, speed=1500.0),
+    ratio=1.5,
+    ratio_tolerance=2.0,
+    rating=RatingOptions(life=20_000.0),
+    teeth=(25, 25),
+    modules=(3.0,),
+    helix_angles=(0.0,),
+    width_ratios=(0.3, 0.6, 0.9, 1.2),
+    shifts=(0.0, 0.35, 0.7),
+    shift_sums=(0.0, 0.5, 1.0),
+)
+
+
+def dense(task: SizeTask, z_1: int, z_2: int, m: float, beta: float) -> float:
+    """Mass of the lightest at all round centre distances, all shifts in twentieths and all widths in whole mm."""
+    sizes: dict[str, Any] = {"normal_module": m, "teeth": PerGear(z_1, z_2), "helix_angle": beta, "pressure_angle": 20.0}
+    d_1 = m * z_1 / np.cos(np.radians(beta))
+    widths = np.arange(round(task.width_ratios[0] * d_1), min(round(task.width_ratios[-1] * d_1), 30 * m) + 1)
+    distances = [each / 2 for each in range(math.floor(d_1 * (1 + z_2 / z_1)) - 4, math.ceil(d_1 * (1 + z_2 / z_1)) + 9)]
+    totals = [profile_shift_sum(**sizes, centre_distance=each) for each in distances]
+    made = np.array([(a, x, total - x) for a, total in zip(distances, totals, strict=True) for x in np.arange(15) / 20])
+    every = [np.full(len(made), each) for each in (float(z_1), float(z_2), m, beta)]
+    pairs = ManyPairs(
+        key=np.arange(len(made)),
+        teeth=PerGear(*every[:2]),
+        normal_module=every[2],
+        helix_angle=every[3],
+        centre_distance=made[:, 0],
+        shifts=PerGear(made[:, 1], made[:, 2]),
+        rack=task.rack,
+    )
+    for met in LIMITS.values():
+        pairs = pairs.picked(met(pairs, task))
+    size = np.tile(widths, (len(pairs.key), 1))
+    found = rate_many(task, pairs, size, np.ones(size.shape, bool), np.zeros(size.shape, int))
+    return float(found.mass[found.safe(task)].min(initial=np.inf))
+
+
+@pytest.mark.parametrize(
+    "task",
+    [
+        PLAIN,
+        replace(PLAIN, teeth=(32, 33), modules=(2.0,), helix_angles=(22.0, 24.0)),
+        pytest.param(replace(PLAIN, teeth=(20, 32), modules=(2.5, 3.0)), marks=pytest.mark.long),
+        pytest.param(
+            replace(PLAIN, teeth=(20, 34), modules=(2.0, 2.5, 3.0), helix_angles=(18.0, 21.0, 24.0)), marks=pytest.mark.long
+        ),
+    ],
+    ids=["spur", "helical", "all spur", "many helical"],
+)
+def test_refinement_finds_what_a_dense_grid_has(task: SizeTask) -> None:
+    """Each line is as light as the lightest of its teeth, module and helix angle, and the first of all helix angles."""
+    found = search_pairs(task, count=10, errors=0).found
+    for each in found:
+        assert each.mass <= dense(task, *each.teeth, each.normal_module, each.helix_angle) * NEARLY
+    angles = np.arange(2 * task.helix_angles[0], 2 * task.helix_angles[-1] + 1) / 2
+    lightest = min(dense(task, *z, m, beta) for z in task.teeth_pairs for m in task.modules for beta in angles)
+    assert found[0].mass <= lightest * NEARLY
+
+
+@pytest.mark.long
+def test_lightest_pairs_of_a_spur_task_known_from_plain_loops() -> None:
+    """Masses (kg) that loops over shifts, centre distances and widths found."""
+    known = {(25, 37, 3.0): 2.604, (24, 36, 3.0): 2.69, (25, 38, 3.0): 2.70, (29, 44, 2.5): 2.73, (29, 43, 2.5): 2.74}
+    usual = {name: getattr(SizeTask, name) for name in ("width_ratios", "shifts", "shift_sums")}
+    found = search_pairs(replace(PLAIN, teeth=(20, 32), modules=(2.5, 3.0), **usual), errors=0).found
+    masses = {(*each.teeth, each.normal_module): each.mass for each in found}
+    assert found[0].mass == min(masses.values())
+    for pair, mass in known.items():
+        assert masses[pair] <= mass * NEARLY
 
 
 def test_least_width_has_just_the_safety_that_is_required() -> None:
