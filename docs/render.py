@@ -23,17 +23,21 @@ from vtkmodules.vtkRenderingCore import (
 )
 
 import gearcad
-from gearcad import Body, Gear
+from gearcad import Body, Gear, Load, Material
 from gearcad.batch import run_table
 from gearcad.batch.study import plan_study, write_study
 from gearcad.designs import read_spec
 from gearcad.jobs.data import Data
+from gearcad.per_gear import PerGear
 from gearcad.planetary.speeds import speeds
 from gearcad.plots import plot_contours, save_plot
 from gearcad.plots.mesh import plot_body_mesh, plot_section_mesh
 from gearcad.plots.planetary.front import plot_front
 from gearcad.plots.planetary.scheme import plot_scheme
+from gearcad.plots.sizing import save_front
 from gearcad.plots.table_data import read_points
+from gearcad.rating import RatingOptions
+from gearcad.sizing import SizeTask, search_pairs
 from gearcad.solids import tessellate
 from gearcad.solids.files.options import FileOptions
 from gearcad.solids.files.part import Part
@@ -184,6 +188,14 @@ def plot_train(path: Path) -> None:
     Image.open(path).convert("RGB").quantize(64).save(path, optimize=True)
 
 
+def plot_sizes(path: Path) -> None:
+    """The pairs of the task in the README."""
+    materials = PerGear(Material(name="Eh MQ"), Material(name="Eh MQ"))
+    task = SizeTask(load=Load(torque=302, speed=1500), ratio=1.5, materials=materials, rating=RatingOptions(life=20000))
+    save_front(search_pairs(task, errors=0), path)
+    Image.open(path).convert("RGB").quantize(32).save(path, optimize=True)
+
+
 def main() -> None:
     pair = read_spec(SPEC).pair
     assert pair is not None  # the starter is one
@@ -195,6 +207,7 @@ def main() -> None:
     plot_elements(FOLDER / "elements.png")
     render_kinds(FOLDER / "kinds.png")
     plot_train(FOLDER / "train.png")
+    plot_sizes(FOLDER / "size.png")
 
 
 if __name__ == "__main__":

@@ -59,8 +59,8 @@ __all__ = [
     "permitted_words",
 ]
 
-_MOST_LISTED, _NEAREST = 12, 5
-"""Permitted keys that a line can bear; and of more those that it names."""
+_MOST_LISTED, _NEAREST, _MOST_KEYS = 12, 5, 30
+"""Permitted keys that a line can bear, and of more those that it names; a table's keys that it bears at the most."""
 
 Fields = Mapping[str, Mapping[str, FieldSchema]]
 """What the keys of the tables of a kind of designs say of themselves."""
@@ -258,7 +258,7 @@ def explain_unknown_key(table: str, key: str) -> str:
     known = KEYS[table]
     if (near := _nearest(key, FIELDS[table], known)) is not None:
         return f"unknown key; did you mean {near}?"
-    return f"unknown key; {permitted_words(key, known) if table == 'dynamics' else 'permitted are ' + ', '.join(known)}"
+    return f"unknown key; {permitted_words(key, known) if len(known) > _MOST_KEYS else 'permitted are ' + ', '.join(known)}"
 
 
 def permitted_words(key: str, permitted: Collection[str]) -> str:

@@ -71,13 +71,14 @@ def checked(tmp_path_factory: pytest.TempPathFactory) -> Result:
 
 def test_percent_and_time_left_stand_on_stderr(checked: Result) -> None:
     assert json.loads(checked.stdout)["kind"] == "check"
-    first, *rest = checked.stderr.splitlines()
+    first, *rest, verdict = checked.stderr.splitlines()
     assert re.fullmatch(r"takes about \d+ s and \d+(?:\.\d)? [MG]B of memory", first)
     found = [LINE.fullmatch(line) for line in rest]
     percents = [int(each[1]) for each in found if each]
     assert len(percents) == len(rest) and percents[0] == 0
     assert percents == sorted(percents) and percents[-1] <= 100
     assert all(each[3] for each in found[:2] if each)
+    assert "strength not judged" in verdict
 
 
 def test_a_check_tells_of_bodies_positions_and_other_meshes(checked: Result) -> None:
