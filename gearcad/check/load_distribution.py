@@ -19,6 +19,7 @@ from gearcad.material import Materials, of_both
 from gearcad.mounting import Mounting
 from gearcad.progress import Share, unheard
 from gearcad.rating.load_factor_options import HelixModification
+from gearcad.rating.load_factors import BodyLoad
 from gearcad.rating.load_factors.across_face import Misalignment
 from gearcad.rating.load_factors.dynamic import dynamic_factor
 from gearcad.rating.load_factors.loaded_mesh import LoadedMesh
@@ -36,17 +37,24 @@ class LoadDistribution:
     """`face_load_factor` K_Hbeta of a pair under `torque` (N·m on the pinion, with K_A, K_gamma and K_v).
 
     `load` (n,) is the load per width (N/mm), mean of a mesh cycle, at places `across` (n,) in mm from the middle of the common
-    face width. `misalignment` (µm) is F_beta_y in the plane of action, positive if the gap grows towards larger z.
+    face width. `misalignment` (µm) is F_beta_y in the plane of action, positive if the gap grows towards larger z, and that of
+    the mounting if `mounted`.
     """
 
     face_load_factor: float
     misalignment: float
+    mounted: bool
     torque: float
     across: Floats
     load: Floats
 
     def __post_init__(self) -> None:
         freeze(self)
+
+    @property
+    def body_load(self) -> BodyLoad:
+        """What a rating takes of it."""
+        return BodyLoad(factor=self.face_load_factor, misalignment=abs(self.misalignment), mounted=self.mounted)
 
     def to_dict(self) -> dict[str, Any]:
         """As documents have it."""
@@ -85,7 +93,7 @@ def load_distribution(
     asked = replace(check or CheckOptions(), model=Model.SOLID.value, refinement=COARSE, convergence="off", torques=())
     model = solid_model(check_task(pair, material, Load(torque=torque), asked, mounting, options), tell=tell)
     sides = (off,) if mounting.misalignment or not off else (off, -off)
-    found = [_distribution(model, torque, side) for side in sides]
+    found = [_distribution(model, torque, side, mounted=bool(mounting.misalignment)) for side in sides]
     return max(found, key=lambda each: each.face_load_factor)
 
 
@@ -95,7 +103,7 @@ def _standing_off(mesh: LoadedMesh, mounting: Mounting, speed_factor: float) -> 
     return initial - math.copysign(float(mesh.wear.beta(abs(initial), mesh.speed)), initial)
 
 
-def _distribution(model: SolidPair, torque: float, misalignment: float) -> LoadDistribution:
+def _distribution(model: SolidPair, torque: float, misalignment: float, *, mounted: bool) -> LoadDistribution:
     """By a few positions of a mesh cycle, with another misalignment (µm)."""
     mounting = replace(model.mounting, misalignment=misalignment)
     cycle = SolidCycle.run(model.remade(model.pair, mounting), abs(torque), FEW_POSITIONS)
@@ -103,5 +111,10 @@ def _distribution(model: SolidPair, torque: float, misalignment: float) -> LoadD
     # Where flanks part the ends carry what there is: then they are no longer left out.
     factor = cycle.face_load_factor if (carried > 0).all() else float(carried.max() / carried.mean())
     return LoadDistribution(
-        face_load_factor=max(factor, 1.0), misalignment=misalignment, torque=torque, across=across, load=carried
+        face_load_factor=max(factor, 1.0),
+        misalignment=misalignment,
+        mounted=mounted,
+        torque=torque,
+        across=across,
+        load=carried,
     )

@@ -38,7 +38,7 @@ def check_pair(
     task = check_task(pair, material, load, options, mounting, rating)
     if task.rating_options.face_load_factor == "fe":
         found = load_distribution(pair, material, load, rating, mounting=mounting, check=options)
-        task = replace(task, face_load_factor=found.face_load_factor)
+        task = replace(task, body_load=found.body_load)
     if task.model is Model.PLANE:
         return check_plane(task, Agenda(progress, PLANE_STEPS))
     return check_solid(task, Agenda(progress, solid_steps(task)))

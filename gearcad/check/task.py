@@ -14,6 +14,7 @@ from gearcad.material import Material, Materials, of_both
 from gearcad.mounting import Mounting
 from gearcad.per_gear import PerGear
 from gearcad.rating import Rating, RatingOptions, rate
+from gearcad.rating.load_factors import BodyLoad
 from gearcad.rating.strength import StrengthRating, rate_strength
 
 __all__ = ["CheckTask", "check_task"]
@@ -21,7 +22,7 @@ __all__ = ["CheckTask", "check_task"]
 
 @dataclass(frozen=True, kw_only=True)
 class CheckTask:
-    """What is to be checked; `pair` is as mounted. `face_load_factor` is that of a load distribution, if one is asked for."""
+    """What is to be checked; `pair` is as mounted. `body_load` is that of a load distribution, if one is asked for."""
 
     pair: GearPair
     material: Materials
@@ -29,7 +30,7 @@ class CheckTask:
     mounting: Mounting
     options: CheckOptions
     rating_options: RatingOptions = field(default_factory=RatingOptions)
-    face_load_factor: float | None = None
+    body_load: BodyLoad | None = None
 
     @property
     def materials(self) -> PerGear[Material]:
@@ -65,8 +66,7 @@ class CheckTask:
     @cached_property
     def strength_rating(self) -> StrengthRating:
         """The full rating. Raises what `rate_strength` raises."""
-        factor = self.face_load_factor
-        return rate_strength(self.pair, self.material, self.load, self.rating_options, face_load_factor=factor)
+        return rate_strength(self.pair, self.material, self.load, self.rating_options, body_load=self.body_load)
 
 
 def check_task(

@@ -19,6 +19,7 @@ from gearcad.load import Load
 from gearcad.notice import Notice
 from gearcad.planetary import TrainLoad
 from gearcad.progress import Progress
+from gearcad.rating.load_factors import BodyLoad
 from gearcad.rating.strength import StrengthRating, rate_strength
 from gearcad.version import __version__
 
@@ -49,7 +50,7 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
         if isinstance(design, RackPairDesign):
             return rate_strength(design.pair, design.materials, load, design.rating)
         pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)
-        return rate_strength(pair, design.materials, load, design.rating, face_load_factor=_of_bodies(design, load))
+        return rate_strength(pair, design.materials, load, design.rating, body_load=_of_bodies(design, load))
 
     def document(self, result: StrengthRating | TrainStrength) -> dict[str, Any]:
         """Values under their symbols, those of one gear under "pinion" and "wheel"; `symbols.STRENGTH` has the words."""
@@ -78,7 +79,7 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
         return {**found, **reports}
 
 
-def _of_bodies(design: PairDesign, load: Load) -> float | None:
+def _of_bodies(design: PairDesign, load: Load) -> BodyLoad | None:
     """K_Hbeta of the load distribution of solid bodies, if the options ask for it."""
     options = design.rating
     if options is None or options.face_load_factor != "fe":
@@ -86,7 +87,7 @@ def _of_bodies(design: PairDesign, load: Load) -> float | None:
     from gearcad.check.load_distribution import load_distribution
 
     found = load_distribution(design.pair, design.materials, load, options, mounting=design.mounting, check=design.check)
-    return found.face_load_factor
+    return found.body_load
 
 
 def _of_train(design: PlanetaryDesign) -> TrainStrength:

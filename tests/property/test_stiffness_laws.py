@@ -201,7 +201,7 @@ def test_random_pairs() -> None:
     """A right value or an error of ours, never anything else; and a value for a fair number of them."""
     found: Counter[str] = Counter()
 
-    @settings(max_examples=120, deadline=None, suppress_health_check=list(HealthCheck))
+    @settings(max_examples=200, deadline=None, suppress_health_check=list(HealthCheck))
     @given(pair_inputs())
     def one(inputs: dict[str, Any]) -> None:
         try:

@@ -28,6 +28,7 @@ from gearcad import (
 from gearcad.output import json_text
 from gearcad.per_gear import PerGear
 from gearcad.rating import RatingOptions, RootShift
+from gearcad.rating.load_factors import BodyLoad
 from gearcad.rating.strength import Part, StrengthRating, rate_strength
 from gearcad.verdict import Verdict
 
@@ -225,6 +226,14 @@ def test_faults_are_one_line(material: Material, load: Load, options: RatingOpti
     with pytest.raises(ParameterError, match=text) as caught:
         rate_strength(spur_pair(), material, load, options)
     assert "\n" not in str(caught.value)
+
+
+def test_a_face_load_factor_of_bodies_is_cited_as_theirs() -> None:
+    found = rate_strength(spur_pair(), CASE_HARDENED, LOAD, LIFE, body_load=BodyLoad(1.5, 11.6, mounted=False))
+    document = found.to_dict()
+    assert document["factors"]["K_Hbeta"] == 1.5
+    assert "Method A" in document["sources"]["K_Hbeta"]
+    assert any("F_beta_y = 11.6 µm of Method C" in each for each in document["assumed"])
 
 
 def test_a_contact_ratio_below_one_is_no_pair_to_rate() -> None:

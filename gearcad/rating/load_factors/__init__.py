@@ -4,7 +4,7 @@ K_v of Method B is in `gearcad.rating.resonance`, K_Hbeta of a misalignment in `
 """
 
 from gearcad.rating.load_factors.below_resonance import dynamic_factor_c, speed_measure
-from gearcad.rating.load_factors.load_factors import LoadFactors
+from gearcad.rating.load_factors.load_factors import BodyLoad, LoadFactors
 from gearcad.rating.load_factors.masses import body_mass, mass_of, pair_mass
 from gearcad.rating.load_factors.misalignment import (
     UNLOADED_ENDS,
@@ -22,6 +22,7 @@ from gearcad.rating.load_factors.transverse import flank_limit, root_limit, tran
 
 __all__ = [
     "UNLOADED_ENDS",
+    "BodyLoad",
     "HelixFactors",
     "LoadFactors",
     "arrangement_factor",

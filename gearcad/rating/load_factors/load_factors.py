@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 from gearcad.geometry import GearPair
 from gearcad.load import Load
@@ -18,7 +19,27 @@ from gearcad.rating.load_factors.loaded_mesh import LoadedMesh
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.rate import require_ratable
 
-__all__ = ["LoadFactors"]
+__all__ = ["BodyLoad", "LoadFactors"]
+
+
+_OF_BODIES = "ISO 6336-1:2006, Method A: load along the face of solid bodies (finite elements)"
+
+
+class BodyLoad(NamedTuple):
+    """K_Hbeta that solid bodies find, whose flanks stand off by F_beta_y (µm): the mounting's if `mounted`, else C's."""
+
+    factor: float
+    misalignment: float
+    mounted: bool
+
+    @property
+    def said(self) -> str:
+        """What was put in, and why it is more than Method C makes of the same."""
+        source = "[mounting]" if self.mounted else "Method C, as [mounting] has none"
+        return (
+            f"K_Hbeta: the solid bodies stand off by F_beta_y = {self.misalignment:.3g} µm of {source}; "
+            "their bores are held all along, so that they give way to a tilt less than c_gamma_beta of Method C says"
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,6 +103,10 @@ class LoadFactors:
             assumed=tuple(text for each in found for text in each.assumed),
             verify=tuple(symbol for each in found for symbol in each.verify),
         )
+
+    def with_bodies(self, found: BodyLoad) -> LoadFactors:
+        """Of options in which K_Hbeta of a load distribution stands as a number: cited as what it is."""
+        return replace(self, sources={**self.sources, "K_Hbeta": _OF_BODIES}, assumed=(*self.assumed, found.said))
 
     def to_dict(self) -> dict[str, float | None]:
         """Values under their symbols; None of those that are not known."""

@@ -9,6 +9,7 @@ from gearcad.geometry import GearPair, RackPair
 from gearcad.load import Load
 from gearcad.material import Material, of_both
 from gearcad.per_gear import PerGear, Role
+from gearcad.rating.load_factors import BodyLoad
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength.part import Part
 from gearcad.rating.strength.rating import StrengthRating
@@ -24,12 +25,12 @@ def rate_strength(
     load: Load,
     options: RatingOptions | None = None,
     *,
-    face_load_factor: float | None = None,
+    body_load: BodyLoad | None = None,
     driver: Role = Role.PINION,
 ) -> StrengthRating:
     """Rate a pair, of one material or each gear of its own: safeties of flanks and roots, life, permissible torque, scuffing.
 
-    `face_load_factor` stands in place of that of the options: K_Hbeta of a load distribution, for "fe". `driver` is the gear
+    `body_load` stands in place of the options' face_load_factor "fe": K_Hbeta of a load distribution. `driver` is the gear
     that drives, for scuffing. What the standard does not cover, or what is not known, is not judged, each for its reason.
     Raises ParameterError without a torque, for a spectrum beside an application factor, and for a hardness that its material
     has no limit of; GeometryError for a pair whose contact the standard does not describe.
@@ -38,9 +39,10 @@ def rate_strength(
     if options.bins and load.application_factor != 1:
         permitted = "must be 1 with a load spectrum, which has all loads in it (ISO 6336-6)"
         raise ParameterError("load.application_factor", load.application_factor, permitted)
-    if face_load_factor is not None:
-        options = replace(options, face_load_factor=face_load_factor)
-    return _rating(StrengthTask(pair=pair, materials=of_both(materials), load=load, options=options, driver=driver))
+    if body_load is not None:
+        options = replace(options, face_load_factor=body_load.factor)
+    both = of_both(materials)
+    return _rating(StrengthTask(pair=pair, materials=both, load=load, options=options, driver=driver, body_load=body_load))
 
 
 def _rating(task: StrengthTask) -> StrengthRating:

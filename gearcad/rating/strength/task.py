@@ -11,7 +11,7 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.iso6336_5 import EnduranceLimits, endurance_limits_of
-from gearcad.rating.load_factors import LoadFactors
+from gearcad.rating.load_factors import BodyLoad, LoadFactors
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.rack_rating import rate_rack
 from gearcad.rating.rate import Rating, rate
@@ -40,6 +40,7 @@ class StrengthTask:
     load: Load
     options: RatingOptions
     driver: Role
+    body_load: BodyLoad | None = None
 
     # ------------------------------------------------------------------ what is held against each other
 
@@ -94,7 +95,8 @@ class StrengthTask:
         if isinstance(self.rated, RackPair):
             return given_factors(load, self.options)
         find = load_factors_of_half if self.halved else LoadFactors.of
-        return find(self.rated, self.materials, load, self.options)
+        found = find(self.rated, self.materials, load, self.options)
+        return found if self.body_load is None else found.with_bodies(self.body_load)
 
     @cached_property
     def load_factors(self) -> LoadFactors | InputError:
