@@ -13,7 +13,8 @@ from gearcad.errors import ParameterError, SolverError, as_choice
 
 if TYPE_CHECKING:
     from gearcad.material import Material
-    from gearcad.sizing.planetary_sets import SetSizeTask, SizedSet, SizedSets
+    from gearcad.sizing.set_task import SetSizeTask
+    from gearcad.sizing.sized_set import SizedSet, SizedSets
 
 __all__ = ["require_no_sets", "set_options", "size_planetary"]
 
@@ -99,7 +100,7 @@ def _task(given: Mapping[str, Any]) -> SetSizeTask:
     from gearcad.cli.size_options import ends_of, load_of, material_of, modules_of, rating_of, values_of
     from gearcad.planetary.mesh import SetType
     from gearcad.planetary.search import SearchTask
-    from gearcad.sizing.planetary_sets import SetSizeTask
+    from gearcad.sizing.set_task import SetSizeTask
 
     for name in _OF_PAIRS:
         if given.get(name) is not None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from gearcad.designs.csv_cells import cell_text
 from gearcad.designs.found_sets import set_keys
 from gearcad.designs.pair_text import toml_text
-from gearcad.sizing.planetary_sets import SizedSet, SizedSets
+from gearcad.sizing.sized_set import SizedSet, SizedSets
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance

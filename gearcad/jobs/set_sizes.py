@@ -8,8 +8,8 @@ from pathlib import Path
 from gearcad.designs.sized_sets import write_sized_set, write_sized_sets
 from gearcad.output import json_text, staged_files
 from gearcad.rating.strength import Part
-from gearcad.sizing.planetary_sets import SizedSet, SizedSets
 from gearcad.sizing.sized import unjudged_scuffing
+from gearcad.sizing.sized_set import SizedSet, SizedSets
 
 __all__ = ["write_set_sizes"]
 

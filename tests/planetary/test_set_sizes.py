@@ -15,7 +15,9 @@ from gearcad.planetary.materials import material_of
 from gearcad.planetary.search import SearchTask
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import Part
-from gearcad.sizing.planetary_sets import SetSizeTask, SizedSets, made, size_sets
+from gearcad.sizing.planetary_sets import made, size_sets
+from gearcad.sizing.set_task import SetSizeTask
+from gearcad.sizing.sized_set import SizedSets
 
 EH = Material(name="Eh MQ")
 
