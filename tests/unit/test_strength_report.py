@@ -8,8 +8,10 @@ import gearcad
 from gearcad.designs import read_spec
 from gearcad.material import Material
 from gearcad.per_gear import PerGear, Role
+from gearcad.rating import RatingOptions
 from gearcad.rating.strength import StrengthRating
 from gearcad.rating.strength.called import called
+from gearcad.report.strength.report import rate_html
 from gearcad.report.strength.tables import factor_groups, safety_rows
 from gearcad.report.written import indexed, listed, written
 from gearcad.schema import symbols_of
@@ -77,3 +79,10 @@ def test_gears_of_a_set_are_called_by_their_names(rating: StrengthRating) -> Non
     assert found.to_dict()["safety"] == rating.to_dict()["safety"]
     assert found.to_dict()["gears"] == {Role.PINION.value: "planet", Role.WHEEL.value: "sun"}
     assert "torque on the planet at the required safety" in {row.words for row in safety_rows(found, found.to_dict())}
+
+
+def test_a_page_says_which_load_of_a_spectrum_its_stresses_are_of() -> None:
+    design = read_spec(STARTER)
+    bins = RatingOptions(life=100.0, spectrum=((0.1, 1.25), (0.9, 0.8)))
+    page = rate_html(gearcad.rate(design, rating=bins), "pair")
+    assert "Load spectrum: stresses, load factors and Z<sub>v</sub> are of load 1: 250 N·m" in page
