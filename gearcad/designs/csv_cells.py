@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from enum import Enum
 from pathlib import Path
 from typing import Any
 
 from gearcad.designs.cells import guarded_text
 
-__all__ = ["Decimal", "cell_text", "write_csv"]
+__all__ = ["Decimal", "cell_text", "write_csv", "write_found_rows"]
 
 
 class Decimal(Enum):
@@ -56,3 +56,13 @@ def write_csv(lines: Iterable[Sequence[str]], headings: Iterable[str], path: Pat
         writer = csv.writer(file, delimiter=decimal.separator, lineterminator="\n")
         writer.writerow(headings)
         writer.writerows(lines)
+
+
+def write_found_rows(rows: Sequence[Mapping[str, str]], comment: str, path: Path) -> None:
+    """Write a design table of rows by their columns, under a comment without commas, which some programs take for cells."""
+    columns = list(dict.fromkeys(key for row in rows for key in row))
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow([f"# {comment}"])
+        writer.writerow(columns)
+        writer.writerows([row.get(column, "") for column in columns] for row in rows)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gearcad.designs.auto import AUTO
-from gearcad.designs.csv_cells import cell_text
+from gearcad.designs.csv_cells import cell_text, write_found_rows
 from gearcad.designs.pair_text import toml_text
 from gearcad.geometry import ISO53_A
 from gearcad.material import Grade, Material, grade_of
@@ -82,14 +81,9 @@ def write_front(result: Sizing, path: Path) -> None:
 
 
 def _write_table(task: SizeTask, rows: list[dict[str, str]], said: str, path: Path) -> None:
-    """Write rows under a comment without commas, which some programs would take for cells."""
-    columns = list(dict.fromkeys(key for row in rows for key in row))
+    """Write rows under what they are for."""
     wanted = f"{task.load.torque:g} N·m at {task.load.speed:g} rpm / u = {task.ratio:g} within {task.ratio_tolerance:g} %"
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([f"# Pairs for {wanted}; {said}"])
-        writer.writerow(columns)
-        writer.writerows([row.get(column, "") for column in columns] for row in rows)
+    write_found_rows(rows, f"Pairs for {wanted}; {said}", path)
 
 
 def _cells(sized: SizedPair) -> Iterator[tuple[str, str]]:

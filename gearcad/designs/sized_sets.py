@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterator
 from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gearcad.designs.csv_cells import cell_text
+from gearcad.designs.csv_cells import cell_text, write_found_rows
 from gearcad.designs.found_sets import set_keys
 from gearcad.designs.pair_text import toml_text
 from gearcad.sizing.sized_set import SizedSet, SizedSets
@@ -48,14 +47,9 @@ def _given(instance: DataclassInstance) -> dict[str, Any]:
 def write_sized_sets(result: SizedSets, path: Path) -> None:
     """Write the design table of all that was found, lightest first."""
     rows = [dict(_cells(each)) for each in result.found]
-    columns = list(dict.fromkeys(key for row in rows for key in row))
     task = result.task
     wanted = f"{task.torque:g} N·m on the input at {task.speed:g} rpm / i = {task.sets.ratio:g}"
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([f"# Planetary sets for {wanted}; lightest first. Next: gearcad batch {path.name}"])
-        writer.writerow(columns)
-        writer.writerows([row.get(column, "") for column in columns] for row in rows)
+    write_found_rows(rows, f"Planetary sets for {wanted}; lightest first. Next: gearcad batch {path.name}", path)
 
 
 def _cells(sized: SizedSet) -> Iterator[tuple[str, str]]:
