@@ -1,0 +1,36 @@
+"""DrawnGear: what the sheet of one gear is made from. Lengths in mm."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from gearcad.geometry import Gear, GearPair, Rack, RackPair
+from gearcad.material import Material
+from gearcad.rating.tolerances import Accuracy
+
+__all__ = ["DrawnGear", "Mate"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mate:
+    """A gear that engages with another: its name, its number ("" if it has none), and the pair that they make."""
+
+    name: str
+    number: str = ""
+    gear: Gear | Rack
+    pair: GearPair | RackPair
+
+
+@dataclass(frozen=True, kw_only=True)
+class DrawnGear:
+    """A gear by its role among others ("pinion", "sun", "gear"), what it is made of, and how accurate its flanks are.
+
+    `grade` is its accuracy grade, None where nobody gave one; it is then assumed, and the sheet says so.
+    """
+
+    role: str
+    gear: Gear | Rack
+    material: Material | None = None
+    accuracy: Accuracy = Accuracy.ISO_1995
+    grade: int | None = None
+    mates: tuple[Mate, ...] = ()
