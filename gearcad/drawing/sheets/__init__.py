@@ -1,0 +1,5 @@
+"""Whole sheets: views, data, notes and title block of one part or one assembly, where nothing overlaps."""
+
+from gearcad.drawing.sheets.drawing import Drawing, Sheet
+
+__all__ = ["Drawing", "Sheet"]
