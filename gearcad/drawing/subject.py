@@ -1,4 +1,4 @@
-"""DrawnGear: what the sheet of one gear is made from. Lengths in mm."""
+"""DrawnGear, DrawnPair, DrawnTrain: what the sheet of one gear, and those of assemblies, are made from. Lengths in mm."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.material import Material
+from gearcad.planetary import PlanetaryTrain
 from gearcad.rating.tolerances import Accuracy
 
-__all__ = ["DrawnGear", "Mate"]
+__all__ = ["DrawnGear", "DrawnPair", "DrawnTrain", "Mate"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,3 +35,24 @@ class DrawnGear:
     accuracy: Accuracy = Accuracy.ISO_1995
     grade: int | None = None
     mates: tuple[Mate, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class DrawnPair:
+    """A pair by its name, and its two parts: the pinion, then what it meshes with (wheel, ring or rack)."""
+
+    name: str
+    pair: GearPair | RackPair
+    parts: tuple[DrawnGear, DrawnGear]
+
+
+@dataclass(frozen=True, kw_only=True)
+class DrawnTrain:
+    """A planetary train by its name, and those of its gears of which more is known than the train says.
+
+    The `role` of each part is the name of its member, rim, or gear of a stage.
+    """
+
+    name: str
+    train: PlanetaryTrain
+    parts: tuple[DrawnGear, ...] = ()
