@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from enum import Enum
+from enum import StrEnum
 
 __all__ = ["Language"]
 
 
-class Language(Enum):
+class Language(StrEnum):
     """By its code of ISO 639-1."""
 
     ENGLISH = "en"
