@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 from datetime import UTC, date, datetime
 from enum import StrEnum
-from typing import Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 from gearcad.drawing.words import Language
 from gearcad.errors import InputError, ParameterError
@@ -17,6 +17,9 @@ from gearcad.output import source_date
 from gearcad.ranges import Range
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields, schema_of
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 __all__ = ["SCALES", "DrawingOptions", "PartDrawing", "Projection", "Revision", "SheetSize"]
 
@@ -137,7 +140,7 @@ class PartDrawing:
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        _check(self)
+        _check(self, PartDrawing)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -185,7 +188,7 @@ class DrawingOptions:
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        _check(self)
+        _check(self, DrawingOptions)
         if self.date is not None:
             _require_date(self.date)
 
@@ -222,9 +225,9 @@ class DrawingOptions:
         return SCALES.get(self.scale)
 
 
-def _check(options: DrawingOptions | PartDrawing) -> None:
+def _check(options: DrawingOptions | PartDrawing, kind: type[DataclassInstance]) -> None:
     """Turn texts into single lines, lists into tuples and words into members. Raises ParameterError."""
-    for name, field in schema_of(options.__class__).items():
+    for name, field in schema_of(kind).items():
         value = getattr(options, name)
         if value is None and field.optional:
             continue
