@@ -39,11 +39,8 @@ def flank_directions(gear: Gear, along: Along) -> Figure:
     longest = min(_LONGEST * math.cos(math.atan(tangent)), (room - 2 * spacing) / tangent) / along.scale
     middle = -(_FURTHEST + _NEAREST) / 2 * radius * along.scale
     rows = [_row(gear, along, heights) for heights in _heights(gear, min(longest, _SHARE * gear.half_width))]
-    return Figure(
-        tuple(
-            Polyline.straight([(x, y + middle + step * spacing) for x, y in row], Pen.THIN) for row in rows for step in (-1, 0, 1)
-        )
-    )
+    ups = [middle + step * spacing for step in (-1, 0, 1)]
+    return Figure(tuple(Polyline.straight([(x, y + up) for x, y in row], Pen.THIN) for row in rows for up in ups))
 
 
 def _heights(gear: Gear, length: float) -> list[tuple[float, ...]]:

@@ -28,12 +28,13 @@ def half_section(gear: Gear, along: Along) -> Figure:
         [*along.points(upper), *along.points((z, -radius) for z, radius in reversed(upper))], closed=True
     )
     pitch = gear.reference_diameter / 2
+    pitch_lines = [((0.0, up), (gear.face_width, up)) for up in (pitch, -pitch)]
     shapes: list[Shape] = [
         hatching(gear, along),
         silhouette,
         *cut_lines(gear, along),
         *(along.line((z, -radius), (z, 0.0)) for z, radius in edges(gear)),
-        *(along.line((0.0, side * pitch), (gear.face_width, side * pitch), Pen.CENTRE, beyond=BEYOND_PITCH) for side in (1, -1)),
+        *(along.line(*ends, Pen.CENTRE, beyond=BEYOND_PITCH) for ends in pitch_lines),
         along.line((low, 0.0), (high, 0.0), Pen.CENTRE, beyond=BEYOND_AXIS),
     ]
     return Figure(tuple(shapes)) + flank_directions(gear, along)
