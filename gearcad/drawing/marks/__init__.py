@@ -1,0 +1,48 @@
+"""What stands beside outlines: dimensions, leaders, tolerance frames, symbols, tables. Where a mark has several places, they
+come best first."""
+
+from gearcad.drawing.marks.arrows import ARROW, arrow
+from gearcad.drawing.marks.frames import FRAME_HEIGHT, Characteristic, datum, tolerance_frame
+from gearcad.drawing.marks.leaders import circle_dimension, frame_leader, leader
+from gearcad.drawing.marks.linear import FIRST_LANE, LANE_PITCH, half_dimension, linear_dimension
+from gearcad.drawing.marks.roughness import general_roughness, roughness, roughness_symbol
+from gearcad.drawing.marks.sections import section_arrows, view_label
+from gearcad.drawing.marks.sheet_symbols import edge_symbol, projection_symbol
+from gearcad.drawing.marks.side import Side
+from gearcad.drawing.marks.size_text import size_text, written_size
+from gearcad.drawing.marks.tables import Cell, table
+from gearcad.drawing.marks.written import Written, deviations, plain, ringed, symbol, symbol_text
+
+__all__ = [
+    "ARROW",
+    "FIRST_LANE",
+    "FRAME_HEIGHT",
+    "LANE_PITCH",
+    "Cell",
+    "Characteristic",
+    "Side",
+    "Written",
+    "arrow",
+    "circle_dimension",
+    "datum",
+    "deviations",
+    "edge_symbol",
+    "frame_leader",
+    "general_roughness",
+    "half_dimension",
+    "leader",
+    "linear_dimension",
+    "plain",
+    "projection_symbol",
+    "ringed",
+    "roughness",
+    "roughness_symbol",
+    "section_arrows",
+    "size_text",
+    "symbol",
+    "symbol_text",
+    "table",
+    "tolerance_frame",
+    "view_label",
+    "written_size",
+]
