@@ -7,6 +7,8 @@ from enum import Enum
 from typing import Annotated
 
 from gearcad.errors import GeometryError, ParameterError
+from gearcad.geometry.derived import Derived, is_given
+from gearcad.geometry.din6885 import keyway_of
 from gearcad.geometry.limits import at_most
 from gearcad.ranges import Range, Whole
 from gearcad.reprs import concise
@@ -32,7 +34,8 @@ class HubSide(Enum):
 class Body:
     """The gear's body. Lengths in mm, angles in degrees; 0 leaves a feature out.
 
-    `keyway_depth` is measured from the bore outwards (t2 of DIN 6885), the keyway lies on +x, under tooth 0.
+    `keyway_depth` is measured from the bore outwards (t2 of DIN 6885), the keyway lies on +x, under tooth 0. With `keyway` its
+    width and depth are those of DIN 6885-1 for the bore, and read as numbers (see `Derived`).
     `hub_length` is how far the hub stands out on each `hub_side`. `rim_diameter` is the outside of an internal gear.
     `end_chamfer` is the axial length of the cone turned on both ends of the tip cylinder, `end_chamfer_angle` the angle
     between that cone and the gear axis, so that the radial depth is end_chamfer * tan(end_chamfer_angle).
@@ -40,10 +43,11 @@ class Body:
     A ring has no bore, hub or keyway; its `bolt_circle` (mm) has `bolt_holes` holes of `bolt_diameter`, the first on +x.
     `web_thickness` b_s and `rim_thickness` s_R (below the root circle) are those of a blank that is no solid disc: only the
     rating knows them (C_R, Y_B), the solid is a full disc.
-    Raises ParameterError, or GeometryError for a keyway that does not fit its bore.
+    Raises ParameterError, or GeometryError for a keyway that does not fit its bore, or is none of DIN 6885.
     """
 
     bore: Annotated[float, FEATURE, Words("bore")] = 0.0
+    keyway: Annotated[bool, Words("keyway by the bore", "", "DIN 6885")] = False
     keyway_width: Annotated[float, FEATURE, Words("keyway width", "", "DIN 6885")] = 0.0
     keyway_depth: Annotated[float, FEATURE, Words("keyway depth from the bore", "t_2", "DIN 6885")] = 0.0
     hub_diameter: Annotated[float, FEATURE, Words("hub diameter")] = 0.0
@@ -66,11 +70,26 @@ class Body:
         for name in (name for name, field in schema_of(Body).items() if field.permitted is FEATURE):
             if 0 < (value := getattr(self, name)) < LEAST_FEATURE:
                 raise ParameterError(name, value, f"must be 0 or at least {LEAST_FEATURE} mm", "mm")
+        self._derive_keyway()
         for pair in (("keyway_width", "keyway_depth"), ("hub_diameter", "hub_length"), ("web_thickness", "rim_thickness")):
             self._check_both(*pair)
         for pair in (("bolt_circle", "bolt_holes"), ("bolt_holes", "bolt_diameter"), ("bolt_diameter", "bolt_circle")):
             self._check_both(*pair)
         self._check_keyway()
+
+    def _derive_keyway(self) -> None:
+        """Width and depth by the bore, where `keyway` asks for them; 0 where it does no more."""
+        sizes = ("keyway_width", "keyway_depth")
+        for name in sizes:
+            if self.keyway and is_given(value := getattr(self, name)) and value:
+                permitted = "must be left out where keyway is true: it follows from the bore by DIN 6885"
+                raise GeometryError(name, value, permitted, "mm")
+        if self.keyway and not self.bore:
+            raise GeometryError("keyway", True, "must be left out without a bore: it is a keyway by the bore (DIN 6885)")
+        found = keyway_of(self.bore) if self.keyway else (0.0, 0.0)
+        for name, value in zip(sizes, found, strict=True):
+            if self.keyway or not is_given(getattr(self, name)):
+                object.__setattr__(self, name, Derived(value))
 
     def _check_both(self, first: str, second: str) -> None:
         """Two sizes of one feature: neither stands alone."""

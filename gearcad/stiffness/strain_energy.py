@@ -162,5 +162,5 @@ def _sections(gear: Gear, inner_radius: float) -> list[tuple[float, Gear, float]
 
 def _bare(body: Body) -> Body:
     """Without what is as large as the gear itself, and not as its virtual one."""
-    bored = replace(body, bore=0.0, keyway_width=0.0, keyway_depth=0.0)
+    bored = replace(body, bore=0.0, keyway=False, keyway_width=0.0, keyway_depth=0.0)
     return replace(bored, rim_diameter=None, bolt_circle=0.0, bolt_holes=0, bolt_diameter=0.0)
