@@ -1,0 +1,72 @@
+"""What is done to flanks: roughness, modifications, material, and the tool of a shaped gear."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from gearcad.drawing.gear_data.row import Row, RowWriter
+from gearcad.drawing.options import DrawingOptions
+from gearcad.drawing.quality import flank_roughness
+from gearcad.drawing.subject import DrawnGear
+from gearcad.drawing.treatment import material_text, treatment_text
+from gearcad.geometry import FlankModification, Gear
+from gearcad.schema import symbols_of
+
+__all__ = ["cutter_rows", "double_helix_rows", "material_rows", "modification_rows", "roughness_rows"]
+
+_SYMBOLS = symbols_of(FlankModification)
+
+
+def roughness_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
+    """Of flanks, and of roots where it is given."""
+    flanks = flank_roughness(drawn)
+    text = f"{flanks.text(write.words.shortest(flanks.value, 2))} µm"
+    yield write.text("flank_roughness", text, "", {"flank_roughness": flanks.value})
+    if isinstance(drawn.gear, Gear) and (root := drawn.gear.root_roughness) is not None:
+        yield write.text("root_roughness", f"Rz {write.words.shortest(root, 2)} µm", "", {"root_roughness": root})
+
+
+def modification_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
+    """The amount of each, and the length of a relief; where there are some, that they stand in a diagram."""
+    used = gear.modification.in_use
+    for name in (name for name in used if not name.endswith(("_length", "_shape"))):
+        text, numbers = f"{write.words.shortest(used[name], 2)} µm", {f"modification.{name}": used[name]}
+        if (length := used.get(f"{name}_length")) is not None:
+            text += f" / {write.words.shortest(length, 3)} mm"
+            numbers[f"modification.{name}_length"] = length
+        yield write.text(name, text, _SYMBOLS[name].symbol, numbers)
+    if used:
+        yield write.text("modifications", write.word("see_diagram"))
+
+
+def cutter_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
+    """The shaper cutter, where one makes the teeth."""
+    cutter = gear.cutter
+    if cutter.teeth is None:
+        return
+    yield write.text("cutter_teeth", str(cutter.teeth), "z_0", {"cutter.teeth": cutter.teeth})
+    shift = write.words.number(cutter.profile_shift, 4, signed=True)
+    yield write.text("cutter_profile_shift", shift, "x_0", {"cutter.profile_shift": cutter.profile_shift})
+    if cutter.tip_radius is not None:
+        yield write.plain("cutter_tip_radius", cutter.tip_radius, "ρ_aP0*", name="cutter.tip_radius")
+
+
+def double_helix_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
+    """The gap between two halves, and how the teeth of one stand to those of the other."""
+    double = gear.double_helix
+    if double.gap_width is None:
+        return
+    yield write.length("gap_width", double.gap_width, "b_g", "double_helix.gap_width")
+    if double.offset:
+        offset = write.words.number(double.offset, 4, signed=True)
+        yield write.text("half_offset", offset, "", {"double_helix.offset": double.offset})
+
+
+def material_rows(drawn: DrawnGear, write: RowWriter, options: DrawingOptions) -> Iterator[Row]:
+    """What it is made of and how it is hardened, as far as anybody said."""
+    for key, text in (
+        ("material", material_text(drawn, options)),
+        ("heat_treatment", treatment_text(drawn, options, write.words)),
+    ):
+        if text:
+            yield write.text(key, text)

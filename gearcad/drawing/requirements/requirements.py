@@ -1,0 +1,160 @@
+"""Requirements: all that the sheet of a part demands of it beside its teeth. Lengths in mm, roughness and deviations in µm."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Self
+
+from gearcad.drawing.options import DrawingOptions
+from gearcad.drawing.quality import Roughness, cylindricity, face_runout, flank_roughness, tip_runout
+from gearcad.drawing.requirements.toleranced import as_hole, diameter, toleranced
+from gearcad.drawing.subject import DrawnGear
+from gearcad.drawing.treatment import material_text, treatment_text
+from gearcad.drawing.words import Size, Words
+from gearcad.geometry import Body, Gear, Rack
+from gearcad.geometry.din6885 import depth_allowance
+
+__all__ = ["Requirements"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Requirements:
+    """Sizes with their limits, None for what the part does not have; roughness Ra or Rz, and geometrical tolerances.
+
+    `tip` is the tip diameter, `hub_width` that of the gear with its hubs; `keyway_depth` is measured across the bore, d + t2.
+    `length`, `height` (back to tips) and `reference_height` (back to reference line) are a rack's. `bolts` are the holes.
+    `tip_runout` and `face_runout` are those to the datum axis, `cylindricity` that of the surface which is the datum: the bore,
+    of a ring the rim.
+    """
+
+    drawn: DrawnGear
+    options: DrawingOptions
+    face_width: Size
+    flanks: Roughness
+    bore_roughness: float
+    face_roughness: float
+    rest_roughness: float
+    tip: Size | None = None
+    bore: Size | None = None
+    keyway_width: Size | None = None
+    keyway_depth: Size | None = None
+    hub_diameter: Size | None = None
+    hub_width: Size | None = None
+    rim: Size | None = None
+    bolt_circle: Size | None = None
+    bolts: Size | None = None
+    gap_width: Size | None = None
+    gap_diameter: Size | None = None
+    end_chamfer: Size | None = None
+    tip_chamfer: Size | None = None
+    length: Size | None = None
+    height: Size | None = None
+    reference_height: Size | None = None
+    tip_runout: float | None = None
+    face_runout: float | None = None
+    cylindricity: float | None = None
+
+    @classmethod
+    def of(cls, drawn: DrawnGear, options: DrawingOptions) -> Self:
+        """Those of a part, whose `options` are what holds for it (`DrawingOptions.of_part`)."""
+        part = drawn.gear
+        own: dict[str, Any] = _rack(part) if isinstance(part, Rack) else _gear(part, options)
+        deviations: dict[str, Any] = _deviations(drawn, part, options) if isinstance(part, Gear) else {}
+        return cls(
+            drawn=drawn,
+            options=options,
+            face_width=toleranced(part.face_width, options.face_width_tolerance),
+            flanks=flank_roughness(drawn),
+            bore_roughness=options.bore_roughness,
+            face_roughness=options.bore_roughness,
+            rest_roughness=options.surface_roughness,
+            **own,
+            **deviations,
+        )
+
+    @property
+    def material(self) -> str:
+        """As the sheet names it; "" where nothing is known."""
+        return material_text(self.drawn, self.options)
+
+    def heat_treatment(self, words: Words) -> str:
+        """In the words of a language; "" where nothing is known."""
+        return treatment_text(self.drawn, self.options, words)
+
+    def tooth_notes(self, words: Words) -> tuple[str, ...]:
+        """What is to be done to the teeth and has no place in the table: chamfers along their edges."""
+        if self.tip_chamfer is None:
+            return ()
+        return (words["data.note_tip_chamfer"].format(size=words.shortest(self.tip_chamfer.value)),)
+
+
+def _rack(rack: Rack) -> dict[str, Size]:
+    found = {
+        "length": Size(value=rack.length),
+        "height": Size(value=rack.total_height),
+        "reference_height": Size(value=rack.height),
+    }
+    return found | ({"tip_chamfer": _chamfer(rack.tip_chamfer, "45")} if rack.tip_chamfer else {})
+
+
+def _gear(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
+    body, mark = gear.body, options.language.decimal_mark
+    found = _ring(gear, options) if gear.internal else _disc(gear, options)
+    if body.end_chamfer:
+        found["end_chamfer"] = _chamfer(body.end_chamfer, f"{body.end_chamfer_angle:.4g}".replace(".", mark))
+    if body.tip_chamfer:
+        found["tip_chamfer"] = _chamfer(body.tip_chamfer, "45")
+    if gear.double_helix.gap_width:
+        found["gap_width"] = Size(value=gear.double_helix.gap_width)
+        found["gap_diameter"] = diameter(gear.gap_diameter)
+    return found
+
+
+def _chamfer(length: float, angle: str) -> Size:
+    return Size(value=length, suffix=f"×{angle}°")
+
+
+def _disc(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
+    """What an external gear has."""
+    body = gear.body
+    found = {"tip": diameter(gear.tip_diameter, options.tip_tolerance)}
+    if body.bore:
+        found["bore"] = diameter(body.bore, options.bore_tolerance, envelope=bool(options.bore_tolerance))
+    if body.keyway_width:
+        found["keyway_width"] = toleranced(body.keyway_width, options.keyway_tolerance)
+        found["keyway_depth"] = _keyway_depth(body)
+    if body.hub_diameter:
+        found["hub_diameter"] = diameter(body.hub_diameter)
+        found["hub_width"] = Size(value=gear.face_width + sum(body.hub_ends))
+    return found
+
+
+def _keyway_depth(body: Body) -> Size:
+    """d + t2, which may be larger by the allowance of DIN 6885."""
+    across, more = body.bore + body.keyway_depth, depth_allowance(body.keyway_width)
+    return Size(value=across) if more is None else Size(value=across, upper=more / 1000, lower=0.0)
+
+
+def _ring(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
+    """What a ring has."""
+    body = gear.body
+    found = {"tip": diameter(abs(gear.tip_diameter), as_hole(options.tip_tolerance))}
+    if body.rim_diameter is not None:
+        found["rim"] = diameter(body.rim_diameter, options.rim_tolerance)
+    if body.bolt_holes:
+        found["bolt_circle"] = diameter(body.bolt_circle)
+        found["bolts"] = Size(value=body.bolt_diameter, prefix=f"{body.bolt_holes}×⌀")
+    return found
+
+
+def _deviations(drawn: DrawnGear, gear: Gear, options: DrawingOptions) -> dict[str, float | None]:
+    """Run-out as it was given, else by the grade, and the cylindricity of the datum; without one none of them."""
+    datum = gear.body.rim_diameter if gear.internal else gear.body.bore
+    fit = options.rim_tolerance if gear.internal else options.bore_tolerance
+    if not datum:
+        return {}
+    return {
+        "tip_runout": options.tip_runout or tip_runout(drawn, abs(gear.tip_diameter)),
+        "face_runout": options.face_runout or face_runout(drawn, abs(gear.tip_diameter)),
+        "cylindricity": cylindricity(datum, fit),
+    }

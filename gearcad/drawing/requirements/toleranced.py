@@ -1,0 +1,35 @@
+"""Sizes with the limits of their fits. Lengths in mm."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gearcad.drawing.words import Size
+from gearcad.errors import ParameterError
+from gearcad.geometry.iso286 import limit_deviations
+
+__all__ = ["as_hole", "diameter", "toleranced"]
+
+
+def toleranced(value: float, fit: str, **of_size: Any) -> Size:
+    """A size with the limits of a fit by ISO 286; without one general tolerances hold.
+
+    Where the class has no limits here, beyond 500 mm but for h, H, js and JS, the class stands by itself.
+    """
+    if not fit:
+        return Size(value=value, **of_size)
+    try:
+        limits = limit_deviations(fit, value)
+    except ParameterError:
+        return Size(value=value, fit=fit, **of_size)
+    return Size(value=value, fit=fit, upper=limits.upper / 1000, lower=limits.lower / 1000, **of_size)
+
+
+def diameter(value: float, fit: str = "", **of_size: Any) -> Size:
+    """The same of a circle."""
+    return toleranced(value, fit, prefix="⌀", **of_size)
+
+
+def as_hole(fit: str) -> str:
+    """The class of a hole with the letter of a shaft."""
+    return fit.upper()

@@ -1,0 +1,43 @@
+"""What a part is made of and how it is hardened, in the words of a sheet."""
+
+from __future__ import annotations
+
+from gearcad.drawing.options import DrawingOptions
+from gearcad.drawing.subject import DrawnGear
+from gearcad.drawing.words import Words
+from gearcad.material import Material, MaterialGroup
+
+__all__ = ["material_text", "treatment_text"]
+
+_BRINELL = (
+    MaterialGroup.STRUCTURAL_STEEL,
+    MaterialGroup.CAST_STEEL,
+    MaterialGroup.NODULAR_IRON,
+    MaterialGroup.FERRITIC_NODULAR_IRON,
+    MaterialGroup.MALLEABLE_IRON,
+    MaterialGroup.GREY_IRON,
+)
+"""Groups whose hardness ISO 6336-5 has in HBW, all others' in HV."""
+
+
+def material_text(drawn: DrawnGear, options: DrawingOptions) -> str:
+    """As the sheet shall name it, else the name of the material; "" where nothing is known."""
+    if options.material is not None:
+        return options.material
+    return "" if drawn.material is None else drawn.material.name
+
+
+def treatment_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> str:
+    """As it was given, else what the group of the material is, and its hardness; with the depth of the case. "" if unknown."""
+    text = options.heat_treatment or ("" if drawn.material is None else _of_group(drawn.material, words))
+    depth = f"CHD {options.case_depth}" if options.case_depth else ""
+    return ", ".join(filter(None, (text, depth)))
+
+
+def _of_group(material: Material, words: Words) -> str:
+    group = material.group
+    treated = "" if group is None else words[f"data.group_{group.name.lower()}"]
+    if material.hardness is None:
+        return treated
+    scale = "HBW" if group in _BRINELL else "HV"
+    return ", ".join(filter(None, (treated, f"{words.shortest(material.hardness, 1)} {scale}")))
