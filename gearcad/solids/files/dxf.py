@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.dxf import CUT, NOT_CUT, add_layers, drawing
 from gearcad.geometry import Body, Gear
 from gearcad.solids.files.contour import extent_of, gear_contour
-from gearcad.solids.files.drawing import CUT, NOT_CUT, add_layers, drawing
 from gearcad.solids.keyway import keyway_half_angle
 
 if TYPE_CHECKING:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gearcad.dxf import CUT, NOT_CUT, add_layers, drawing
 from gearcad.geometry.rack import Rack
 from gearcad.solids.files.contour import extent_of
-from gearcad.solids.files.drawing import CUT, NOT_CUT, add_layers, drawing
 from gearcad.solids.files.rack_contour import rack_contour
 
 __all__ = ["write_rack_dxf"]

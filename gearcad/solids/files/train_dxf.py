@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.dxf import drawing
 from gearcad.geometry.helix import section_turn
 from gearcad.solids.files.contour import extent_of, gear_contour
-from gearcad.solids.files.drawing import drawing
 from gearcad.solids.files.dxf import draw_circles, draw_section
 from gearcad.solids.train_layout import Standing, TrainLayout
 

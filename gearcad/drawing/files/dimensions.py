@@ -1,0 +1,112 @@
+"""Dimensions of DXF: what they measure, in the style of ISO 129-1, and a block with what they look like. Lengths in mm."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from gearcad.drawing.files.plain import one_line
+from gearcad.drawing.shapes import Dimension, Filled, Measured, Point, Text
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing
+    from ezdxf.layouts import BaseLayout, BlockLayout
+
+__all__ = ["add_dimension", "add_dimension_style"]
+
+_STYLE = "ISO129"
+
+_LINEAR, _DIAMETER, _OWN_BLOCK, _TEXT_STAYS = 0, 3, 32, 128
+
+_LOOK = {
+    "dimtxt": 3.5,  # height of the text
+    "dimasz": 3.2,  # length of an arrow
+    "dimexo": 0.8,  # gap before an extension line
+    "dimexe": 1.5,  # how far it goes on
+    "dimgap": 0.9,  # between text and line
+    "dimtad": 1,  # text above the line
+    "dimtih": 0,  # and along it
+    "dimtoh": 0,
+    "dimzin": 8,  # no zeros at the end
+    "dimdec": 3,
+    "dimtdec": 3,
+    "dimtfac": 0.7,  # height of tolerances over that of the text
+    "dimlwd": 25,
+    "dimlwe": 25,
+    "dimtofl": 1,  # a line between extension lines though the text is outside
+}
+
+
+def add_dimension_style(document: Drawing, text_style: str, scale: float, decimal_mark: str) -> None:
+    """The style of all dimensions: parts are on paper `scale` times as large as they are."""
+    style = document.dimstyles.add(_STYLE)
+    look = {**_LOOK, "dimlfac": 1 / scale, "dimdsep": ord(decimal_mark)}
+    style.dxf.update({**look, "dimtxsty": text_style})
+    document.header["$DIMSTYLE"] = _STYLE
+    for name, value in look.items():  # there are programs that read no styles
+        document.header[f"${name.upper()}"] = value
+
+
+def add_dimension(dimension: Dimension, space: BaseLayout, attributes: dict[str, Any]) -> BlockLayout:
+    """Add a dimension, and give back its block, in which its parts are to be drawn."""
+    from ezdxf.entities import Dimension as Entity
+
+    document = space.doc
+    block = document.blocks.new_anonymous_block("D")
+    factor = document.dimstyles.get(_STYLE).dxf.dimlfac
+    entity: Entity = space.new_entity("DIMENSION", attributes)
+    entity.dxf.update(_points(dimension))
+    entity.dxf.update(
+        {
+            "dimstyle": _STYLE,
+            "geometry": block.name,
+            "text": one_line(dimension.words),
+            "text_midpoint": _text_middle(dimension),
+            "actual_measurement": _length(dimension) * factor,
+        }
+    )
+    if lone := _without_arrow(dimension):
+        from ezdxf.entities.dimstyleoverride import DimStyleOverride
+
+        DimStyleOverride(entity, {f"dimsd{lone}": 1, f"dimse{lone}": 1}).commit()
+    return block
+
+
+def _points(dimension: Dimension) -> dict[str, Any]:
+    """What is measured, and where the line of the dimension is."""
+    if dimension.measured is Measured.DIAMETER:
+        kind = _DIAMETER | _OWN_BLOCK | _TEXT_STAYS
+        return {"dimtype": kind, "defpoint": dimension.first, "defpoint4": dimension.second}
+    upright = dimension.measured is Measured.VERTICAL
+    end = (dimension.line[0], dimension.second[1]) if upright else (dimension.second[0], dimension.line[1])
+    kind = _LINEAR | _OWN_BLOCK | _TEXT_STAYS
+    return {
+        "dimtype": kind,
+        "angle": 90.0 if upright else 0.0,
+        "defpoint": end,
+        "defpoint2": dimension.first,
+        "defpoint3": dimension.second,
+    }
+
+
+def _length(dimension: Dimension) -> float:
+    """On paper."""
+    across, up = (abs(end - start) for start, end in zip(dimension.first, dimension.second, strict=True))
+    return {Measured.HORIZONTAL: across, Measured.VERTICAL: up, Measured.DIAMETER: math.hypot(across, up)}[dimension.measured]
+
+
+def _text_middle(dimension: Dimension) -> Point:
+    """That of its texts, or of the line where it has none."""
+    boxes = [part.box for part in dimension.parts if isinstance(part, Text)]
+    return type(boxes[0]).of_all(boxes).middle if boxes else dimension.line
+
+
+def _without_arrow(dimension: Dimension) -> int | None:
+    """Which end (1 or 2) has no arrow, of a dimension that has one only: its line goes on past the axis."""
+    arrows = [part for part in dimension.parts if isinstance(part, Filled)]
+    if len(arrows) != 1 or dimension.measured is Measured.DIAMETER:
+        return None
+    upright = dimension.measured is Measured.VERTICAL
+    ends = [point[upright] for point in (dimension.first, dimension.second)]
+    distances = [min(abs(corner[upright] - end) for corner in arrows[0].points) for end in ends]
+    return 1 if distances[0] > distances[1] else 2
