@@ -77,17 +77,23 @@ class FieldSchema:
     @cached_property
     def several(self) -> bool:
         """Whether it can be several numbers."""
-        return any(map(_is_list, self.members)) and not self.nested
+        return any(map(_is_list, self.members)) and not (self.nested or self.texts)
 
     @cached_property
     def nested(self) -> bool:
         """Whether it is a list of lists of numbers, which a cell of a table has as a text."""
-        return any(_is_list(member) and any(map(_is_list, get_args(member))) for member in self.members)
+        deep = any(_is_list(member) and any(map(_is_list, get_args(member))) for member in self.members)
+        return deep and not self.texts
+
+    @cached_property
+    def texts(self) -> bool:
+        """Whether it is a list of texts, or of lists of them, which a cell of a table has as a text."""
+        return any(_is_list(member) and set(_leaves(member)) == {str} for member in self.members)
 
     @cached_property
     def text(self) -> bool:
-        """Whether it is always a word."""
-        return all(member in (str, type(None)) or _is_enum(member) for member in self.members)
+        """Whether it is always a word, or several."""
+        return self.texts or all(member in (str, type(None)) or _is_enum(member) for member in self.members)
 
     @cached_property
     def words(self) -> tuple[str, ...]:
@@ -165,6 +171,13 @@ def _stands_in(value: Any, words: tuple[str, ...]) -> bool:
 def _is_list(member: Any) -> bool:
     origin = get_origin(member)
     return isinstance(origin, type) and issubclass(origin, tuple)
+
+
+def _leaves(member: Any) -> Iterator[Any]:
+    """What lists, and lists of lists, are of."""
+    for each in get_args(member) if _is_list(member) else (member,):
+        if each is not Ellipsis:
+            yield from _leaves(each) if _is_list(each) else (each,)
 
 
 def _is_enum(member: Any) -> bool:

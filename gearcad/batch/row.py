@@ -186,9 +186,15 @@ def _parts_in(staging: Path, job: Job[Any, Any]) -> dict[str, Part]:
     return {name: Part(options[name], of) for name, of in files.items()}
 
 
+_INPUTS_ALONE = ("drawing", "drawings")
+"""Parts of documents that hold nothing but inputs, which have columns where they are given."""
+
+
 def _flat(document: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     """The document's values under dotted keys; what pinion and wheel each have under their names; warnings have a column."""
     for key, value in document.items():
+        if not prefix and key in _INPUTS_ALONE:
+            continue
         if isinstance(value, dict):
             yield from _flat(value, f"{prefix}{key}.")
         elif key in ("warnings", "notices", "verify") or not prefix:

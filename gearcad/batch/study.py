@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from gearcad.designs.cells import guarded_text, list_text
 from gearcad.designs.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES, DesignKind
 from gearcad.designs.keys import Cell
+from gearcad.designs.named_files import names_file
 from gearcad.designs.reader import spec_values
 from gearcad.designs.table import open_table
-from gearcad.designs.train_values import names_pair
 from gearcad.designs.variations import MOST_ROWS, Choices, Span, read_variations, without_varied
 from gearcad.errors import ParameterError, require_whole
 from gearcad.output import staged_files
@@ -108,11 +108,11 @@ class Study:
             )
 
     def lines(self, folder: Path = Path()) -> Iterator[list[str]]:
-        """The cells of every row, its name first; files of pairs as they are found from the `folder` of the table."""
+        """The cells of every row, its name first; files as they are found from the `folder` of the table."""
         width = len(str(self.rows))
         stem = self.name.encode()[: LONGEST_NAME_IN_BYTES - width - 1].decode(errors="ignore")[: LONGEST_NAME - width - 1]
         cells = {key: _cell_text(self.base[key]) if key in self.base else "" for key in self.keys}
-        varied, files = [variation.key for variation in self.variations], [key for key in self.keys if names_pair(key)]
+        varied, files = [variation.key for variation in self.variations], [key for key in self.keys if names_file(key)]
         for number, point in enumerate(self.points(), 1):
             cells.update(zip(varied, map(_cell_text, point), strict=True))
             seen = {key: _cell_text(os.path.relpath(cells[key], folder)) for key in files if cells[key]}

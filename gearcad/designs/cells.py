@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Sequence
+from datetime import date
 from enum import Enum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from gearcad.designs.keys import COUNTS, LISTS, TEXTS, Cell
 from gearcad.designs.train_keys import general_key
@@ -23,6 +24,7 @@ __all__ = [
     "list_text",
     "nested_text",
     "plain_text",
+    "texts_cell",
 ]
 
 
@@ -80,6 +82,28 @@ def list_text(numbers: Iterable[float]) -> str:
 def nested_text(lists: Iterable[Iterable[float]]) -> str:
     """Lists of numbers as one cell: 0.1:1.25 0.9:0.8."""
     return " ".join(":".join(map(repr, each)) for each in lists)
+
+
+def texts_cell(texts: Iterable[Any], key: str) -> str:
+    """Texts, or lists of them, as one cell: `first note | second`, `A; first issue; 2026-01-31 | B; wider`.
+
+    Raises ParameterError for a text that would not come back.
+    """
+    return " | ".join(
+        "; ".join(_plain_item(each, key, "|;") for each in item)
+        if isinstance(item, list | tuple)
+        else _plain_item(item, key, "|")
+        for item in texts
+    )
+
+
+def _plain_item(item: Any, key: str, marks: str) -> str:
+    text = item.isoformat() if isinstance(item, date) else item
+    if not isinstance(text, str):
+        raise ParameterError(key, item, "must be a text")
+    if any(mark in text for mark in (*marks, "\n")):
+        raise ParameterError(key, item, f"cannot stand in a table: has {' or '.join(marks)} or a new line in it")
+    return text
 
 
 def guarded_text(text: str) -> str:

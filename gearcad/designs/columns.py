@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from gearcad import symbols
 from gearcad.designs.keys import FIELDS, PLANETARY, Fields
 from gearcad.designs.train_keys import ALL, PARTS, TrainKey
+from gearcad.drawing.options import PartDrawing
 from gearcad.material import Material
 from gearcad.per_gear import Role
 from gearcad.planetary import Carrier, Central, PairStage, Rim
@@ -90,7 +91,7 @@ def column_of_train(heading: str) -> tuple[str, Symbol] | None:
         return found
     if table in _TABLES and table not in ("gear", "pinion", "wheel", "pair", "rack"):
         return column_symbol(heading)
-    return _of_material(heading) or _found(table, field, _TABLES["gear"])
+    return _of_own(heading) or _found(table, field, _TABLES["gear"])
 
 
 def _found(owner: str, field: str, known: Mapping[str, Symbol]) -> tuple[str, Symbol] | None:
@@ -115,14 +116,15 @@ def column_symbol(heading: str) -> tuple[str, Symbol] | None:
             name = field[: -len(owner) - 1]
             if field.endswith((f".{owner}", f"_{owner}")) and name in known:
                 return owner, known[name]
-    return _of_material(heading) or _of_part(heading)
+    return _of_own(heading) or _of_part(heading)
 
 
-def _of_material(heading: str) -> tuple[str, Symbol] | None:
-    """Of gears that have materials of their own."""
+def _of_own(heading: str) -> tuple[str, Symbol] | None:
+    """Of gears that have materials or drawings of their own."""
     table, _, rest = heading.partition(".")
     owner, _, field = rest.partition(".")
-    return _found(owner, field, symbols_of(Material)) if table == "materials" else None
+    own = {"materials": Material, "drawings": PartDrawing}.get(table)
+    return None if own is None else _found(owner, field, symbols_of(own))
 
 
 def _of_part(heading: str) -> tuple[str, Symbol] | None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from gearcad.designs.lines import explain_syntax, find_lines, nearest_line
+from gearcad.designs.named_files import find_named_files
 from gearcad.designs.suffixes import is_table_name
 from gearcad.errors import SpecError, format_number, printable, shown
 
@@ -53,18 +54,8 @@ def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
         return f"{file} line {line}" if line else file
 
     require_sane_tables(tables, where)
-    _find_pairs(tables, path.parent)
+    find_named_files(tables, path.parent)
     return tables, where
-
-
-def _find_pairs(tables: Mapping[str, Any], folder: Path) -> None:
-    """Let the files of pairs that a train names, which are seen from its own folder, be found from here."""
-    train = tables.get("train")
-    meshes = train.get("mesh") if isinstance(train, Mapping) else None
-    for mesh in meshes if isinstance(meshes, list) else ():
-        # A name that no file can have is left as it is written: whoever reads the pair refuses it.
-        if isinstance(mesh, dict) and isinstance(name := mesh.get("pair"), str) and name.strip() and "\0" not in name:
-            mesh["pair"] = str(folder / name)
 
 
 def _refuse_table(path: Path) -> None:

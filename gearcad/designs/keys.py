@@ -11,6 +11,7 @@ from gearcad.check.options import CheckOptions
 from gearcad.designs.design import DesignKind
 from gearcad.designs.train_keys import ALL, TRAIN, explain_unknown_key_of_train
 from gearcad.designs.train_keys import PARTS as TRAIN_PARTS
+from gearcad.drawing.options import DrawingOptions, PartDrawing
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.geometry import Gear, GearPair, Rack, RackPair, ShiftSplit
 from gearcad.geometry.diametral import MODULE_OR_PITCH
@@ -48,6 +49,7 @@ __all__ = [
     "SPEEDS",
     "SWITCHES",
     "TEXTS",
+    "TEXT_LISTS",
     "Cell",
     "Fields",
     "explain_unknown_column",
@@ -89,6 +91,7 @@ BESIDE: dict[str, type[DataclassInstance]] = {
     "mesh": MeshOptions,
     "dynamics": DynamicsOptions,
     "rating": RatingOptions,
+    "drawing": DrawingOptions,
 }
 """The tables that stand beside those of the gears, and what they make."""
 
@@ -132,7 +135,10 @@ _GEAR = dict(_flat(Gear))
 OWN_MATERIAL = {f"material.{key}": field for key, field in schema_of(Material).items()}
 """Keys of a gear that has mates: its own material, whose fields count before those of [material]."""
 
-_OF_PAIRS = _GEAR | OWN_MATERIAL
+OWN_DRAWING = {f"drawing.{key}": field for key, field in schema_of(PartDrawing).items()}
+"""Keys of a gear: what its own drawing has, which counts before [drawing]."""
+
+_OF_PAIRS = _GEAR | OWN_MATERIAL | OWN_DRAWING
 _PAIR = schema_of(GearPair)
 _RACK = dict(_flat(Rack))
 
@@ -146,14 +152,14 @@ ALTERNATIVES = (MODULE_OR_PITCH, THINNING_OR_ALLOWANCE)
 """Keys of a gear one of which is given: its own counts before any of them that is shared."""
 
 FIELDS: dict[str, dict[str, FieldSchema]] = {
-    "gear": _GEAR,
+    "gear": _GEAR | OWN_DRAWING,
     "pair": {key: _PAIR[key] for key in ("name", "centre_distance", "centre_distance_tolerance", "axial_offset")}
     | {"mounting_distance": schema_of(RackPair)["mounting_distance"]}
     | {"profile_shift_split": _OF_SPECS["profile_shift_split"]}
     | {key: _GEAR[key] for key in SHARED},
     "pinion": _OF_PAIRS,
     "wheel": _OF_PAIRS,
-    "rack": _RACK | OWN_MATERIAL,
+    "rack": _RACK | OWN_MATERIAL | OWN_DRAWING,
     **{table: dict(_flat(kind)) for table, kind in BESIDE.items()},
 }
 FIELDS["material"] |= _names_of_materials("pinion", "wheel", "rack")
@@ -219,10 +225,11 @@ _EACH = {
 COUNTS = frozenset(key for key, field in _EACH.items() if field.whole)
 LISTS = frozenset(key for key, field in _EACH.items() if field.several)
 NESTED = frozenset(key for key, field in _EACH.items() if field.nested)
+TEXT_LISTS = frozenset(key for key, field in _EACH.items() if field.texts)
 TEXTS = NESTED | frozenset(key for key, field in _EACH.items() if field.text or ELSEWHERE in field.marks)
 SWITCHES = frozenset(key for key, field in _EACH.items() if field.members == (bool,))
 """Full keys of whole numbers, of what may be several numbers (in a cell there is space between them), of lists of lists (a text
-in a cell), of these and words, and of true and false; of a train's parts those of all (`general_key`)."""
+in a cell), of lists of texts, of these and words, and of true and false; of a train's parts those of all (`general_key`)."""
 
 _MOVED = {
     "check.pinion_tip_relief": "write pinion.modification.tip_relief and pinion.modification.tip_relief_length (mm)",
@@ -280,7 +287,9 @@ def _nearest(key: str, fields: Mapping[str, FieldSchema], known: tuple[str, ...]
     by_tail = {name.rpartition(".")[2]: name for name in reversed(known)}
     if key in by_symbol:
         return by_symbol[key]
-    for spellings in (by_tail, {name: name for name in known}):
+    part, dot, _ = key.partition(".")
+    beside = {name: name for name in known if dot and name.startswith(f"{part}.")}
+    for spellings in (beside, by_tail, {name: name for name in known}):
         if near := difflib.get_close_matches(key.lower(), spellings, n=1):
             return spellings[near[0]]
     return None

@@ -11,6 +11,7 @@ from typing import Any
 
 from gearcad.designs.keys import BESIDE, FIELDS
 from gearcad.designs.kinds.pair import PairDesign
+from gearcad.drawing.options import PartDrawing
 from gearcad.geometry import Gear
 from gearcad.geometry.derived import is_given
 from gearcad.material import Material
@@ -35,6 +36,7 @@ def pair_text(design: PairDesign, comments: Sequence[str] = ()) -> str:
             for table in BESIDE
             if getattr(design, table) is not None and table != "material"
         },
+        **{f"{gear}.drawing": dict(_values(own, schema_of(PartDrawing))) for gear, own in design.drawings.items()},
     }
     return toml_text(tables, comments)
 

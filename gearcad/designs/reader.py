@@ -8,20 +8,22 @@ refused, so nothing is silently ignored.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from datetime import date
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from gearcad.designs.cells import nested_text
+from gearcad.designs.cells import nested_text, texts_cell
 from gearcad.designs.design import Design, DesignKind
 from gearcad.designs.files import Where, read_tables
-from gearcad.designs.keys import LISTS, MAIN_TABLES, NESTED, OF_SETS, SWITCHES, Cell
+from gearcad.designs.keys import LISTS, MAIN_TABLES, NESTED, OF_SETS, SWITCHES, TEXT_LISTS, Cell
 from gearcad.designs.kinds import type_of
 from gearcad.designs.kinds.toothed import ToothedDesign
 from gearcad.designs.kinds.train import TrainDesign
+from gearcad.designs.named_files import names_file
 from gearcad.designs.spec import Given, Spec
 from gearcad.designs.train_keys import general_key
-from gearcad.designs.train_values import names_pair, tables_of, values_of
-from gearcad.errors import SpecError, format_number
+from gearcad.designs.train_values import tables_of, values_of
+from gearcad.errors import ParameterError, SpecError, format_number
 
 __all__ = ["SpecValues", "design_from_tables", "design_from_values", "read_spec", "read_values", "spec_values"]
 
@@ -100,10 +102,17 @@ def _cell(key: str, given: Given, where: Where) -> Cell:
         raise SpecError(
             f"{where(key)}: {key} = {format_number(value)}: no cell of a table holds several models: give one word", key
         )
-    if isinstance(value, Mapping) and names_pair(key):
+    if isinstance(value, Mapping) and names_file(key):
         raise SpecError(f"{where(given.key)}: {given.key}: no table holds a pair: write it to a file, and its name here", key)
     if general_key(key) in NESTED and isinstance(value, list | tuple):
         return nested_text(value) if all(isinstance(each, list | tuple) for each in value) else format_number(value)
+    if key in TEXT_LISTS and isinstance(value, list | tuple):
+        try:
+            return texts_cell(value, key)
+        except ParameterError as error:
+            raise SpecError(f"{where(given.key)}: {error}", key) from error
+    if isinstance(value, date):
+        return value.isoformat()
     if isinstance(value, bool) and general_key(key) in SWITCHES:
         return "true" if value else "false"
     if isinstance(value, bool) or not isinstance(value, int | float | str):

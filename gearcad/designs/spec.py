@@ -41,7 +41,10 @@ _ROLES = tuple(role.value for role in Role)
 _SWITCH = {"true": True, "false": False}
 """What cells of a table have for what is true or false."""
 
-_WITH_MATERIAL = (*PARTS, "material")
+_OWN = ("material", "drawing")
+"""Tables of a gear's own, which are read by themselves."""
+
+_TABLES_OF_GEAR = (*PARTS, *_OWN)
 
 Simple = TypeVar("Simple")
 
@@ -73,7 +76,7 @@ class Spec:
         """Every value under its dotted key, whole numbers turned into floats where floats are meant. Raises SpecError."""
         values = {}
         for table, content in tables.items():
-            for field, value in _entries(content, PARTS_BESIDE.get(table, _WITH_MATERIAL)):
+            for field, value in _entries(content, PARTS_BESIDE.get(table, _TABLES_OF_GEAR)):
                 key = f"{table}.{field}"
                 if field not in KEYS[table]:
                     raise SpecError(f"{where(key)}: {shown(key)}: {explain_unknown_key(table, field)}")
@@ -195,7 +198,7 @@ class Spec:
         inputs = _missing(table)
         for key, value in given.items():
             part, _, field = key.partition(".")
-            if part == "material":  # read by itself
+            if part in _OWN:
                 continue
             if field:
                 parts[part][field] = value

@@ -19,11 +19,15 @@ _ALIASES = {
 """What a newcomer would ask for."""
 
 
+_OF_SHEETS = "drawing_"
+"""Templates of drawings begin so: they make nothing by themselves."""
+
+
 def _files() -> dict[str, Path]:
     return {
         path.stem: path
         for path in sorted(templates().iterdir(), key=lambda path: path.stem)
-        if path.suffix in (".toml", ".csv")
+        if path.suffix in (".toml", ".csv") and not path.stem.startswith(_OF_SHEETS)
     }
 
 

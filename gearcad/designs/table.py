@@ -15,10 +15,10 @@ from gearcad.designs.cells import CellReader, Layout, RawCell, is_blank, is_comm
 from gearcad.designs.design import Design, DesignKind, require_plain_name
 from gearcad.designs.headings import column_letter, kinds_of, read_headings
 from gearcad.designs.keys import Cell
+from gearcad.designs.named_files import names_file, with_files_found
 from gearcad.designs.reader import design_from_values
 from gearcad.designs.sheets import Record, Sheet, open_sheet
 from gearcad.designs.train_keys import general_key
-from gearcad.designs.train_values import names_pair, with_pairs_found
 from gearcad.designs.trials import fault_alone, missing_faults, permitted_alone
 from gearcad.errors import ParameterError, SpecError, format_number, printable, shown
 
@@ -54,14 +54,14 @@ class Row:
         if self.faults:
             raise SpecError(self.faults[0], "".join(self.unread[:1]))
         self._require_name()
-        values = with_pairs_found(self.values, Path(self.table).parent)
+        values = with_files_found(self.values, Path(self.table).parent)
         return design_from_values(values, self._kind(), where=self.where, default_name=self.name)
 
     @property
     def inputs(self) -> dict[str, Any]:
-        """All that decides what it makes: its name and values, and what stands in the files of pairs that they name."""
-        files = {key: each for key, each in self.values.items() if names_pair(key)}
-        found = with_pairs_found(files, Path(self.table).parent)
+        """All that decides what it makes: its name and values, and what stands in the files that they name."""
+        files = {key: each for key, each in self.values.items() if names_file(key)}
+        found = with_files_found(files, Path(self.table).parent)
         return {"name": self.name, **self.values, **{f"{key}: text": _text_of(Path(str(file))) for key, file in found.items()}}
 
     def all_faults(self) -> list[str]:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from gearcad.designs.files import Where
 from gearcad.designs.spec import Given
-from gearcad.designs.train_keys import ALL, MAIN, PARTS, TORQUES, TRAIN, TrainKey, explain_unknown_key_of_train, general_key
+from gearcad.designs.train_keys import ALL, MAIN, PARTS, TORQUES, TRAIN, TrainKey, explain_unknown_key_of_train
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.errors import SpecError, format_number, shown
 from gearcad.schema import FieldSchema, parts_of
@@ -18,10 +17,8 @@ __all__ = [
     "missing_fault",
     "missing_keys",
     "names_of",
-    "names_pair",
     "tables_of",
     "values_of",
-    "with_pairs_found",
 ]
 
 _SWITCH = {"true": True, "false": False}
@@ -158,16 +155,6 @@ def _typed(value: Any, field: FieldSchema) -> Any:
     if field.members == (bool,) and isinstance(value, str):
         return _SWITCH.get(value.lower(), value)
     return (value,) if field.several and isinstance(value, float) else value
-
-
-def with_pairs_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """The values with the files of pairs, which are seen from `folder`, as they are found from here."""
-    return {key: str(folder / each) if isinstance(each, str) and names_pair(key) else each for key, each in values.items()}
-
-
-def names_pair(key: str) -> bool:
-    """Whether a text under a key is the file of a mesh's pair."""
-    return general_key(key) == f"mesh.{ALL}.pair"
 
 
 def missing_keys(given: Iterable[str]) -> Iterator[str]:

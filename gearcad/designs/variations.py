@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, TypeVar
 from gearcad.designs.cells import CellReader, Layout
 from gearcad.designs.design import DesignKind
 from gearcad.designs.keys import COUNTS, KEYS, MAIN_TABLES, PLANETARY, SPEEDS, TEXTS, Cell, explain_unknown_column
+from gearcad.designs.named_files import with_files_found
 from gearcad.designs.train_keys import ALL, MAIN, PARTS, TORQUES, TrainKey, explain_unknown_key_of_train, general_key
-from gearcad.designs.train_values import names_of, with_pairs_found
+from gearcad.designs.train_values import names_of
 from gearcad.errors import ParameterError, format_number
 from gearcad.geometry.diametral import MODULE_OR_PITCH
 
@@ -28,9 +29,9 @@ MOST_ROWS = 1_000_000
 """Rows of the largest study: beyond it a number was mistyped, or one table is not the way."""
 
 _BESIDE = {
-    DesignKind.GEAR: ("material", "load"),
-    DesignKind.RACK: ("material",),
-    DesignKind.RACK_PAIR: ("material", "load", "rating"),
+    DesignKind.GEAR: ("material", "load", "drawing"),
+    DesignKind.RACK: ("material", "drawing"),
+    DesignKind.RACK_PAIR: ("material", "load", "rating", "drawing"),
 }
 """Tables beside those of the teeth whose keys may vary; a pair has all others."""
 
@@ -65,8 +66,8 @@ class Choices:
         return [self.values[int(fraction * len(self.values))] for fraction in fractions]
 
     def found_from(self, folder: Path) -> Choices:
-        """With the files of pairs, which are seen from the `folder` of the spec, as they are found from here."""
-        return replace(self, values=tuple(with_pairs_found({self.key: each}, folder)[self.key] for each in self.values))
+        """With files, which are seen from the `folder` of the spec, as they are found from here."""
+        return replace(self, values=tuple(with_files_found({self.key: each}, folder)[self.key] for each in self.values))
 
 
 @dataclass(frozen=True)

@@ -245,6 +245,8 @@ def _check(options: DrawingOptions | PartDrawing, kind: type[DataclassInstance])
 
 def _line(parameter: str, value: Any) -> str:
     """A text in one line. Raises ParameterError for what is no text, too long or has control characters."""
+    if isinstance(value, date):  # as TOML has dates
+        value = value.isoformat()
     if not isinstance(value, str):
         raise ParameterError(parameter, value, "must be a text, in quotation marks")
     if len(value) > _LONGEST:
@@ -274,7 +276,7 @@ def _revisions(parameter: str, value: Any) -> tuple[tuple[str, ...], ...]:
     for each in listed:
         if not isinstance(each, list | tuple) or not 2 <= len(each) <= len(fields(Revision)):
             raise ParameterError(parameter, each, permitted)
-        found.append(tuple(_line(parameter, item.isoformat() if isinstance(item, date) else item) for item in each))
+        found.append(tuple(_line(parameter, item) for item in each))
     return tuple(found)
 
 

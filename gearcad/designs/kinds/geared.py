@@ -12,6 +12,7 @@ from gearcad.designs.files import Where
 from gearcad.designs.keys import MAIN_TABLES
 from gearcad.designs.kinds.toothed import ToothedDesign, require_known_tables
 from gearcad.designs.spec import Spec
+from gearcad.drawing.options import DrawingOptions
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.errors import SpecError
 from gearcad.geometry import GearPair
@@ -33,6 +34,7 @@ class Inputs(TypedDict, total=False):
     mesh: MeshOptions
     dynamics: DynamicsOptions
     rating: RatingOptions
+    drawing: DrawingOptions
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Self
 
 from gearcad.check.options import CheckOptions
 from gearcad.designs.design import Accepted, Described, DesignKind, require_plain_name
+from gearcad.designs.drawings import drawings_of
 from gearcad.designs.files import Where
 from gearcad.designs.keys import BESIDE, SPEEDS
 from gearcad.designs.kinds.pair import PairSpec
@@ -31,7 +32,7 @@ __all__ = ["PlanetaryDesign"]
 _OF_TRAINS = {each.name for each in fields(PlanetaryTrain)}
 _REQUIRED = ("planets", "input", "output")
 
-_TAKEN = ("kind", "name", "gearcad", "materials", SPEEDS, MAIN, *BESIDE)
+_TAKEN = ("kind", "name", "gearcad", "materials", "drawings", SPEEDS, MAIN, *BESIDE)
 """What a document has beside its gears."""
 
 
@@ -75,6 +76,7 @@ class PlanetaryDesign(ToothedDesign):
         spec = cls.spec(tables, where)
         given = {table: kind for table, kind in {**BESIDE, "load": TrainLoad}.items() if table != "material"}
         beside: dict[str, Any] = {table: spec.simple(table, kind) for table, kind in given.items() if table in tables}
+        beside["drawings"] = {spec.name_of(table): own for table, own in drawings_of(spec).items()}
         name = spec.name(MAIN, default_name)
         inputs = _inputs(spec) | {"name": name}
         with spec.blame(MAIN):

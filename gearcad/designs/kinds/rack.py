@@ -42,8 +42,8 @@ class RackDesign(ToothedDesign):
 
     @classmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:
-        """The values of a spec of [rack] and [material]. Raises SpecError."""
-        require_tables_of_racks(tables, where, DesignKind.RACK, ("material",))
+        """The values of a spec of [rack], [material] and [drawing]. Raises SpecError."""
+        require_tables_of_racks(tables, where, DesignKind.RACK, ("material", "drawing"))
         return Spec.of(tables, where)
 
     @property

@@ -28,7 +28,7 @@ from gearcad.rating.options import RatingOptions
 
 __all__ = ["RackPairDesign"]
 
-_BESIDE = ("material", "load", "rating")
+_BESIDE = ("material", "load", "rating", "drawing")
 _GEARS = ("pinion", "rack")
 _OF_GEAR_PAIRS = ("centre_distance", "centre_distance_tolerance", "axial_offset", "profile_shift_split")
 

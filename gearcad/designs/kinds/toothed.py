@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from gearcad.designs.design import Design
+from gearcad.designs.drawings import drawing_documents, drawings_of
 from gearcad.designs.files import Where
 from gearcad.designs.keys import BESIDE, KEYS, explain_unknown_table
 from gearcad.designs.materials import materials_of
 from gearcad.designs.spec import Spec
+from gearcad.drawing.options import DrawingOptions, PartDrawing
 from gearcad.errors import SpecError, format_number, shown
 from gearcad.geometry import GearPair, RackPair
 from gearcad.material import Material
@@ -27,6 +29,10 @@ __all__ = ["ToothedDesign", "beside_teeth", "require_known_tables"]
 @dataclass(frozen=True, kw_only=True)
 class ToothedDesign(Design):
     """A design with teeth; a table beside them, such as [material], is a field of its name, None where a spec says nothing."""
+
+    drawing: DrawingOptions | None = None
+    drawings: Mapping[str, PartDrawing] = field(default_factory=dict)
+    """What the sheets of gears have of their own, by the gears' names in `gears`."""
 
     @classmethod
     @abstractmethod
@@ -54,7 +60,7 @@ class ToothedDesign(Design):
                 document["materials"] = {name: asdict(material) for name, material in value.items()}
             elif value is not None:
                 document[table] = _plain(value)
-        return document
+        return document | drawing_documents(self.drawing, self.drawings)
 
 
 def _plain(options: DataclassInstance) -> dict[str, Any]:
@@ -80,6 +86,8 @@ def beside_teeth(spec: Spec, tables: Mapping[str, Any], gears: tuple[str, ...] =
     made: dict[str, Any] = {
         table: spec.simple(table, kind) for table, kind in BESIDE.items() if table in tables and table != "material"
     }
+    if own := drawings_of(spec):
+        made["drawings"] = own
     if (material := materials_of(spec, gears)) is not None:
         made["material"] = PerGear(*material.values()) if isinstance(material, dict) else material
     elif "material" in tables:
