@@ -72,7 +72,9 @@ def _set_paper(document: Drawing, size: tuple[float, float]) -> None:
     space = document.modelspace()
     space.reset_extents((0, 0, 0), (across, up, 0))
     space.reset_limits((0, 0), (across, up))
-    document.header["$LIMMIN"], document.header["$LIMMAX"] = (0, 0), (across, up)
+    header = document.header  # of which the library does not change what begins at the origin
+    header["$EXTMIN"], header["$EXTMAX"] = (0, 0, 0), (across, up, 0)
+    header["$LIMMIN"], header["$LIMMAX"] = (0, 0), (across, up)
     document.set_modelspace_vport(1.05 * up, (across / 2, up / 2), dxfattribs={"aspect_ratio": across / up})
     millimetres, limits, one_to_one = 1, 2, 16
     plot = {"paper_width": across, "paper_height": up, "plot_paper_units": millimetres, "plot_type": limits}

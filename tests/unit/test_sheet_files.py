@@ -1,0 +1,177 @@
+"""Files of sheets: what other programs find in them is what was put on paper."""
+
+from __future__ import annotations
+
+import base64
+import re
+import zlib
+from pathlib import Path
+from xml.etree import ElementTree
+
+import ezdxf
+import numpy as np
+import pytest
+from support.written_sheet import read_sheet
+
+from gearcad.drawing.files import sheet_document, unshown, write_dxf, write_pdf, write_svg
+from gearcad.drawing.files.hatch_lines import hatch_lines
+from gearcad.drawing.files.lettering import runs
+from gearcad.drawing.shapes import (
+    Anchor,
+    Circle,
+    Dimension,
+    Figure,
+    Filled,
+    Hatching,
+    Line,
+    Measured,
+    Pen,
+    Polyline,
+    Text,
+)
+from gearcad.drawing.words import Language
+
+SIZE = (420.0, 297.0)
+FRAME = Polyline.straight([(20, 10), (410, 10), (410, 287), (20, 287)], Pen.FRAME, closed=True)
+SQUARE = ((100.0, 100.0, 0.0), (140.0, 100.0, 0.0), (140.0, 130.0, 0.0), (100.0, 130.0, 0.0))
+HOSTILE = '<img src=x onerror=alert(1)> & "q" 50%%c 90 % ^J'
+
+
+def _dimension(words: str = "<> h11") -> Dimension:
+    """40 mm on paper, of 80 mm of a part at 1:2."""
+    parts = (
+        Line((100, 90), (140, 90), Pen.DIMENSION),
+        Filled(((100, 90), (103, 90.4), (103, 89.6)), Pen.DIMENSION),
+        Filled(((140, 90), (137, 90.4), (137, 89.6)), Pen.DIMENSION),
+        Text("80 h11", (120, 91), anchor=Anchor.CENTRE),
+    )
+    return Dimension(Measured.HORIZONTAL, (100, 100), (140, 100), (120, 90), words, parts)
+
+
+def _figure(*more: object) -> Figure:
+    circle = Circle((250, 180), 65.0)
+    return Figure.of(FRAME, circle, Polyline(SQUARE, closed=True), Hatching((SQUARE,)), _dimension(), *more)  # type: ignore[arg-type]
+
+
+def _written(figure: Figure, folder: Path) -> Path:
+    document = sheet_document(figure, SIZE, 0.5, title=f"Wheel {HOSTILE}", language=Language.GERMAN)
+    for write, name in ((write_dxf, "sheet.dxf"), (write_svg, "sheet.svg")):
+        write(document, folder / name)
+    write_pdf([document, document], folder / "sheet.pdf")
+    return folder / "sheet.dxf"
+
+
+def test_dxf_is_a_drawing(tmp_path: Path) -> None:
+    """Paper, layers with widths, line types in mm, and dimensions that a program draws anew with the part's sizes."""
+    path = _written(_figure(Text(HOSTILE, (200, 50)), Line((150, 180), (350, 180), Pen.CENTRE)), tmp_path)
+    document, sheet = ezdxf.readfile(path), read_sheet(path)
+    assert sheet.faults == []
+    assert sheet.size == SIZE and sheet.frame == (20, 10, 410, 287)
+    assert document.header["$EXTMAX"][:2] == document.header["$LIMMAX"][:2] == SIZE
+    assert {layer.dxf.name: layer.dxf.lineweight for layer in document.layers if layer.dxf.name != "0"} == {
+        pen.value: round(100 * pen.stroke.width) for pen in Pen
+    } | {"Defpoints": -3}
+    assert document.linetypes.get("CENTER").pattern_tags.tags[2:] and not document.audit().has_errors
+    assert sheet.dimensions == [(80.0, "<> h11")]
+    (dimension,) = document.modelspace().query("DIMENSION")
+    assert HOSTILE in sheet.words
+    dimension.render()  # anew, by the library
+    (block,) = [each for each in document.blocks if each.name == dimension.dxf.geometry]
+    assert [each.plain_text() for each in block.query("MTEXT")] == ["80 h11"]
+
+
+def test_half_a_dimension_has_one_arrow_when_drawn_anew(tmp_path: Path) -> None:
+    parts = (Line((90, 115), (90, 133)), Filled(((90, 130), (90.4, 127), (89.6, 127)), Pen.DIMENSION), Text("⌀60", (85, 115)))
+    half = Dimension(Measured.VERTICAL, (100, 100), (100, 130), (90, 115), "%%c<>", parts)
+    (written,) = ezdxf.readfile(_written(Figure.of(FRAME, half), tmp_path)).modelspace().query("DIMENSION")
+    style = written.override()
+    assert (style.get("dimsd1"), style.get("dimse1"), style.get("dimsd2", 0)) == (1, 1, 0)
+
+
+@pytest.mark.parametrize(
+    ("shape", "fault"),
+    [
+        (Text("on a line", (60, 99.0)), None),
+        (Text("on a line", (95, 99.0)), "meets a line of OUTLINE"),
+        (Text("hatched", (110, 110)), "is on a hatched area"),
+        (Text("over", (115, 91)), "'80 h11' meets 'over'"),
+        (Text("leaves", (405, 40)), "leaves the frame"),
+        (Text("upwards", (18, 40), rotation=90.0), "leaves the frame"),
+        (Line((10, 40), (40, 40)), "a line of OUTLINE leaves the frame"),
+        (Text("round", (314, 180)), "meets a line of OUTLINE"),
+    ],
+)
+def test_checker_sees_faults(shape: object, fault: str | None, tmp_path: Path) -> None:
+    found = read_sheet(_written(_figure(shape), tmp_path)).faults
+    assert not found if fault is None else any(fault in each for each in found)
+
+
+def test_equal_sheets_give_equal_bytes(tmp_path: Path) -> None:
+    folders = [tmp_path / name for name in ("one", "two")]
+    for folder in folders:
+        folder.mkdir()
+        _written(_figure(Text("Ä 齿", (200, 50))), folder)
+    for name in ("sheet.dxf", "sheet.svg", "sheet.pdf"):
+        assert (folders[0] / name).read_bytes() == (folders[1] / name).read_bytes()
+
+
+def test_pdf_is_the_paper_and_its_circle_is_round(tmp_path: Path) -> None:
+    _written(_figure(), tmp_path)
+    content = (tmp_path / "sheet.pdf").read_bytes()
+    boxes = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", content)
+    assert np.array(boxes, dtype=float) * 25.4 / 72 == pytest.approx(np.array([SIZE, SIZE]), abs=1e-4)
+    curves = _curves(_pages(content)[0])
+    assert np.hypot(*(curves - (250, 180)).T) == pytest.approx(65.0, abs=1e-3)
+    assert len(curves) == 9 * 8
+
+
+def _pages(content: bytes) -> list[str]:
+    """What draws each page: the streams in letters, as the library packs them."""
+    streams = re.findall(rb"/ASCII85Decode.*?stream\r?\n(.*?)~>", content, re.DOTALL)
+    return [zlib.decompress(base64.a85decode(stream)).decode("latin1") for stream in streams]
+
+
+def _curves(page: str) -> np.ndarray:
+    """Points along all Bezier curves of a page (mm)."""
+    numbers = r"(-?[\d.]+) (-?[\d.]+)"
+    steps = re.finditer(rf"{numbers} [ml]|{numbers} {numbers} {numbers} c\b", page)
+    share, found, at = np.linspace(0, 1, 9)[:, None], [], np.zeros(2)
+    for step in steps:
+        row = np.array([each for each in step.groups() if each is not None], dtype=float).reshape(-1, 2)
+        if len(row) == 3:
+            weights = np.hstack([(1 - share) ** 3, 3 * share * (1 - share) ** 2, 3 * share**2 * (1 - share), share**3])
+            found.append(weights @ np.vstack([at, row]))
+        at = row[-1]
+    return np.concatenate(found)
+
+
+def test_svg_is_xml_of_the_paper(tmp_path: Path) -> None:
+    _written(_figure(Text(HOSTILE, (200, 50)), Text("a\nb\x00\ud800", (200, 40))), tmp_path)
+    root = ElementTree.fromstring((tmp_path / "sheet.svg").read_text(encoding="utf-8"))
+    assert (root.get("width"), root.get("height"), root.get("viewBox")) == ("420mm", "297mm", "0 0 420 297")
+    texts = {each.text: each for each in root.iter("{http://www.w3.org/2000/svg}text")}
+    assert {HOSTILE, "a b \N{REPLACEMENT CHARACTER}"} <= texts.keys()
+    length = float(texts[HOSTILE].get("textLength", ""))
+    assert 0.82 * length == pytest.approx(Text(HOSTILE, (0, 0)).width, abs=2e-3)
+
+
+def test_hatch_fills_what_is_between_edges() -> None:
+    """Its lines are as long in all as the area over their distance; none is in the hole, corners on a line included."""
+    hole = ((110.0, 110.0, 0.0), (120.0, 110.0, 0.0), (120.0, 120.0, 0.0), (110.0, 120.0, 0.0))
+    for angle in (45.0, 135.0, 0.0, 90.0):
+        lines = np.array(list(hatch_lines((SQUARE, hole), angle, 0.1)))
+        lengths = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1)
+        assert lengths.sum() * 0.1 == pytest.approx(40 * 30 - 10 * 10, rel=0.01)
+        middle = lines.mean(axis=1)
+        assert not ((middle > 110.01) & (middle < 119.99)).all(axis=1).any()
+
+
+def test_letters_of_other_scripts_are_told() -> None:
+    """Hebrew stands from right to left, its number not; Arabic letters are joined; what no font has is a box."""
+    assert "".join(run.letters for run in runs("Rad שלום 12 גל!")) == "Rad לג 12 םולש!"
+    assert runs("سن")[0].letters == "\ufee6\ufeb3"
+    notices = unshown(Figure.of(Text("Zahnrad 齿轮 🦄", (0, 0))))
+    assert [(each.code, each.text[-2:]) for each in notices] == [
+        ("letters-not-shown", " 🦄"),
+        ("letters-of-other-fonts", "轮齿"),
+    ]
