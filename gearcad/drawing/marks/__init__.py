@@ -2,6 +2,7 @@
 come best first."""
 
 from gearcad.drawing.marks.arrows import ARROW, arrow
+from gearcad.drawing.marks.broken import freehand, zigzag
 from gearcad.drawing.marks.frames import FRAME_HEIGHT, Characteristic, datum, tolerance_frame
 from gearcad.drawing.marks.leaders import circle_dimension, frame_leader, leader
 from gearcad.drawing.marks.linear import FIRST_LANE, LANE_PITCH, half_dimension, linear_dimension
@@ -28,6 +29,7 @@ __all__ = [
     "deviations",
     "edge_symbol",
     "frame_leader",
+    "freehand",
     "general_roughness",
     "half_dimension",
     "leader",
@@ -45,4 +47,5 @@ __all__ = [
     "tolerance_frame",
     "view_label",
     "written_size",
+    "zigzag",
 ]

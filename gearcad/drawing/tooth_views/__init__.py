@@ -1,0 +1,6 @@
+"""A tooth in detail, and diagrams of its modifications."""
+
+from gearcad.drawing.tooth_views.detail import detail_scale, tooth_figure
+from gearcad.drawing.tooth_views.modifications import modification_figures
+
+__all__ = ["detail_scale", "modification_figures", "tooth_figure"]
