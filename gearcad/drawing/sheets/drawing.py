@@ -14,7 +14,7 @@ __all__ = ["Drawing", "Sheet"]
 
 @dataclass(frozen=True, kw_only=True)
 class Sheet:
-    """One page: `name` is that of its files ("pinion", "assembly"), `size` width and height of the paper.
+    """One page: `name` is that of its files ("pinion", "assembly"), `number` what identifies it, `size` that of the paper.
 
     `scale` is mm of paper for a mm of the part. `shown` are the exact values of the numbers on it by their keys in documents
     ("reference_diameter"), as they are before they are rounded. `notices` say what was shortened, assumed or left out.
@@ -22,6 +22,7 @@ class Sheet:
 
     name: str
     title: str
+    number: str = ""
     size: tuple[float, float]
     scale: float
     language: Language
