@@ -104,7 +104,7 @@ _FACE = Words("tolerance class of the face width", "", "ISO 286-2")
 _KEYWAY = Words("tolerance class of the keyway's width", "", "ISO 286-2")
 _RIM = Words("tolerance class of a ring's outer diameter", "", "ISO 286-2")
 _ROUGH = Words("roughness of what has none of its own", "Ra", "ISO 21920-1")
-_BORE_ROUGH = Words("roughness of the bore", "Ra", "ISO 21920-1")
+_BORE_ROUGH = Words("roughness of bore and faces; else by the accuracy grade", "Ra", "ISO 21920-1")
 _TIP_RUNOUT = Words("run-out of the tip cylinder; else by the accuracy grade", "", "ISO 1101")
 _FACE_RUNOUT = Words("axial run-out of the faces; else by the accuracy grade", "", "ISO 1101")
 
@@ -181,7 +181,7 @@ class DrawingOptions:
     keyway_tolerance: Annotated[str, _KEYWAY] = "JS9"
     rim_tolerance: Annotated[str, _RIM] = "h7"
     surface_roughness: Annotated[float, _RA, _ROUGH] = 3.2
-    bore_roughness: Annotated[float, _RA, _BORE_ROUGH] = 1.6
+    bore_roughness: Annotated[float | None, _RA, _BORE_ROUGH] = None
     tip_runout: Annotated[float | None, _RUNOUT, _TIP_RUNOUT] = None
     face_runout: Annotated[float | None, _RUNOUT, _FACE_RUNOUT] = None
 

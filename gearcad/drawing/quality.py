@@ -14,7 +14,7 @@ from gearcad.geometry import Gear
 from gearcad.geometry.iso286 import standard_tolerance
 from gearcad.rating.options import RatingOptions
 
-__all__ = ["Roughness", "cylindricity", "face_runout", "flank_roughness", "grade_of", "tip_runout"]
+__all__ = ["Roughness", "cylindricity", "face_runout", "flank_roughness", "grade_of", "seat_roughness", "tip_runout"]
 
 
 class Roughness(NamedTuple):
@@ -34,6 +34,13 @@ _FLANKS = ((4, 0.4), (6, 0.8), (7, 1.6), (8, 3.2))
 
 _COARSEST = 6.3
 
+_GROUND = 5
+"""Last accuracy grade that is not reached without grinding."""
+
+_RUNOUTS = ((5, 4), (7, 5), (8, 6), (9, 7))
+_COARSEST_RUNOUT = 8
+"""Tolerance grades of ISO 286 up to an accuracy grade."""
+
 
 def grade_of(drawn: DrawnGear) -> int:
     """Its accuracy grade, and where nobody gave one that of which ratings go out."""
@@ -49,12 +56,18 @@ def flank_roughness(drawn: DrawnGear) -> Roughness:
     return Roughness("Ra", next((value for most, value in _FLANKS if grade <= most), _COARSEST), given=False)
 
 
-def tip_runout(drawn: DrawnGear, diameter: float) -> float | None:
-    """Run-out of the tip cylinder: IT5 of its diameter up to grade 7, IT6 of grade 8, IT7 of coarser ones.
+def seat_roughness(drawn: DrawnGear) -> float:
+    """Ra of bore, rim and end faces: 0.8 of the grades that are ground, else 1.6."""
+    return 0.8 if grade_of(drawn) <= _GROUND else 1.6
 
-    None beyond the sizes of ISO 286.
+
+def tip_runout(drawn: DrawnGear, diameter: float) -> float | None:
+    """Run-out of the tip cylinder: IT of its diameter, of a fineness that goes by the accuracy grade (ours).
+
+    IT4 up to grade 5 (IT5 above 500 mm), IT5 of 6 and 7, IT6 of 8, IT7 of 9, else IT8; None beyond the sizes of ISO 286.
     """
-    return _tolerance(min(max(grade_of(drawn) - 2, 5), 7), diameter)
+    fineness = next((tolerance for most, tolerance in _RUNOUTS if grade_of(drawn) <= most), _COARSEST_RUNOUT)
+    return _tolerance(fineness, diameter) or _tolerance(max(fineness, 5), diameter)
 
 
 def face_runout(drawn: DrawnGear, diameter: float) -> float | None:

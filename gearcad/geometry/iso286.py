@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from gearcad.errors import ParameterError, require_number
 
-__all__ = ["LimitDeviations", "limit_deviations", "standard_tolerance"]
+__all__ = ["LARGEST_SIZE", "LimitDeviations", "limit_deviations", "standard_tolerance"]
 
 
 class LimitDeviations(NamedTuple):
@@ -21,8 +21,10 @@ class LimitDeviations(NamedTuple):
 _UP_TO = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000, 1250, 1600, 2000, 2500, 3150)
 """Ranges of sizes; the upper limit belongs to a range."""
 
+LARGEST_SIZE = float(_UP_TO[-1])
+
 _LARGEST_FIT = 500
-"""Largest size of which fits are tabled here."""
+"""Largest size of which fits are tabled here; h and H, like js and JS, reach as far as their grade."""
 
 _GRADES = {
     1: (0.8, 1, 1, 1.2, 1.5, 1.5, 2, 2.5, 3.5, 4.5, 6, 7, 8),
@@ -47,7 +49,6 @@ _CLEARANCE = {
     "e": (14, 20, 25, 32, 40, 50, 60, 72, 85, 100, 110, 125, 135),
     "f": (6, 10, 13, 16, 20, 25, 30, 36, 43, 50, 56, 62, 68),
     "g": (2, 4, 5, 6, 7, 9, 10, 12, 14, 15, 17, 18, 20),
-    "h": (0,) * 13,
 }
 """How far below the size a shaft, and above it a hole of that letter, ends."""
 
@@ -108,7 +109,7 @@ _DELTA = {
 """What holes K, M and N to grade 8, and P to U to grade 7, begin higher than the mirrored shaft."""
 
 _CLASS = re.compile(r"([A-Za-z]{1,2})(\d{1,2})")
-_LETTERS = ("js", "j", *_CLEARANCE, *_TRANSITION, *_INTERFERENCE)
+_LETTERS = ("js", "j", "h", *_CLEARANCE, *_TRANSITION, *_INTERFERENCE)
 
 
 def standard_tolerance(grade: int, size: float) -> float:
@@ -121,7 +122,7 @@ def standard_tolerance(grade: int, size: float) -> float:
 def limit_deviations(tolerance_class: str, size: float) -> LimitDeviations:
     """Those of a hole ("H7") or a shaft ("g6"): letters d to h, js, j (shafts), k, m, n, p, r, s and u; up to 500 mm.
 
-    Classes js and JS reach as far as their grade. Raises ParameterError.
+    Classes js, JS, h and H reach as far as their grade. Raises ParameterError.
 
     >>> limit_deviations("H7", 40), limit_deviations("g6", 40)
     (LimitDeviations(upper=25.0, lower=0.0), LimitDeviations(upper=-9.0, lower=-25.0))
@@ -130,6 +131,8 @@ def limit_deviations(tolerance_class: str, size: float) -> LimitDeviations:
     tolerance, hole, small = standard_tolerance(grade, size), letter.isupper(), letter.lower()
     if small == "js":
         return LimitDeviations(tolerance / 2, -tolerance / 2)
+    if small == "h":
+        return LimitDeviations(tolerance, 0.0) if hole else LimitDeviations(0.0, -tolerance)
     require_number("size", size, "mm", above=0, at_most=_LARGEST_FIT)
     place = bisect_left(_UP_TO, size)
     if small in _CLEARANCE:

@@ -47,7 +47,8 @@ def test_a_class_that_iso_286_has_not_or_that_is_not_tabled(wrong):
 
 
 @pytest.mark.parametrize(
-    ("tolerance_class", "size"), [("H7", 500.1), ("H7", 0.0), ("js12", 500.1), ("js7", 3150.1), ("H7", math.nan)]
+    ("tolerance_class", "size"),
+    [("g6", 500.1), ("H7", 0.0), ("H12", 500.1), ("js12", 500.1), ("h9", 3150.1), ("js7", 3150.1), ("H7", math.nan)],
 )
 def test_a_size_beyond_the_tables(tolerance_class, size):
     with pytest.raises(ParameterError, match="size = "):

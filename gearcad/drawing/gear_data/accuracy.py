@@ -9,49 +9,72 @@ from gearcad.drawing.quality import grade_of
 from gearcad.drawing.subject import DrawnGear
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear
+from gearcad.notice import Notice
+from gearcad.ranges import Range
 from gearcad.rating.tolerances import Accuracy, gear_tolerances
+from gearcad.rating.tolerances.editions import covered
 
-__all__ = ["grade_row", "tolerance_rows"]
+__all__ = ["grade_row", "tolerance_notices", "tolerance_rows"]
 
 _TOLERANCES = {
-    "single_pitch": ("f_pt", "f_pt"),
-    "cumulative_pitch": ("F_p", "F_p"),
-    "profile_total": ("F_alpha", "F_α"),
-    "helix_total": ("F_beta", "F_β"),
-    "runout": ("F_r", "F_r"),
+    Accuracy.ISO_1995: {
+        "single_pitch": ("f_pt", "f_pt"),
+        "cumulative_pitch": ("F_p", "F_p"),
+        "profile_total": ("F_alpha", "F_α"),
+        "helix_total": ("F_beta", "F_β"),
+        "runout": ("F_r", "F_r"),
+    },
+    Accuracy.ISO_2013: {
+        "single_pitch": ("f_pT", "f_pT"),
+        "cumulative_pitch": ("F_pT", "F_pT"),
+        "profile_total": ("F_alphaT", "F_αT"),
+        "helix_total": ("F_betaT", "F_βT"),
+        "runout": ("F_rT", "F_rT"),
+    },
 }
 """Those of the table: their keys in documents, and their symbols."""
 
 _SIZES = {"reference_diameter": "d", "normal_module": "m_n", "face_width": "b", "teeth": "z", "helix_angle": "β"}
-"""Sizes that the standard limits."""
+"""Symbols of the sizes that the standard limits."""
 
 
 def grade_row(drawn: DrawnGear, write: RowWriter) -> Row:
     """Grade, standard and year; one that nobody gave is said to be assumed."""
     grade = grade_of(drawn)
     assumed = f" ({write.word('assumed')})" if drawn.grade is None else ""
-    return write.text("accuracy", f"{grade}  {drawn.accuracy.value}{assumed}", "", {"tolerances.grade": grade})
+    return write.text("accuracy", f"{grade}, {drawn.accuracy.value}{assumed}", "", {"tolerances.grade": grade})
 
 
 def tolerance_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
-    """Of pitch, profile, helix and run-out; outside of the standard the size that is not covered stands there."""
+    """Of pitch, profile, helix and run-out; beyond the standard the limit that a size is past stands there."""
     if not isinstance(drawn.gear, Gear):
         yield write.text("tolerances", f"— ({write.word('no_rack_tolerances')})")
         return
     found = gear_tolerances(drawn.gear, grade_of(drawn), drawn.accuracy)
-    for name, (key, symbol) in _TOLERANCES.items():
-        later = drawn.accuracy is Accuracy.ISO_2013
-        key, symbol = ("f_p" if later and each.endswith("_pt") else each for each in (key, symbol))
-        key, symbol = (f"{each}T" if later else each for each in (key, symbol))
+    for name, (key, symbol) in _TOLERANCES[drawn.accuracy].items():
         try:
             value = getattr(found, name)
         except ParameterError as error:
-            yield write.text(name, f"— ({_why(error)})", symbol)
+            yield write.text(name, f"— ({_why(error, drawn.accuracy)})", symbol)
         else:
             yield write.text(name, f"{write.words.shortest(value, 1)} µm", symbol, {f"tolerances.{key}": value})
 
 
-def _why(error: ParameterError) -> str:
-    """The size that no equation covers."""
-    symbol = _SIZES.get(error.parameter, error.parameter)
-    return f"{symbol} = {error.value:.4g}"
+def tolerance_notices(drawn: DrawnGear) -> Iterator[Notice]:
+    """What is assumed, and what has no tolerance."""
+    if drawn.grade is None:
+        said = f"no grade is given; tolerances, run-out and roughness are those of grade {grade_of(drawn)}"
+        yield Notice("grade-assumed", f"accuracy: {said} of {drawn.accuracy.value}")
+    if not isinstance(drawn.gear, Gear):
+        return
+    for reason in gear_tolerances(drawn.gear, grade_of(drawn), drawn.accuracy).to_dict()["not_covered"]:
+        yield Notice("not-covered", f"tolerances: {drawn.accuracy.value} does not cover all: {reason}")
+
+
+def _why(error: ParameterError, accuracy: Accuracy) -> str:
+    """The limit that a size is past: "b < 4 mm"."""
+    permitted, size = covered(accuracy)[error.parameter], abs(error.value)
+    below = permitted.least is not None and size < permitted.least
+    unit = permitted.unit if isinstance(permitted, Range) else ""
+    limit = f"{_SIZES[error.parameter]} {'<' if below else '>'} {permitted.least if below else permitted.most:g} {unit}"
+    return limit.replace(" deg", "°").rstrip()

@@ -9,10 +9,11 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.quality import flank_roughness
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.treatment import material_text, treatment_text
-from gearcad.geometry import FlankModification, Gear
+from gearcad.geometry import FlankModification, Gear, Rack
+from gearcad.geometry.tooling import corner_radius, shaped
 from gearcad.schema import symbols_of
 
-__all__ = ["cutter_rows", "double_helix_rows", "material_rows", "modification_rows", "roughness_rows"]
+__all__ = ["chamfer_rows", "cutter_rows", "double_helix_rows", "material_rows", "modification_rows", "roughness_rows"]
 
 _SYMBOLS = symbols_of(FlankModification)
 
@@ -21,7 +22,8 @@ def roughness_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
     """Of flanks, and of roots where it is given."""
     flanks = flank_roughness(drawn)
     text = f"{flanks.text(write.words.shortest(flanks.value, 2))} µm"
-    yield write.text("flank_roughness", text, "", {"flank_roughness": flanks.value})
+    name = "flank_roughness" if flanks.given else "flank_roughness_of_grade"
+    yield write.text("flank_roughness", text, "", {name: flanks.value})
     if isinstance(drawn.gear, Gear) and (root := drawn.gear.root_roughness) is not None:
         yield write.text("root_roughness", f"Rz {write.words.shortest(root, 2)} µm", "", {"root_roughness": root})
 
@@ -40,15 +42,23 @@ def modification_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
 
 
 def cutter_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
-    """The shaper cutter, where one makes the teeth."""
+    """The corner that makes the fillets of a shaped gear or a ring, and the shaper cutter where one does."""
     cutter = gear.cutter
-    if cutter.teeth is None:
+    if shaped(gear):
+        yield write.length("corner_radius", corner_radius(gear) * gear.normal_module, "ρ_a0")
+    if cutter.teeth is None or gear.cutter_tip_diameter is None:
         return
     yield write.text("cutter_teeth", str(cutter.teeth), "z_0", {"cutter.teeth": cutter.teeth})
     shift = write.words.number(cutter.profile_shift, 4, signed=True)
     yield write.text("cutter_profile_shift", shift, "x_0", {"cutter.profile_shift": cutter.profile_shift})
-    if cutter.tip_radius is not None:
-        yield write.plain("cutter_tip_radius", cutter.tip_radius, "ρ_aP0*", name="cutter.tip_radius")
+    yield write.length("cutter_tip_diameter", gear.cutter_tip_diameter, "d_a0")
+
+
+def chamfer_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:
+    """The chamfer along the tip edges of every tooth."""
+    name, height = ("tip_chamfer", part.tip_chamfer) if isinstance(part, Rack) else ("body.tip_chamfer", part.body.tip_chamfer)
+    if height:
+        yield write.text("tip_chamfer", f"{write.words.shortest(height)} × 45°", "h_K", {name: height})
 
 
 def double_helix_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:

@@ -12,13 +12,13 @@ __all__ = ["mate_rows"]
 
 
 def mate_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
-    """Teeth and number of each mate, and the distance from it."""
+    """The distance from each mate, and its teeth and number."""
     for mate in drawn.mates:
         teeth = mate.gear.teeth
         assert teeth is not None  # a rack has counted its own
         text = f"{write.words.number(teeth, 0)} / {mate.number or mate.name}"
-        yield write.text("mate", text, "z", {"teeth": teeth})
         yield _distance(mate, write)
+        yield write.text("mate", text, "z", {"mate.teeth": teeth})
 
 
 def _distance(mate: Mate, write: RowWriter) -> Row:

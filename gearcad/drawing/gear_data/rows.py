@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gearcad.drawing.gear_data.accuracy import grade_row, tolerance_rows
+from gearcad.drawing.gear_data.accuracy import grade_row, tolerance_notices, tolerance_rows
 from gearcad.drawing.gear_data.flanks import (
+    chamfer_rows,
     cutter_rows,
     double_helix_rows,
     material_rows,
@@ -17,11 +18,14 @@ from gearcad.drawing.gear_data.row import Row, RowWriter
 from gearcad.drawing.gear_data.teeth import diameter_rows, teeth_rows
 from gearcad.drawing.gear_data.thickness import thickness_rows
 from gearcad.drawing.options import DrawingOptions
+from gearcad.drawing.quality import flank_roughness
 from gearcad.drawing.subject import DrawnGear
+from gearcad.drawing.treatment import material_text
 from gearcad.drawing.words import Words
 from gearcad.geometry import Gear, Rack
+from gearcad.notice import Notice
 
-__all__ = ["gear_rows"]
+__all__ = ["gear_notices", "gear_rows"]
 
 _SMALL_MODULE = 0.3
 """Below it (mm) lengths have a digit more."""
@@ -48,6 +52,7 @@ def _gear(drawn: DrawnGear, gear: Gear, write: RowWriter) -> Iterator[Row]:
     yield from roughness_rows(drawn, write)
     yield from modification_rows(gear, write)
     yield from cutter_rows(gear, write)
+    yield from chamfer_rows(gear, write)
 
 
 def _rack(drawn: DrawnGear, rack: Rack, write: RowWriter) -> Iterator[Row]:
@@ -68,3 +73,21 @@ def _rack(drawn: DrawnGear, rack: Rack, write: RowWriter) -> Iterator[Row]:
     yield from mate_rows(drawn, write)
     yield from tolerance_rows(drawn, write)
     yield from roughness_rows(drawn, write)
+    yield from chamfer_rows(rack, write)
+
+
+def gear_notices(drawn: DrawnGear, options: DrawingOptions | None = None) -> tuple[Notice, ...]:
+    """What the table assumes, and what it has no numbers for."""
+    return tuple(_notices(drawn, options or DrawingOptions()))
+
+
+def _notices(drawn: DrawnGear, options: DrawingOptions) -> Iterator[Notice]:
+    yield from tolerance_notices(drawn)
+    if isinstance(drawn.gear, Gear) and drawn.gear.tooth_allowance is None:
+        text = "tooth thickness: tooth_allowance is not given, so thickness, span and size over balls have no limits"
+        yield Notice("no-thickness-limits", text)
+    if not flank_roughness(drawn).given:
+        text = "roughness of the flanks: flank_roughness is not given; the Ra by the accuracy grade is ours, verify it"
+        yield Notice("roughness-of-grade", text)
+    if not material_text(drawn, options):
+        yield Notice("no-material", "material: none is given")

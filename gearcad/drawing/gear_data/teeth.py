@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from gearcad.drawing.gear_data.row import Row, RowWriter
-from gearcad.geometry import NAMED_RACKS, BasicRack, Gear, Rack
+from gearcad.geometry import NAMED_RACKS, Gear, Rack
 from gearcad.geometry.derived import is_given
 
 __all__ = ["diameter_rows", "rack_rows", "teeth_rows"]
@@ -20,7 +20,7 @@ def teeth_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:
     form = "rack" if isinstance(part, Rack) else "internal" if part.internal else "external"
     yield write.text("kind", f"{write.word(form)}, {write.word(helix)}")
     if is_given(part.normal_diametral_pitch):
-        yield write.plain("normal_diametral_pitch", part.normal_diametral_pitch, "P_nd", " 1/in")
+        yield write.plain("normal_diametral_pitch", part.normal_diametral_pitch, "P_nd", " in⁻¹")
     yield write.plain("normal_module", part.normal_module, "m_n")
     assert part.teeth is not None  # derived by now
     yield write.text("teeth", write.words.number(part.teeth, 0), "z", {"teeth": part.teeth})
@@ -47,32 +47,25 @@ def rack_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:
     """The basic rack by its name in ISO 53, else by its coefficients."""
     dedendum = part.dedendum if isinstance(part, Gear) else part.rack.dedendum
     own = abs(dedendum - part.rack.dedendum) < _SAME
-    name = next((name for name, rack in NAMED_RACKS.items() if own and _alike(part.rack, rack)), None)
+    name = next((name for name, rack in NAMED_RACKS.items() if own and part.rack == rack), None)
     if name is not None:
         yield write.text("basic_rack", name.replace("ISO53_", "ISO 53 "))
         return
     yield write.plain("rack_addendum", part.rack.addendum, "h_aP*", name="rack.addendum")
     yield write.plain("rack_dedendum", dedendum, "h_fP*", name="rack.dedendum" if own else "dedendum")
     if part.rack.root_radius == "full":
-        yield write.text("rack_root_radius", write.word("full_radius"), "ρ_fP*")
+        radius = part.root_radius
+        text = f"{write.words.number(radius, 4)} ({write.word('full_radius')})"
+        yield write.text("rack_root_radius", text, "ρ_fP*", {"root_radius": radius})
     else:
         yield write.plain("rack_root_radius", float(part.rack.root_radius), "ρ_fP*", name="rack.root_radius")
-
-
-def _alike(one: BasicRack, other: BasicRack) -> bool:
-    """Whether their teeth have the same heights and radii; the pressure angle has a row of its own."""
-    return (one.addendum, one.dedendum, one.root_radius, one.pressure_angle) == (
-        other.addendum,
-        other.dedendum,
-        other.root_radius,
-        other.pressure_angle,
-    )
 
 
 def diameter_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
     """Profile shift, reference, base and root circle, tip alteration, and where the involute begins."""
     shift = write.words.number(gear.profile_shift, 4, signed=True)
-    yield write.text("profile_shift", shift, "x", {"profile_shift": gear.profile_shift})
+    sign = "profile_shift_of_ring" if gear.internal else "profile_shift"
+    yield write.text(sign, shift, "x", {"profile_shift": gear.profile_shift})
     yield write.length("reference_diameter", gear.reference_diameter, "d")
     yield write.length("base_diameter", gear.base_diameter, "d_b")
     yield write.length("root_diameter", gear.root_diameter, "d_f")

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Self
 
 from gearcad.drawing.options import DrawingOptions
-from gearcad.drawing.quality import Roughness, cylindricity, face_runout, flank_roughness, tip_runout
+from gearcad.drawing.quality import Roughness, cylindricity, face_runout, flank_roughness, seat_roughness, tip_runout
 from gearcad.drawing.requirements.toleranced import as_hole, diameter, toleranced
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.treatment import material_text, treatment_text
 from gearcad.drawing.words import Size, Words
 from gearcad.geometry import Body, Gear, Rack
 from gearcad.geometry.din6885 import depth_allowance
+from gearcad.geometry.iso286 import LARGEST_SIZE
+from gearcad.notice import Notice
 
 __all__ = ["Requirements"]
 
@@ -65,8 +68,8 @@ class Requirements:
             options=options,
             face_width=toleranced(part.face_width, options.face_width_tolerance),
             flanks=flank_roughness(drawn),
-            bore_roughness=options.bore_roughness,
-            face_roughness=options.bore_roughness,
+            bore_roughness=options.bore_roughness or seat_roughness(drawn),
+            face_roughness=options.bore_roughness or seat_roughness(drawn),
             rest_roughness=options.surface_roughness,
             **own,
             **deviations,
@@ -82,10 +85,28 @@ class Requirements:
         return treatment_text(self.drawn, self.options, words)
 
     def tooth_notes(self, words: Words) -> tuple[str, ...]:
-        """What is to be done to the teeth and has no place in the table: chamfers along their edges."""
-        if self.tip_chamfer is None:
-            return ()
-        return (words["data.note_tip_chamfer"].format(size=words.shortest(self.tip_chamfer.value)),)
+        """What has no place in the table: that fillets may be undercut, and what goes by the accuracy grade alone."""
+        part, options = self.drawn.gear, self.options
+        by_grade = not self.flanks.given or None in (options.tip_runout, options.face_runout, options.bore_roughness)
+        noted = {"note_undercut": isinstance(part, Gear) and part.undercut, "note_by_grade": by_grade}
+        return tuple(words[f"data.{key}"] for key, holds in noted.items() if holds)
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """Sizes whose fits have no limits here, and what is not demanded for want of a datum."""
+        return tuple(self._notices())
+
+    def _notices(self) -> Iterator[Notice]:
+        for name, size in vars(self).items():
+            if isinstance(size, Size) and size.fit and size.upper is None:
+                text = f"{name}: limits of {size.fit} at {size.value:.6g} mm are not tabled here; verify them in ISO 286-2"
+                yield Notice("fit-without-limits", text)
+            elif isinstance(size, Size) and size.value > LARGEST_SIZE:
+                text = f"{name}: {size.value:.6g} mm is beyond ISO 286; general tolerances hold"
+                yield Notice("beyond-fits", text)
+        if isinstance(self.drawn.gear, Gear) and self.tip_runout is None:
+            datum = "rim_diameter" if self.drawn.gear.internal else "bore"
+            yield Notice("no-runout", f"run-out: not demanded; there is no {datum} for its datum, or no tolerance of this size")
 
 
 def _rack(rack: Rack) -> dict[str, Size]:

@@ -6,7 +6,7 @@ from typing import Any
 
 from gearcad.drawing.words import Size
 from gearcad.errors import ParameterError
-from gearcad.geometry.iso286 import limit_deviations
+from gearcad.geometry.iso286 import LARGEST_SIZE, limit_deviations
 
 __all__ = ["as_hole", "diameter", "toleranced"]
 
@@ -14,9 +14,10 @@ __all__ = ["as_hole", "diameter", "toleranced"]
 def toleranced(value: float, fit: str, **of_size: Any) -> Size:
     """A size with the limits of a fit by ISO 286; without one general tolerances hold.
 
-    Where the class has no limits here, beyond 500 mm but for h, H, js and JS, the class stands by itself.
+    They hold beyond 3150 mm too, where ISO 286 ends. Where a class has no limits here, beyond 500 mm but for h, H, js and JS,
+    it stands by itself.
     """
-    if not fit:
+    if not fit or value > LARGEST_SIZE:
         return Size(value=value, **of_size)
     try:
         limits = limit_deviations(fit, value)
