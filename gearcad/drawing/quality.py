@@ -13,8 +13,9 @@ from gearcad.errors import ParameterError
 from gearcad.geometry import Gear
 from gearcad.geometry.iso286 import standard_tolerance
 from gearcad.rating.options import RatingOptions
+from gearcad.rating.tolerances import gear_tolerances
 
-__all__ = ["Roughness", "cylindricity", "face_runout", "flank_roughness", "grade_of", "seat_roughness", "tip_runout"]
+__all__ = ["Roughness", "blank_runout", "cylindricity", "flank_roughness", "grade_of", "seat_roughness"]
 
 
 class Roughness(NamedTuple):
@@ -37,10 +38,6 @@ _COARSEST = 6.3
 _GROUND = 5
 """Last accuracy grade that is not reached without grinding."""
 
-_RUNOUTS = ((5, 4), (7, 5), (8, 6), (9, 7))
-_COARSEST_RUNOUT = 8
-"""Tolerance grades of ISO 286 up to an accuracy grade."""
-
 
 def grade_of(drawn: DrawnGear) -> int:
     """Its accuracy grade, and where nobody gave one that of which ratings go out."""
@@ -61,29 +58,26 @@ def seat_roughness(drawn: DrawnGear) -> float:
     return 0.8 if grade_of(drawn) <= _GROUND else 1.6
 
 
-def tip_runout(drawn: DrawnGear, diameter: float) -> float | None:
-    """Run-out of the tip cylinder: IT of its diameter, of a fineness that goes by the accuracy grade (ours).
+def blank_runout(drawn: DrawnGear) -> float | None:
+    """Run-out of tip cylinder and end faces: half of F_r, the run-out of the teeth by ISO 1328, in whole µm (ours).
 
-    IT4 up to grade 5 (IT5 above 500 mm), IT5 of 6 and 7, IT6 of 8, IT7 of 9, else IT8; None beyond the sizes of ISO 286.
+    None for a rack, and where the standard does not cover the teeth.
     """
-    fineness = next((tolerance for most, tolerance in _RUNOUTS if grade_of(drawn) <= most), _COARSEST_RUNOUT)
-    return _tolerance(fineness, diameter) or _tolerance(max(fineness, 5), diameter)
-
-
-def face_runout(drawn: DrawnGear, diameter: float) -> float | None:
-    """Axial run-out of the faces, likewise."""
-    return tip_runout(drawn, diameter)
+    if not isinstance(drawn.gear, Gear):
+        return None
+    try:
+        teeth = gear_tolerances(drawn.gear, grade_of(drawn), drawn.accuracy).runout
+    except ParameterError:
+        return None
+    return max(float(teeth // 2), 1.0)
 
 
 def cylindricity(diameter: float, fit: str) -> float | None:
     """Of a bore or a rim: a quarter of the tolerance of its fit, in whole µm; None without a fit, and beyond ISO 286."""
     grade = re.search(r"\d+", fit)
-    tolerance = None if grade is None else _tolerance(int(grade[0]), diameter)
-    return None if tolerance is None else max(float(tolerance // 4), 1.0)
-
-
-def _tolerance(grade: int, size: float) -> float | None:
+    if grade is None:
+        return None
     try:
-        return standard_tolerance(grade, size)
+        return max(float(standard_tolerance(int(grade[0]), diameter) // 4), 1.0)
     except ParameterError:
         return None

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from gearcad.drawing.options import DrawingOptions
-from gearcad.drawing.quality import Roughness, cylindricity, face_runout, flank_roughness, seat_roughness, tip_runout
+from gearcad.drawing.quality import Roughness, blank_runout, cylindricity, flank_roughness, seat_roughness
 from gearcad.drawing.requirements.toleranced import as_hole, diameter, toleranced
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.treatment import material_text, treatment_text
@@ -104,9 +104,13 @@ class Requirements:
             elif isinstance(size, Size) and size.value > LARGEST_SIZE:
                 text = f"{name}: {size.value:.6g} mm is beyond ISO 286; general tolerances hold"
                 yield Notice("beyond-fits", text)
-        if isinstance(self.drawn.gear, Gear) and self.tip_runout is None:
-            datum = "rim_diameter" if self.drawn.gear.internal else "bore"
-            yield Notice("no-runout", f"run-out: not demanded; there is no {datum} for its datum, or no tolerance of this size")
+        if not isinstance(self.drawn.gear, Gear):
+            return
+        if _datum(self.drawn.gear) is None:
+            name = "rim_diameter" if self.drawn.gear.internal else "bore"
+            yield Notice("no-datum", f"run-out: not demanded, as there is no {name} that could be its datum")
+        elif None in (self.tip_runout, self.face_runout):
+            yield Notice("no-runout", "run-out: none is given, and ISO 1328 has none of these teeth to go by")
 
 
 def _rack(rack: Rack) -> dict[str, Size]:
@@ -168,14 +172,18 @@ def _ring(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
     return found
 
 
+def _datum(gear: Gear) -> float | None:
+    """Diameter of the surface that is the datum: the bore, of a ring the rim; None without one."""
+    return gear.body.rim_diameter if gear.internal else gear.body.bore or None
+
+
 def _deviations(drawn: DrawnGear, gear: Gear, options: DrawingOptions) -> dict[str, float | None]:
     """Run-out as it was given, else by the grade, and the cylindricity of the datum; without one none of them."""
-    datum = gear.body.rim_diameter if gear.internal else gear.body.bore
-    fit = options.rim_tolerance if gear.internal else options.bore_tolerance
-    if not datum:
+    datum = _datum(gear)
+    if datum is None:
         return {}
     return {
-        "tip_runout": options.tip_runout or tip_runout(drawn, abs(gear.tip_diameter)),
-        "face_runout": options.face_runout or face_runout(drawn, abs(gear.tip_diameter)),
-        "cylindricity": cylindricity(datum, fit),
+        "tip_runout": options.tip_runout or blank_runout(drawn),
+        "face_runout": options.face_runout or blank_runout(drawn),
+        "cylindricity": cylindricity(datum, options.rim_tolerance if gear.internal else options.bore_tolerance),
     }
