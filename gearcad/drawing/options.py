@@ -21,7 +21,7 @@ from gearcad.schema import Words, require_fields, schema_of
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
-__all__ = ["SCALES", "DrawingOptions", "PartDrawing", "Projection", "Revision", "SheetSize"]
+__all__ = ["SCALES", "DrawingOptions", "PartDrawing", "Projection", "Revision", "SheetSize", "one_line"]
 
 SCALES = {
     **{f"{n}:1": float(n) for n in (1000, 500, 200, 100, 50, 20, 10, 5, 2)},
@@ -234,7 +234,7 @@ def _check(options: DrawingOptions | PartDrawing, kind: type[DataclassInstance])
         if name in _LISTS:
             object.__setattr__(options, name, _LISTS[name](name, value))
         elif str in field.members:
-            object.__setattr__(options, name, _line(name, value))
+            object.__setattr__(options, name, one_line(name, value))
             if name.endswith("_tolerance") and name != "general_tolerance":
                 _require_fit(name, getattr(options, name))
     require_fields(options)
@@ -243,7 +243,7 @@ def _check(options: DrawingOptions | PartDrawing, kind: type[DataclassInstance])
         raise ParameterError("scale", options.scale, permitted)
 
 
-def _line(parameter: str, value: Any) -> str:
+def one_line(parameter: str, value: Any) -> str:
     """A text in one line. Raises ParameterError for what is no text, too long or has control characters."""
     if isinstance(value, date):  # as TOML has dates
         value = value.isoformat()
@@ -263,7 +263,7 @@ def _texts(parameter: str, value: Any) -> tuple[str, ...]:
     listed: Iterable[Any] = re.split(r"[|\n]", value) if isinstance(value, str) else value
     if not isinstance(listed, list | tuple):
         raise ParameterError(parameter, value, 'must be a list of texts, as in ["first", "second"]')
-    return tuple(line for each in listed if (line := _line(parameter, each)))
+    return tuple(line for each in listed if (line := one_line(parameter, each)))
 
 
 def _revisions(parameter: str, value: Any) -> tuple[tuple[str, ...], ...]:
@@ -276,7 +276,7 @@ def _revisions(parameter: str, value: Any) -> tuple[tuple[str, ...], ...]:
     for each in listed:
         if not isinstance(each, list | tuple) or not 2 <= len(each) <= len(fields(Revision)):
             raise ParameterError(parameter, each, permitted)
-        found.append(tuple(_line(parameter, item) for item in each))
+        found.append(tuple(one_line(parameter, item) for item in each))
     return tuple(found)
 
 

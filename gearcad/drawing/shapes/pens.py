@@ -40,6 +40,9 @@ class Pen(Enum):
     """Roughness, tolerance frames, datums, arrows."""
 
     FRAME = "FRAME"
+    GRID = "GRID"
+    """Fields beside the frame."""
+
     TABLE = "TABLE"
     """Lines within tables and title block."""
 
@@ -64,6 +67,7 @@ _STROKES = {
     Pen.HATCH: Stroke(0.18),
     Pen.SYMBOL: Stroke(0.25),
     Pen.FRAME: Stroke(0.7),
+    Pen.GRID: Stroke(0.35),
     Pen.TABLE: Stroke(0.25),
     Pen.TEXT: Stroke(0.35),
     Pen.FINE_TEXT: Stroke(0.25),

@@ -1,0 +1,105 @@
+"""All that frames the views of a sheet, each part in its place: border, title block, lists, table, notes. Lengths in mm."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from gearcad.drawing.frame.border import border, free_area, inside_frame
+from gearcad.drawing.frame.data_table import TableRow, data_table
+from gearcad.drawing.frame.framed import Framed
+from gearcad.drawing.frame.lists import PartLine, parts_list, revisions
+from gearcad.drawing.frame.notes import common_notes, notes
+from gearcad.drawing.frame.template import SheetTemplate
+from gearcad.drawing.frame.title_block import title_block
+from gearcad.drawing.options import DrawingOptions, SheetSize
+from gearcad.drawing.shapes import Box, Figure
+from gearcad.drawing.words import Words
+from gearcad.notice import Notice
+
+__all__ = ["Furnished", "Furniture"]
+
+_GAP = 4.0
+"""Between parts, and from the frame to the notes."""
+
+_LEAST_NOTES = 60.0
+"""Width of the narrowest notes beside the title block; on narrower sheets they stand above it."""
+
+
+@dataclass(frozen=True)
+class Furnished:
+    """A sheet without its views: `free` is where these may stand, but for the boxes that are `taken`."""
+
+    figure: Figure = field(repr=False)
+    free: Box
+    taken: tuple[Box, ...]
+    notices: tuple[Notice, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Furniture:
+    """What stands on a sheet beside views, whatever the size of the sheet.
+
+    `notes` come before those of the options; the common ones (edges, standards) before both. `table_title` and `rows` are the
+    gear data table.
+    """
+
+    options: DrawingOptions
+    template: SheetTemplate
+    words: Words
+    rows: Sequence[TableRow] = ()
+    table_title: str = ""
+    notes: Sequence[str] = ()
+    parts: Sequence[PartLine] = ()
+
+    def on(self, size: SheetSize, values: Mapping[str, str]) -> Furnished:
+        """All of it on a sheet, the paper's lower left corner at (0, 0); `values` as of `title_values`.
+
+        The table is in lower rows or in several columns where it would not have room above the title block. Nothing is
+        `free` where it has none at all.
+        """
+        frame = inside_frame(size, self.template.frame)
+        stack = self._stack(values, frame)
+        table = self._table(frame, frame.top - stack.box.top - _GAP)
+        texts = self._notes(frame, stack.box)
+        parts = [each for each in (stack, table, texts) if not each.empty]
+        taken = tuple(each.box for each in parts)
+        figure = border(size, self.template.frame, taken)
+        notices = tuple(notice for each in parts for notice in each.notices)
+        crowded = any(one.meets(other) for one in taken for other in taken if one is not other)
+        outside = any(not frame.grown(1e-6).holds(each) for each in taken)
+        free = free_area(size, self.template.frame)
+        if crowded or outside:
+            free = Box(free.left, free.bottom, free.left, free.bottom)
+        return Furnished(Figure.of(figure, *(each.figure for each in parts)), free, taken, notices)
+
+    def _stack(self, values: Mapping[str, str], frame: Box) -> Framed:
+        """Title block, parts list and revisions upon each other, in the lower right corner."""
+        block = title_block(values, self.template, self.words, self.options.projection)
+        found = block.moved(frame.right, frame.bottom)
+        for each in (
+            parts_list(self.parts, self.template, self.words),
+            revisions(self.options.changes, self.template, self.words),
+        ):
+            found = found if each.empty else found + each.moved(frame.right, found.box.top)
+        return found
+
+    def _table(self, frame: Box, room: float) -> Framed:
+        """The gear data table in the upper right corner, in the first form that is no higher than `room`."""
+        sizes = self.template.data_table
+        table = Framed()
+        for columns in range(1, 1 + max(1, int(frame.width / sum(sizes.columns)))):
+            for low in (False, True):
+                table = data_table(self.rows, self.table_title, sizes, columns=columns, low=low)
+                if table.empty or table.box.height <= room:
+                    return table.moved(frame.right, frame.top)
+        return table.moved(frame.right, frame.top)
+
+    def _notes(self, frame: Box, stack: Box) -> Framed:
+        """The notes left of the title block, else above what stands on that."""
+        lines = [*common_notes(self.options, self.template, self.words), *self.notes, *self.options.notes]
+        beside = stack.left - frame.left - 2 * _GAP
+        if beside >= _LEAST_NOTES:
+            width = min(beside, self.template.notes.width)
+            return notes(lines, self.template, width).moved(frame.left + _GAP, frame.bottom + _GAP)
+        return notes(lines, self.template, frame.width - 2 * _GAP).moved(frame.left + _GAP, stack.top + _GAP)

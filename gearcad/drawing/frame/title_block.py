@@ -1,0 +1,151 @@
+"""The title block by ISO 7200: cells as the template has them, with values that are made to fit. Lengths in mm."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+
+from gearcad.drawing.frame.fitting import fit, shortened_notice
+from gearcad.drawing.frame.framed import Framed
+from gearcad.drawing.frame.grid import outlined
+from gearcad.drawing.frame.template import SheetTemplate, TitleCell
+from gearcad.drawing.marks import projection_symbol
+from gearcad.drawing.options import DrawingOptions, Projection, SheetSize
+from gearcad.drawing.shapes import Box, Figure, Line, Pen
+from gearcad.drawing.words import Words
+
+__all__ = ["title_block", "title_values"]
+
+_MARGIN = 1.2
+"""From the side of a cell to its text."""
+
+_CAPTION_TOP = 1.0
+"""From the top of a cell to its caption."""
+
+_VALUE_BOTTOM = 1.5
+"""From the bottom of a cell to the line of its value: letters reach below it."""
+
+_CAPTION_LEAST = 1.8
+
+_OWNER = "the title block"
+
+
+def title_values(
+    options: DrawingOptions,
+    words: Words,
+    *,
+    title: str,
+    document_type: str,
+    size: SheetSize,
+    scale: str,
+    sheet: int = 1,
+    sheets: int = 1,
+    material: str = "",
+    heat_treatment: str = "",
+    mass: float | None = None,
+) -> dict[str, str]:
+    """What stands in the cells, by the names of `VALUES`: `title`, `material` ... where `options` have none; mass in kg."""
+    return {
+        "number": options.number,
+        "title": options.title or title,
+        "supplementary_title": options.supplementary_title,
+        "owner": options.owner,
+        "department": options.department,
+        "technical_reference": options.technical_reference,
+        "creator": options.creator,
+        "approver": options.approver,
+        "document_type": options.document_type or document_type,
+        "status": options.status,
+        "classification": options.classification,
+        "revision": options.index,
+        "date": options.issued,
+        "language": options.language.value,
+        "scale": scale,
+        "size": size.value,
+        "sheet": str(sheet),
+        "sheets": str(sheets),
+        "general_tolerance": options.general_tolerance,
+        "material": options.material or material,
+        "heat_treatment": options.heat_treatment or heat_treatment,
+        "mass": "" if mass is None else _mass(mass, words),
+    }
+
+
+def _mass(mass: float, words: Words) -> str:
+    """With three digits, in kg, or in g below 0.1 kg."""
+    value, unit = (mass, "kg") if mass >= 0.1 else (mass * 1e3, "g")
+    digits = f"{value:.3g}"
+    decimals = len(digits.partition(".")[2]) if "e" not in digits else 0
+    return f"{words.number(float(digits), decimals)} {unit}"
+
+
+def title_block(values: Mapping[str, str], template: SheetTemplate, words: Words, projection: Projection) -> Framed:
+    """The title block, its lower right corner at (0, 0)."""
+    sizes = template.title
+    whole = Box(0.0, 0.0, sizes.width, sizes.height)
+    found = Framed(Figure((outlined(whole), *_lines([cell.box for cell in template.cells.values()], whole))))
+    for name, cell in template.cells.items():
+        found += _cell(name, cell, values, words, sizes.caption, projection)
+    return found.moved(-sizes.width, 0.0)
+
+
+def _lines(boxes: Sequence[Box], whole: Box) -> Iterator[Line]:
+    """Between cells, each once, as long as it goes on; none on the outline of the whole."""
+    upright, level = defaultdict[float, list[tuple[float, float]]](list), defaultdict[float, list[tuple[float, float]]](list)
+    for box in boxes:
+        for across in {box.left, box.right} - {whole.left, whole.right}:
+            upright[across].append((box.bottom, box.top))
+        for up in {box.bottom, box.top} - {whole.bottom, whole.top}:
+            level[up].append((box.left, box.right))
+    for across, spans in upright.items():
+        yield from (Line((across, low), (across, high), Pen.TABLE) for low, high in _joined(spans))
+    for up, spans in level.items():
+        yield from (Line((low, up), (high, up), Pen.TABLE) for low, high in _joined(spans))
+
+
+def _joined(spans: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Spans that touch or overlap as one."""
+    found: list[tuple[float, float]] = []
+    for low, high in sorted(spans):
+        if found and low <= found[-1][1]:
+            found[-1] = (found[-1][0], max(high, found[-1][1]))
+        else:
+            found.append((low, high))
+    return found
+
+
+def _cell(
+    name: str, cell: TitleCell, values: Mapping[str, str], words: Words, caption_height: float, projection: Projection
+) -> Framed:
+    """Its caption and value."""
+    box, room = cell.box, cell.width - 2 * _MARGIN
+    found, top = Framed(), box.top - _CAPTION_TOP
+    if text := _caption(name, cell, words):
+        caption = fit(text, room, caption_height, least=min(_CAPTION_LEAST, caption_height))
+        place = (box.left + _MARGIN, top - caption.height)
+        notices = shortened_notice(f"{name}.caption", text, caption, _OWNER)
+        found += Framed(caption.at(place, pen=Pen.FINE_TEXT), notices)
+        top -= caption_height + 0.8
+    if cell.symbol:
+        return found + Framed(_symbol(projection, Box(box.left, box.bottom, box.right, top)))
+    if value := cell.filled(values):
+        depth = top - box.bottom - _VALUE_BOTTOM
+        fitted = fit(value, room, min(cell.text, depth), depth=depth)
+        free = max(0.0, depth - fitted.depth)
+        figure = fitted.at((box.left + _MARGIN, box.bottom + _VALUE_BOTTOM + free / 2))
+        found += Framed(figure, shortened_notice(name, value, fitted, _OWNER))
+    return found
+
+
+def _caption(name: str, cell: TitleCell, words: Words) -> str:
+    """The word of [frame] that the cell names, or its own text."""
+    asked = name if cell.caption is None else cell.caption
+    return words.labels.get(f"frame.{asked}", "" if cell.caption is None else asked)
+
+
+def _symbol(projection: Projection, box: Box) -> Figure:
+    """The symbol of the method of projection in the middle of a box."""
+    height = min(5.0, 0.8 * box.height)
+    symbol = projection_symbol(projection, height=height)
+    across, up = symbol.box.middle
+    return symbol.moved(box.middle[0] - across, box.middle[1] - up)
