@@ -47,7 +47,8 @@ def sheet_document(
     properties.append(TITLE, one_line(title)[:_MOST_OF_A_PROPERTY])
     properties.append(LANGUAGE, language.value)
     space = document.modelspace()
-    for shape in figure.shapes:
+    # Hatches last: FreeCAD 0.20 passes over what follows one.
+    for shape in sorted(figure.shapes, key=lambda each: isinstance(each, Hatching)):
         draw(shape, space)
     return document
 
