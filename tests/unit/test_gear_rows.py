@@ -100,7 +100,7 @@ def test_every_number_is_that_of_the_data_rounded(language):
                 if key not in ("corner_radius", "flank_roughness_of_grade"):  # checked below
                     assert known[key] == value, (row.key, key)
             shown = row.text.removesuffix(" × 45°") if row.key == "tip_chamfer" else row.text
-            shown = shown.partition(", ISO")[0] if row.key == "accuracy" else shown.partition(" / GC")[0]
+            shown = shown.partition(" / GC")[0]
             if row.key in ("basic_rack", "tooth_allowance", "tolerances") or shown.startswith("—"):
                 shown = ""
             words = row.words if row.key.startswith("span") else ""
@@ -144,6 +144,21 @@ def test_limits_are_those_of_gears_as_thick_and_as_thin_as_permitted():
         assert rows["over_balls"].limits[limit] == f"{other.inspection.over_balls(gear.ball_diameter):.3f}"
 
 
+def test_a_planet_has_two_mates_and_one_centre_distance():
+    spur = {"normal_module": 2, "face_width": 20}
+    sun, planet, ring = (Gear(teeth=teeth, **spur) for teeth in (24, 21, -66))
+    inner, outer = GearPair(pinion=planet, wheel=sun), GearPair(pinion=planet, wheel=ring, centre_distance=-45)
+    mates = (Mate(name="sun", gear=sun, pair=inner), Mate(name="ring", gear=ring, pair=outer))
+    rows = gear_rows(DrawnGear(role="planet", gear=planet, mates=mates), WORDS[Language.ENGLISH])
+    found = [(row.key, row.text, dict(row.numbers)) for row in rows if row.key.startswith(("sun.", "ring."))]
+    assert found == [
+        ("sun.centre_distance", "45.000", {"sun.pair.centre_distance": inner.centre_distance}),
+        ("sun.mate", "24 / sun", {"sun.mate.teeth": 24}),
+        ("ring.mate", "−66 / ring", {"ring.mate.teeth": -66}),
+    ]
+    assert len({row.key for row in rows}) == len(rows)
+
+
 def test_what_has_no_number_says_why():
     """Beyond ISO 1328 the limit that is passed, and where a gauge does not fit its reason: nothing is left out silently."""
     rows = {row.key: row for row in gear_rows(DRAWN[7], WORDS[Language.ENGLISH])}
@@ -163,7 +178,8 @@ def test_what_is_assumed_is_said():
     codes = {notice.code for notice in gear_notices(unknown)}
     assert codes == {"grade-assumed", "not-covered", "no-thickness-limits", "roughness-of-grade", "no-material"}
     rows = {row.key: row for row in gear_rows(unknown, WORDS[Language.ENGLISH])}
-    assert rows["accuracy"].text == "6, ISO 1328-1:1995 (assumed)" and rows["flank_roughness"].text == "Ra 0.8 µm"
+    assert (rows["accuracy"].words, rows["accuracy"].text) == ("Accuracy grade, ISO 1328-1:1995", "6 (assumed)")
+    assert rows["flank_roughness"].text == "Ra 0.8 µm"
     assert {notice.code for notice in gear_notices(DRAWN[0], DrawingOptions(material="16MnCr5"))} == set()
 
 

@@ -42,13 +42,13 @@ def grade_row(drawn: DrawnGear, write: RowWriter) -> Row:
     """Grade, standard and year; one that nobody gave is said to be assumed."""
     grade = grade_of(drawn)
     assumed = f" ({write.word('assumed')})" if drawn.grade is None else ""
-    return write.text("accuracy", f"{grade}, {drawn.accuracy.value}{assumed}", "", {"tolerances.grade": grade})
+    return write.text("accuracy", f"{grade}{assumed}", "", {"tolerances.grade": grade}, standard=drawn.accuracy.value)
 
 
 def tolerance_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
     """Of pitch, profile, helix and run-out; beyond the standard the limit that a size is past stands there."""
     if not isinstance(drawn.gear, Gear):
-        yield write.text("tolerances", f"— ({write.word('no_rack_tolerances')})")
+        yield write.text("tolerances", f"— ({write.word('rack')})", standard=drawn.accuracy.value)
         return
     found = gear_tolerances(drawn.gear, grade_of(drawn), drawn.accuracy)
     for name, (key, symbol) in _TOLERANCES[drawn.accuracy].items():

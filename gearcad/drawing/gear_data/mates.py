@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from gearcad.drawing.gear_data.row import Row, RowWriter
 from gearcad.drawing.subject import DrawnGear, Mate
@@ -12,13 +13,29 @@ __all__ = ["mate_rows"]
 
 
 def mate_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
-    """The distance from each mate, and its teeth and number."""
+    """The distance from each mate, and its teeth and number; of several mates the keys begin with their names.
+
+    A distance that is that of another mate too stands once.
+    """
+    seen: set[str] = set()
     for mate in drawn.mates:
-        teeth = mate.gear.teeth
-        assert teeth is not None  # a rack has counted its own
-        text = f"{write.words.number(teeth, 0)} / {mate.number or mate.name}"
-        yield _distance(mate, write)
-        yield write.text("mate", text, "z", {"mate.teeth": teeth})
+        lead = f"{mate.name}." if len(drawn.mates) > 1 else ""
+        distance = _distance(mate, write)
+        if distance.text not in seen:
+            yield _led(distance, lead)
+        seen.add(distance.text)
+        yield _led(_teeth(mate, write), lead)
+
+
+def _led(row: Row, lead: str) -> Row:
+    """With this before its keys."""
+    return replace(row, key=f"{lead}{row.key}", numbers={f"{lead}{key}": value for key, value in row.numbers.items()})
+
+
+def _teeth(mate: Mate, write: RowWriter) -> Row:
+    teeth = mate.gear.teeth
+    assert teeth is not None  # a rack has counted its own
+    return write.text("mate", f"{write.words.number(teeth, 0)} / {mate.number or mate.name}", "z", {"mate.teeth": teeth})
 
 
 def _distance(mate: Mate, write: RowWriter) -> Row:

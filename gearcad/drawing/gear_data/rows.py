@@ -32,7 +32,7 @@ _SMALL_MODULE = 0.3
 
 
 def gear_rows(drawn: DrawnGear, words: Words, options: DrawingOptions | None = None) -> tuple[Row, ...]:
-    """Those of an external gear, a ring, a rack or a double helical gear. A key stands twice where there are two mates.
+    """Those of an external gear, a ring, a rack or a double helical gear; every key stands once.
 
     `options` are those that hold for it (`DrawingOptions.of_part`), in whose words material and heat treatment stand.
     """
