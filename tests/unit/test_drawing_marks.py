@@ -61,7 +61,7 @@ def test_lanes_go_outwards_and_extension_lines_reach_past_them(side: Side) -> No
     found = linear_dimension(first, second, side, Size(value=80.0), HALF_SIZE, clear=4.0 * side.outwards)
     lanes = [only(each) for each in found]
     outs = sorted({round(side.out(each.line) * side.outwards, 9) for each in lanes})
-    assert outs == pytest.approx([14.0 + 8.5 * number for number in range(len(outs))])
+    assert outs == pytest.approx([14.0 + 9.0 * number for number in range(len(outs))])
     for each in lanes:
         lines = [part for part in each.parts if isinstance(part, Line)]
         crossing = [line for line in lines if side.along(line.start) == side.along(line.end)]
@@ -83,7 +83,7 @@ def test_the_text_of_a_dimension_meets_none_of_its_own_lines(side: Side, length:
         whole = [each.box for each in figure.texts]
         for part in only(figure).parts:
             if isinstance(part, Line | Filled):
-                assert not any(part.box.grown(0.3).meets(box) for box in whole)
+                assert not any(part.box.grown(0.25).meets(box) for box in whole)
 
 
 def test_arrows_are_of_fifteen_degrees_and_touch_what_is_measured() -> None:

@@ -7,7 +7,7 @@ from enum import Enum
 
 from gearcad.drawing.marks.arrows import arrow
 from gearcad.drawing.marks.side import Side
-from gearcad.drawing.shapes import Anchor, Circle, Figure, Filled, Line, Pen, Point, Polyline, Shape, Text, text_width
+from gearcad.drawing.shapes import Anchor, Box, Circle, Figure, Filled, Line, Pen, Point, Polyline, Shape, Text, text_width
 
 __all__ = ["FRAME_HEIGHT", "Characteristic", "datum", "tolerance_frame"]
 
@@ -15,7 +15,7 @@ FRAME_HEIGHT = 7.0
 """Twice that of its text."""
 
 _TEXT = 3.5
-_DATUM_LENGTHS = (3.0, 7.0, 12.0, 18.0, 26.0)
+_DATUM_LENGTHS = (3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0)
 
 
 class Characteristic(Enum):
@@ -45,23 +45,31 @@ def tolerance_frame(characteristic: Characteristic, value: str, datums: str | tu
 
 
 def datum(letter: str, on: Point, side: Side) -> Iterator[Figure]:
-    """A filled triangle that stands on an edge (outside at `side`) or an extension line, and the letter in a box."""
+    """A filled triangle that stands on an edge (outside at `side`) or an extension line, and the letter in a box.
+
+    The box is straight before it, or aside of a line that turns once.
+    """
     base, high = 1.75, 3.0
-    along = side.along(on)
-    surface = side.out(on)
+    along, surface = side.along(on), side.out(on)
     corners = (side.point(along - base, surface), side.point(along + base, surface))
-    triangle = Filled((*corners, side.point(along, surface + side.outwards * high)), Pen.SYMBOL)
+    top = side.point(along, surface + side.outwards * high)
+    triangle = Filled((*corners, top), Pen.SYMBOL)
     half = FRAME_HEIGHT / 2
     for length in _DATUM_LENGTHS:
-        end = side.point(along, surface + side.outwards * (high + length))
-        line = Line(side.point(along, surface + side.outwards * high), end, Pen.SYMBOL)
-        across, up = side.point(along, surface + side.outwards * (high + length + half))
-        box = Polyline.straight(
-            [(across - half, up - half), (across + half, up - half), (across + half, up + half), (across - half, up + half)],
-            Pen.SYMBOL,
-            closed=True,
-        )
-        yield Figure.of(triangle, line, box, Text(letter, (across, up), _TEXT, Anchor.MIDDLE))
+        out = surface + side.outwards * (high + length)
+        end = side.point(along, out)
+        yield Figure.of(triangle, Line(top, end, Pen.SYMBOL), _boxed(letter, side.point(along, out + side.outwards * half)))
+        for aside in (3.0, -3.0, 8.0, -8.0):
+            corner = side.point(along + aside, out)
+            box = _boxed(letter, side.point(along + aside + (half if aside > 0 else -half), out))
+            yield Figure.of(triangle, Line(top, end, Pen.SYMBOL), Line(end, corner, Pen.SYMBOL), box)
+
+
+def _boxed(letter: str, middle: Point) -> Figure:
+    half = FRAME_HEIGHT / 2
+    box = Box(*middle, *middle).grown(half)
+    corners = [(box.left, box.bottom), (box.right, box.bottom), (box.right, box.top), (box.left, box.top)]
+    return Figure.of(Polyline.straight(corners, Pen.SYMBOL, closed=True), Text(letter, middle, _TEXT, Anchor.MIDDLE))
 
 
 def _runout(*starts: Point) -> tuple[Shape, ...]:

@@ -14,11 +14,11 @@ from gearcad.drawing.words import Draughting, Size
 
 __all__ = ["circle_dimension", "frame_leader", "leader"]
 
-_LENGTHS = (10.0, 15.0, 21.0, 28.0, 36.0, 46.0)
+_LENGTHS = (10.0, 15.0, 21.0, 28.0, 36.0, 46.0, 58.0, 72.0)
 _LANDING = 3.0
 """Of a leader before what it leads to; a text stands upon it."""
 
-_LIFT = 0.9
+_LIFT, _LEAST_LIFT = 0.9, 0.6
 
 
 def leader(
@@ -101,7 +101,7 @@ def _led(tip: Point, way: float, length: float, what: Written | Figure) -> tuple
     end = elbow[0] + across * landing, elbow[1]
     shapes.append(Line(elbow, end, Pen.DIMENSION))
     if isinstance(what, Written):
-        place = (elbow[0] + end[0]) / 2, elbow[1] + _LIFT + what.below
+        place = (elbow[0] + end[0]) / 2, elbow[1] + max(_LIFT, what.below + _LEAST_LIFT)
         return (*shapes, *what.at(place, Anchor.CENTRE).shapes)
     return (*shapes, *_beside(what, end, across).shapes)
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from gearcad.drawing.marks.arrows import ARROW, arrow
+from gearcad.drawing.marks.frames import datum
 from gearcad.drawing.marks.side import Side
 from gearcad.drawing.marks.size_text import cad_words, written_size
 from gearcad.drawing.marks.written import Written
@@ -17,15 +18,20 @@ __all__ = ["FIRST_LANE", "LANE_PITCH", "half_dimension", "linear_dimension"]
 FIRST_LANE = 10.0
 """From the outline to the first dimension line."""
 
-LANE_PITCH = 8.5
+LANE_PITCH = 9.0
 """From one dimension line to the next."""
 
-_LANES = 9
+_LANES, _NEAR = 9, 3
+"""Lanes; and those in which a text goes far aside before it goes further out."""
+
+_FARTHER = (7.0, 15.0, 25.0)
+"""How much further aside."""
+
 _GAP, _BEYOND = 0.8, 1.5
 """Of extension lines: before they begin, and past the dimension line."""
 
-_LIFT = 0.9
-"""From the dimension line to the text above it."""
+_LIFT, _LEAST_LIFT = 0.9, 0.6
+"""From the dimension line to the line of the text above it, and to what of the text is below its line."""
 
 _TAIL = 3.0
 """Of a line behind an arrow that points at it from outside."""
@@ -38,29 +44,44 @@ _SHIFTS = (0.0, 0.6, -0.6)
 
 
 def linear_dimension(
-    first: Point, second: Point, side: Side, size: Size, draughting: Draughting, *, clear: float
+    first: Point, second: Point, side: Side, size: Size, draughting: Draughting, *, clear: float, datum_letter: str = ""
 ) -> Iterator[Figure]:
     """A size between two points, its line vertical (LEFT, RIGHT) or horizontal, in lanes outwards from `clear`.
 
     `clear` is where the outline ends on that side: an x for LEFT and RIGHT, a y for ABOVE and BELOW. What is too narrow has
-    arrows from outside, and its text beside.
+    arrows from outside, and its text beside. `datum_letter` is that of the axis or the middle plane as a datum: its triangle
+    stands on the extension line of `first`, opposite to the arrow or for it (ISO 5459).
     """
-    drawn = _Drawn(first, second, side, size, draughting)
-    for lane in range(_LANES):
-        yield from drawn.in_lane(clear + side.outwards * (FIRST_LANE + lane * LANE_PITCH))
+    drawn = _Drawn(first, second, side, size, draughting, datum_letter)
+    outs = _lanes(side, clear)
+    for out in outs[:_NEAR]:
+        yield from drawn.in_lane(out)
+    for farther in _FARTHER:
+        for out in outs[:_NEAR]:
+            yield from drawn.beside(out, farther)
+    for out in outs[_NEAR:]:
+        yield from drawn.in_lane(out)
 
 
 def half_dimension(
-    edge: Point, axis: float, side: Side, size: Size, draughting: Draughting, *, clear: float
+    edge: Point, axis: float, side: Side, size: Size, draughting: Draughting, *, clear: float, datum_letter: str = ""
 ) -> Iterator[Figure]:
     """A diameter of which only one edge is seen, as on half sections: one arrow, the line goes past the axis.
 
-    `axis` is the axis' y for LEFT and RIGHT, its x for ABOVE and BELOW; the other edge is taken opposite.
+    `axis` is the axis' y for LEFT and RIGHT, its x for ABOVE and BELOW; the other edge is taken opposite. `datum_letter` is
+    the letter of the axis as a datum: its triangle stands on the extension line, opposite to the arrow or for it (ISO 5459).
     """
     opposite = side.point(2 * axis - side.along(edge), side.out(edge))
-    drawn = _Drawn(edge, opposite, side, size, draughting)
-    for lane in range(_LANES):
-        yield from drawn.half_in_lane(clear + side.outwards * (FIRST_LANE + lane * LANE_PITCH), axis)
+    drawn = _Drawn(edge, opposite, side, size, draughting, datum_letter)
+    outs = _lanes(side, clear)
+    for near, far in zip(outs, (None, *outs), strict=False):
+        yield drawn.half_in_lane(near, axis)
+        if far is not None and not datum_letter:
+            yield drawn.half_beyond(far, axis)
+
+
+def _lanes(side: Side, clear: float) -> list[float]:
+    return [clear + side.outwards * (FIRST_LANE + lane * LANE_PITCH) for lane in range(_LANES)]
 
 
 @dataclass(frozen=True)
@@ -72,59 +93,90 @@ class _Drawn:
     side: Side
     size: Size
     draughting: Draughting
+    datum_letter: str = ""
 
     @property
     def text(self) -> Written:
         return written_size(self.size, self.draughting.words)
 
     def in_lane(self, out: float) -> Iterator[Figure]:
-        """All ways in one lane, best first."""
+        """All ways in one lane, best first: text and arrows within, only the text, neither."""
         low, high = sorted(map(self.side.along, (self.first, self.second)))
-        text = self.text
-        inside = high - low >= 2 * ARROW + 1.0
-        room = high - low - (2 * ARROW + 1.0 if inside else 0.8) - text.width
-        extensions = [self._extension(self.first, out), self._extension(self.second, out)]
-        tail = 0.0 if inside else ARROW + _TAIL
-        arrows = self._arrows(low, high, out, 1.0 if inside else -1.0)
+        text, tail = self.text, ARROW + _TAIL
+        room = high - low - 2 * ARROW - 1.0 - text.width
         if room >= 0:
-            line = self._line(low - tail, high + tail, out)
             for shift in _SHIFTS if room > 4 else _SHIFTS[:1]:
-                yield self._figure(out, [line, *arrows, *extensions], text, (low + high + shift * room) / 2)
-        else:
-            past = max(tail, _BEYOND) + 1.0
-            reach = past + text.width
-            line = self._line(low - tail, high + reach, out)
-            yield self._figure(out, [line, *arrows, *extensions], text, high + past + text.width / 2)
-            line = self._line(low - reach, high + tail, out)
-            yield self._figure(out, [line, *arrows, *extensions], text, low - past - text.width / 2)
+                yield self._whole(out, low, high, (low + high + shift * room) / 2, within=True)
+            return
+        if text.width + 1.5 <= high - low:
+            yield self._whole(out, low - tail, high + tail, (low + high) / 2, within=False)
+        yield from self.beside(out)
 
-    def half_in_lane(self, out: float, axis: float) -> Iterator[Figure]:
-        """All ways in one lane, best first: the text on the edge's side, then where it needs more of the line."""
+    def beside(self, out: float, farther: float = 0.0) -> Iterator[Figure]:
+        """The text beside what is measured, `farther` away than it must be; not where a datum stands."""
+        low, high = sorted(map(self.side.along, (self.first, self.second)))
+        within = high - low >= 2 * ARROW + 1.0
+        tail = 0.0 if within else ARROW + _TAIL
+        past = max(tail, _BEYOND) + 1.0 + farther
+        for near, other, way in ((high, low, 1.0), (low, high, -1.0)):
+            if near != self._with_datum:
+                start, end = sorted((near + way * (past + self.text.width), other - way * tail))
+                yield self._whole(out, start, end, near + way * (past + self.text.width / 2), within=within)
+
+    @property
+    def _with_datum(self) -> float | None:
+        """Where along the line a datum stands."""
+        return self.side.along(self.first) if self.datum_letter else None
+
+    def _whole(self, out: float, start: float, end: float, middle: float, *, within: bool) -> Figure:
+        """With its line from `start` to `end`, and the middle of its text at `middle`."""
+        ends = map(self.side.along, (self.first, self.second))
+        held = self._with_datum
+        if not within and held is not None:
+            start, end = (max(start, held), end) if held < middle else (start, min(end, held))
+        shapes = [
+            self._line(start, end, out),
+            *self._arrows(ends, out, within=within),
+            self._extension(self.first, out),
+            self._extension(self.second, out),
+        ]
+        return self._figure(out, shapes, self.text, middle)
+
+    def half_in_lane(self, out: float, axis: float) -> Figure:
+        """The text on the edge's side of the axis as far as there is room, else the line is as much longer."""
         edge, text = self.side.along(self.first), self.text
         way = 1.0 if edge > axis else -1.0
-        inside = abs(edge - axis) + _PAST_AXIS >= ARROW + 1.0
-        arrows = [arrow(self.side.point(edge, out), self.side.point(way if inside else -way, 0.0))]
-        begin = edge if inside else edge + way * (ARROW + _TAIL)
+        within = abs(edge - axis) + _PAST_AXIS >= ARROW + 1.0
         room = abs(edge - axis) - ARROW - 1.0 - text.width
         middle = edge - way * (ARROW + 0.5 + max(0.0, room / 2) + text.width / 2)
         past = max(_PAST_AXIS, (axis - (middle - way * (text.width / 2 + 0.5))) * way)
-        shapes = [self._line(begin, axis - way * past, out), *arrows, self._extension(self.first, out)]
-        yield self._figure(out, shapes, text, middle)
+        begin = edge if within or self.datum_letter else edge + way * (ARROW + _TAIL)
+        return self._half(out, begin, axis - way * past, middle, way if within else -way)
+
+    def half_beyond(self, out: float, axis: float) -> Figure:
+        """Arrow and text beyond the edge."""
+        edge, text = self.side.along(self.first), self.text
+        way = 1.0 if edge > axis else -1.0
         begin = edge + way * (ARROW + _TAIL + text.width)
-        shapes = [
-            self._line(begin, axis - way * _PAST_AXIS, out),
-            arrow(self.side.point(edge, out), self.side.point(-way, 0.0)),
-            self._extension(self.first, out),
-        ]
-        yield self._figure(out, shapes, text, begin - way * text.width / 2)
+        return self._half(out, begin, axis - way * _PAST_AXIS, begin - way * text.width / 2, -way)
+
+    def _half(self, out: float, start: float, end: float, middle: float, way: float) -> Figure:
+        edge = self.side.along(self.first)
+        arrows = self._arrows([edge], out, within=(edge > end) == (way > 0))
+        return self._figure(out, [self._line(start, end, out), *arrows, self._extension(self.first, out)], self.text, middle)
 
     def _line(self, low: float, high: float, out: float) -> Line:
         return Line(self.side.point(low, out), self.side.point(high, out), Pen.DIMENSION)
 
-    def _arrows(self, low: float, high: float, out: float, way: float) -> list[Shape]:
-        """`way` 1: from within, -1: from outside."""
-        ends = ((low, -way), (high, way))
-        return [arrow(self.side.point(along, out), self.side.point(towards, 0.0)) for along, towards in ends]
+    def _arrows(self, ends: Iterable[float], out: float, *, within: bool) -> list[Shape]:
+        """At either end; a datum stands where one would be outside."""
+        high = max(map(self.side.along, (self.first, self.second)))
+        way = 1.0 if within else -1.0
+        return [
+            arrow(self.side.point(each, out), self.side.point(way if each == high else -way, 0.0))
+            for each in ends
+            if within or each != self._with_datum
+        ]
 
     def _extension(self, point: Point, out: float) -> Line:
         """From the measured point to a little past the dimension line."""
@@ -136,7 +188,7 @@ class _Drawn:
 
     def _figure(self, out: float, shapes: list[Shape], text: Written, middle: float) -> Figure:
         """With the text above the line: of vertical ones to its left, read from the right."""
-        lift = _LIFT + text.below
+        lift = max(_LIFT, text.below + _LEAST_LIFT)
         upright = self.side.is_upright
         place = (out - lift, middle) if upright else (middle, out + lift)
         texts = text.at(place, Anchor.CENTRE, 90.0 if upright else 0.0)
@@ -144,4 +196,13 @@ class _Drawn:
         length = abs(self.side.along(self.second) - self.side.along(self.first)) / self.draughting.scale
         words = cad_words(self.size, self.draughting.words, length)
         on_line = self.side.point(middle, out)
-        return Figure.of(Dimension(measured, self.first, self.second, on_line, words, (*shapes, *texts.shapes)))
+        dimension = Dimension(measured, self.first, self.second, on_line, words, (*shapes, *texts.shapes))
+        return Figure.of(dimension, self._datum(out)) if self.datum_letter else Figure.of(dimension)
+
+    def _datum(self, out: float) -> Figure:
+        """On the extension line of the first point, away from the second."""
+        along, other = self.side.along(self.first), self.side.along(self.second)
+        away = next(
+            each for each in Side if each.is_upright is not self.side.is_upright and each.outwards * (along - other) > 0
+        )
+        return next(datum(self.datum_letter, self.side.point(along, out), away))

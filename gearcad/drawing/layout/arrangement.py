@@ -1,0 +1,221 @@
+"""Arrangement: which sheet, at what scale, and what stands where on it. Lengths in mm of paper."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from gearcad.drawing.layout.dressing import dressed
+from gearcad.drawing.layout.places import Room
+from gearcad.drawing.layout.view import View
+from gearcad.drawing.options import SCALES, Projection, SheetSize
+from gearcad.drawing.shapes import Box, Figure, Point
+from gearcad.errors import ParameterError
+
+__all__ = ["Arrangement", "Fixed", "Views", "arranged"]
+
+_LARGEST = 50.0
+_CHOSEN = tuple(name for name, factor in SCALES.items() if factor <= _LARGEST)
+"""Scales that are chosen, the largest first."""
+
+_ENOUGH = 0.2
+"""A larger sheet is taken only where the scale would be smaller than this."""
+
+_SHEETS = (SheetSize.A3, SheetSize.A2, SheetSize.A1, SheetSize.A0)
+"""Sheets that are chosen, in this order."""
+
+
+@dataclass(frozen=True)
+class Fixed:
+    """What stands on a sheet before its views: border, title block, tables, notes.
+
+    `free` is the area within the frame, `taken` those within it where something stands.
+    """
+
+    figure: Figure
+    free: Box
+    taken: tuple[Box, ...] = ()
+
+
+@dataclass(frozen=True)
+class Views:
+    """Views in rows, as they stand in first angle projection, and blocks that stand anywhere (details, diagrams).
+
+    Views of a row have their origins on one axis, the first views of all rows theirs one below the other. At the right is what
+    one sees from the left, below what one sees from above; in third angle projection they are at the other side.
+    """
+
+    rows: tuple[tuple[View, ...], ...]
+    blocks: tuple[View, ...] = ()
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """`scale` is one of ISO 5455, `origins` where that of each view stands, `figure` all there is on the sheet."""
+
+    sheet: SheetSize
+    scale: str
+    figure: Figure = field(repr=False)
+    origins: Mapping[str, Point]
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of the paper."""
+        return self.sheet.size
+
+    @property
+    def factor(self) -> float:
+        """mm of paper for a mm of the part."""
+        return SCALES[self.scale]
+
+
+def arranged(
+    views: Callable[[float], Views],
+    fixed: Callable[[SheetSize, str], Fixed],
+    *,
+    sheet: SheetSize = SheetSize.AUTO,
+    scale: str = "auto",
+    projection: Projection = Projection.FIRST,
+) -> Arrangement:
+    """All views with all their marks on a sheet, none over another.
+
+    `views` makes them at a scale (mm of paper for a mm of the part), `fixed` what else stands on a sheet, which may name the
+    scale ("1:2") but has the same size whatever it is. "auto" takes the largest scale that has room on A3; a larger sheet where
+    that is smaller than 1:5 and it helps. Raises ParameterError of `scale` or `sheet`, which says what would do.
+    """
+    trial = _Trial(views, fixed, projection)
+    sheets = _SHEETS if sheet is SheetSize.AUTO else (sheet,)
+    scales = _CHOSEN if scale == "auto" else (scale,)
+    best: Arrangement | None = None
+    for each in sheets:
+        found = trial.largest(each, scales)
+        if found is not None and (best is None or found.factor > best.factor):
+            best = found
+        if best is not None and (best.factor >= _ENOUGH or scale != "auto"):
+            break
+    if best is None:
+        raise _refusal(trial, sheet, scale)
+    return best
+
+
+@dataclass
+class _Trial:
+    """Views at several scales and what is fixed on several sheets, each made once."""
+
+    views: Callable[[float], Views]
+    fixed: Callable[[SheetSize, str], Fixed]
+    projection: Projection
+    crowded: str = ""
+    """A view whose marks had no place at some scale."""
+
+    _rooms: dict[SheetSize, Room] = field(default_factory=dict)
+    _bare: dict[str, _Shown] = field(default_factory=dict)
+    _dressed: dict[str, _Shown | None] = field(default_factory=dict)
+
+    def largest(self, sheet: SheetSize, scales: Sequence[str]) -> Arrangement | None:
+        """At the first scale of those given that has room."""
+        return next((found for scale in scales if (found := self.at(sheet, scale)) is not None), None)
+
+    def at(self, sheet: SheetSize, scale: str) -> Arrangement | None:
+        """None where there is no room."""
+        room = self._room(sheet, scale)
+        if not self._outlines(scale).may_fit(room.free):
+            return None
+        shown = self._with_marks(scale)
+        if shown is None:
+            return None
+        places = room.places(shown.boxes, shown.block_boxes, aligned=0 if self.projection is Projection.FIRST else -1)
+        if places is None:
+            return None
+        stood = {
+            name: (figure, at)
+            for row, ats in zip((*shown.rows, shown.blocks), places, strict=True)
+            for (name, figure), at in zip(row, ats, strict=True)
+        }
+        whole = self.fixed(sheet, scale).figure
+        figures = Figure.of(whole, *(figure.moved(*at) for figure, at in stood.values()))
+        return Arrangement(sheet, scale, figures, {name: at for name, (_, at) in stood.items()})
+
+    def _room(self, sheet: SheetSize, scale: str) -> Room:
+        if sheet not in self._rooms:
+            fixed = self.fixed(sheet, scale)
+            self._rooms[sheet] = Room(fixed.free, fixed.taken)
+        return self._rooms[sheet]
+
+    def _made(self, scale: str) -> Views:
+        made = self.views(SCALES[scale])
+        if self.projection is Projection.FIRST:
+            return made
+        return Views(tuple(tuple(reversed(row)) for row in reversed(made.rows)), made.blocks)
+
+    def _outlines(self, scale: str) -> _Shown:
+        if scale not in self._bare:
+            self._bare[scale] = _Shown.of(self._made(scale), lambda view: view.figure)
+        return self._bare[scale]
+
+    def _with_marks(self, scale: str) -> _Shown | None:
+        if scale not in self._dressed:
+            try:
+                self._dressed[scale] = _Shown.of(self._made(scale), _with_all)
+            except _Crowded as crowded:
+                self._dressed[scale], self.crowded = None, str(crowded)
+        return self._dressed[scale]
+
+
+class _Crowded(Exception):
+    """A mark of the view that is named has no place."""
+
+
+def _with_all(view: View) -> Figure:
+    figure = dressed(view)
+    if figure is None:
+        raise _Crowded(view.name)
+    return figure
+
+
+class _Shown(NamedTuple):
+    """Figures of views by their names."""
+
+    rows: tuple[tuple[tuple[str, Figure], ...], ...]
+    blocks: tuple[tuple[str, Figure], ...]
+
+    @classmethod
+    def of(cls, views: Views, shown: Callable[[View], Figure]) -> _Shown:
+        rows = tuple(tuple((view.name, shown(view)) for view in row) for row in views.rows)
+        return cls(rows, tuple((view.name, shown(view)) for view in views.blocks))
+
+    @property
+    def boxes(self) -> list[list[Box]]:
+        return [[figure.box for _, figure in row] for row in self.rows]
+
+    @property
+    def block_boxes(self) -> list[Box]:
+        return [figure.box for _, figure in self.blocks]
+
+    def may_fit(self, free: Box) -> bool:
+        """Whether the views of each row are no wider together than an area, and the rows no higher."""
+        rows = [row for row in self.boxes if row]
+        heights = (max(box.top for box in row) - min(box.bottom for box in row) for row in rows)
+        return sum(heights) <= free.height and all(sum(box.width for box in row) <= free.width for row in rows)
+
+
+def _refusal(trial: _Trial, sheet: SheetSize, scale: str) -> ParameterError:
+    """What was asked for cannot be, and what could."""
+    larger = [each for each in _SHEETS if each is not sheet] if sheet is not SheetSize.AUTO else []
+    asked = _CHOSEN if scale == "auto" else (scale,)
+    elsewhere = next((found for each in larger if (found := trial.largest(each, asked)) is not None), None)
+    would_do = (
+        [] if elsewhere is None else [f"sheet {elsewhere.sheet.value} has" + f" at {elsewhere.scale}" * (scale == "auto")]
+    )
+    where = "on any sheet up to A0" if sheet is SheetSize.AUTO else f"on {sheet.value}"
+    if scale != "auto":
+        there = _SHEETS[-1] if sheet is SheetSize.AUTO else sheet
+        smaller = trial.largest(there, _CHOSEN)
+        if smaller is not None:
+            would_do.insert(0, f"{smaller.scale} has")
+        return ParameterError("scale", scale, f"has no room {where}" + "".join(f"; {each}" for each in would_do))
+    crowded = f"; the marks of {trial.crowded} have no place" if trial.crowded and not would_do else ""
+    return ParameterError(
+        "sheet", sheet.value, f"no scale has room {where}" + "".join(f"; {each}" for each in would_do) + crowded
+    )
