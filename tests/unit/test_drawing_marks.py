@@ -44,9 +44,9 @@ def only(figure: Figure) -> Dimension:
         (Size(value=80.0, fit="h11", upper=0.0, lower=-0.19), ["80", "h11", "0", "−0,19"], "<> h11 {\\H0.7x;\\S0^−0,19;}"),
         (Size(value=80.0, upper=0.0105, lower=-0.0105), ["80", "±0,0105"], "<> %%p0,0105"),
         (Size(value=80.0, prefix="⌀", upper=0.05, lower=0.0205), ["⌀80", "+0,0500", "+0,0205"], None),
-        (Size(value=80.0, prefix="⌀", envelope=True), ["⌀80", "E"], "%%c80 (E)"),
-        (Size(value=79.5, reference=True), ["(79,5", ")"], "(79,5)"),
-        (Size(value=80.0, suffix="×45°"), ["80×45°"], "80×45%%d"),
+        (Size(value=80.0, prefix="⌀", envelope=True), ["⌀80", "E"], "%%c<> (E)"),
+        (Size(value=79.5, reference=True), ["(79,5", ")"], "(79,5)"),  # measures 80
+        (Size(value=80.0, suffix="×45°"), ["80×45°"], "<>×45%%d"),
     ],
 )
 def test_what_a_dimension_says(size: Size, texts: list[str], words: str | None) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import re
 import zlib
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -86,6 +87,13 @@ def test_half_a_dimension_has_one_arrow_when_drawn_anew(tmp_path: Path) -> None:
     (written,) = ezdxf.readfile(_written(Figure.of(FRAME, half), tmp_path)).modelspace().query("DIMENSION")
     style = written.override()
     assert (style.get("dimsd1"), style.get("dimse1"), style.get("dimsd2", 0)) == (1, 1, 0)
+
+
+def test_a_dimension_of_a_detail_measures_at_the_scale_of_the_detail(tmp_path: Path) -> None:
+    detail = replace(_dimension("<>"), scale=5.0)
+    (written,) = ezdxf.readfile(_written(Figure.of(FRAME, detail), tmp_path)).modelspace().query("DIMENSION")
+    assert written.override().get("dimlfac") == pytest.approx(1 / 5)
+    assert written.dxf.actual_measurement == pytest.approx(8.0)
 
 
 @pytest.mark.parametrize(

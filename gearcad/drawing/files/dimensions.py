@@ -53,7 +53,8 @@ def add_dimension(dimension: Dimension, space: BaseLayout, attributes: dict[str,
 
     document = space.doc
     block = document.blocks.new_anonymous_block("D")
-    factor = document.dimstyles.get(_STYLE).dxf.dimlfac
+    of_sheet = document.dimstyles.get(_STYLE).dxf.dimlfac
+    factor = of_sheet if dimension.scale is None else 1 / dimension.scale
     entity: Entity = space.new_entity("DIMENSION", attributes)
     entity.dxf.update(_points(dimension))
     entity.dxf.update(
@@ -65,10 +66,14 @@ def add_dimension(dimension: Dimension, space: BaseLayout, attributes: dict[str,
             "actual_measurement": _length(dimension) * factor,
         }
     )
-    if lone := _without_arrow(dimension):
+    lone = _without_arrow(dimension)
+    own: dict[str, float] = {f"dimsd{lone}": 1, f"dimse{lone}": 1} if lone else {}
+    if not math.isclose(factor, of_sheet):
+        own["dimlfac"] = factor
+    if own:
         from ezdxf.entities.dimstyleoverride import DimStyleOverride
 
-        DimStyleOverride(entity, {f"dimsd{lone}": 1, f"dimse{lone}": 1}).commit()
+        DimStyleOverride(entity, own).commit()
     return block
 
 

@@ -56,9 +56,9 @@ def circle_dimension(
             tip = centre[0] + radius * cosine, centre[1] + radius * sine
             opposite = centre[0] - radius * cosine, centre[1] - radius * sine
             elbow = tip[0] + (beyond + length) * cosine, tip[1] + (beyond + length) * sine
-            words = cad_words(size, draughting.words, 2 * radius / draughting.scale)
+            words = cad_words(size, draughting.words, 2 * radius / draughting.scale, sign="⌀")
             parts = _led(tip, way, beyond + length, text)
-            yield Figure.of(Dimension(Measured.DIAMETER, tip, opposite, elbow, words, parts))
+            yield Figure.of(Dimension(Measured.DIAMETER, tip, opposite, elbow, words, parts, draughting.scale))
 
 
 def frame_leader(tip: Point, side: Side, frame: Figure, *, clear: float | None = None) -> Iterator[Figure]:

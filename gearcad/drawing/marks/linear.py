@@ -196,7 +196,8 @@ class _Drawn:
         length = abs(self.side.along(self.second) - self.side.along(self.first)) / self.draughting.scale
         words = cad_words(self.size, self.draughting.words, length)
         on_line = self.side.point(middle, out)
-        dimension = Dimension(measured, self.first, self.second, on_line, words, (*shapes, *texts.shapes))
+        parts = (*shapes, *texts.shapes)
+        dimension = Dimension(measured, self.first, self.second, on_line, words, parts, self.draughting.scale)
         return Figure.of(dimension, self._datum(out)) if self.datum_letter else Figure.of(dimension)
 
     def _datum(self, out: float) -> Figure:

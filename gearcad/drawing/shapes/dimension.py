@@ -27,6 +27,7 @@ class Dimension(Shape):
 
     A CAD program that draws it anew has the points `first` and `second` that are measured, a point `line` of the dimension
     line, and `words` as its dimensions hold them ("%%c40 H7 {\\S+0.025^0;}"; "<>" stands for what it measures).
+    `scale` is mm of paper for a mm of the part, None for that of the sheet: details have their own.
     """
 
     measured: Measured
@@ -35,6 +36,7 @@ class Dimension(Shape):
     line: Point
     words: str
     parts: tuple[Shape, ...]
+    scale: float | None = None
 
     def moved(self, across: float, up: float) -> Self:
         first, second, line = ((x + across, y + up) for x, y in (self.first, self.second, self.line))
