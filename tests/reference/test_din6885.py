@@ -5,9 +5,12 @@ from dataclasses import replace
 
 import pytest
 
-from gearcad import Body
+import gearcad
+from gearcad import Body, Gear
+from gearcad.designs import open_table, read_spec
 from gearcad.errors import GeometryError, InputError
 from gearcad.geometry.din6885 import depth_allowance, keyway_of
+from gearcad.solids.facets.tessellation import tessellate
 
 # Keyway sizing chart of Martin Sprocket & Gear (2007), metric column: above, to, groove width W, T2.
 MARTIN = """
@@ -59,3 +62,19 @@ def test_what_is_no_keyway_by_the_bore_is_said_in_a_line(given, says):
 def test_keyway_is_true_or_false():
     with pytest.raises(InputError, match="must be true or false"):
         Body(bore=30, keyway="yes")
+
+
+def test_specs_and_tables_ask_for_it_and_data_has_the_sizes(tmp_path):
+    spec = tmp_path / "gear.toml"
+    spec.write_text("[gear]\nteeth = 40\nnormal_module = 2\nface_width = 20\nbody.bore = 30\nbody.keyway = true\n")
+    body = gearcad.data(read_spec(spec))["gear"]["body"]
+    assert (body["keyway"], body["keyway_width"], body["keyway_depth"]) == (True, 8, 3.3)
+    table = tmp_path / "gears.csv"
+    table.write_text("name,teeth,normal_module,face_width,body.bore,body.keyway\na,40,2,20,30,true\nb,40,2,20,40,false\n")
+    designs = [row.design() for row in open_table(table).rows()]
+    assert [design.gear.body.keyway_width for design in designs] == [8, 0]
+
+
+def test_the_solid_is_that_of_the_sizes():
+    given = Gear(teeth=40, normal_module=2, face_width=20, body=Body(bore=30, keyway_width=8, keyway_depth=3.3))
+    assert tessellate(replace(given, body=Body(bore=30, keyway=True))).volume == tessellate(given).volume
