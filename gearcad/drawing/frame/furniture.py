@@ -60,8 +60,9 @@ class Furniture:
         """
         frame = inside_frame(size, self.template.frame)
         stack = self._stack(values, frame)
-        table = self._table(frame, frame.top - stack.box.top - _GAP)
         texts = self._notes(frame, stack.box)
+        above = texts if not texts.empty and texts.box.bottom > stack.box.top else stack
+        table = self._table(frame, frame.top - above.box.top - _GAP)
         parts = [each for each in (stack, table, texts) if not each.empty]
         taken = tuple(each.box for each in parts)
         figure = border(size, self.template.frame, taken)

@@ -22,8 +22,11 @@ _MARGIN = 1.2
 _CAPTION_TOP = 1.0
 """From the top of a cell to its caption."""
 
-_VALUE_BOTTOM = 1.5
-"""From the bottom of a cell to the line of its value: letters reach below it."""
+_AIR = 0.65
+"""Least distance of a value from the bottom of its cell."""
+
+_BELOW = 0.33
+"""How far letters reach below their line, over their height."""
 
 _CAPTION_LEAST = 1.8
 
@@ -129,10 +132,10 @@ def _cell(
     if cell.symbol:
         return found + Framed(_symbol(projection, Box(box.left, box.bottom, box.right, top)))
     if value := cell.filled(values):
-        depth = top - box.bottom - _VALUE_BOTTOM
+        bottom = box.bottom + _AIR + _BELOW * cell.text
+        depth = top - bottom
         fitted = fit(value, room, min(cell.text, depth), depth=depth)
-        free = max(0.0, depth - fitted.depth)
-        figure = fitted.at((box.left + _MARGIN, box.bottom + _VALUE_BOTTOM + free / 2))
+        figure = fitted.at((box.left + _MARGIN, bottom + max(0.0, depth - fitted.depth) / 2))
         found += Framed(figure, shortened_notice(name, value, fitted, _OWNER))
     return found
 
