@@ -10,6 +10,7 @@ from gearcad import Body, Gear
 from gearcad.designs import open_table, read_spec
 from gearcad.errors import GeometryError, InputError
 from gearcad.geometry.din6885 import depth_allowance, keyway_of
+from gearcad.geometry.iso286 import limit_deviations
 from gearcad.solids.facets.tessellation import tessellate
 
 # Keyway sizing chart of Martin Sprocket & Gear (2007), metric column: above, to, groove width W, T2.
@@ -29,9 +30,25 @@ def test_every_step_is_that_of_the_chart():
     assert [row[0] for row in ROWS[1:]] == [row[1] for row in ROWS[:-1]]
 
 
-def test_depths_may_grow_with_the_width():
-    assert [depth_allowance(width) for width in (2, 6, 8, 32, 36, 100)] == [100, 100, 200, 200, 300, 300]
-    assert depth_allowance(100.5) is None
+# Keyways in hubs by JIS B 1301:1996, which has the same keys, in Misumi's data: widths, JS9 (±) and P9 in µm, more depth in mm.
+MISUMI = (
+    ((2, 3), 12.5, (-6, -31), 0.1),
+    ((4, 5, 6), 15, (-12, -42), 0.1),
+    ((8, 10), 18, (-15, -51), 0.2),
+    ((12, 14, 16, 18), 21.5, (-18, -61), 0.2),
+    ((20, 22, 25, 28), 26, (-22, -74), 0.2),
+    ((32,), 31, (-26, -88), 0.2),
+    ((36,), 31, (-26, -88), 0.3),
+)
+
+
+def test_widths_and_depths_have_the_limits_of_another_chart():
+    for widths, either_way, tight, deeper in MISUMI:
+        for width in widths:
+            assert limit_deviations("JS9", width) == (either_way, -either_way)
+            assert limit_deviations("P9", width) == tight
+            assert depth_allowance(width) == deeper * 1000
+    assert depth_allowance(100) == 300 and depth_allowance(100.5) is None
 
 
 def test_a_body_has_the_keyway_of_its_bore_and_of_another_bore_another():
