@@ -18,7 +18,7 @@ class Keyway(NamedTuple):
 
 
 SMALLEST_BORE = 6.0
-"""The first range begins above it."""
+"""The first range has it too, as charts of makers do."""
 
 _UP_TO = (8, 10, 12, 17, 22, 30, 38, 44, 50, 58, 65, 75, 85, 95, 110, 130, 150, 170, 200, 230, 260, 290, 330, 380, 440, 500)
 """Ranges of bores; the upper limit belongs to a range."""
@@ -36,13 +36,13 @@ _ALLOWANCES = ((6, 100.0), (32, 200.0), (100, 300.0))
 
 
 def keyway_of(bore: float) -> Keyway:
-    """Of a bore from 6 to 500 mm, the first not among them. Raises GeometryError for another one.
+    """Of a bore from 6 to 500 mm. Raises GeometryError for another one.
 
     >>> keyway_of(40.0)
     Keyway(width=12.0, depth=3.3)
     """
-    if not SMALLEST_BORE < bore <= LARGEST_BORE:
-        permitted = f"must be above {SMALLEST_BORE:g} and at most {LARGEST_BORE:g} mm for a keyway of DIN 6885"
+    if not SMALLEST_BORE <= bore <= LARGEST_BORE:
+        permitted = f"must be from {SMALLEST_BORE:g} to {LARGEST_BORE:g} mm for a keyway of DIN 6885"
         raise GeometryError("bore", bore, permitted, "mm")
     place = bisect_left(_UP_TO, bore)
     return Keyway(float(_WIDTHS[place]), _DEPTHS[place])

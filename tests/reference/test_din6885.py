@@ -27,6 +27,7 @@ def test_every_step_is_that_of_the_chart():
     for above, to, width, depth in ROWS:
         for bore in (above * (1 + 1e-12), (above + to) / 2, to):
             assert keyway_of(bore) == (width, depth)
+    assert keyway_of(6.0) == (2, 1)  # as charts by single bores have it
     assert [row[0] for row in ROWS[1:]] == [row[1] for row in ROWS[:-1]]
 
 
@@ -64,8 +65,8 @@ def test_a_body_has_the_keyway_of_its_bore_and_of_another_bore_another():
     ("given", "says"),
     [
         ({}, "keyway = True: must be left out without a bore"),
-        ({"bore": 6.0}, "bore = 6 mm: must be above 6 and at most 500 mm"),
-        ({"bore": 500.001}, "bore = 500.001 mm: must be above 6"),
+        ({"bore": 5.999}, "bore = 5.999 mm: must be from 6 to 500 mm for a keyway of DIN 6885"),
+        ({"bore": 500.001}, "bore = 500.001 mm: must be from 6 to 500 mm"),
         ({"bore": 30, "keyway_width": 8.0, "keyway_depth": 3.3}, "keyway_width = 8 mm: must be left out where keyway is true"),
         ({"bore": 30, "keyway_depth": 3.3}, "keyway_depth = 3.3 mm: must be left out"),
     ],
