@@ -12,10 +12,10 @@ from gearcad.arrays import Floats
 from gearcad.drawing.options import SCALES
 from gearcad.drawing.shapes import Arc, Figure, Line, Polyline
 from gearcad.drawing.subject import DrawnGear
+from gearcad.drawing.tooth_outline import tooth_outline
 from gearcad.drawing.tooth_views import detail_scale, modification_figures, tooth_figure
 from gearcad.drawing.tooth_views.depths import helix_depths, profile_depths
 from gearcad.drawing.tooth_views.levels import levels_of
-from gearcad.drawing.tooth_views.outline import tooth_outline
 from gearcad.drawing.tooth_views.spread import spread
 from gearcad.drawing.words import Draughting, Language, Words
 from gearcad.geometry import BasicRack, Body, DoubleHelix, FlankModification, Gear, Rack, ReliefShape, ShaperCutter

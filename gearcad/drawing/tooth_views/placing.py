@@ -10,7 +10,7 @@ import math
 from abc import ABC, abstractmethod
 
 from gearcad.drawing.shapes import Arc, Line, Pen, Point, Polyline
-from gearcad.drawing.tooth_views.outline import tooth_outline
+from gearcad.drawing.tooth_outline import tooth_outline
 from gearcad.geometry import Gear, Rack
 from gearcad.rating.rim import outer_diameter
 

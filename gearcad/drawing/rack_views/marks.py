@@ -1,0 +1,130 @@
+"""What stands beside the views of a rack: sizes, and roughness. Each has places, best first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+
+from gearcad.drawing.marks import Side, linear_dimension, roughness, roughness_symbol, section_arrows
+from gearcad.drawing.rack_views.figures import SECTION, tooth_middles
+from gearcad.drawing.rack_views.span import Span
+from gearcad.drawing.requirements import Requirements
+from gearcad.drawing.shapes import Figure, Line, Pen, Point
+from gearcad.drawing.words import Draughting, Size
+
+__all__ = ["EndMarks", "FrontMarks"]
+
+_EXTENSIONS = (4.0, 12.0, 20.0, 28.0)
+"""How far from the outline a symbol may stand on the reference line (mm of paper)."""
+
+_CUT_OFF = (3.0, 10.0, 18.0, 27.0, 37.0, 50.0, 65.0, 80.0)
+"""How far from the outline the ends of the cutting line may be (mm of paper)."""
+
+_BELOW_LENGTH = 12.0
+"""More below, where the length stands."""
+
+_CUT_AT = (0.6, 0.75, 0.45, 0.9, 0.3, 0.97)
+"""Where along a part that is shown it may be, over its length."""
+
+_Sources = tuple[Callable[[], Iterable[Figure]], ...]
+
+
+@dataclass(frozen=True)
+class FrontMarks:
+    """Those of the front view."""
+
+    span: Span
+    requirements: Requirements
+    draughting: Draughting
+
+    @property
+    def sources(self) -> _Sources:
+        """All of them, those nearest to the outline first."""
+        return self.first_tooth, self.pitch, self.length, self.cutting_line
+
+    def length(self) -> Iterator[Figure]:
+        """All of it, however much is shown."""
+        size, back = self.requirements.length, -self.span.scale * self.span.rack.height
+        if size is not None:
+            left, right = (-self.span.right, back), (self.span.right, back)
+            yield from linear_dimension(left, right, Side.BELOW, size, self.draughting, clear=back)
+
+    def pitch(self) -> Iterable[Figure]:
+        """Between the first two teeth, in brackets: it follows from module and helix angle."""
+        middles = tooth_middles(self.span)
+        size = Size(value=self.span.rack.transverse_pitch, reference=True)
+        return self._above(middles[0], middles[1], size) if len(middles) > 1 else ()
+
+    def first_tooth(self) -> Iterable[Figure]:
+        """From the end to the middle of the first tooth."""
+        middles = tooth_middles(self.span)
+        return self._above(-self.span.right, middles[0], Size(value=self.span.first_middle)) if middles else ()
+
+    def cutting_line(self) -> Iterator[Figure]:
+        """Of the end section, somewhere along the rack, as near to it as other marks let it be."""
+        tip, back = self.span.scale * self.span.rack.tip_height, -self.span.scale * self.span.rack.height
+        ends = [(self.span.across(low), self.span.across(high)) for low, high in reversed(self.span.parts)]
+        for off in _CUT_OFF:
+            for left, right in ends:
+                for part in _CUT_AT:
+                    x = left + part * (right - left)
+                    yield section_arrows((x, tip + off), (x, back - off - _BELOW_LENGTH), Side.RIGHT, SECTION)
+
+    def _above(self, left: float, right: float, size: Size) -> Iterator[Figure]:
+        tip = self.span.scale * self.span.rack.tip_height
+        yield from linear_dimension((left, tip), (right, tip), Side.ABOVE, size, self.draughting, clear=tip)
+
+
+@dataclass(frozen=True)
+class EndMarks:
+    """Those of the end section."""
+
+    requirements: Requirements
+    draughting: Draughting
+    half: float
+    """Half the face width; this and the next on paper."""
+
+    tip: float
+    back: float
+    """Heights of tips and back."""
+
+    @property
+    def sources(self) -> _Sources:
+        """All of them, those nearest to the outline first."""
+        return self.face_width, self.reference_height, self.height, self.flank_roughness, self.back_roughness
+
+    def face_width(self) -> Iterator[Figure]:
+        left, right = (-self.half, self.back), (self.half, self.back)
+        yield from linear_dimension(left, right, Side.BELOW, self.requirements.face_width, self.draughting, clear=self.back)
+
+    def reference_height(self) -> Iterable[Figure]:
+        """From the back to the reference line."""
+        return self._upright(0.0, self.requirements.reference_height)
+
+    def height(self) -> Iterable[Figure]:
+        """From the back to the tips."""
+        return self._upright(self.tip, self.requirements.height)
+
+    def _upright(self, top: float, size: Size | None) -> Iterator[Figure]:
+        if size is None:
+            return
+        for side in (Side.RIGHT, Side.LEFT):
+            out = side.outwards * self.half
+            yield from linear_dimension((out, self.back), (out, top), side, size, self.draughting, clear=out)
+
+    def flank_roughness(self) -> Iterator[Figure]:
+        """On the reference line, made longer for it (ISO 1302)."""
+        flanks = self.requirements.flanks
+        symbol = roughness_symbol(flanks.text(self.draughting.words.shortest(flanks.value)))
+        box = symbol.box
+        for out in _EXTENSIONS:
+            for start, left in ((-self.half, -self.half - out - box.width), (self.half, self.half + out)):
+                end = left if start < 0 else left + box.width
+                yield Figure.of(Line((start, 0.0), (end, 0.0), Pen.DIMENSION), symbol.moved(left - box.left, 0.0))
+
+    def back_roughness(self) -> Iterator[Figure]:
+        """Of the back, on which it stands, where it is not that of the rest."""
+        value = self.requirements.face_roughness
+        if value != self.requirements.rest_roughness:
+            ends: tuple[Point, Point] = ((-self.half, self.back), (self.half, self.back))
+            yield from roughness(*ends, Side.BELOW, f"Ra {self.draughting.words.shortest(value)}", self.draughting)
