@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from itertools import combinations
 from pathlib import Path
@@ -163,13 +164,18 @@ def test_words_of_all_languages_fit_their_cells(language: Language) -> None:
             assert fit(words[f"frame.{name}"], cell.width - 2.4, SHIPPED.title.caption, least=1.8).kept is None, name
     assert not parts_list([PartLine(item=1)], SHIPPED, words).notices
     assert not revisions([Revision("A", "x")], SHIPPED, words).notices
-    rows = [_Row(words=text.format(k=12), symbol="") for key, text in words.labels.items() if key.startswith("data.")]
+    texts = [text for key, text in words.labels.items() if key.startswith("data.") and not key.startswith("data.note_")]
+    rows = [_Row(words=re.sub(r"\{(\w+)\}", lambda found: _NAMED.get(found[1], "123"), text), symbol="") for text in texts]
     for low in (False, True):
         table = data_table(rows, words["data.title"], SHIPPED.data_table, low=low)
         assert [notice.text for notice in table.notices] == []
     kinds = [words[f"frame.document_{kind}"] for kind in ("part", "assembly", "arrangement")]
     cell = SHIPPED.cells["document_type"]
     assert all(fit(kind, cell.width - 2.4, cell.text).height == cell.text for kind in kinds)
+
+
+_NAMED = {"standard": "ISO 1328-1:1995"}
+"""What stands in words of the data table in braces; all else is a number."""
 
 
 def _inside(figure: Figure, box: Box) -> bool:

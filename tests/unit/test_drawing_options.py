@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,7 @@ from gearcad.designs.kinds.pair import PairDesign
 from gearcad.designs.kinds.toothed import ToothedDesign
 from gearcad.designs.pair_text import pair_text
 from gearcad.designs.reader import design_from_tables, design_from_values, spec_values
+from gearcad.designs.starters import starter_text
 from gearcad.designs.table import open_table
 from gearcad.drawing.options import DrawingOptions, PartDrawing, Projection, Revision, SheetSize
 from gearcad.drawing.words import Language
@@ -195,3 +198,17 @@ def test_python_gives_lists_and_words() -> None:
     assert DrawingOptions(language="de").language is Language.GERMAN  # type: ignore[arg-type]
     with pytest.raises(ParameterError, match=r"^case_depth = 0.8: must be a text, in quotation marks"):
         PartDrawing(case_depth=0.8)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", ["spur", "volvo-13-44", "planetary-24-21-66"])
+def test_what_starters_have_in_comments_of_drawings_can_be_used(name: str, tmp_path: Path) -> None:
+    _, text = starter_text(name)
+    head, found, options = text.partition("# [drawing]")
+    spec = tmp_path / f"{name}.toml"
+    spec.write_text(head + (found + options).replace("\n# ", "\n").removeprefix("# "), encoding="utf-8")
+    design = read_spec(spec)
+    assert isinstance(design, ToothedDesign) and design.drawing is not None and design.drawing.number.startswith("471")
+    if name == "spur":  # it shows all there is
+        assert all(re.search(rf"\b{field.name}\b", options) for field in fields(DrawingOptions) if field.name != "revision")
+    else:
+        assert design.drawings and all(each.number for each in design.drawings.values())

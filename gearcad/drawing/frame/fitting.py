@@ -61,8 +61,9 @@ class Fitted:
         )
 
 
-def fit(text: str, room: float, height: float, *, depth: float = 0.0, least: float = LEAST) -> Fitted:
-    """A text in a room that is so wide, and so high (`depth`, else one line); no letters smaller than `least`.
+def fit(text: str, room: float, height: float, *, depth: float = 0.0, least: float = LEAST, closest: float = CLOSEST) -> Fitted:
+    """A text in a room that is so wide, and so high (`depth`, else one line); letters no smaller than `least`, nor closer
+    than `closest`.
 
     The largest letters of those that serve; of equal ones the fewest lines, and letters closer rather than more lines.
     """
@@ -70,15 +71,15 @@ def fit(text: str, room: float, height: float, *, depth: float = 0.0, least: flo
     heights = [height, *(each for each in _HEIGHTS if least < each < height), *([least] if least < height else [])]
     for each in heights:
         for count in range(1, _most_lines(each, depth) + 1):
-            for stretch in _stretches(measured, room, each, count):
+            for stretch in _stretches(measured, room, each, count, closest):
                 lines = measured.wrapped(room / (each * stretch))
                 if len(lines) <= count:
                     return Fitted(lines, each, stretch)
     smallest = heights[-1]
     count = _most_lines(smallest, depth)
-    lines = measured.wrapped(room / (smallest * CLOSEST), count)
+    lines = measured.wrapped(room / (smallest * closest), count)
     kept = sum(map(len, lines)) - 1
-    return Fitted(lines, smallest, CLOSEST, max(kept, 0))
+    return Fitted(lines, smallest, closest, max(kept, 0))
 
 
 def shortened_notice(key: str, text: str, fitted: Fitted, owner: str) -> tuple[Notice, ...]:
@@ -92,16 +93,16 @@ def _most_lines(height: float, depth: float) -> int:
     return max(1, int((depth - height) / (_PITCH * height) + 1 + 1e-9))
 
 
-def _stretches(measured: _Measured, room: float, height: float, lines: int) -> Iterator[float]:
+def _stretches(measured: _Measured, room: float, height: float, lines: int, closest: float) -> Iterator[float]:
     """Widths of letters to try, the widest first."""
     yield STRETCH
     whole = measured.width * height
     if lines == 1 and whole:
         needed = room / whole * (1 - 1e-9)
-        if CLOSEST <= needed < STRETCH:
+        if closest <= needed < STRETCH:
             yield needed
     elif lines > 1:
-        yield CLOSEST
+        yield closest
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from gearcad.drawing.frame.framed import Framed
 from gearcad.drawing.frame.template import SheetTemplate
 from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.shapes import Pen
+from gearcad.drawing.shapes.font import STRETCH
 from gearcad.drawing.words import Words
 
 __all__ = ["OUTER_EDGE", "common_notes", "notes"]
@@ -35,7 +36,7 @@ def notes(lines: Sequence[str], template: SheetTemplate, width: float | None = N
     room = sizes.width if width is None else width
     found, bottom = Framed(), 0.0
     for number, line in reversed(list(enumerate(lines, 1))):
-        fitted = fit(line, room, sizes.text, depth=sizes.text * 1.6 * _MOST_LINES, least=sizes.text)
+        fitted = fit(line, room, sizes.text, depth=sizes.text * 1.6 * _MOST_LINES, least=sizes.text, closest=STRETCH)
         figure = fitted.at((0.0, bottom), pen=Pen.FINE_TEXT)
         found += Framed(figure, shortened_notice(f"note {number}", line, fitted, "the sheet"))
         bottom += fitted.depth - fitted.height + sizes.pitch

@@ -22,6 +22,9 @@ _MARGIN = 1.2
 _CAPTION_TOP = 1.0
 """From the top of a cell to its caption."""
 
+_CAPTION_AIR = 0.7
+"""Between the caption and the value of a cell."""
+
 _AIR = 0.65
 """Least distance of a value from the bottom of its cell."""
 
@@ -128,7 +131,7 @@ def _cell(
         place = (box.left + _MARGIN, top - caption.height)
         notices = shortened_notice(f"{name}.caption", text, caption, _OWNER)
         found += Framed(caption.at(place, pen=Pen.FINE_TEXT), notices)
-        top -= caption_height + 0.8
+        top -= caption_height + _CAPTION_AIR
     if cell.symbol:
         return found + Framed(_symbol(projection, Box(box.left, box.bottom, box.right, top)))
     if value := cell.filled(values):
