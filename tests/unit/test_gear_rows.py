@@ -34,7 +34,13 @@ def _pair(pinion, wheel, **given):
 
 
 def _all():
-    reliefs = {"tip_relief": 12.5, "tip_relief_length": 3.25, "end_relief": 15, "end_relief_length": 2}
+    reliefs = {
+        "tip_relief": 12.5,
+        "tip_relief_length": 3.25,
+        "end_relief": 15,
+        "end_relief_length": 2,
+        "end_relief_shape": "parabolic",
+    }
     relief = FlankModification(lead_crowning=8, twist=-4, **reliefs)
     helical = {"normal_module": 2.5, "face_width": 30, "tooth_allowance": "cd25", "flank_roughness": 4.8, "root_roughness": 16}
     first = Gear(teeth=17, helix_angle=-15.123456, profile_shift=0.31, accuracy_grade=6, modification=relief, **helical)
@@ -122,7 +128,9 @@ def test_signs_stand_where_they_matter():
     assert rows["teeth"].text == "−70" and rows["reference_diameter"].text == "140.000"
     assert rows["profile_shift_of_ring"].text == "+0.2000" and rows["centre_distance"].text == "47.586"
     assert rows["tooth_allowance"].limits == ("−80 µm", "−160 µm")
-    assert {row.key: row.text for row in gear_rows(DRAWN[0], WORDS[Language.GERMAN])}["twist"] == "−4 µm"
+    german = {row.key: row.text for row in gear_rows(DRAWN[0], WORDS[Language.GERMAN])}
+    assert (german["twist"], german["tip_relief"]) == ("−4 µm", "12,5 µm / 3,25 mm")
+    assert german["end_relief"] == "15 µm / 2 mm, parabolisch"
 
 
 def test_gauges_are_those_of_the_kind_of_gear():
@@ -131,6 +139,8 @@ def test_gauges_are_those_of_the_kind_of_gear():
 
     assert {"span_teeth", "over_balls", "over_pins"} <= keys(0) and "over_pins" not in keys(2)
     assert {"span_spaces", "between_balls"} <= keys(3) and not {"span_teeth", "over_balls"} & keys(3)
+    even = {row.key: row.words for row in gear_rows(DRAWN[2], WORDS[Language.ENGLISH])}
+    assert even["over_balls"] == "Size over balls or pins"
     assert "over_pin" in keys(5) and not {"over_balls", "profile_shift"} & keys(5)
     assert "span_spaces" not in keys(9) and "between_balls" in keys(9)  # a helical ring
 

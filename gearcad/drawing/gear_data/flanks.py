@@ -9,7 +9,7 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.quality import flank_roughness
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.treatment import material_text, treatment_text
-from gearcad.geometry import FlankModification, Gear, Rack
+from gearcad.geometry import FlankModification, Gear, Rack, ReliefShape
 from gearcad.geometry.tooling import corner_radius, shaped
 from gearcad.schema import symbols_of
 
@@ -36,6 +36,8 @@ def modification_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
         if (length := used.get(f"{name}_length")) is not None:
             text += f" / {write.words.shortest(length, 3)} mm"
             numbers[f"modification.{name}_length"] = length
+            if used[f"{name}_shape"] == ReliefShape.PARABOLIC.value:
+                text += f", {write.word('parabolic')}"
         yield write.text(name, text, _SYMBOLS[name].symbol, numbers)
     if used:
         yield write.text("modifications", write.word("see_diagram"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from gearcad.drawing.gear_data.row import Row, RowWriter
 from gearcad.geometry import Gear
@@ -36,9 +37,11 @@ def thickness_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
     if (count := gear.inspection.spanned) is not None:
         name = "span_spaces" if gear.internal else "span_teeth"
         row = _gauge(gear, write, "span_measurement", "W_k", words=name, k=str(count))
-        yield Row(**vars(row) | {"numbers": {name: count} | dict(row.numbers)})
+        yield replace(row, numbers={name: count} | dict(row.numbers))
     yield write.plain("ball_diameter", gear.ball_diameter, "D_M")
-    yield _gauge(gear, write, "between_balls" if gear.internal else "over_balls", "M_dK")
+    name = "between_balls" if gear.internal else "over_balls"
+    either = not gear.pin_axial_shift and not (gear.internal and gear.helix_angle)  # pins then find what balls do
+    yield replace(_gauge(gear, write, name, "M_dK", words=f"{name}_or_pins" if either else name), key=name)
     if gear.pin_axial_shift:  # else it is that over balls
         yield _gauge(gear, write, "over_pins", "M_dR")
 
