@@ -24,7 +24,7 @@ from gearcad.drawing.frame import (
     title_values,
 )
 from gearcad.drawing.frame.fitting import CLOSEST
-from gearcad.drawing.frame.template import VALUES
+from gearcad.drawing.frame.sizes import VALUES
 from gearcad.drawing.options import DrawingOptions, Projection, Revision, SheetSize
 from gearcad.drawing.shapes import Box, Figure, Occupied, Pen, Text, text_width
 from gearcad.drawing.words import Language, Words
@@ -338,7 +338,7 @@ def test_a_company_changes_what_it_likes(tmp_path: Path) -> None:
         ("[titel]\nwidth = 3", "company.toml: titel = {'width': 3}: unknown key; did you mean title?"),
         ("[title]\nwidht = 3", "company.toml: title.widht = 3: unknown key; did you mean width?"),
         ("title = 3", "company.toml: title = 3: must be a table"),
-        ("[title]\nwidth = 'x'", "company.toml: title.width = 'x': must be a number at least 1 mm and at most 1000 mm"),
+        ("[title]\nwidth = 'x'", "company.toml: title.width = 'x': must be a number at least 5 mm and at most 1000 mm"),
         ("[title.cells]\nowner = 3", "company.toml: title.cells.owner = 3: must be a table, or false for none"),
         ("[title.cells]\nowner.widht = 3", "company.toml: title.cells.owner.widht = 3: unknown key; did you mean width?"),
         ("[title.cells]\nnew = { value = 'x' }", "company.toml: title.cells.new.left is missing: must be given, in mm"),
@@ -360,6 +360,14 @@ def test_a_company_changes_what_it_likes(tmp_path: Path) -> None:
         ("[words.frame]\nowner = { fr = 'x' }", "words.frame.owner = {'fr': 'x'}: must be a text, or texts for en, de, sv"),
         ("[words.frame]\nowner = 'a{b}'", "words.frame.owner = 'a{b}': unknown in braces: b; permitted: nothing"),
         ("[words.data]\nspan_teeth = 'k {'", "words.data.span_teeth = 'k {': has braces that do not match"),
+        ("[frame]\ngrid_width = 12", "company.toml: frame.grid_width = 12 mm: must have room in both margins"),
+        ("[frame]\ngrid_text = 7", "company.toml: frame.grid_text = 7 mm: must have room in grid_width"),
+        ("[data_table]\ntext = 5", "company.toml: data_table.row = 6.4 mm: must be 2 mm more than text at least"),
+        ("[data_table]\nrow = 'x'", "company.toml: data_table.row = 'x': must be a number"),
+        (
+            "[title.cells]\nowner = { bottom = 22, height = 5 }",
+            "title.cells.owner.height = 5 mm: must have room for the caption",
+        ),
         ("words = 3", "company.toml: words = 3: must be a table"),
         ("a = ", "drawing.template = "),
     ],

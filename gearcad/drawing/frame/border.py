@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 
-from gearcad.drawing.frame.template import FrameSizes
+from gearcad.drawing.frame.sizes import FrameSizes
 from gearcad.drawing.options import SheetSize
 from gearcad.drawing.shapes import Anchor, Box, Figure, Line, Pen, Point, Polyline, Shape, Text
 

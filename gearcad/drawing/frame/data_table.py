@@ -9,7 +9,7 @@ from typing import Protocol
 from gearcad.drawing.frame.fitting import Fitted, fit, shortened_notice
 from gearcad.drawing.frame.framed import Framed
 from gearcad.drawing.frame.grid import MARGIN, outlined, ruled
-from gearcad.drawing.frame.template import DataTableSizes
+from gearcad.drawing.frame.sizes import DataTableSizes
 from gearcad.drawing.marks import deviations, symbol
 from gearcad.drawing.shapes import Anchor, Box, Figure, Pen, text_width
 from gearcad.notice import Notice

@@ -8,17 +8,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
+from gearcad.drawing.frame.sizes import LEAST
 from gearcad.drawing.shapes import Anchor, Figure, Pen, Point, Text, text_width
 from gearcad.drawing.shapes.font import STRETCH
 from gearcad.notice import Notice
 
-__all__ = ["CLOSEST", "LEAST", "Fitted", "fit", "shortened_notice"]
+__all__ = ["CLOSEST", "Fitted", "fit", "shortened_notice"]
 
 CLOSEST = 0.65
 """Width of the closest letters over that of the font."""
-
-LEAST = 2.0
-"""Height of the smallest letters that values are written with."""
 
 _HEIGHTS = (14.0, 10.0, 7.0, 5.0, 3.5, 2.5, LEAST)
 """Those of ISO 3098-1, and the smallest."""
@@ -78,8 +76,9 @@ def fit(text: str, room: float, height: float, *, depth: float = 0.0, least: flo
     smallest = heights[-1]
     count = _most_lines(smallest, depth)
     lines = measured.wrapped(room / (smallest * closest), count)
-    kept = sum(map(len, lines)) - 1
-    return Fitted(lines, smallest, closest, max(kept, 0))
+    if room < text_width(_ELLIPSIS, smallest, closest):
+        return Fitted(("",), smallest, closest, 0)
+    return Fitted(lines, smallest, closest, sum(map(len, lines)) - 1)
 
 
 def shortened_notice(key: str, text: str, fitted: Fitted, owner: str) -> tuple[Notice, ...]:

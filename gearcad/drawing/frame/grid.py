@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import accumulate, pairwise
 
-from gearcad.drawing.frame.fitting import LEAST, Fitted, fit, shortened_notice
+from gearcad.drawing.frame.fitting import Fitted, fit, shortened_notice
 from gearcad.drawing.frame.framed import Framed
+from gearcad.drawing.frame.sizes import LEAST
 from gearcad.drawing.shapes import Box, Figure, Line, Pen, Polyline, Shape
 
 __all__ = ["MARGIN", "grid_upwards", "outlined", "row_of_texts", "ruled"]

@@ -3,174 +3,44 @@
 from __future__ import annotations
 
 import difflib
-import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cache
 from pathlib import Path
 from string import Formatter
-from typing import TYPE_CHECKING, Annotated, Any, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
+from gearcad.drawing.frame.sizes import (
+    LEAST,
+    VALUES,
+    DataTableSizes,
+    FrameSizes,
+    NoteSizes,
+    PartsListSizes,
+    RevisionSizes,
+    TitleCell,
+    TitleSizes,
+)
 from gearcad.drawing.options import one_line
 from gearcad.drawing.shapes import Box
 from gearcad.drawing.words import Language, Words
 from gearcad.errors import ParameterError, printable, shown
-from gearcad.ranges import Choice, Range, Whole
 from gearcad.schema import require_fields, schema_of
 from gearcad.shipped import templates
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
-__all__ = ["VALUES", "SheetTemplate", "TitleCell"]
+__all__ = ["SheetTemplate"]
 
 _FILE = "drawing_title.toml"
-_MM = Range("mm", 0.0, 1e3)
-_SOME = Range("mm", 1.0, 1e3)
-_TEXT = Range("mm", 1.0, 20.0)
-"""Heights of letters."""
+_CELLS = "title.cells"
 
-VALUES = (
-    "number",
-    "title",
-    "supplementary_title",
-    "owner",
-    "department",
-    "technical_reference",
-    "creator",
-    "approver",
-    "document_type",
-    "status",
-    "classification",
-    "revision",
-    "date",
-    "language",
-    "scale",
-    "size",
-    "sheet",
-    "sheets",
-    "general_tolerance",
-    "material",
-    "heat_treatment",
-    "mass",
-)
-"""What the value of a cell may have in braces."""
-
-_IN_BRACES = re.compile(r"\{([^{}]*)\}")
+_AROUND = 2.0
+"""What a row must be higher than its letters."""
 
 Part = TypeVar("Part")
-
-
-@dataclass(frozen=True, kw_only=True)
-class FrameSizes:
-    """Margins, and the strip with letters and numbers."""
-
-    binding_margin: Annotated[float, _MM]
-    margin: Annotated[float, _MM]
-    grid_width: Annotated[float, _MM]
-    grid_pitch: Annotated[float, _SOME]
-    grid_text: Annotated[float, _TEXT]
-    centring: Annotated[float, _MM]
-
-
-@dataclass(frozen=True, kw_only=True)
-class TitleSizes:
-    """The title block as a whole."""
-
-    width: Annotated[float, _SOME]
-    height: Annotated[float, _SOME]
-    caption: Annotated[float, _TEXT]
-
-
-@dataclass(frozen=True, kw_only=True)
-class TitleCell:
-    """A cell of the title block, from its lower left corner; without `caption` that of its name."""
-
-    left: Annotated[float, _MM]
-    bottom: Annotated[float, _MM]
-    width: Annotated[float, _SOME]
-    height: Annotated[float, _SOME]
-    caption: str | None = None
-    value: str = ""
-    text: Annotated[float, _TEXT] = 3.5
-    symbol: Annotated[str, Choice(("", "projection"))] = ""
-
-    @property
-    def box(self) -> Box:
-        """Where it is in the title block."""
-        return Box(self.left, self.bottom, self.left + self.width, self.bottom + self.height)
-
-    def filled(self, values: Mapping[str, str]) -> str:
-        """Its value with what stands in braces put in."""
-        return " ".join(_IN_BRACES.sub(lambda found: values.get(found[1], ""), self.value).split())
-
-    @property
-    def names(self) -> list[str]:
-        """What its value has in braces."""
-        return _IN_BRACES.findall(self.value)
-
-
-@dataclass(frozen=True, kw_only=True)
-class DataTableSizes:
-    """Columns and rows of the gear data table."""
-
-    words: Annotated[float, _SOME]
-    symbol: Annotated[float, _SOME]
-    value: Annotated[float, _SOME]
-    heading: Annotated[float, _SOME]
-    row: Annotated[float, _SOME]
-    least_row: Annotated[float, _SOME]
-    text: Annotated[float, _TEXT]
-
-    @property
-    def columns(self) -> tuple[float, float, float]:
-        return self.words, self.symbol, self.value
-
-
-@dataclass(frozen=True, kw_only=True)
-class PartsListSizes:
-    """Columns and rows of the parts list."""
-
-    item: Annotated[float, _SOME]
-    quantity: Annotated[float, _SOME]
-    number: Annotated[float, _SOME]
-    title: Annotated[float, _SOME]
-    material: Annotated[float, _SOME]
-    remarks: Annotated[float, _SOME]
-    row: Annotated[float, _SOME]
-    text: Annotated[float, _TEXT]
-
-    @property
-    def columns(self) -> tuple[float, ...]:
-        return self.item, self.quantity, self.number, self.title, self.material, self.remarks
-
-
-@dataclass(frozen=True, kw_only=True)
-class RevisionSizes:
-    """Columns and rows of the table of revisions."""
-
-    index: Annotated[float, _SOME]
-    text_width: Annotated[float, _SOME]
-    date: Annotated[float, _SOME]
-    name: Annotated[float, _SOME]
-    row: Annotated[float, _SOME]
-    text: Annotated[float, _TEXT]
-    most: Annotated[int, Whole(1, 100)]
-
-    @property
-    def columns(self) -> tuple[float, ...]:
-        return self.index, self.text_width, self.date, self.name
-
-
-@dataclass(frozen=True, kw_only=True)
-class NoteSizes:
-    """The notes: how wide, and how far their lines are apart."""
-
-    width: Annotated[float, _SOME]
-    text: Annotated[float, _TEXT]
-    pitch: Annotated[float, _TEXT]
-
 
 _PARTS: dict[str, type[Any]] = {
     "frame": FrameSizes,
@@ -233,24 +103,25 @@ def _read(file: str) -> dict[str, Any]:
         raise ParameterError("drawing.template", file, f"is not valid TOML: {shown(reason)}") from error
 
 
-def _merged(shipped: Mapping[str, Any], own: Mapping[str, Any], where: str) -> dict[str, Any]:
-    """What is shipped with what is a company's own in its place, table by table."""
-    merged = dict(shipped)
-    cells = where.endswith("title.cells")
+def _merged(shipped: Mapping[str, Any], own: Mapping[str, Any], file: str, inside: str = "") -> dict[str, Any]:
+    """What is shipped with what is a company's own in its place, table by table; cells may be new, or false for none."""
+    merged, cells = dict(shipped), inside == _CELLS
     for key, value in own.items():
-        inside = f"{where}.{key}" if ": " in where else f"{where}: {key}"
+        place = f"{inside}.{key}" if inside else key
+        where = f"{file}: {place}"
         if key not in shipped and not cells:
             raise ParameterError(
-                inside, value, f"unknown key; {_nearest(key, (*shipped, *(['words'] if ': ' not in where else [])))}"
+                where, value, f"unknown key; {_nearest(key, tuple(shipped) if inside else (*shipped, 'words'))}"
             )
-        if isinstance(shipped.get(key, {}), Mapping) and isinstance(value, Mapping):
-            merged[key] = _merged(shipped.get(key, {}), value, inside) if not cells else {**shipped.get(key, {}), **value}
+        former = shipped.get(key, {})
+        if not isinstance(former, Mapping):
+            merged[key] = value
+        elif isinstance(value, Mapping):
+            merged[key] = {**former, **value} if cells else _merged(former, value, file, place)
         elif cells and value is False:
             merged.pop(key, None)
-        elif isinstance(shipped.get(key, {}), Mapping):
-            raise ParameterError(inside, value, "must be a table" + (", or false for none" if cells else ""))
         else:
-            merged[key] = value
+            raise ParameterError(where, value, "must be a table" + (", or false for none" if cells else ""))
     return merged
 
 
@@ -273,8 +144,14 @@ def _part(kind: type[Part], content: Mapping[str, Any], where: str) -> Part:
             raise ParameterError(f"{where}.{key}", None, "must be given, in mm")
         if each.members[0] is str and key in content:
             one_line(f"{where}.{key}", content[key])
-    made = kind(**content)
-    require_fields(made, where)
+    try:
+        made = kind(**content)
+        require_fields(made)
+    except ParameterError as error:
+        raise ParameterError(f"{where}.{error.parameter}", error.value, error.permitted, error.unit) from None
+    for row in ("row", "least_row", "heading"):
+        if row in known and content[row] < content["text"] + _AROUND:
+            raise ParameterError(f"{where}.{row}", content[row], f"must be {_AROUND:g} mm more than text at least", "mm")
     return made
 
 
@@ -287,12 +164,14 @@ def _cells(content: Mapping[str, Any], title: TitleSizes, file: str) -> dict[str
     cells: dict[str, TitleCell] = {}
     whole = Box(0.0, 0.0, title.width, title.height)
     for name, given in content.items():
-        where = f"{file}: title.cells.{name}"
+        where = f"{file}: {_CELLS}.{name}"
         cell = _part(TitleCell, {"value": f"{{{name}}}" if name in VALUES else "", **given}, where)
         if unknown := next((each for each in cell.names if each not in VALUES), None):
             raise ParameterError(
                 f"{where}.value", cell.value, f"unknown in braces: {shown(unknown)}; {_nearest(unknown, VALUES)}"
             )
+        if cell.value and cell.value_top(title.caption) - cell.value_bottom < LEAST:
+            raise ParameterError(f"{where}.height", cell.height, "must have room for the caption and the value", "mm")
         if not whole.holds(cell.box):
             permitted = f"must be inside the title block, {title.width:g} x {title.height:g} mm"
             raise ParameterError(where, tuple(cell.box), permitted)

@@ -8,7 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from gearcad.drawing.frame.fitting import fit, shortened_notice
 from gearcad.drawing.frame.framed import Framed
 from gearcad.drawing.frame.grid import outlined
-from gearcad.drawing.frame.template import SheetTemplate, TitleCell
+from gearcad.drawing.frame.sizes import CAPTION_TOP, TitleCell
+from gearcad.drawing.frame.template import SheetTemplate
 from gearcad.drawing.marks import projection_symbol
 from gearcad.drawing.options import DrawingOptions, Projection, SheetSize
 from gearcad.drawing.shapes import Box, Figure, Line, Pen
@@ -18,18 +19,6 @@ __all__ = ["title_block", "title_values"]
 
 _MARGIN = 1.2
 """From the side of a cell to its text."""
-
-_CAPTION_TOP = 1.0
-"""From the top of a cell to its caption."""
-
-_CAPTION_AIR = 0.7
-"""Between the caption and the value of a cell."""
-
-_AIR = 0.65
-"""Least distance of a value from the bottom of its cell."""
-
-_BELOW = 0.33
-"""How far letters reach below their line, over their height."""
 
 _CAPTION_LEAST = 1.8
 
@@ -125,18 +114,17 @@ def _cell(
 ) -> Framed:
     """Its caption and value."""
     box, room = cell.box, cell.width - 2 * _MARGIN
-    found, top = Framed(), box.top - _CAPTION_TOP
+    found = Framed()
     if text := _caption(name, cell, words):
         caption = fit(text, room, caption_height, least=min(_CAPTION_LEAST, caption_height))
-        place = (box.left + _MARGIN, top - caption.height)
+        place = (box.left + _MARGIN, box.top - CAPTION_TOP - caption.height)
         notices = shortened_notice(f"{name}.caption", text, caption, _OWNER)
         found += Framed(caption.at(place, pen=Pen.FINE_TEXT), notices)
-        top -= caption_height + _CAPTION_AIR
     if cell.symbol:
-        return found + Framed(_symbol(projection, Box(box.left, box.bottom, box.right, top)))
+        return found + Framed(_symbol(projection, Box(box.left, box.bottom, box.right, cell.value_top(caption_height))))
     if value := cell.filled(values):
-        bottom = box.bottom + _AIR + _BELOW * cell.text
-        depth = top - bottom
+        bottom = cell.value_bottom
+        depth = cell.value_top(caption_height) - bottom
         fitted = fit(value, room, min(cell.text, depth), depth=depth)
         figure = fitted.at((box.left + _MARGIN, bottom + max(0.0, depth - fitted.depth) / 2))
         found += Framed(figure, shortened_notice(name, value, fitted, _OWNER))
