@@ -7,7 +7,7 @@ from gearcad.drawing.marks.frames import FRAME_HEIGHT, Characteristic, datum, to
 from gearcad.drawing.marks.leaders import circle_dimension, frame_leader, leader
 from gearcad.drawing.marks.linear import FIRST_LANE, LANE_PITCH, half_dimension, linear_dimension
 from gearcad.drawing.marks.roughness import general_roughness, roughness, roughness_symbol
-from gearcad.drawing.marks.sections import detail_rings, section_arrows, view_label
+from gearcad.drawing.marks.sections import section_arrows, view_label
 from gearcad.drawing.marks.sheet_symbols import edge_symbol, projection_symbol
 from gearcad.drawing.marks.side import Side
 from gearcad.drawing.marks.size_text import size_text, written_size
@@ -26,7 +26,6 @@ __all__ = [
     "arrow",
     "circle_dimension",
     "datum",
-    "detail_rings",
     "deviations",
     "edge_symbol",
     "frame_leader",

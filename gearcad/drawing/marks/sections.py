@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Iterator
-
 from gearcad.drawing.marks.arrows import arrow
 from gearcad.drawing.marks.side import Side
-from gearcad.drawing.shapes import Anchor, Circle, Figure, Line, Pen, Point, Shape, Text
+from gearcad.drawing.shapes import Anchor, Figure, Line, Pen, Point, Shape, Text
 
-__all__ = ["detail_rings", "section_arrows", "view_label"]
+__all__ = ["section_arrows", "view_label"]
 
 _STROKE, _STEM = 8.0, 9.0
-_LETTER = 5.0
 
 
 def section_arrows(start: Point, end: Point, looking: Side, letter: str = "A") -> Figure:
@@ -31,19 +27,10 @@ def section_arrows(start: Point, end: Point, looking: Side, letter: str = "A") -
         foot = tip[0] - _STEM * across[0], tip[1] - _STEM * across[1]
         shapes += [Line(foot, tip, Pen.SYMBOL), arrow(tip, across, Pen.SYMBOL)]
         place = foot[0] + 4.0 * way * along[0], foot[1] + 4.0 * way * along[1]
-        shapes.append(Text(letter, place, _LETTER, Anchor.MIDDLE, pen=Pen.TEXT))
+        shapes.append(Text(letter, place, 5.0, Anchor.MIDDLE, pen=Pen.TEXT))
     return Figure(tuple(shapes))
 
 
 def view_label(words: str, above: Point, height: float = 5.0) -> Figure:
     """The name of a view ("A–A", "X (5:1)") over it: the middle of its line at a point."""
     return Figure.of(Text(words, above, height, Anchor.CENTRE, pen=Pen.TEXT))
-
-
-def detail_rings(centre: Point, radius: float, letter: str, directions: Iterable[float]) -> Iterator[Figure]:
-    """A thin ring round what is drawn in detail elsewhere, and its letter beside it in one of some directions (degrees)."""
-    ring = Circle(centre, radius, Pen.THIN)
-    for way in directions:
-        cosine, sine = math.cos(math.radians(way)), math.sin(math.radians(way))
-        place = centre[0] + (radius + _LETTER) * cosine, centre[1] + (radius + _LETTER) * sine
-        yield Figure.of(ring, Text(letter, place, _LETTER, Anchor.MIDDLE, pen=Pen.TEXT))

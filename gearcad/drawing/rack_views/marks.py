@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
-from gearcad.drawing.marks import Side, detail_rings, linear_dimension, roughness, roughness_symbol, section_arrows
+from gearcad.drawing.marks import Side, linear_dimension, roughness, roughness_symbol, section_arrows
 from gearcad.drawing.rack_views.figures import SECTION, tooth_middles
 from gearcad.drawing.rack_views.span import Span
 from gearcad.drawing.requirements import Requirements
@@ -16,12 +16,6 @@ __all__ = ["EndMarks", "FrontMarks"]
 
 _EXTENSIONS = (4.0, 12.0, 20.0, 28.0)
 """How far from the outline a symbol may stand on the reference line (mm of paper)."""
-
-DETAIL = "Z"
-"""The letter of the detail of a tooth."""
-
-_LEAST_RING = 3.0
-"""Least radius of the ring round it (mm of paper)."""
 
 _CUT_OFF = (3.0, 10.0, 18.0, 27.0, 37.0, 50.0, 65.0, 80.0)
 """How far from the outline the ends of the cutting line may be (mm of paper)."""
@@ -46,7 +40,7 @@ class FrontMarks:
     @property
     def sources(self) -> _Sources:
         """All of them, those nearest to the outline first."""
-        return self.first_tooth, self.pitch, self.length, self.detail, self.cutting_line
+        return self.first_tooth, self.pitch, self.length, self.cutting_line
 
     def length(self) -> Iterator[Figure]:
         """All of it, however much is shown."""
@@ -65,15 +59,6 @@ class FrontMarks:
         """From the end to the middle of the first tooth."""
         middles = tooth_middles(self.span)
         return self._above(-self.span.right, middles[0], Size(value=self.span.first_middle)) if middles else ()
-
-    def detail(self) -> Iterator[Figure]:
-        """Round the tooth that is drawn in detail: the last whole one, or one before it."""
-        rack, scale = self.span.rack, self.span.scale
-        low, high = -scale * rack.root_depth, scale * rack.tip_height
-        radius = max(_LEAST_RING, (high - low) / 2 + 1.0)
-        for number in range(self.span.whole_teeth or 1, max(self.span.whole_teeth - 3, 0), -1):
-            x = self.span.across(self.span.first_middle + (number - 1) * rack.transverse_pitch)
-            yield from detail_rings((x, (low + high) / 2), radius, DETAIL, (60.0, 120.0, 90.0, 45.0, 135.0, 0.0, 180.0))
 
     def cutting_line(self) -> Iterator[Figure]:
         """Of the end section, somewhere along the rack, as near to it as other marks let it be."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
-from gearcad.drawing.marks import circle_dimension, detail_rings, leader
+from gearcad.drawing.marks import circle_dimension, leader
 from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.ring_views.face import hole_places
 from gearcad.drawing.ring_views.meridian import Meridian
@@ -17,14 +17,6 @@ __all__ = ["FaceMarks"]
 
 _BEYOND = (6.0, 12.0, 20.0, 30.0)
 """How far outside the rim a text may be (mm of paper)."""
-
-DETAIL = "Z"
-"""The letter of the detail of a tooth."""
-
-_LEAST_RING = 3.0
-"""Least radius of the ring round it (mm of paper)."""
-
-_DETAIL_AT = (150.0, 120.0, -150.0, -120.0, 30.0, 60.0, -30.0, -60.0, 135.0, 165.0)
 
 _OFF_AXIS = 0.15
 """Least sine and cosine of the direction of a leader: not along a centre line."""
@@ -41,7 +33,7 @@ class FaceMarks:
     @property
     def sources(self) -> tuple[Callable[[], Iterable[Figure]], ...]:
         """All of them."""
-        return self.bolt_circle, self.bolts, self.detail
+        return self.bolt_circle, self.bolts
 
     def bolts(self) -> Iterator[Figure]:
         """To one of the holes, from outside the rim: their number and diameter."""
@@ -72,11 +64,3 @@ class FaceMarks:
         yield from circle_dimension(
             (0.0, 0.0), radius, size, self.draughting, (*free[:8], *others), beyond=self.ring.scale * self.ring.rim - radius
         )
-
-    def detail(self) -> Iterator[Figure]:
-        """Round the tooth that is drawn in detail, its letter in the opening."""
-        outer, inner = self.ring.scale * self.ring.root, self.ring.scale * self.ring.tip
-        radius, middle = max(_LEAST_RING, (outer - inner) / 2 + 1.0), (outer + inner) / 2
-        for way in _DETAIL_AT:
-            centre = middle * math.cos(math.radians(way)), middle * math.sin(math.radians(way))
-            yield from detail_rings(centre, radius, DETAIL, (way + 180.0, way))
