@@ -25,7 +25,7 @@ from gearcad.drawing.frame.sizes import (
 from gearcad.drawing.options import one_line
 from gearcad.drawing.shapes import Box
 from gearcad.drawing.words import Language, Words
-from gearcad.errors import ParameterError, printable, shown
+from gearcad.errors import ParameterError, SpecError, printable, shown
 from gearcad.schema import require_fields, schema_of
 from gearcad.shipped import templates
 
@@ -67,21 +67,24 @@ class SheetTemplate:
 
     @classmethod
     def of(cls, file: str | None) -> Self:
-        """The shipped one, with what a file has in its place. Raises ParameterError that names file and key."""
+        """The shipped one, with what a file has in its place. Raises SpecError that names file and key."""
         shipped = tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
         if file is None:
-            return cls._made(shipped, _FILE)
-        name, own = printable(file), _read(file)
-        words = _words(own.pop("words", {}), name)
-        return replace(cls._made(_merged(shipped, own, name), name), other_words=words)
+            return cls._made(shipped)
+        own = _read(file)
+        try:
+            words = _words(own.pop("words", {}))
+            return replace(cls._made(_merged(shipped, own)), other_words=words)
+        except ParameterError as error:
+            raise SpecError(f"{printable(file)}: {error}", error.parameter) from error
 
     @classmethod
-    def _made(cls, content: Mapping[str, Any], file: str) -> Self:
+    def _made(cls, content: Mapping[str, Any]) -> Self:
         made = {
-            name: _part(kind, {key: value for key, value in content[name].items() if key != "cells"}, f"{file}: {name}")
+            name: _part(kind, {key: value for key, value in content[name].items() if key != "cells"}, name)
             for name, kind in _PARTS.items()
         }
-        return cls(cells=_cells(content["title"]["cells"], made["title"], file), **made)
+        return cls(cells=_cells(content["title"]["cells"], made["title"]), **made)
 
     def words(self, language: Language) -> Words:
         """Those of a language, with what the company says in their place."""
@@ -93,22 +96,21 @@ class SheetTemplate:
 
 
 def _read(file: str) -> dict[str, Any]:
-    """The content of a company's file. Raises ParameterError."""
+    """The content of a company's file. Raises SpecError."""
     try:
         return tomllib.loads(Path(file).read_bytes().decode("utf-8-sig"))
     except OSError as error:
-        raise ParameterError("drawing.template", file, f"cannot be read ({error.strerror})") from error
+        raise SpecError(f"{printable(file)}: cannot be read ({error.strerror}); it is the template of [drawing]") from error
     except (ValueError, RecursionError) as error:  # what is no TOML, no UTF-8, or no name of a file
         reason = " ".join(str(error).split()) or "too deep"
-        raise ParameterError("drawing.template", file, f"is not valid TOML: {shown(reason)}") from error
+        raise SpecError(f"{printable(file)}: is not valid TOML: {shown(reason)}") from error
 
 
-def _merged(shipped: Mapping[str, Any], own: Mapping[str, Any], file: str, inside: str = "") -> dict[str, Any]:
+def _merged(shipped: Mapping[str, Any], own: Mapping[str, Any], inside: str = "") -> dict[str, Any]:
     """What is shipped with what is a company's own in its place, table by table; cells may be new, or false for none."""
     merged, cells = dict(shipped), inside == _CELLS
     for key, value in own.items():
-        place = f"{inside}.{key}" if inside else key
-        where = f"{file}: {place}"
+        where = f"{inside}.{key}" if inside else key
         if key not in shipped and not cells:
             raise ParameterError(
                 where, value, f"unknown key; {_nearest(key, tuple(shipped) if inside else (*shipped, 'words'))}"
@@ -117,7 +119,7 @@ def _merged(shipped: Mapping[str, Any], own: Mapping[str, Any], file: str, insid
         if not isinstance(former, Mapping):
             merged[key] = value
         elif isinstance(value, Mapping):
-            merged[key] = {**former, **value} if cells else _merged(former, value, file, place)
+            merged[key] = {**former, **value} if cells else _merged(former, value, where)
         elif cells and value is False:
             merged.pop(key, None)
         else:
@@ -159,12 +161,12 @@ def _dataclass(kind: type[Any]) -> type[DataclassInstance]:
     return kind
 
 
-def _cells(content: Mapping[str, Any], title: TitleSizes, file: str) -> dict[str, TitleCell]:
+def _cells(content: Mapping[str, Any], title: TitleSizes) -> dict[str, TitleCell]:
     """The cells, within the title block and none over another, with known values only. Raises ParameterError."""
     cells: dict[str, TitleCell] = {}
     whole = Box(0.0, 0.0, title.width, title.height)
     for name, given in content.items():
-        where = f"{file}: {_CELLS}.{name}"
+        where = f"{_CELLS}.{name}"
         cell = _part(TitleCell, {"value": f"{{{name}}}" if name in VALUES else "", **given}, where)
         if unknown := next((each for each in cell.names if each not in VALUES), None):
             raise ParameterError(
@@ -181,14 +183,14 @@ def _cells(content: Mapping[str, Any], title: TitleSizes, file: str) -> dict[str
     return cells
 
 
-def _words(content: Any, file: str) -> dict[str, dict[str, str]]:
+def _words(content: Any) -> dict[str, dict[str, str]]:
     """Words in place of others, by language and key. Raises ParameterError."""
     known_words = _known_words()
     known = tuple(known_words)
     found: dict[str, dict[str, str]] = {each.value: {} for each in Language}
-    for section, entries in _table(content, f"{file}: words").items():
-        for name, given in _table(entries, f"{file}: words.{section}").items():
-            key, where = f"{section}.{name}", f"{file}: words.{section}.{name}"
+    for section, entries in _table(content, "words").items():
+        for name, given in _table(entries, f"words.{section}").items():
+            key, where = f"{section}.{name}", f"words.{section}.{name}"
             if key not in known:
                 raise ParameterError(where, given, f"unknown word; did you mean {_nearest_word(key, known)}?")
             in_each = dict.fromkeys(found, given) if isinstance(given, str) else _table(given, where)
