@@ -166,9 +166,9 @@ def test_words_of_all_languages_fit_their_cells(language: Language) -> None:
     assert not revisions([Revision("A", "x")], SHIPPED, words).notices
     texts = [text for key, text in words.labels.items() if key.startswith("data.") and not key.startswith("data.note_")]
     rows = [_Row(words=re.sub(r"\{(\w+)\}", lambda found: _NAMED.get(found[1], "123"), text), symbol="") for text in texts]
-    for low in (False, True):
-        table = data_table(rows, words["data.title"], SHIPPED.data_table, low=low)
-        assert [notice.text for notice in table.notices] == []
+    for sizes in (SHIPPED.data_table, SHIPPED.data_table.narrowed(90.0)):
+        for low in (False, True):
+            assert not data_table(rows, words["data.title"], sizes, low=low).notices
     kinds = [words[f"frame.document_{kind}"] for kind in ("part", "assembly", "arrangement")]
     cell = SHIPPED.cells["document_type"]
     assert all(fit(kind, cell.width - 2.4, cell.text).height == cell.text for kind in kinds)
@@ -296,7 +296,9 @@ def test_everything_has_its_place_on_every_sheet(size: SheetSize) -> None:
 def test_a_table_without_room_takes_lower_rows_then_columns_and_at_last_leaves_nothing_free() -> None:
     heights = [_furnished(SheetSize.A3, Language.ENGLISH, rows).taken[1].height for rows in (25, 32, 40)]
     assert heights == pytest.approx([7.5 + 25 * 6.4, 7.5 + 32 * 5.0, 7.5 + 20 * 6.4])
-    assert _furnished(SheetSize.A4, Language.ENGLISH, 60).free.width == 0.0
+    narrow = _furnished(SheetSize.A4, Language.ENGLISH, 30).taken[1]
+    assert (narrow.width, narrow.height) == pytest.approx((180.0, 7.5 + 15 * 6.4))
+    assert _furnished(SheetSize.A4, Language.ENGLISH, 80).free.width == 0.0
     assert _furnished(SheetSize.A2, Language.ENGLISH, 60).free.width > 300.0
 
 

@@ -52,7 +52,7 @@ def data_table(
     listed = list(rows)
     if not listed:
         return Framed()
-    height, width = sizes.least_row if low else sizes.row, sum(sizes.columns)
+    height, width = sizes.least_row if low else sizes.row, sizes.width
     each = -(-len(listed) // columns)
     found = Framed()
     for number, start in enumerate(range(0, len(listed), each)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from gearcad.drawing.frame.border import border, free_area, inside_frame
@@ -10,6 +10,7 @@ from gearcad.drawing.frame.data_table import TableRow, data_table
 from gearcad.drawing.frame.framed import Framed
 from gearcad.drawing.frame.lists import PartLine, parts_list, revisions
 from gearcad.drawing.frame.notes import common_notes, notes
+from gearcad.drawing.frame.sizes import DataTableSizes
 from gearcad.drawing.frame.template import SheetTemplate
 from gearcad.drawing.frame.title_block import title_block
 from gearcad.drawing.options import DrawingOptions, SheetSize
@@ -21,6 +22,9 @@ __all__ = ["Furnished", "Furniture"]
 
 _GAP = 4.0
 """Between parts, and from the frame to the notes."""
+
+_MANY = 12
+"""Rows of a table that is not drawn in two columns where these are narrower than they should be."""
 
 _LEAST_NOTES = 60.0
 """Width of the narrowest notes beside the title block; on narrower sheets they stand above it."""
@@ -87,14 +91,20 @@ class Furniture:
 
     def _table(self, frame: Box, room: float) -> Framed:
         """The gear data table in the upper right corner, in the first form that is no higher than `room`."""
-        sizes = self.template.data_table
         table = Framed()
-        for columns in range(1, 1 + max(1, int(frame.width / sum(sizes.columns)))):
-            for low in (False, True):
-                table = data_table(self.rows, self.table_title, sizes, columns=columns, low=low)
-                if table.empty or table.box.height <= room:
-                    return table.moved(frame.right, frame.top)
+        for sizes, columns, low in self._forms(frame.width):
+            table = data_table(self.rows, self.table_title, sizes, columns=columns, low=low)
+            if table.empty or table.box.height <= room:
+                break
         return table.moved(frame.right, frame.top)
+
+    def _forms(self, width: float) -> Iterator[tuple[DataTableSizes, int, bool]]:
+        """Sizes, number of columns, and whether rows are low; on narrow paper two columns as wide as that for many rows."""
+        sizes = self.template.data_table
+        most = int(width / sizes.width)
+        if most < 2 and len(self.rows) > _MANY:
+            yield from ((sizes.narrowed(width / 2), 2, low) for low in (False, True))
+        yield from ((sizes, columns, low) for columns in range(1, max(most, 1) + 1) for low in (False, True))
 
     def _notes(self, frame: Box, stack: Box) -> Framed:
         """The notes left of the title block, else above what stands on that."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 from gearcad.drawing.shapes import Box
@@ -155,6 +155,15 @@ class DataTableSizes:
     @property
     def columns(self) -> tuple[float, float, float]:
         return self.words, self.symbol, self.value
+
+    @property
+    def width(self) -> float:
+        return sum(self.columns)
+
+    def narrowed(self, width: float) -> DataTableSizes:
+        """With columns that have such a width together."""
+        part = width / self.width
+        return replace(self, words=part * self.words, symbol=part * self.symbol, value=part * self.value)
 
 
 @dataclass(frozen=True, kw_only=True)
