@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -10,24 +10,18 @@ from typing import Any
 
 from gearcad.designs import Design, GearDesign, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, ToothedDesign
 from gearcad.errors import GeometryError, ParameterError, as_choice
-from gearcad.geometry import Gear
 from gearcad.jobs.data import Data
 from gearcad.jobs.job import Job, Writer
+from gearcad.jobs.products import AssemblyProduct, products_of, require_bodies
 from gearcad.jobs.subject import Subject, as_design
 from gearcad.notice import Notice
 from gearcad.progress import Progress
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.files.formats import formats_minding
-from gearcad.solids.files.products import GearProduct, PairProduct
-from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
 from gearcad.solids.files.train_products import TrainProduct
-from gearcad.solids.rim import require_rim
 from gearcad.version import __version__
 
 __all__ = ["Build", "build"]
-
-PartProduct = GearProduct | RackProduct
-AssemblyProduct = PairProduct | RackPairProduct | TrainProduct
 
 _DEFAULT = (Format.STEP, Format.STL)
 
@@ -79,10 +73,7 @@ class Build(Job[ToothedDesign, ToothedDesign]):
             if getattr(self.options, option) and not set(self.formats).intersection(needed):
                 raise GeometryError(option, True, f"needs the format {' or '.join(kind.value for kind in needed)}: {where}")
         if any(kind.entry.of_bodies for kind in self.formats):
-            for name, gear in design.gears.items():
-                _require_body(name, gear)
-            if isinstance(design, PlanetaryDesign):
-                TrainProduct(design.train, self.options).require_room()
+            require_bodies(design, self.options)
         return design
 
     def document(self, result: ToothedDesign) -> dict[str, Any]:
@@ -95,7 +86,7 @@ class Build(Job[ToothedDesign, ToothedDesign]):
     def files(self, result: ToothedDesign) -> dict[str, Writer]:
         """Every file of the design, quickest first."""
         found = Data().files(result)
-        parts, assembly = _products(result, self.options)
+        parts, assembly = products_of(result, self.options)
         for kind in reversed(Format):
             if kind not in self.formats:
                 continue
@@ -126,15 +117,6 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         return Build(formats=formats, options=replace(options, **dict.fromkeys(foreign, False)))
 
 
-def _require_body(name: str, gear: Gear) -> None:
-    """A ring's body ends at its rim. Raises GeometryError, its parameter led by the gear's name."""
-    try:
-        if gear.internal:
-            require_rim(gear)
-    except GeometryError as error:
-        raise error.within(name) from error
-
-
 def _formats(given: object) -> tuple[Format, ...]:
     """Formats by themselves or by their names. Raises ParameterError."""
     if isinstance(given, str) or not isinstance(given, Iterable):
@@ -149,28 +131,6 @@ def _assembly_writer(kind: Format, assembly: AssemblyProduct | None) -> Writer |
     if assembly is None or kind.entry.write_pair is None:
         return None
     return partial(kind.entry.write_pair, assembly)
-
-
-def _products(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[str, PartProduct], AssemblyProduct | None]:
-    """Gears and racks as files hold them, by the names of these files, and what they are in mesh."""
-    if isinstance(design, PlanetaryDesign):
-        train = TrainProduct(design.train, options, _given_speeds(design))
-        return train.parts, train
-    if isinstance(design, PairDesign):
-        pair = PairProduct(design.pair, options)
-        return pair.parts, pair
-    if isinstance(design, RackPairDesign):
-        with_rack = RackPairProduct(design.pair, options)
-        return with_rack.parts, with_rack
-    if isinstance(design, RackDesign):
-        return {"rack": RackProduct(rack=design.rack, name=design.name, options=options)}, None
-    return {name: GearProduct(gear=gear, name=design.name, options=options) for name, gear in design.gears.items()}, None
-
-
-def _given_speeds(design: PlanetaryDesign) -> dict[str, float]:
-    """The speeds (rpm) of a train that its design has."""
-    of_load = {design.train.input: design.load.speed} if design.load is not None and design.load.speed else {}
-    return {**design.speeds, **of_load}
 
 
 def build(

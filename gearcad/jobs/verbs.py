@@ -14,8 +14,9 @@ if TYPE_CHECKING:
     from gearcad.jobs.dynamics import dynamics as dynamics
     from gearcad.jobs.mesh import mesh as mesh
     from gearcad.jobs.modify import modify as modify
+    from gearcad.jobs.picture import picture as picture
     from gearcad.jobs.planetary import planetary as planetary
     from gearcad.jobs.rate import rate as rate
     from gearcad.jobs.stiffness import stiffness as stiffness
 
-VERBS = ("data", "build", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify")
+VERBS = ("data", "build", "picture", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gearcad.planetary import PlanetaryTrain
 from gearcad.solids.carrier_plan import CarrierPlan, carrier_plan
@@ -36,3 +36,7 @@ class TrainPlan:
             return cls(layout, pins)
         apart = moved_apart(layout, pins)
         return cls(apart, pins.lifted(apart.lifts[layout.carrier.name]) if pins else None)
+
+    def turned(self, carrier_angle: float, central_turn: float) -> TrainPlan:
+        """The same turned as by `PlanetaryTrain.pose` (degrees). The carrier's plan stays: as a part it turns with the pose."""
+        return replace(self, layout=replace(self.layout, pose=self.layout.train.pose(carrier_angle, central_turn)))

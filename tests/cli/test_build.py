@@ -55,7 +55,7 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         "stl.write_stl",
         "three_mf.write_3mf",
         "glb.write_glb",
-        "picture.write_picture",
+        "pictures.three_views.write_picture",
         "dxf.write_dxf",
         "points.write_points",
     ):

@@ -93,13 +93,13 @@ def _turning_glb(product: TrainProduct, path: Path) -> None:
 
 
 def _png(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
-    from gearcad.solids.files.picture import write_picture
+    from gearcad.solids.files.pictures.three_views import write_picture
 
     write_picture(product.scene(), path)
 
 
 def _train_png(product: TrainProduct, path: Path) -> None:
-    from gearcad.solids.files.picture import write_picture
+    from gearcad.solids.files.pictures.three_views import write_picture
 
     write_picture(product.scene(), path, product.other_scene())
 

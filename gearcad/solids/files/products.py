@@ -41,9 +41,9 @@ class GearProduct:
         """The gear as a boundary representation: see `gear_solid`."""
         return gear_solid(self.gear)
 
-    def scene(self) -> list[Part]:
-        """The gear alone, unturned at the origin."""
-        return [Part(name=self.name, facets=self.facets, colour=self.colour)]
+    def scene(self, rotation: float = 0.0) -> list[Part]:
+        """The gear alone at the origin, turned by so much (degrees)."""
+        return [Part(name=self.name, facets=self.facets, colour=self.colour, rotation=rotation)]
 
     def write_dxf(self, path: Path) -> None:
         """Its section: see `write_dxf`."""
@@ -85,8 +85,8 @@ class PairProduct:
         """Both exact solids posed in mesh: see `pair_assembly`."""
         return pair_assembly(self.pair, bracket=self.options.bracket)
 
-    def scene(self) -> list[Part]:
-        """Both gears posed in mesh."""
-        pose = self.pair.wheel_pose()
-        (pinion,), (wheel,) = self.gears.pinion.scene(), self.gears.wheel.scene()
+    def scene(self, pinion_rotation: float = 0.0) -> list[Part]:
+        """Both gears posed in mesh, the pinion turned by so much (degrees)."""
+        pose = self.pair.wheel_pose(pinion_rotation)
+        (pinion,), (wheel,) = self.gears.pinion.scene(pinion_rotation), self.gears.wheel.scene()
         return [pinion, replace(wheel, rotation=pose.rotation, offset=(pose.x, 0.0, pose.z))]

@@ -88,8 +88,8 @@ class RackPairProduct:
         """Both exact solids posed in mesh: see `rack_assembly`."""
         return rack_assembly(self.pair)
 
-    def scene(self) -> list[Part]:
-        """Both posed in mesh."""
-        pose = self.pair.rack_pose()
-        (pinion,), (rack,) = self.pinion.scene(), self.rack.scene()
+    def scene(self, pinion_rotation: float = 0.0) -> list[Part]:
+        """Both posed in mesh, the pinion turned by so much (degrees)."""
+        pose = self.pair.rack_pose(pinion_rotation)
+        (pinion,), (rack,) = self.pinion.scene(pinion_rotation), self.rack.scene()
         return [pinion, replace(rack, rotation=pose.rotation, offset=(pose.x, pose.y, pose.z))]

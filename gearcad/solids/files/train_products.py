@@ -87,9 +87,9 @@ class TrainProduct:
         """All exact solids in their places: see `train_assembly`."""
         return assembly_of(self.plan)
 
-    def scene(self) -> list[Part]:
-        """All bodies in their places, what is alike with the same facets."""
-        return list(self._scene(self.plan))
+    def scene(self, carrier_angle: float = 0.0, central_turn: float = 0.0) -> list[Part]:
+        """All bodies in their places, what is alike with the same facets; turned as by `PlanetaryTrain.pose` (degrees)."""
+        return list(self._scene(self.plan.turned(carrier_angle, central_turn)))
 
     def other_scene(self) -> list[Part]:
         """The same moved apart, or in mesh where the scene is apart already."""
@@ -118,7 +118,8 @@ class TrainProduct:
         if plan.carrier is not None and self.carrier is not None:
             axle, offset = plan.layout.carrier, (0.0, 0.0, plan.carrier.plates[0][0])
             (part,) = self.carrier.scene()
-            yield replace(part, name=axle.name, offset=offset, product=part.name, axle=axle)
+            rotation = plan.layout.pose.carrier_angle
+            yield replace(part, name=axle.name, rotation=rotation, offset=offset, product=part.name, axle=axle)
 
     @cached_property
     def carrier(self) -> CarrierProduct | None:

@@ -11,7 +11,7 @@ from gearcad.planetary.speeds import speeds
 from gearcad.solids.files.turning import Turning
 from gearcad.solids.train_layout import TrainLayout
 
-__all__ = ["turning_of"]
+__all__ = ["turning_of", "turns_of"]
 
 _SECONDS = 10.0
 """That an animation takes at least."""
@@ -27,20 +27,28 @@ _WHOLE = 1e-6
 
 
 def turning_of(layout: TrainLayout, given: Mapping[str, float] | None = None) -> Turning:
-    """As `given` speeds (rpm) say; where they do not suffice, the input turns with its sign in them, or positively.
+    """As `turns_of` says: once, or so often that all teeth come round, where nothing turns over _MOST_TURNS times.
 
-    Then a differential's member that is neither input nor output stands still. It lasts one turn of the carrier, or of the
-    input where the carrier does not turn, or so many of them that all teeth come round, where nothing turns over _MOST_TURNS
-    times. Raises ParameterError for speeds that contradict each other.
+    Raises ParameterError for speeds that contradict each other.
+    """
+    turns = turns_of(layout, given)
+    most = max(map(abs, turns.values()))
+    times = _times_round(layout, turns, most) if most <= _MOST_TURNS else _MOST_TURNS / most
+    return Turning(duration=max(_SECONDS, times * most / _FASTEST), turns={name: times * turn for name, turn in turns.items()})
+
+
+def turns_of(layout: TrainLayout, given: Mapping[str, float] | None = None) -> dict[str, float]:
+    """Turns of all axles by name, seen from what carries each, while the carrier turns once, or the input where it does not.
+
+    As `given` speeds (rpm) say; where they do not suffice, the input turns with its sign in them, or positively. Then a
+    differential's member that is neither input nor output stands still. Raises ParameterError for speeds that contradict each
+    other.
     """
     train = layout.train
     found = speeds(train, _given(train, given or {}))
     turns = {**found.members, **{planet[0].axle.name: found.planet_relative for planet in layout.planets}}
     once = next((abs(turns[name]) for name in (train.carrier.name, train.input) if turns[name]), max(map(abs, turns.values())))
-    turns = {name: speed / once for name, speed in turns.items()}
-    most = max(map(abs, turns.values()))
-    times = _times_round(layout, turns, most) if most <= _MOST_TURNS else _MOST_TURNS / most
-    return Turning(duration=max(_SECONDS, times * most / _FASTEST), turns={name: times * turn for name, turn in turns.items()})
+    return {name: speed / once for name, speed in turns.items()}
 
 
 def _times_round(layout: TrainLayout, turns: Mapping[str, float], most: float) -> int:
