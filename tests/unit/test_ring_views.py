@@ -158,7 +158,7 @@ def test_teeth_run_from_above_as_their_drift(name: str) -> None:
 def test_a_long_rack_is_broken_and_says_its_length() -> None:
     rack = RACKS["long"]
     span = Span(rack, 1.0)
-    assert 2 * span.right == pytest.approx(8 * 24.0 + 3.0) and len(span.parts) == 2
+    assert 2 * span.right == pytest.approx(6 * 24.0 + 3.0) and len(span.parts) == 2
     view = dressed(front_view(*demands(rack)[:2], Draughting(Words.of(Language.ENGLISH), 1.0)))
     assert view is not None
     assert "500" in [text.words for text in view.texts]

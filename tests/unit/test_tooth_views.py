@@ -165,7 +165,7 @@ def test_a_tip_relief_by_hand() -> None:
     words = [text.words for text in figure.texts]
     assert f"{begin:.3f}".replace(".", ",") in words and "20,0" in words
     curve = next(shape for shape in figure.shapes if isinstance(shape, Polyline))
-    assert curve.points[-1][1] == pytest.approx(-20.0) and max(y for _, y in curve.points) == pytest.approx(0.0)
+    assert curve.points[-1][1] == pytest.approx(-15.0) and max(y for _, y in curve.points) == pytest.approx(0.0)
 
 
 def test_both_halves_of_a_double_helical_gear_are_alike_from_outside() -> None:

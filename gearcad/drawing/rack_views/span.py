@@ -10,13 +10,13 @@ from gearcad.geometry import Rack
 
 __all__ = ["Span"]
 
-_SHOWN = 8.0
+_SHOWN = 6.0
 """Greatest length that is shown, over the larger of height and face width."""
 
-_PITCHES = 8
+_PITCHES = 7
 """So many pitches are shown at least."""
 
-_WORTH = 1.25
+_WORTH = 1.6
 """A rack is broken only where it is that much longer than what would be shown of it."""
 
 _GAP = 3.0

@@ -17,10 +17,10 @@ from gearcad.geometry import Gear, Rack
 
 __all__ = ["detail_scale", "tooth_figure"]
 
-_ROOM = (72.0, 60.0)
+_ROOM = (64.0, 54.0)
 """Greatest width and height of the tooth with half a space on both sides."""
 
-_TITLE_GAP = 4.0
+_TITLE_GAP, _TEXT = 4.0, 2.5
 _AIR = 1.2
 
 
@@ -60,7 +60,7 @@ def _chamfer(gear: Gear | Rack, place: Placing, draughting: Draughting) -> Figur
     x, y = place.point(at, -(place.flank(at) or 0.0))
     rise = 6.0 if up else -6.0
     knee = (x - 6.0, y + rise)
-    text = plain(draughting.words.shortest(size, 3) + "×45°")
+    text = plain(draughting.words.shortest(size, 3) + "×45°", _TEXT)
     end = knee[0] - text.width - _AIR
     return Figure.of(
         Line((x, y), knee, Pen.DIMENSION),

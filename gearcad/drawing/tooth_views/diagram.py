@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from gearcad.drawing.marks import Cell, symbol, table
+from gearcad.drawing.marks import Cell, plain, symbol, table
 from gearcad.drawing.shapes import Anchor, Figure, Line, Pen, Polyline, Shape, Text
 from gearcad.drawing.tooth_views.depths import Depths
 from gearcad.drawing.tooth_views.spread import spread
@@ -13,16 +13,16 @@ from gearcad.drawing.words import Draughting, Words
 
 __all__ = ["depth_diagram"]
 
-_WIDTH, _HEIGHT = 72.0, 20.0
+_WIDTH, _HEIGHT = 60.0, 15.0
 """Of the curves."""
 
 _SMALL, _TITLE = 2.5, 3.5
 """Heights of texts."""
 
-_ROW = 4.5
+_ROW = 4.2
 _CELL_AIR = 1.6
 _NUMBER_GAP = 3.5
-_DROP = 4.0
+_DROP = 3.0
 """From the lowest depth to the numbers of the places."""
 
 _PENS = {"profile_start": Pen.THIN, "profile_end": Pen.HIDDEN, "flank_left": Pen.HIDDEN}
@@ -48,15 +48,15 @@ class _Plot:
         return self.up(self.depths.extent[1])
 
 
-def depth_diagram(title: str, place_symbol: str, depths: Depths, legend: Sequence[str], draughting: Draughting) -> Figure:
-    """The diagram with its title above and the legend below; `place_symbol` is that of the places."""
+def depth_diagram(title: str, place_symbol: str, depths: Depths, notes: Sequence[str], draughting: Draughting) -> Figure:
+    """The diagram with its title above and notes below; `place_symbol` is that of the places."""
     plot = _Plot(depths)
     top = max(plot.up(depths.extent[0]), 0.0)
     drawn = Figure.of(_curves(plot), _places(plot), _names(plot, draughting.words))
     drawn = Figure.of(Text(title, (0.0, top + 4.0), _TITLE, pen=Pen.TEXT), drawn)
     grid = _table(place_symbol, depths, draughting.words)
     below = drawn.box.bottom - 3.0
-    rows = (symbol(line, _SMALL).at((0.0, below - grid.box.height - _ROW * (i + 1))) for i, line in enumerate(legend))
+    rows = (plain(line, _SMALL).at((0.0, below - grid.box.height - _ROW * (i + 1))) for i, line in enumerate(notes))
     return Figure.of(drawn, grid.moved(0.0, below), *rows)
 
 

@@ -11,15 +11,15 @@ from gearcad.drawing.words import Draughting
 
 __all__ = ["named_levels"]
 
-_BEYOND = 6.0
+_BEYOND = 4.0
 """How far a level goes on behind the middle of the space."""
 
-_KNEE, _SLANT = 1.0, 5.0
+_KNEE, _SLANT = 1.0, 4.0
 """Length of the level part of what leads to a name, and width of the slanting one."""
 
 _AIR = 1.0
-_LINE = 5.5
-"""Between names, from line to line."""
+_TEXT, _LINE = 2.5, 4.2
+"""Height of names, and from line to line."""
 
 
 def named_levels(levels: tuple[Level, ...], place: Placing, draughting: Draughting) -> Figure:
@@ -46,4 +46,4 @@ def _name(level: Level, draughting: Draughting) -> Written:
     value = draughting.words.number(level.value, 3)
     prefix = "⌀" if level.symbol.startswith("d") else ""
     text = f"({prefix}{value})" if level.reference else prefix + value
-    return symbol(level.symbol).then(plain(text), 1.5)
+    return symbol(level.symbol, _TEXT).then(plain(text, _TEXT), 1.2)

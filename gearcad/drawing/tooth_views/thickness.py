@@ -12,10 +12,11 @@ from gearcad.geometry import Gear, Rack
 
 __all__ = ["thickness_dimension"]
 
+_TEXT = 2.5
 _AIR = 1.2
 """Between text and lines."""
 
-_BELOW, _ABOVE = 7.0, 3.0
+_BELOW, _ABOVE = 6.0, 3.0
 """How far the dimension line is from the reference circle, towards the root: the text stands above the line."""
 
 _LIFT = 0.9
@@ -59,7 +60,8 @@ def thickness_dimension(gear: Gear | Rack, place: Placing, draughting: Draughtin
         return Figure()
     inwards = _ABOVE if place.root > reference else -_BELOW
     line = _Line(place, reference + inwards / place.scale, half)
-    text = symbol("(s_t").then(plain(draughting.words.number(gear.transverse_tooth_thickness, 3) + ")"), 1.0)
+    value = plain(draughting.words.number(gear.transverse_tooth_thickness, 3) + ")", _TEXT)
+    text = symbol("(s_t", _TEXT).then(value, 1.0)
     room = line.point(half)[0] - line.point(-half)[0]
     over = line.height + (_OVER if inwards > 0 else -_OVER) / place.scale
     extensions = (Line(place.point(reference, side), place.point(over, side), Pen.DIMENSION) for side in (-half, half))
