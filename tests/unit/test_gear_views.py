@@ -9,8 +9,13 @@ import numpy as np
 import pytest
 
 from gearcad import Body, Gear
-from gearcad.drawing.gear_views import Along, end_face, half_section
-from gearcad.drawing.shapes import Circle, Figure, Hatching, Line, Pen, Polyline
+from gearcad.drawing.gear_views import Along, end_face, face_view, half_section, section_view
+from gearcad.drawing.layout import dressed
+from gearcad.drawing.options import DrawingOptions
+from gearcad.drawing.requirements import Requirements
+from gearcad.drawing.shapes import Circle, Dimension, Figure, Hatching, Line, Measured, Pen, Polyline, Text
+from gearcad.drawing.subject import DrawnGear
+from gearcad.drawing.words import Draughting, Language, Words
 from gearcad.geometry import DoubleHelix
 from gearcad.geometry.body import HubSide
 from gearcad.solids import tessellate
@@ -23,7 +28,7 @@ BODY = Body(
 GEAR = Gear(teeth=30, normal_module=2.5, face_width=25.0, helix_angle=20.0, body=BODY)
 
 
-def _flat_lines(figure: Figure, pen: Pen, *, above: bool) -> list[tuple[float, float, float]]:
+def _flat_lines(figure: Figure, pen: Pen, *, above: bool) -> list[tuple[float, ...]]:
     """Left end, right end and height of lines along the axis, rounded; those above the axis, or below it."""
     lines = [each for each in figure.shapes if isinstance(each, Line) and each.pen is pen and each.start[1] == each.end[1]]
     found = [(*sorted((each.start[0], each.end[0])), each.start[1]) for each in lines if (each.start[1] > 0) is above]
@@ -152,3 +157,51 @@ def test_keyway_is_up_and_its_contour_is_closed() -> None:
     angle = math.asin(0.3)
     expected = math.pi * 100 - (angle - 0.3 * math.cos(angle)) * 100 + 6 * (12.8 - 10 * math.cos(angle))
     assert _area(opening.points[:-1]) == pytest.approx(expected, rel=3e-3)  # of chords
+
+
+def _dressed(gear: Gear, scale: float = 1.0) -> list[Figure]:
+    """Both views with all their marks."""
+    drawn = DrawnGear(role="gear", gear=gear)
+    requirements, draughting = Requirements.of(drawn, DrawingOptions()), Draughting(Words.of(Language.ENGLISH), scale)
+    found = [dressed(view(drawn, requirements, draughting)) for view in (section_view, face_view)]
+    assert all(figure is not None for figure in found)
+    return [figure for figure in found if figure is not None]
+
+
+def _said(figure: Figure, scale: float) -> list[tuple[float, str]]:
+    """What each dimension measures (mm of the part), and what it says."""
+    found = []
+    for each in (each for each in figure.shapes if isinstance(each, Dimension)):
+        across, up = (abs(one - other) / scale for one, other in zip(each.first, each.second, strict=True))
+        length = {Measured.HORIZONTAL: across, Measured.VERTICAL: up, Measured.DIAMETER: math.hypot(across, up)}[each.measured]
+        found.append((length, "".join(part.words for part in each.parts if isinstance(part, Text))))
+    return sorted(found)
+
+
+def test_sizes_measure_what_they_say() -> None:
+    section, face = _dressed(GEAR, SCALE)
+    assert [text for _, text in _said(section, SCALE)] == ["25h110−0.13", "33", "⌀34", "⌀84.813h90−0.087"]
+    assert [length for length, _ in _said(section, SCALE)] == pytest.approx([25, 33, 34, GEAR.tip_diameter])
+    assert [text for _, text in _said(face, SCALE)] == ["6JS9±0.015", "⌀20H7+0.0210E", "22.8+0.10"]
+    assert [length for length, _ in _said(face, SCALE)] == pytest.approx([6, 20, 22.8])
+    texts = [each.words for figure in (section, face) for each in figure.texts]
+    assert {"1.5×30°", "Ra 1.6", "Ra 0.8", "A", "2×"} <= set(texts)
+
+
+def test_groove_and_hubs_of_double_helical_gears_are_dimensioned() -> None:
+    body = Body(bore=20.0, hub_diameter=34.0, hub_length=5.0, hub_side=HubSide.BOTH)
+    gear = Gear(teeth=30, normal_module=2.5, face_width=40, helix_angle=30, double_helix=DoubleHelix(gap_width=8), body=body)
+    section, _ = _dressed(gear)
+    assert [round(length, 6) for length, _ in _said(section, 1.0)] == [5, 8, 16, 34, 40, 50, round(gear.tip_diameter, 6)]
+    assert f"⌀{gear.gap_diameter:.3f}" in [each.words for each in section.texts]
+
+
+def test_marks_keep_off_each_other_and_the_outline() -> None:
+    """By boxes and points along lines, not by what placed them."""
+    for figure in _dressed(GEAR, SCALE):
+        boxes = [each.box for each in figure.texts]
+        assert not any(one.meets(other) for i, one in enumerate(boxes) for other in boxes[:i])
+        starts, ends = (np.array(points) for points in zip(*figure.segments, strict=True))
+        points = (starts[:, None] + np.linspace(0, 1, 50)[:, None] * (ends - starts)[:, None]).reshape(-1, 2)
+        low, high = np.array(boxes)[:, None, :2], np.array(boxes)[:, None, 2:]
+        assert not ((low < points) & (points < high)).all(axis=-1).any()

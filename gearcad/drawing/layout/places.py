@@ -118,7 +118,7 @@ class Room:
             stood = box.moved(left, 0.0)
             if stood.right > self.free.right - _AROUND + 1e-9:
                 return None
-            hit = [each.right for each in self.taken if each.meets(stood.grown(_AROUND))]
+            hit = [each.right for each in self.taken if each.meets(stood.grown(_AROUND - 1e-9))]
             if not hit:
                 return left
             left = max(hit) + _AROUND

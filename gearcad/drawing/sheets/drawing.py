@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
+from gearcad.drawing.files import sheet_document
 from gearcad.drawing.shapes import Box, Figure
 from gearcad.drawing.words import Language
 from gearcad.notice import Notice
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing as Document
 
 __all__ = ["Drawing", "Sheet"]
 
@@ -29,6 +34,10 @@ class Sheet:
     figure: Figure = field(repr=False)
     shown: Mapping[str, float] = field(default_factory=dict, repr=False)
     notices: tuple[Notice, ...] = ()
+
+    def document(self) -> Document:
+        """As one document of DXF, of which all its files are written."""
+        return sheet_document(self.figure, self.size, self.scale, title=self.title, language=self.language)
 
     @property
     def paper(self) -> Box:

@@ -1,0 +1,143 @@
+"""The sheet of one gear: its views, a tooth in detail, gear data, notes, title block (ISO 2203, ISO 1340, ISO 7200)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields
+
+from gearcad.drawing.frame import Furnished, Furniture, SheetTemplate, title_values
+from gearcad.drawing.gear_data import Row, gear_rows
+from gearcad.drawing.layout import Fixed, Views, arranged
+from gearcad.drawing.marks import general_roughness
+from gearcad.drawing.options import DrawingOptions, PartDrawing, SheetSize
+from gearcad.drawing.requirements import Requirements
+from gearcad.drawing.shapes import Box, Figure
+from gearcad.drawing.sheets.drawing import Sheet
+from gearcad.drawing.sheets.part_views import detail_blocks, part_kind, part_rows
+from gearcad.drawing.subject import DrawnGear
+from gearcad.drawing.words import Draughting, Size, Words
+from gearcad.geometry import Gear
+
+__all__ = ["draw_gear"]
+
+_AIR = 4.0
+"""From the frame, or what stands beside it, to the roughness of the rest."""
+
+_UNNAMED = ("gear", "rack")
+"""Names that nobody gave."""
+
+_USUAL_CHAMFER = 45.0
+"""An angle of chamfers that may be taken from either side."""
+
+
+def draw_gear(drawn: DrawnGear, options: DrawingOptions, part: PartDrawing | None = None, *, alone: bool = True) -> Sheet:
+    """The sheet of an external gear, a ring or a rack, as [drawing] and the gear's own table have it.
+
+    `alone` where it is the only gear of its design: number, title and revisions of [drawing] are then its own. Raises
+    ParameterError for a sheet or a scale that has no room, and for a template that cannot be used.
+    """
+    content = _Content.of(drawn, options.of_part(part, alone=alone))
+    own = content.options
+    found = arranged(content.views, content.fixed, sheet=own.sheet, scale=own.scale, projection=own.projection)
+    return Sheet(
+        name=drawn.role,
+        title=content.title,
+        number=own.number,
+        size=found.size,
+        scale=found.factor,
+        language=own.language,
+        figure=found.figure,
+        shown=content.shown,
+        notices=content.furnished(found.sheet, found.scale).notices,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Content:
+    """What the sheet of a part says, whatever its size and scale."""
+
+    drawn: DrawnGear
+    options: DrawingOptions
+    template: SheetTemplate
+    words: Words
+    requirements: Requirements
+    rows: tuple[Row, ...]
+
+    @classmethod
+    def of(cls, drawn: DrawnGear, options: DrawingOptions) -> _Content:
+        template = SheetTemplate.of(options.template)
+        words = template.words(options.language)
+        return cls(
+            drawn=drawn,
+            options=options,
+            template=template,
+            words=words,
+            requirements=Requirements.of(drawn, options),
+            rows=gear_rows(drawn, words),
+        )
+
+    @property
+    def title(self) -> str:
+        """As it was given, else the word for such a part, with its name if it has one."""
+        word, name = self.words[f"assembly.{part_kind(self.drawn)}"], self.drawn.gear.name
+        named = name not in (*_UNNAMED, self.drawn.role)
+        return self.options.title or (f"{word} {name}" if named else word)
+
+    @property
+    def shown(self) -> Mapping[str, float]:
+        """The numbers of the table by their keys, and the sizes of the views by their names among the requirements."""
+        numbers = {key: value for row in self.rows for key, value in row.numbers.items()}
+        sizes = {each.name: getattr(self.requirements, each.name) for each in fields(self.requirements)}
+        return numbers | {f"sizes.{name}": size.value for name, size in sizes.items() if isinstance(size, Size)}
+
+    def views(self, scale: float) -> Views:
+        """The views at a scale, and the details, which have scales of their own."""
+        draughting = Draughting(self.words, scale)
+        return Views(part_rows(self.drawn, self.requirements, draughting), detail_blocks(self.drawn, self.words))
+
+    def fixed(self, sheet: SheetSize, scale: str) -> Fixed:
+        """All else, as the layout takes it."""
+        furnished = self.furnished(sheet, scale)
+        rest = self._roughness(furnished)
+        return Fixed(furnished.figure + rest, furnished.free, (*furnished.taken, rest.box))
+
+    def furnished(self, sheet: SheetSize, scale: str) -> Furnished:
+        """Border, title block, revisions, gear data, notes."""
+        furniture = Furniture(
+            options=self.options,
+            template=self.template,
+            words=self.words,
+            rows=self.rows,
+            table_title=self.words["data.title"],
+            notes=tuple(self._notes()),
+        )
+        values = title_values(
+            self.options,
+            self.words,
+            title=self.title,
+            document_type=self.words["views.part_drawing"],
+            size=sheet,
+            scale=scale,
+            material=self.requirements.material,
+            heat_treatment=self.requirements.heat_treatment(self.words),
+        )
+        return furniture.on(sheet, values)
+
+    def _notes(self) -> Iterator[str]:
+        """What has to be said of the part beside its views."""
+        yield from self.requirements.tooth_notes(self.words)
+        gear = self.drawn.gear
+        if isinstance(gear, Gear) and gear.body.end_chamfer and gear.body.end_chamfer_angle != _USUAL_CHAMFER:
+            yield self.words["views.note_chamfer_angle"]
+
+    def _roughness(self, furnished: Furnished) -> Figure:
+        """That of all other surfaces, above the title block, or above the notes where the table is there."""
+        figure = general_roughness(f"Ra {self.words.shortest(self.requirements.rest_roughness)}")
+        figure = figure.moved(-figure.box.left, -figure.box.bottom)
+        stack, notes = furnished.taken[0], furnished.taken[-1]
+        moved = [figure.moved(box.left + _AIR, box.top + _AIR) for box in (stack, notes)]
+        return next((each for each in moved if _is_clear(each.box, furnished.taken)), moved[-1])
+
+
+def _is_clear(box: Box, taken: tuple[Box, ...]) -> bool:
+    return not any(each.meets(box.grown(_AIR / 2)) for each in taken)

@@ -1,0 +1,56 @@
+"""Where the detail of a tooth is taken from: a ring round a tooth, and the letter of the detail (ISO 128-3)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from gearcad.drawing.shapes import Anchor, Box, Circle, Figure, Pen, Point, Text
+from gearcad.drawing.subject import DrawnGear
+from gearcad.geometry import Gear, Rack
+
+__all__ = ["DETAIL", "detail_mark"]
+
+DETAIL = "Z"
+
+_LEAST_RING, _LETTER = 3.0, 5.0
+"""Radius of the smallest ring, height of the letter (mm of paper)."""
+
+_AIR = 1.0
+_ROUND = (150.0, 120.0, -150.0, -120.0, 30.0, 60.0, -30.0, -60.0)
+"""Directions from the axis (degrees) in which a tooth of a gear may be, none of them along a centre line."""
+
+_ALONG = (0.5, 1.0, 1.5)
+"""Places of a tooth of a rack, from where its front view ends, in pitches."""
+
+
+def detail_mark(drawn: DrawnGear, view: Figure, scale: float, letter: str = DETAIL) -> Iterator[Figure]:
+    """On the `view` along the axis, the axis at the origin; of a rack on that from its front, whose reference line is at
+    height 0."""
+    gear = drawn.gear
+    places = _of_rack(gear, view.box, scale) if isinstance(gear, Rack) else _of_gear(gear, scale)
+    for centre, radius, (across, up) in places:
+        out = radius + 0.8 * _LETTER
+        text = Text(letter, (centre[0] + out * across, centre[1] + out * up), _LETTER, Anchor.MIDDLE, pen=Pen.TEXT)
+        yield Figure.of(Circle(centre, radius, Pen.THIN), text)
+
+
+def _of_gear(gear: Gear, scale: float) -> Iterator[tuple[Point, float, Point]]:
+    """Middle and radius of rings, and the way from there to the letter: off the teeth."""
+    tip, root = (scale * abs(diameter) / 2 for diameter in (gear.tip_diameter, gear.root_diameter))
+    side = -1.0 if gear.internal else 1.0
+    for way in _ROUND:
+        out = math.cos(math.radians(way)), math.sin(math.radians(way))
+        middle = (tip + root) / 2 * out[0], (tip + root) / 2 * out[1]
+        yield middle, _ring(tip, root), (side * out[0], side * out[1])
+
+
+def _of_rack(rack: Rack, view: Box, scale: float) -> Iterator[tuple[Point, float, Point]]:
+    top, root, pitch = scale * rack.tip_height, -scale * rack.root_depth, scale * rack.transverse_pitch
+    for pitches in _ALONG:
+        for along in (view.left + pitches * pitch, view.right - pitches * pitch):
+            yield (along, (top + root) / 2), _ring(top, root), (0.0, 1.0)
+
+
+def _ring(tip: float, root: float) -> float:
+    return max(_LEAST_RING, abs(tip - root) / 2 + _AIR)
