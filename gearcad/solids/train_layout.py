@@ -14,7 +14,7 @@ from gearcad.planetary.poses import PlanetPose, TrainPose
 from gearcad.solids.axle import Axle
 from gearcad.solids.colours import STAGE_COLOURS, TRAIN_COLOURS, Colour
 
-__all__ = ["Standing", "TrainBody", "TrainLayout", "train_bodies"]
+__all__ = ["Standing", "TrainBody", "TrainLayout", "stage_keys", "train_bodies"]
 
 _UNNAMED = ("gear", "pinion", "wheel")
 """Names that a gear has where nobody named it."""
@@ -95,7 +95,7 @@ class TrainLayout:
     def stages(self) -> tuple[Standing, ...]:
         """Pinion and wheel of each stage, in their order."""
         found: list[Standing] = []
-        for stage, keys, posed in zip(self.train.stages, _stage_keys(self.train), self.pose.stages, strict=True):
+        for stage, keys, posed in zip(self.train.stages, stage_keys(self.train), self.pose.stages, strict=True):
             for role, place in posed.gears.items():
                 shaft, key = getattr(stage, role.value), keys.pick(role)
                 axle = self.carrier if shaft == self.carrier.name else Axle(shaft, place.x, place.y)
@@ -118,7 +118,7 @@ class TrainLayout:
         return Standing(name, self.bodies[key], axle, rotation, height + self.lifts.get(key, 0.0))
 
 
-def _stage_keys(train: PlanetaryTrain) -> list[PerGear[str]]:
+def stage_keys(train: PlanetaryTrain) -> list[PerGear[str]]:
     """What the gears of each stage are called: a gear has its own name if that tells it from all others."""
     taken = [*train.members, *(rim.name for rim in train.rims)]
     taken += [gear.name for stage in train.stages for gear in stage.pair.gears]
@@ -133,7 +133,7 @@ def _stage_keys(train: PlanetaryTrain) -> list[PerGear[str]]:
 def train_bodies(train: PlanetaryTrain) -> dict[str, TrainBody]:
     """The gears of a train by their keys: centrals, rims, pinion and wheel of each stage, no two of one name or colour."""
     gears = {central.name: central.gear for central in train.centrals} | {rim.name: rim.gear for rim in train.rims}
-    for stage, keys in zip(train.stages, _stage_keys(train), strict=True):
+    for stage, keys in zip(train.stages, stage_keys(train), strict=True):
         gears |= {keys.pick(role): gear for role, gear in stage.pair.gears.items()}
     ours = {key: f"{train.name} {key}" for key in gears}
     own = {key: ours[key] if gear.name in (*_UNNAMED, key) else gear.name for key, gear in gears.items()}

@@ -1,0 +1,85 @@
+"""Gears as one sees them along their axes: circles of tip, pitch, hub and bore (ISO 2203). Lengths in mm."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from gearcad.drawing.shapes import Circle, Figure, Line, Pen, Point, Polyline, Shape
+from gearcad.geometry import Body, Gear
+from gearcad.rating.rim import outer_diameter
+from gearcad.solids.keyway import keyway_half_angle
+
+__all__ = ["BEYOND_AXIS", "Front", "cross"]
+
+BEYOND_AXIS = 6.0
+"""How far centre lines reach beyond what they belong to (mm of paper)."""
+
+_LEAST_CROSS = 3.0
+"""Half a cross of centre lines (mm of paper) at the least."""
+
+
+@dataclass(frozen=True)
+class Front:
+    """A gear seen from its upper end: where its axis is (mm of the part), and the radii of the pitch circles drawn (mm).
+
+    Its keyway or first bolt hole is up. `tip` is the pen of its tip circle; a `bare` one has nothing but tip and pitch circles.
+    """
+
+    gear: Gear
+    centre: Point = (0.0, 0.0)
+    pitch_radii: tuple[float, ...] = ()
+    tip: Pen = Pen.OUTLINE
+    bare: bool = False
+
+    @property
+    def reach(self) -> float:
+        """Radius of all of it (mm)."""
+        return (outer_diameter(self.gear) if self.gear.internal else self.gear.tip_diameter) / 2
+
+    def figure(self, scale: float) -> Figure:
+        """Without centre lines."""
+        gear, at = self.gear, (scale * self.centre[0], scale * self.centre[1])
+        shapes: list[Shape] = [Circle(at, scale * gear.profile.tip_diameter / 2, self.tip)]
+        shapes += (Circle(at, scale * radius, Pen.CENTRE) for radius in self.pitch_radii)
+        if self.bare:
+            return Figure(tuple(shapes))
+        shapes += (shape.moved(*at) for shape in (_rim(gear, scale) if gear.internal else _disc(gear, scale)))
+        return Figure(tuple(shapes))
+
+
+def cross(centre: Point, reach: float) -> Figure:
+    """Two centre lines through a centre, so far to each side (mm of paper)."""
+    (x, y), far = centre, max(reach, _LEAST_CROSS)
+    return Figure.of(Line((x - far, y), (x + far, y), Pen.CENTRE), Line((x, y - far), (x, y + far), Pen.CENTRE))
+
+
+def _disc(gear: Gear, scale: float) -> Iterator[Shape]:
+    body = gear.body
+    if body.hub_ends[1]:
+        yield Circle((0.0, 0.0), scale * body.hub_diameter / 2)
+    if body.keyway_width:
+        yield _keyed(body, scale)
+    elif body.bore:
+        yield Circle((0.0, 0.0), scale * body.bore / 2)
+
+
+def _keyed(body: Body, scale: float) -> Polyline:
+    """Bore and keyway as one closed line."""
+    half, floor = scale * body.keyway_width / 2, scale * (body.bore / 2 + body.keyway_depth)
+    angle = keyway_half_angle(body)
+    wall = scale * body.bore / 2 * math.cos(angle)
+    around = math.tan((math.pi - angle) / 2)
+    return Polyline(((-half, wall, around), (half, wall, 0.0), (half, floor, 0.0), (-half, floor, 0.0)), closed=True)
+
+
+def _rim(gear: Gear, scale: float) -> Iterator[Shape]:
+    body = gear.body
+    yield Circle((0.0, 0.0), scale * outer_diameter(gear) / 2, Pen.OUTLINE if body.rim_diameter else Pen.THIN)
+    if body.bolt_holes:
+        around = scale * body.bolt_circle / 2
+        yield Circle((0.0, 0.0), around, Pen.CENTRE)
+        for number in range(body.bolt_holes):
+            turn = math.pi / 2 + number * math.tau / body.bolt_holes
+            yield Circle((around * math.cos(turn), around * math.sin(turn)), scale * body.bolt_diameter / 2)

@@ -1,0 +1,108 @@
+"""A planetary train seen along its axis: its set without the carrier, planets at their true angles, stages in thin lines.
+
+Which of two circles on one axis is hidden follows from heights; gears in mesh do not hide each other (ISO 2203).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+from gearcad.drawing.assembled import BEYOND_AXIS, Front, cross, overall_height, overall_width
+from gearcad.drawing.layout import Candidates, View
+from gearcad.drawing.marks import Side, linear_dimension
+from gearcad.drawing.shapes import Box, Circle, Figure, Line, Pen, Point
+from gearcad.drawing.train_views.cutting import cutting_line
+from gearcad.drawing.train_views.pitch import pitch_radii
+from gearcad.drawing.train_views.plan import TrainPlan
+from gearcad.drawing.words import Draughting, Size
+from gearcad.solids.train_layout import Standing
+
+__all__ = ["planet_centres", "train_face"]
+
+
+def train_face(plan: TrainPlan, draughting: Draughting, looking: int = -1) -> View:
+    """The axis of the train at the origin, the first planet above it, seen from +z; with centre distance and sizes over all.
+
+    `looking` is which way one looks at a bent section: -1 to the left, 1 to the right.
+    """
+    fronts, scale = list(_fronts(plan)), draughting.scale
+    whole = Box.of_all(Box(*front.centre, *front.centre).grown(front.reach) for front in fronts)
+    box = Box(*(scale * side for side in whole))
+    figure = Figure.of(*(front.figure(scale) for front in fronts)) + _centre_lines(plan, fronts, scale)
+    if plan.below is not None and plan.bent:
+        reach = scale * max(math.hypot(*front.centre) + front.reach for front in fronts) + BEYOND_AXIS
+        figure += cutting_line(math.radians(90 + plan.turns[plan.below]), reach, looking)
+    round_about = any(front.gear.internal and 2 * front.reach >= whole.height for front in fronts)
+    marks: list[Candidates] = [
+        partial(_distance, plan, box, draughting),
+        partial(overall_height, box, whole.height, draughting, "⌀" if round_about else ""),
+    ]
+    if not round_about:
+        marks.append(partial(overall_width, box, whole.width, draughting))
+    return View("face", figure, tuple(marks))
+
+
+def _distance(plan: TrainPlan, box: Box, draughting: Draughting) -> Iterator[Figure]:
+    """From the axis of the train to that of the first planet."""
+    scale, size = draughting.scale, Size(value=plan.distance)
+    half = scale * max(rim.body.gear.tip_diameter for rim in plan.layout.planets[0]) / 2
+    for side, edge in ((Side.RIGHT, box.right), (Side.LEFT, box.left)):
+        first = side.outwards * half, scale * plan.distance
+        yield from linear_dimension(first, (edge + side.outwards * BEYOND_AXIS, 0.0), side, size, draughting, clear=edge)
+
+
+def planet_centres(plan: TrainPlan) -> list[Point]:
+    """Their axes (mm)."""
+    turns = [math.radians(90 + turn) for turn in plan.turns]
+    return [(plan.distance * math.cos(turn), plan.distance * math.sin(turn)) for turn in turns]
+
+
+def _fronts(plan: TrainPlan) -> Iterator[Front]:
+    train = plan.train
+    centrals, rims = plan.layout.centrals, plan.layout.planets[0]
+    for central in centrals:
+        yield Front(central.body.gear, (0.0, 0.0), pitch_radii(train, central.body.key), _tip(central, centrals))
+    for centre in planet_centres(plan):
+        for rim in rims:
+            yield Front(rim.body.gear, centre, pitch_radii(train, rim.body.key), _tip(rim, rims))
+    first = math.radians(90 - plan.layout.pose.planets[0].angle)
+    for gear in plan.layout.stages:
+        x, y = gear.axle.x, gear.axle.y
+        at = x * math.cos(first) - y * math.sin(first), x * math.sin(first) + y * math.cos(first)
+        yield Front(gear.body.gear, at, pitch_radii(train, gear.body.key), Pen.THIN, bare=True)
+
+
+def _tip(one: Standing, others: Sequence[Standing]) -> Pen:
+    """The pen of a tip circle: dashed behind a body on the same axis that is nearer and larger, of rings smaller inside."""
+    own = one.body.gear
+    for other in others:
+        gear = other.body.gear
+        if other is not one and other.z > one.z and gear.internal is own.internal and gear.tip_diameter > own.tip_diameter:
+            return Pen.HIDDEN
+    return Pen.OUTLINE
+
+
+def _centre_lines(plan: TrainPlan, fronts: Sequence[Front], scale: float) -> Figure:
+    """Of all axes; that of the train with the circle on which the planets' axes are."""
+    reach = scale * max(math.hypot(*front.centre) + front.reach for front in fronts if not front.bare) + BEYOND_AXIS
+    figure = Figure.of(Circle((0.0, 0.0), scale * plan.distance, Pen.CENTRE)) + cross((0.0, 0.0), reach)
+    for number, (x, y) in enumerate(planet_centres(plan)):
+        if number == 0 and abs(x) < 1e-9 * plan.distance:
+            half = scale * max(rim.body.gear.tip_diameter for rim in plan.layout.planets[0]) / 2
+            figure += Figure.of(Line((-half, scale * y), (half, scale * y), Pen.CENTRE))
+            continue
+        figure += _radial((scale * x, scale * y), scale * plan.layout.planets[0][0].body.gear.tip_diameter / 2)
+    for front in fronts:
+        if front.bare and math.hypot(*front.centre) > 1e-9:
+            figure += cross((scale * front.centre[0], scale * front.centre[1]), scale * front.reach + BEYOND_AXIS)
+    return figure
+
+
+def _radial(centre: Point, half: float) -> Figure:
+    """The centre line of a planet, on the radius of the train; the circle of the axes crosses it."""
+    distance = math.hypot(*centre)
+    way = centre[0] / distance, centre[1] / distance
+    inner, outer = distance - half, distance + half
+    return Figure.of(Line((inner * way[0], inner * way[1]), (outer * way[0], outer * way[1]), Pen.CENTRE))
