@@ -35,15 +35,18 @@ def new(kind: str | None, output: str | None, force: bool) -> None:
     path = Path(output or name)
     _write_new(path, text, force)
     click.echo(path)
-    click.echo(f"Next: gearcad {_next(name, text)} {path}", err=True)
+    click.echo(f"Next: {_next(name, text, path)}", err=True)
 
 
-def _next(name: str, text: str) -> str:
-    """The command that shows most of what a starter is."""
+def _next(name: str, text: str, path: Path) -> str:
+    """The command that shows most of what a starter is; a template of drawings is named in specs."""
+    if name.startswith("drawing_"):
+        return f'keep what you change, and name it in a spec: [drawing] template = "{path}"'
     if name.endswith(".csv"):
-        return "batch"
+        return f"gearcad batch {path}"
     commands = {"train": "dynamics", "planetary": "planetary"}
-    return next((command for table, command in commands.items() if f"\n[{table}]\n" in text), "data")
+    command = next((command for table, command in commands.items() if f"\n[{table}]\n" in text), "data")
+    return f"gearcad {command} {path}"
 
 
 def _write_new(path: Path, text: str, force: bool) -> None:

@@ -19,15 +19,15 @@ _ALIASES = {
 """What a newcomer would ask for."""
 
 
-_OF_SHEETS = "drawing_"
-"""Templates of drawings begin so: they make nothing by themselves."""
+_NONE = ("drawing_words",)
+"""Templates of drawings that nobody begins with."""
 
 
 def _files() -> dict[str, Path]:
     return {
         path.stem: path
         for path in sorted(templates().iterdir(), key=lambda path: path.stem)
-        if path.suffix in (".toml", ".csv") and not path.stem.startswith(_OF_SHEETS)
+        if path.suffix in (".toml", ".csv") and path.stem not in _NONE
     }
 
 

@@ -20,6 +20,7 @@ PAIRS = ["alm-18-161", "double-23-81", "fzg-c", "reducer-21-43", "ring-22-70", "
 STARTERS = [*PAIRS, *PLANETARY, "rack", "spur"]
 TRAINS = ["train-1-stage", "train-2-stage", "train-pairs"]
 TABLES = ["gears", "pairs", "planetary-sets", "rings"]
+LISTED = sorted([*STARTERS, *TRAINS, *TABLES, "drawing_title"])
 
 RATIO = 1e-9
 """Absolute, for contact ratios of about 1: what the references promise."""
@@ -54,7 +55,7 @@ def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
 
 def test_new_without_a_kind_lists_the_starters() -> None:
     lines = run("new").stdout.splitlines()
-    assert [line.split()[0] for line in lines] == sorted(STARTERS + TRAINS + TABLES)
+    assert [line.split()[0] for line in lines] == LISTED
     assert all(len(line.split()) > 5 for line in lines)
 
 
@@ -81,8 +82,7 @@ def test_new_refuses_to_overwrite_unless_forced() -> None:
 def test_new_refuses_what_it_does_not_have() -> None:
     result = run("new", "bevel", status=2)
     assert (
-        result.stderr == f"Error: kind = 'bevel': must be one of {', '.join(sorted([*STARTERS, *TRAINS, *TABLES]))}"
-        " (or gear, pair, ring, planetary, uhlir)\n"
+        result.stderr == f"Error: kind = 'bevel': must be one of {', '.join(LISTED)} (or gear, pair, ring, planetary, uhlir)\n"
     )
 
 

@@ -8,6 +8,7 @@ from click.testing import CliRunner, Result
 from gearcad.cli import main
 from gearcad.designs import open_table
 from gearcad.designs.starters import starters
+from gearcad.drawing.frame import SheetTemplate
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 
@@ -50,6 +51,7 @@ def test_new_lists_tables_beside_specs() -> None:
     assert [line.split()[0] for line in lines] == [
         "alm-18-161",
         "double-23-81",
+        "drawing_title",
         "fzg-c",
         "gears",
         "pairs",
@@ -70,11 +72,17 @@ def test_new_lists_tables_beside_specs() -> None:
         "uhlir-19-23-simple",
         "volvo-13-44",
     ]
-    assert lines[3:5] == [
+    assert lines[4:6] == [
         "gears                   A design table of single gears: each row below the heading is one gear",
         "pairs                   A design table of gear pairs: each row below the heading is one pair",
     ]
     assert list(starters()) == [line.split()[0] for line in lines]
+
+
+def test_new_writes_the_template_of_drawings_for_a_company_to_change() -> None:
+    result = run("new", "drawing", "-o", "company.toml")
+    assert result.stderr == 'Next: keep what you change, and name it in a spec: [drawing] template = "company.toml"\n'
+    assert SheetTemplate.of("company.toml") == SheetTemplate.of(None)
 
 
 def test_new_does_not_overwrite_a_table() -> None:

@@ -52,6 +52,10 @@ _PARTS: dict[str, type[Any]] = {
 }
 
 
+def _no_words() -> dict[str, dict[str, str]]:
+    return {each.value: {} for each in Language}
+
+
 @dataclass(frozen=True, kw_only=True)
 class SheetTemplate:
     """Sizes of all that frames a sheet, the cells of its title block by their names, and words in place of others."""
@@ -63,7 +67,7 @@ class SheetTemplate:
     parts_list: PartsListSizes
     revisions: RevisionSizes
     notes: NoteSizes
-    other_words: Mapping[str, Mapping[str, str]] = field(default_factory=dict, repr=False)
+    other_words: Mapping[str, Mapping[str, str]] = field(default_factory=_no_words, repr=False)
 
     @classmethod
     def of(cls, file: str | None) -> Self:
@@ -89,7 +93,7 @@ class SheetTemplate:
     def words(self, language: Language) -> Words:
         """Those of a language, with what the company says in their place."""
         words = Words.of(language)
-        return replace(words, labels={**words.labels, **self.other_words.get(language.value, {})})
+        return replace(words, labels={**words.labels, **self.other_words[language.value]})
 
 
 # ---------------------------------------------------------------------- a company's own
@@ -187,7 +191,7 @@ def _words(content: Any) -> dict[str, dict[str, str]]:
     """Words in place of others, by language and key. Raises ParameterError."""
     known_words = _known_words()
     known = tuple(known_words)
-    found: dict[str, dict[str, str]] = {each.value: {} for each in Language}
+    found = _no_words()
     for section, entries in _table(content, "words").items():
         for name, given in _table(entries, f"words.{section}").items():
             key, where = f"{section}.{name}", f"words.{section}.{name}"
