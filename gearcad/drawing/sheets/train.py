@@ -17,7 +17,7 @@ from gearcad.notice import Notice
 
 __all__ = ["draw_train"]
 
-NAME = "arrangement"
+NAME = "assembly"
 """Of the sheet, and of its files."""
 
 _Z_TO_THE_LEFT = -1
