@@ -70,13 +70,17 @@ def overlaps(figure: Figure) -> list[str]:
     """Texts over texts or over lines, by points on a fine grid within each text's box (not by the clipping of the layout)."""
     shapes = [part for shape in figure.shapes for part in parts(shape)]
     texts = [shape for shape in shapes if isinstance(shape, Text)]
-    found = [
-        f"{one.words} on {other.words}" for one, other in combinations(texts, 2) if _inside(_grid(one.box), other.box).any()
-    ]
+    pairs = [(one, other) for one, other in combinations(texts, 2) if one.box.grown(1.0).meets(other.box)]
+    found = [f"{one.words} on {other.words}" for one, other in pairs if _inside(_grid(one.box), other.box).any()]
     lines = np.array([(*start, *end) for shape in shapes for start, end in shape.segments]).reshape(-1, 2, 2)
     share = np.linspace(0.0, 1.0, 401)[:, None, None]
-    points = ((1 - share) * lines[:, 0] + share * lines[:, 1]).reshape(-1, 2)
-    return found + [f"line through {text.words}" for text in texts if _inside(points, text.box).any()]
+    for text in texts:
+        low, high = np.array(text.box[:2]), np.array(text.box[2:])
+        near = lines[((lines.min(axis=1) < high) & (lines.max(axis=1) > low)).all(axis=1)]
+        points = ((1 - share) * near[:, 0] + share * near[:, 1]).reshape(-1, 2)
+        if _inside(points, text.box).any():
+            found.append(f"line through {text.words}")
+    return found
 
 
 def _grid(box: Box) -> np.ndarray:
@@ -113,7 +117,7 @@ def test_marks_that_clash_with_what_stands_are_placed_elsewhere() -> None:
     assert dressed(view, within=view.figure.box.grown(8.0)) is None
 
 
-@pytest.mark.parametrize("width", [7.0, 130.0, 500.0, 2600.0])
+@pytest.mark.parametrize("width", [7.0, 130.0, 300.0, 700.0, 2600.0])
 def test_the_scale_is_the_largest_that_has_room(width: float) -> None:
     """As exhaustive trial of all sheets and scales finds it."""
 
@@ -133,7 +137,8 @@ def test_the_scale_is_the_largest_that_has_room(width: float) -> None:
         right = np.where(beside_table, taken[1].left, np.where(over_block, free.right, taken[0].left))
         if factor <= 50 and (right - free.left >= 2 * side + 5.0 + 10.0 + 5.0).any():
             fits.setdefault(sheet, factor)
-    good = [sheet for sheet, scale in fits.items() if scale >= 0.2]
+    good = [each for each in (SheetSize.A3, SheetSize.A2) if fits.get(each, 0.0) >= 0.5]
+    good += [each for each, scale in fits.items() if scale >= 0.2]
     sheet = good[0] if good else max(fits, key=lambda each: fits[each])
     assert (found.sheet, found.factor) == (sheet, fits[sheet])
     assert found.figure == arranged(views, fixed).figure

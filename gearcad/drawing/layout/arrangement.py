@@ -19,11 +19,15 @@ _LARGEST = 50.0
 _CHOSEN = tuple(name for name, factor in SCALES.items() if factor <= _LARGEST)
 """Scales that are chosen, the largest first."""
 
-_ENOUGH = 0.2
-"""A larger sheet is taken only where the scale would be smaller than this."""
-
 _SHEETS = (SheetSize.A3, SheetSize.A2, SheetSize.A1, SheetSize.A0)
-"""Sheets that are chosen, in this order."""
+"""Sheets that are chosen, the smallest first."""
+
+_ENOUGH = (*((sheet, 1 / 2) for sheet in _SHEETS[:2]), *((sheet, 1 / 5) for sheet in _SHEETS))
+"""The first of these sheets is taken that has room at its scale or a larger one.
+
+What would need 1:5 on A3 is often some 300 mm wide: there the lines at tip and root of its teeth nearly meet, at 1:2 on A2
+they do not. Still larger sheets are unhandy; they are taken where A2 has no room at 1:5 either.
+"""
 
 
 @dataclass(frozen=True)
@@ -81,19 +85,20 @@ def arranged(
     """All views with all their marks on a sheet, none over another.
 
     `views` makes them at a scale (mm of paper for a mm of the part), `fixed` what else stands on a sheet, which may name the
-    scale ("1:2") but has the same size whatever it is. "auto" takes the largest scale that has room on A3; a larger sheet where
-    that is smaller than 1:5 and it helps. Raises ParameterError of `scale` or `sheet`, which says what would do.
+    scale ("1:2") but has the same size whatever it is. "auto" is the largest scale that has room on A3; on A2 where it would be
+    smaller than 1:2, and on the smallest sheet with 1:5 where A2 has no room at 1:2 either. Raises ParameterError of `scale` or
+    `sheet`, which says what would do.
     """
     trial = _Trial(views, fixed, projection)
-    sheets = _SHEETS if sheet is SheetSize.AUTO else (sheet,)
     scales = _CHOSEN if scale == "auto" else (scale,)
-    best: Arrangement | None = None
-    for each in sheets:
+    sheets = _SHEETS if sheet is SheetSize.AUTO else (sheet,)
+    enough = _ENOUGH if scale == "auto" else tuple((each, 0.0) for each in sheets)
+    tried = (trial.largest(each, scales, least) for each, least in enough if each in sheets)
+    good = (each for each in tried if each is not None)
+    best = next(good, None)
+    for each in sheets if best is None else ():
         found = trial.largest(each, scales)
-        if found is not None and (best is None or found.factor > best.factor):
-            best = found
-        if best is not None and (best.factor >= _ENOUGH or scale != "auto"):
-            break
+        best = found if best is None or (found is not None and found.factor > best.factor) else best
     if best is None:
         raise _refusal(trial, sheet, scale)
     return best
@@ -113,9 +118,10 @@ class _Trial:
     _bare: dict[str, _Shown] = field(default_factory=dict)
     _dressed: dict[str, _Shown | None] = field(default_factory=dict)
 
-    def largest(self, sheet: SheetSize, scales: Sequence[str]) -> Arrangement | None:
-        """At the first scale of those given that has room."""
-        return next((found for scale in scales if (found := self.at(sheet, scale)) is not None), None)
+    def largest(self, sheet: SheetSize, scales: Sequence[str], least: float = 0.0) -> Arrangement | None:
+        """At the first scale of those given that has room, and is no smaller than the least."""
+        good = (scale for scale in scales if SCALES[scale] >= least)
+        return next((found for scale in good if (found := self.at(sheet, scale)) is not None), None)
 
     def at(self, sheet: SheetSize, scale: str) -> Arrangement | None:
         """None where there is no room."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 from gearcad.drawing.shapes import Anchor, Box, Circle, Figure, Pen, Point, Shape, Text, text_width
@@ -55,12 +56,12 @@ class Written:
             width=start + other.width,
         )
 
-    @property
+    @cached_property
     def below(self) -> float:
         """How far it reaches below its line."""
         return max(0.0, -self._box_of_one().bottom)
 
-    @property
+    @cached_property
     def above(self) -> float:
         """How far it reaches above its line."""
         return self._box_of_one().top

@@ -25,7 +25,8 @@ class Box(NamedTuple):
     @classmethod
     def of_all(cls, boxes: Iterable[Box]) -> Box:
         """The least one that holds all boxes."""
-        return cls.around(corner for box in boxes for corner in (box[:2], box[2:]))
+        lefts, bottoms, rights, tops = zip(*boxes, strict=True)
+        return cls(min(lefts), min(bottoms), max(rights), max(tops))
 
     @property
     def width(self) -> float:

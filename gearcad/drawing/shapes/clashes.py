@@ -24,6 +24,9 @@ _LANE = 6.0
 _BESIDE = 1.5
 """Least distance of a dimension line from other lines that run beside it."""
 
+_LEVEL = 0.15
+"""Slope up to which a line runs beside a dimension line: the top of a circle too."""
+
 _ALONG = 1.0
 """So much may lines run beside each other, for they end in rounded numbers."""
 
@@ -84,8 +87,9 @@ class Occupied:
         """Whether a dimension line would run beside another, or beside any other line."""
         spans = _spans(figure, measured)
         lines = self._segments if measured is Measured.HORIZONTAL else self._segments[:, [1, 0, 3, 2]]
-        level = lines[np.abs(lines[:, 1] - lines[:, 3]) < 1e-9]
-        others = np.stack([np.minimum(level[:, 0], level[:, 2]), np.maximum(level[:, 0], level[:, 2]), level[:, 1]], axis=1)
+        level = lines[np.abs(lines[:, 1] - lines[:, 3]) <= _LEVEL * np.abs(lines[:, 0] - lines[:, 2])]
+        heights = (level[:, 1] + level[:, 3]) / 2
+        others = np.stack([np.minimum(level[:, 0], level[:, 2]), np.maximum(level[:, 0], level[:, 2]), heights], axis=1)
         return bool(_beside(spans, self._spans[measured], _LANE).any() or _beside(spans, others, _BESIDE).any())
 
 
