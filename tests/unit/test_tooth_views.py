@@ -30,6 +30,7 @@ GEARS = {
     "helical": Gear(teeth=18, normal_module=5, face_width=20, helix_angle=-30, profile_shift=0.4, rack=FULL),
     "undercut": Gear(teeth=8, normal_module=1, face_width=5),
     "few": Gear(teeth=5, normal_module=3, face_width=9, profile_shift=0.55, tip_alteration=-0.3),
+    "fewest": Gear(teeth=3, normal_module=5, face_width=9, profile_shift=0.9, tip_alteration=-0.6),
     "many": Gear(teeth=500, normal_module=0.05, face_width=0.5),
     "shaped ring": Gear(
         teeth=-66, normal_module=2, face_width=20, cutter=ShaperCutter(teeth=25), body=Body(rim_diameter=170, tip_chamfer=0.1)

@@ -78,7 +78,9 @@ def _aside(line: _Line, text: Written, room: float) -> Figure:
     """The text to the left of the half space."""
     end = line.place.further(-max(line.place.middle_of_space, line.half), -_AIR)
     x, y = line.point(end)
-    words = text.at((x - _AIR, y), Anchor.MIDDLE_RIGHT)
+    outline = (*line.place.outline().points, *line.place.limit)
+    left = min([x, *(across for across, up in outline if abs(up - y) < text.height)]) - _AIR
+    words = Figure.of(Line((x, y), (left, y), Pen.DIMENSION), text.at((left - _AIR, y), Anchor.MIDDLE_RIGHT))
     if room >= 3 * ARROW:
         arrows = line.arrow(-line.half, 0.0), line.arrow(line.half, 0.0)
         return Figure.of(line.line(end, line.half), *arrows, words)
