@@ -21,6 +21,7 @@ from gearcad.drawing.ring_views.meridian import Meridian
 from gearcad.drawing.ring_views.section import full_section
 from gearcad.drawing.shapes import Circle, Figure, Hatching, Line, Pen, Polyline
 from gearcad.drawing.subject import DrawnGear
+from gearcad.drawing.tooth_views import detail_mark
 from gearcad.drawing.words import Draughting, Language, Words
 from gearcad.geometry import Body, Gear, Rack
 from gearcad.solids import tessellate, tessellate_rack
@@ -165,6 +166,17 @@ def test_a_long_rack_is_broken_and_says_its_length() -> None:
     first, second = tooth_middles(span)
     assert second - first == pytest.approx(rack.transverse_pitch)
     assert len(Span(RACKS["cut"], 1.0).parts) == 1
+
+
+@pytest.mark.parametrize("name", RACKS)
+def test_the_ring_of_the_detail_is_round_a_tooth(name: str) -> None:
+    rack = RACKS[name]
+    view = front_figure(Span(rack, SCALE))
+    ring = next(iter(of_kind(next(iter(detail_mark(demands(rack)[0], view, SCALE))), Circle)))
+    (outline, *_) = (each for each in of_kind(view, Polyline) if each.pen is Pen.OUTLINE)
+    assert ring.centre[0] in [pytest.approx(middle) for middle in tooth_middles(Span(rack, SCALE)) or [0.0]]
+    teeth = [x for x, y in outline.points if y > SCALE * rack.tip_height - 1e-6]
+    assert min(teeth) - 1e-6 <= ring.centre[0] <= max(teeth) + 1e-6
 
 
 def test_the_end_of_a_rack_is_hatched_below_its_roots() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from gearcad.drawing.shapes import Anchor, Box, Circle, Figure, Pen, Point, Text
+from gearcad.drawing.shapes import Anchor, Circle, Figure, Line, Pen, Point, Text
 from gearcad.drawing.subject import DrawnGear
 from gearcad.geometry import Gear, Rack
 
@@ -20,15 +20,15 @@ _AIR = 1.0
 _ROUND = (150.0, 120.0, -150.0, -120.0, 30.0, 60.0, -30.0, -60.0)
 """Directions from the axis (degrees) in which a tooth of a gear may be, none of them along a centre line."""
 
-_ALONG = (0.5, 1.0, 1.5)
-"""Places of a tooth of a rack, from where its front view ends, in pitches."""
+_BESIDE = (60.0, -60.0, -90.0, 90.0, 120.0, -120.0, 0.0, 180.0)
+"""Directions from the tooth of a rack to the letter."""
 
 
 def detail_mark(drawn: DrawnGear, view: Figure, scale: float, letter: str = DETAIL) -> Iterator[Figure]:
     """On the `view` along the axis, the axis at the origin; of a rack on that from its front, whose reference line is at
     height 0."""
     gear = drawn.gear
-    places = _of_rack(gear, view.box, scale) if isinstance(gear, Rack) else _of_gear(gear, scale)
+    places = _of_rack(gear, view, scale) if isinstance(gear, Rack) else _of_gear(gear, scale)
     for centre, radius, (across, up) in places:
         out = radius + 0.8 * _LETTER
         text = Text(letter, (centre[0] + out * across, centre[1] + out * up), _LETTER, Anchor.MIDDLE, pen=Pen.TEXT)
@@ -45,11 +45,14 @@ def _of_gear(gear: Gear, scale: float) -> Iterator[tuple[Point, float, Point]]:
         yield middle, _ring(tip, root), (side * out[0], side * out[1])
 
 
-def _of_rack(rack: Rack, view: Box, scale: float) -> Iterator[tuple[Point, float, Point]]:
-    top, root, pitch = scale * rack.tip_height, -scale * rack.root_depth, scale * rack.transverse_pitch
-    for pitches in _ALONG:
-        for along in (view.left + pitches * pitch, view.right - pitches * pitch):
-            yield (along, (top + root) / 2), _ring(top, root), (0.0, 1.0)
+def _of_rack(rack: Rack, view: Figure, scale: float) -> Iterator[tuple[Point, float, Point]]:
+    """A tooth with an upright centre line, of which there are some; the letter above it, or in the body below."""
+    top, root = scale * rack.tip_height, -scale * rack.root_depth
+    centres = [each for each in view.shapes if isinstance(each, Line) and each.pen is Pen.CENTRE]
+    middles = [each.start[0] for each in centres if each.start[0] == each.end[0]]
+    for way in _BESIDE:
+        for along in reversed(middles or [0.0]):
+            yield (along, (top + root) / 2), _ring(top, root), (math.cos(math.radians(way)), math.sin(math.radians(way)))
 
 
 def _ring(tip: float, root: float) -> float:
