@@ -297,9 +297,20 @@ def test_a_table_without_room_takes_lower_rows_then_columns_and_at_last_leaves_n
     heights = [_furnished(SheetSize.A3, Language.ENGLISH, rows).taken[1].height for rows in (25, 32, 40)]
     assert heights == pytest.approx([7.5 + 25 * 6.4, 7.5 + 32 * 5.0, 7.5 + 20 * 6.4])
     narrow = _furnished(SheetSize.A4, Language.ENGLISH, 30).taken[1]
-    assert (narrow.width, narrow.height) == pytest.approx((180.0, 7.5 + 15 * 6.4))
+    assert (narrow.width, narrow.height) == pytest.approx((180.0, 7.5 + 15 * 5.0))
     assert _furnished(SheetSize.A4, Language.ENGLISH, 80).free.width == 0.0
     assert _furnished(SheetSize.A2, Language.ENGLISH, 60).free.width > 300.0
+
+
+def test_what_the_title_block_has_is_no_row_of_the_table_too() -> None:
+    rows = [_Row(key="teeth", text="41"), _Row(key="material", text="C45"), _Row(key="heat_treatment", text="hardened")]
+    options, words = DrawingOptions(date="2026-01-31"), _words()
+    furniture = Furniture(options=options, template=SHIPPED, words=words, rows=rows)
+    shown = [text.words for text in furniture.on(SheetSize.A3, _values(options, material="C45")).figure.texts]
+    assert (shown.count("C45"), shown.count("hardened"), shown.count("41")) == (1, 1, 1)
+    bare = replace(SHIPPED, cells={name: cell for name, cell in SHIPPED.cells.items() if name != "material"})
+    shown = [text.words for text in replace(furniture, template=bare).on(SheetSize.A3, _values(options)).figure.texts]
+    assert shown.count("C45") == 1
 
 
 # ---------------------------------------------------------------------- a company's template

@@ -42,9 +42,7 @@ class TableRow(Protocol):
     def limits(self) -> tuple[str, str] | None: ...
 
 
-def data_table(
-    rows: Iterable[TableRow], title: str, sizes: DataTableSizes, *, columns: int = 1, low: bool = False, right: str = "mm, µm"
-) -> Framed:
+def data_table(rows: Iterable[TableRow], title: str, sizes: DataTableSizes, *, columns: int = 1, low: bool = False) -> Framed:
     """The table under its title, the upper right corner at (0, 0); in several columns if asked, in `low` rows.
 
     A value that is too long is written smaller, then in two lines, then shortened.
@@ -59,14 +57,14 @@ def data_table(
         own = listed[start : start + each]
         found += _column(own, sizes, height).moved(number * width, (each - len(own)) * height)
     whole = width * -(-len(listed) // each)
-    found = found.moved(0.0, -sizes.heading - each * height) + _heading(title, right, whole, sizes)
+    found = found.moved(0.0, -sizes.heading - each * height) + _heading(title, whole, sizes)
     outline = outlined(Box(0.0, -sizes.heading - each * height, whole, 0.0))
     return (found + Framed(Figure((outline,)))).moved(-whole, 0.0)
 
 
-def _heading(title: str, right: str, width: float, sizes: DataTableSizes) -> Framed:
-    """Its upper left corner at (0, 0)."""
-    units = fit(right, width / 3, sizes.text)
+def _heading(title: str, width: float, sizes: DataTableSizes) -> Framed:
+    """Title, and the unit of what has none; its upper left corner at (0, 0)."""
+    units = fit("mm", width / 3, sizes.text)
     head = fit(title, width - 2 * MARGIN - width / 3, 1.4 * sizes.text)
     at = (MARGIN, -(sizes.heading + head.height) / 2)
     figure = head.at(at) + _right_aligned(units, width - MARGIN, -(sizes.heading + units.height) / 2)

@@ -26,6 +26,9 @@ _GAP = 4.0
 _MANY = 12
 """Rows of a table that is not drawn in two columns where these are narrower than they should be."""
 
+_ONCE = ("material", "heat_treatment")
+"""Keys of rows that title blocks have, too."""
+
 _LEAST_NOTES = 60.0
 """Width of the narrowest notes beside the title block; on narrower sheets they stand above it."""
 
@@ -59,14 +62,14 @@ class Furniture:
     def on(self, size: SheetSize, values: Mapping[str, str]) -> Furnished:
         """All of it on a sheet, the paper's lower left corner at (0, 0); `values` as of `title_values`.
 
-        The table is in lower rows or in several columns where it would not have room above the title block. Nothing is
-        `free` where it has none at all.
+        The table is in lower rows or in several columns where it would not have room above the title block, and without
+        what stands in that. Nothing is `free` where it has no room at all.
         """
         frame = inside_frame(size, self.template.frame)
         stack = self._stack(values, frame)
         texts = self._notes(frame, stack.box)
         above = texts if not texts.empty and texts.box.bottom > stack.box.top else stack
-        table = self._table(frame, frame.top - above.box.top - _GAP)
+        table = self._table(self._rows(values), frame, frame.top - above.box.top - _GAP)
         parts = [each for each in (stack, table, texts) if not each.empty]
         taken = tuple(each.box for each in parts)
         figure = border(size, self.template.frame, taken)
@@ -89,21 +92,26 @@ class Furniture:
             found = found if each.empty else found + each.moved(frame.right, found.box.top)
         return found
 
-    def _table(self, frame: Box, room: float) -> Framed:
+    def _rows(self, values: Mapping[str, str]) -> list[TableRow]:
+        """Those of the table: a sheet says material and treatment once, in its title block if that has cells for them."""
+        titled = {name for cell in self.template.cells.values() for name in cell.names if values.get(name)}
+        return [row for row in self.rows if row.key not in titled or row.key not in _ONCE]
+
+    def _table(self, rows: Sequence[TableRow], frame: Box, room: float) -> Framed:
         """The gear data table in the upper right corner, in the first form that is no higher than `room`."""
         table = Framed()
-        for sizes, columns, low in self._forms(frame.width):
-            table = data_table(self.rows, self.table_title, sizes, columns=columns, low=low)
+        for sizes, columns, low in self._forms(len(rows), frame.width):
+            table = data_table(rows, self.table_title, sizes, columns=columns, low=low)
             if table.empty or table.box.height <= room:
                 break
         return table.moved(frame.right, frame.top)
 
-    def _forms(self, width: float) -> Iterator[tuple[DataTableSizes, int, bool]]:
+    def _forms(self, rows: int, width: float) -> Iterator[tuple[DataTableSizes, int, bool]]:
         """Sizes, number of columns, and whether rows are low; on narrow paper two columns as wide as that for many rows."""
         sizes = self.template.data_table
         most = int(width / sizes.width)
-        if most < 2 and len(self.rows) > _MANY:
-            yield from ((sizes.narrowed(width / 2), 2, low) for low in (False, True))
+        if most < 2 and rows > _MANY:
+            yield sizes.narrowed(width / 2), 2, True
         yield from ((sizes, columns, low) for columns in range(1, max(most, 1) + 1) for low in (False, True))
 
     def _notes(self, frame: Box, stack: Box) -> Framed:
