@@ -115,7 +115,7 @@ class _Content:
             self.options,
             self.words,
             title=self.title,
-            document_type=self.words["views.part_drawing"],
+            document_type=self.words["frame.document_part"],
             size=sheet,
             scale=scale,
             material=self.requirements.material,
