@@ -27,6 +27,7 @@ from gearcad.drawing.frame.fitting import CLOSEST
 from gearcad.drawing.frame.sizes import VALUES
 from gearcad.drawing.options import DrawingOptions, Projection, Revision, SheetSize
 from gearcad.drawing.shapes import Box, Figure, Occupied, Pen, Text, text_width
+from gearcad.drawing.shapes.font import has_glyph
 from gearcad.drawing.words import Language, Words
 from gearcad.errors import SpecError
 
@@ -398,3 +399,18 @@ def test_a_template_that_cannot_be_read_is_one_line(tmp_path: Path) -> None:
     for name, message in (("none.toml", "cannot be read"), ("bytes.toml", "is not valid TOML")):
         with pytest.raises(SpecError, match=rf"{name}: {message}"):
             SheetTemplate.of(str(tmp_path / name))
+
+
+def test_words_say_the_same_in_all_languages_with_letters_that_the_font_has() -> None:
+    english, *others = (Words.of(language).labels for language in Language)
+    for labels in others:
+        assert labels.keys() == english.keys()
+        wrong = [
+            key
+            for key in english
+            if sorted(re.findall(r"\{\w*\}", labels[key])) != sorted(re.findall(r"\{\w*\}", english[key]))
+        ]
+        assert wrong == []
+    for labels in (english, *others):
+        assert all(text.strip() == text and text for text in labels.values())
+        assert {letter for text in labels.values() for letter in text if not has_glyph(letter)} == set()
