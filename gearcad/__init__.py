@@ -29,6 +29,7 @@ gearcad.errors.ParameterError: load = 60: must be a Load
     read(file)                     the design in a spec: a gear, a rack, a pair or a train, with its load and options
     data(pair)                     every derived quantity
     build(pair, folder)            STEP, STL, 3MF, GLB, DXF, points
+    draw(pair)                     sheets for the workshop, with gear data: DXF, SVG, PDF
     check(pair, load)              contact and root stress by finite elements, beside Hertz and ISO 6336
     mesh(gear)                     finite elements with named sides, of a section or a body, of a gear or a pair
     rate(pair, load)               safeties by ISO 6336 or DIN 3990, life, permissible torque

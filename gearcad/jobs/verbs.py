@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from gearcad.jobs.build import build as build
     from gearcad.jobs.check import check as check
     from gearcad.jobs.data import data as data
+    from gearcad.jobs.draw import draw as draw
     from gearcad.jobs.dynamics import dynamics as dynamics
     from gearcad.jobs.mesh import mesh as mesh
     from gearcad.jobs.modify import modify as modify
@@ -19,4 +20,4 @@ if TYPE_CHECKING:
     from gearcad.jobs.rate import rate as rate
     from gearcad.jobs.stiffness import stiffness as stiffness
 
-VERBS = ("data", "build", "picture", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify")
+VERBS = ("data", "build", "draw", "picture", "check", "mesh", "rate", "stiffness", "dynamics", "planetary", "modify")

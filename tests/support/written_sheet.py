@@ -32,7 +32,7 @@ TOUCH = 0.02
 SAG = 0.02
 """mm between an arc and the chords that stand for it."""
 
-MARGIN_LAYERS = {"FRAME", "THIN", "TABLE"}
+MARGIN_LAYERS = {"FRAME", "GRID"}
 """Those of the marks and the grid between frame and paper's edge (ISO 5457)."""
 
 CAPITALS = 1493 / 2048
@@ -227,7 +227,7 @@ def _ink(words: str, font: str) -> tuple[Floats, float]:
         warnings.simplefilter("ignore")  # of letters that the font lacks, a box is there
         box = TextPath((0, 0), words, size=1 / CAPITALS, prop=properties, usetex=False).get_extents()
         width, _, _ = text_to_path.get_text_width_height_descent(words, properties, False)
-    return np.array([box.x0, box.y0, box.x1, box.y1]), width / text_to_path.FONT_SCALE / CAPITALS
+    return np.array([box.x0, box.y0, box.x1, box.y1]), width / properties.get_size_in_points() / CAPITALS
 
 
 def _inside(edges: list[Floats], points: Floats) -> NDArray[np.bool_]:

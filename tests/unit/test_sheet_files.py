@@ -114,6 +114,17 @@ def test_checker_sees_faults(shape: object, fault: str | None, tmp_path: Path) -
     assert not found if fault is None else any(fault in each for each in found)
 
 
+@pytest.mark.parametrize("anchor", Anchor)
+@pytest.mark.parametrize("rotation", [0.0, 90.0])
+def test_checker_finds_texts_where_they_were_put(anchor: Anchor, rotation: float, tmp_path: Path) -> None:
+    """Its lengths are matplotlib's, ours those of the font's tables."""
+    text = Text("⌀64 Wheel", (200, 100), 5, anchor, rotation)
+    (found,) = read_sheet(_written(Figure.of(FRAME, text), tmp_path)).texts
+    box, ink = text.box, np.concatenate([found.corners.min(axis=0), found.corners.max(axis=0)])
+    assert ink == pytest.approx(box, abs=0.8)
+    assert (ink[:2] > np.array(box[:2]) - 0.05).all() and (ink[2:] < np.array(box[2:]) + 0.05).all()
+
+
 def test_equal_sheets_give_equal_bytes(tmp_path: Path) -> None:
     folders = [tmp_path / name for name in ("one", "two")]
     for folder in folders:

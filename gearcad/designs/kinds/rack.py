@@ -23,7 +23,7 @@ class RackDesign(ToothedDesign):
     """A rack, and its material."""
 
     kind: ClassVar[DesignKind] = DesignKind.RACK
-    elsewhere: ClassVar[str] = "a rack by itself is for `gearcad data` and `gearcad build`"
+    elsewhere: ClassVar[str] = "a rack by itself is for `gearcad data`, `gearcad build` and `gearcad draw`"
 
     rack: Rack
     material: Material | None = None

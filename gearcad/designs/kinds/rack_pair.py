@@ -39,8 +39,8 @@ class RackPairDesign(ToothedDesign):
 
     kind: ClassVar[DesignKind] = DesignKind.RACK_PAIR
     elsewhere: ClassVar[str] = (
-        "finite elements, stiffness and dynamics know gears only; a pinion and a rack have `gearcad data`, `gearcad build` and"
-        " `gearcad rate`"
+        "finite elements, stiffness and dynamics know gears only; a pinion and a rack have `gearcad data`, `gearcad build`,"
+        " `gearcad draw` and `gearcad rate`"
     )
 
     pair: RackPair
