@@ -35,7 +35,9 @@ def _draw(spec: Path, *options: str) -> Result:
 def test_a_gear_is_drawn(tmp_path: Path) -> None:
     """Files, a line a sheet, and numbers that are those of the data sheet."""
     spec = _spec("spur", tmp_path)
-    spec.write_text(spec.read_text(encoding="utf-8") + '\n[drawing]\nnumber = "GC-7"\nlanguage = "sv"\nsheet = "A2"\n', encoding="utf-8")
+    spec.write_text(
+        spec.read_text(encoding="utf-8") + '\n[drawing]\nnumber = "GC-7"\nlanguage = "sv"\nsheet = "A2"\n', encoding="utf-8"
+    )
     result = _draw(spec, "--language", "de", "--sheet", "a3")
     assert result.exit_code == 0, result.output
     names = ["drawing.dxf", "drawing.svg", "drawing.pdf", "draw.json"]
@@ -71,7 +73,7 @@ def test_wrong_options_are_told(tmp_path: Path) -> None:
 
 def test_a_pair_has_a_sheet_for_each_gear_and_one_for_both(tmp_path: Path) -> None:
     job = Draw(formats=["dxf", "pdf"])  # type: ignore[arg-type]
-    drawing = job.run(read_spec(_spec("reducer-21-43", tmp_path)))
+    drawing = job.run(read_spec(_spec("fzg-c", tmp_path)))
     names = [file.name for file in job.write(drawing, tmp_path / "out")]
     parts = ("assembly", "pinion", "wheel")
     assert names == [*(f"drawing-{part}.{end}" for part in parts for end in ("dxf", "pdf")), "drawing.pdf", "draw.json"]
@@ -89,6 +91,7 @@ def test_a_train_has_a_sheet_for_each_gear_that_differs(tmp_path: Path) -> None:
     assert [mate.name for mate in found["rim_3"].mates] == ["ring_4"]
 
 
+@pytest.mark.long
 def test_rows_of_tables_are_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("table.csv").write_text("name,teeth,normal_module,face_width,drawing.number\none,20,2,20,GC-9\n", encoding="utf-8")

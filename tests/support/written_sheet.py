@@ -32,7 +32,7 @@ TOUCH = 0.02
 SAG = 0.02
 """mm between an arc and the chords that stand for it."""
 
-MARGIN_LAYERS = {"FRAME", "GRID"}
+MARGIN_LAYERS = {"FRAME", "GRID", "TABLE"}
 """Those of the marks and the grid between frame and paper's edge (ISO 5457)."""
 
 CAPITALS = 1493 / 2048
