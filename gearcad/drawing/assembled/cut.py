@@ -31,6 +31,8 @@ class Cut:
     edges: tuple[Segment, ...] = ()
     axes: tuple[Segment, ...] = ()
     opening: tuple[Polygon, ...] = ()
+    broken: tuple[Segment, ...] = ()
+    """Edges of areas where a part goes on, nobody said how far: a ring without a rim."""
 
     @property
     def covers(self) -> tuple[Polygon, ...]:
@@ -122,7 +124,9 @@ def _ring(gear: Gear) -> Cut:
         areas.append(mirror(((0.0, outer), (width, outer), (width, rim), (0.0, rim))))
         edges += [_ends(mirror(((z, inner), (z, outer)))) for z in (0.0, width)]
         axes.append(_ends(mirror(((0.0, hole), (width, hole)))))
-    return Cut(tuple(areas), half.teeth + tuple(map(_mirrored, half.teeth)), tuple(edges), tuple(axes))
+    teeth = half.teeth + tuple(map(_mirrored, half.teeth))
+    broken = () if body.rim_diameter else tuple(_ends(((0.0, side * rim), (width, side * rim))) for side in (1, -1))
+    return Cut(tuple(areas), teeth, tuple(edges), tuple(axes), broken=broken)
 
 
 def _openings(gear: Gear) -> list[Segment]:
@@ -158,6 +162,7 @@ def _placed(cut: Cut, z: float, height: float) -> Cut:
         tuple(_ends(move(each)) for each in cut.edges),
         tuple(_ends(move(each)) for each in cut.axes),
         tuple(map(move, cut.opening)),
+        tuple(_ends(move(each)) for each in cut.broken),
     )
 
 

@@ -8,6 +8,7 @@ from itertools import chain, pairwise
 
 from gearcad.drawing.assembled.cut import Cut
 from gearcad.drawing.assembled.hiding import Polygon, Segment, Where, pieces, visible
+from gearcad.drawing.marks import freehand
 from gearcad.drawing.shapes import Box, Figure, Hatching, Line, Pen, Point, Polyline, Shape
 
 __all__ = ["Across", "Sectioned", "section_figure"]
@@ -59,7 +60,7 @@ def section_figure(bodies: Sequence[Sectioned], across: Across) -> Figure:
     """Bodies in order: the teeth of one are in front of those of all that follow, whose hidden parts are dashed."""
     shapes: list[Shape] = []
     for number, body in enumerate(bodies):
-        shapes += (_closed(area, across) for area in body.cut.areas)
+        shapes += (shape for area in body.cut.areas for shape in _outlined(area, body.cut.broken, across))
         if body.angle is not None:
             shapes += (_hatched(area, body.angle, body.spacing, across) for area in body.cut.areas)
         others = [cover for other in bodies if other is not body for cover in other.cut.covers]
@@ -71,8 +72,16 @@ def section_figure(bodies: Sequence[Sectioned], across: Across) -> Figure:
     return Figure(tuple(shapes))
 
 
-def _closed(area: Polygon, across: Across) -> Polyline:
-    return Polyline.straight(across.points(area), closed=True)
+def _outlined(area: Polygon, broken: Sequence[Segment], across: Across) -> Iterator[Polyline]:
+    """One closed line; where a part is broken off the line is open, and a freehand one closes it."""
+    points, broken_off = across.points(area), {frozenset(each) for each in broken}
+    row = [number for number, end in enumerate(area) if frozenset((area[number - 1], end)) in broken_off]
+    if not row:
+        yield Polyline.straight(points, closed=True)
+        return
+    around = points[row[0] :] + points[: row[0]]
+    yield Polyline.straight(around)
+    yield freehand([around[-1], around[0]])
 
 
 def _hatched(area: Polygon, angle: float, spacing: float, across: Across) -> Hatching:

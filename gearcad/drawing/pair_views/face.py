@@ -7,13 +7,16 @@ from functools import partial
 
 from gearcad.drawing.assembled import BEYOND_AXIS, Front, distance_size, overall_height, overall_width
 from gearcad.drawing.layout import Candidates, View
-from gearcad.drawing.marks import Side, linear_dimension
+from gearcad.drawing.marks import Side, linear_dimension, zigzag
 from gearcad.drawing.pair_views.places import PairPlaces, Placed
 from gearcad.drawing.shapes import Box, Figure, Line, Pen, Polyline, Shape
 from gearcad.drawing.words import Draughting
 from gearcad.geometry import GearPair, Rack, RackPair
 
 __all__ = ["pair_face"]
+
+_BEYOND_BREAK = 2.0
+"""How far lines where a rack is broken reach beyond it (mm of paper)."""
 
 
 def pair_face(pair: GearPair | RackPair, draughting: Draughting) -> View:
@@ -26,7 +29,7 @@ def pair_face(pair: GearPair | RackPair, draughting: Draughting) -> View:
         partial(_distance, pair, places, draughting),
         partial(overall_height, box, whole.height, draughting, "⌀" if inside else ""),
     ]
-    if not inside:
+    if not inside and not (isinstance(pair, RackPair) and any(places.broken)):
         marks.append(partial(overall_width, box, whole.width, draughting))
     return View("face", outlines + Figure(tuple(_centre_lines(places, scale))), tuple(marks))
 
@@ -36,11 +39,17 @@ def _paper(box: Box, scale: float) -> Box:
 
 
 def _drawn(places: PairPlaces, part: Placed, scale: float) -> Figure:
-    """A gear; or the body of a rack as one closed line up to the tips."""
+    """A gear; or the body of a rack up to the tips, broken where it goes on."""
     if not isinstance(part.part, Rack):
         return Front(part.part, (0.0, part.height), (part.pitch,)).figure(scale)
     left, bottom, right, top = _paper(places.front_of(part), scale)
-    return Figure.of(Polyline.straight([(left, bottom), (right, bottom), (right, top), (left, top)], closed=True))
+    if not any(places.broken):
+        return Figure.of(Polyline.straight([(left, bottom), (right, bottom), (right, top), (left, top)], closed=True))
+    ends = [
+        zigzag((x, bottom - _BEYOND_BREAK), (x, top + _BEYOND_BREAK)) if broken else Line((x, bottom), (x, top))
+        for x, broken in zip((left, right), places.broken, strict=True)
+    ]
+    return Figure.of(Line((left, bottom), (right, bottom)), Line((left, top), (right, top)), *ends)
 
 
 def _centre_lines(places: PairPlaces, scale: float) -> Iterator[Shape]:

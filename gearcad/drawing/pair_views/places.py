@@ -16,6 +16,9 @@ __all__ = ["PairPlaces", "Placed"]
 _ANGLES = 45.0, 135.0
 """Of the hatching: pinion, mate."""
 
+_BESIDE, _WORTH = 1.5, 1.6
+"""Of a long rack so much is shown on either side, over the pinion's tip diameter; it is long from so many times that on."""
+
 
 @dataclass(frozen=True)
 class Placed:
@@ -89,6 +92,21 @@ class PairPlaces:
     def front_of(self, part: Placed) -> Box:
         """What one of them takes."""
         if isinstance(part.part, Rack):
-            start, rack = self.rack_start, part.part
-            return Box(start, -rack.height, start + rack.length, rack.tip_height)
+            left, right = self.shown
+            return Box(left, -part.part.height, right, part.part.tip_height)
         return Box(0.0, part.height, 0.0, part.height).grown(Front(part.part).reach)
+
+    @property
+    def shown(self) -> tuple[float, float]:
+        """From where to where a rack is shown: all of it, or of a long one what is beside the pinion."""
+        assert isinstance(self.mate.part, Rack) and isinstance(self.pinion.part, Gear)
+        left, right = self.rack_start, self.rack_start + self.mate.part.length
+        beside = _BESIDE * self.pinion.part.tip_diameter
+        return (left, right) if right - left < _WORTH * 2 * beside else (max(left, -beside), min(right, beside))
+
+    @property
+    def broken(self) -> tuple[bool, bool]:
+        """Whether a rack goes on beyond what is shown, at the left and at the right."""
+        assert isinstance(self.mate.part, Rack)
+        left, right = self.shown
+        return left > self.rack_start, right < self.rack_start + self.mate.part.length

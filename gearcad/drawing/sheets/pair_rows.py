@@ -34,6 +34,8 @@ def _rows(drawn: DrawnPair, words: Words) -> Iterator[Row]:
         yield _row("gear_ratio", words, "u", words.number(ratio, 4), {"pair.gear_ratio": ratio})
     else:
         travel = pair.travel_per_revolution
+        length = pair.rack.length
+        yield _row("rack_length", words, "L", words.shortest(length, 3), {f"{drawn.parts[1].role}.length": length})
         yield _row("travel", words, "", words.number(travel, 3), {"pair.travel_per_revolution": travel})
     if first.helix_angle:
         yield _helix(first, pair, words)

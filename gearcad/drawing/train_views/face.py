@@ -21,6 +21,9 @@ from gearcad.solids.train_layout import Standing
 
 __all__ = ["planet_centres", "train_face"]
 
+_ON_AXIS = 1e-9
+"""mm from the axis of the train that are none."""
+
 
 def train_face(plan: TrainPlan, draughting: Draughting, looking: int = -1) -> View:
     """The axis of the train at the origin, the first planet above it, seen from +z; with centre distance and sizes over all.
@@ -30,7 +33,7 @@ def train_face(plan: TrainPlan, draughting: Draughting, looking: int = -1) -> Vi
     fronts, scale = list(_fronts(plan)), draughting.scale
     whole = Box.of_all(Box(*front.centre, *front.centre).grown(front.reach) for front in fronts)
     box = Box(*(scale * side for side in whole))
-    figure = Figure.of(*(front.figure(scale) for front in fronts)) + _centre_lines(plan, fronts, scale)
+    figure = Figure.of(*(front.figure(scale) for front in fronts)) + _centre_lines(plan, fronts, box, scale)
     if plan.below is not None and plan.bent:
         reach = scale * max(math.hypot(*front.centre) + front.reach for front in fronts) + BEYOND_AXIS
         figure += cutting_line(math.radians(90 + plan.turns[plan.below]), reach, looking)
@@ -84,18 +87,20 @@ def _tip(one: Standing, others: Sequence[Standing]) -> Pen:
     return Pen.OUTLINE
 
 
-def _centre_lines(plan: TrainPlan, fronts: Sequence[Front], scale: float) -> Figure:
-    """Of all axes; that of the train with the circle on which the planets' axes are."""
-    reach = scale * max(math.hypot(*front.centre) + front.reach for front in fronts if not front.bare) + BEYOND_AXIS
-    figure = Figure.of(Circle((0.0, 0.0), scale * plan.distance, Pen.CENTRE)) + cross((0.0, 0.0), reach)
+def _centre_lines(plan: TrainPlan, fronts: Sequence[Front], box: Box, scale: float) -> Figure:
+    """Of all axes; that of the train with the circle on which the axes of several planets are."""
+    out = box.grown(BEYOND_AXIS)
+    figure = Figure.of(Line((out.left, 0.0), (out.right, 0.0), Pen.CENTRE), Line((0.0, out.bottom), (0.0, out.top), Pen.CENTRE))
+    if plan.train.planets > 1:
+        figure += Figure.of(Circle((0.0, 0.0), scale * plan.distance, Pen.CENTRE))
+    half = scale * max(rim.body.gear.tip_diameter for rim in plan.layout.planets[0]) / 2
     for number, (x, y) in enumerate(planet_centres(plan)):
-        if number == 0 and abs(x) < 1e-9 * plan.distance:
-            half = scale * max(rim.body.gear.tip_diameter for rim in plan.layout.planets[0]) / 2
+        if number:
+            figure += _radial((scale * x, scale * y), half)
+        else:
             figure += Figure.of(Line((-half, scale * y), (half, scale * y), Pen.CENTRE))
-            continue
-        figure += _radial((scale * x, scale * y), scale * plan.layout.planets[0][0].body.gear.tip_diameter / 2)
     for front in fronts:
-        if front.bare and math.hypot(*front.centre) > 1e-9:
+        if front.bare and math.hypot(*front.centre) > _ON_AXIS:
             figure += cross((scale * front.centre[0], scale * front.centre[1]), scale * front.reach + BEYOND_AXIS)
     return figure
 
