@@ -205,3 +205,12 @@ def test_marks_keep_off_each_other_and_the_outline() -> None:
         points = (starts[:, None] + np.linspace(0, 1, 50)[:, None] * (ends - starts)[:, None]).reshape(-1, 2)
         low, high = np.array(boxes)[:, None, :2], np.array(boxes)[:, None, 2:]
         assert not ((low < points) & (points < high)).all(axis=-1).any()
+
+
+def test_edges_of_chamfers_that_would_run_into_others_are_left_out() -> None:
+    for scale, edges, circles in ((2.0, 3, 3), (1.0, 3, 2), (0.5, 1, 2)):  # 1.5 mm of chamfer, 0.87 mm of radius; the hub
+        gear = Gear(teeth=30, normal_module=2.5, face_width=25.0, body=BODY)
+        lines = [each for each in half_section(gear, Along.of(gear, scale)).shapes if isinstance(each, Line)]
+        assert sum(each.start[0] == each.end[0] for each in lines) == edges
+        thick = [each for each in end_face(gear, scale).shapes if isinstance(each, Circle) and each.pen is Pen.OUTLINE]
+        assert len(thick) == circles

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from gearcad.drawing.gear_views.section import BEYOND_AXIS
+from gearcad.drawing.gear_views.section import BEYOND_AXIS, LEAST_APART
 from gearcad.drawing.shapes import Circle, Figure, Line, Pen, Polyline, Shape
 from gearcad.geometry import Body, Gear
 from gearcad.solids.cone import EndCone
@@ -18,8 +18,9 @@ def end_face(gear: Gear, scale: float, *, front: bool = True) -> Figure:
     """Outlines and centre lines, the axis at the origin; the end that one sees is that at z = face width, or that at z = 0."""
     body, reach = gear.body, scale * gear.tip_diameter / 2 + BEYOND_AXIS
     hub = body.hub_ends[front]
-    cone = EndCone.of(gear)
-    seen = [gear.tip_diameter / 2, *([cone.face_radius] if cone.present else []), *([body.hub_diameter / 2] if hub else [])]
+    tip, chamfered = gear.tip_diameter / 2, EndCone.of(gear).face_radius
+    edge = [chamfered] if scale * (tip - chamfered) >= LEAST_APART else []  # of the chamfer, infinite where there is none
+    seen = [tip, *edge, *([body.hub_diameter / 2] if hub else [])]
     shapes: list[Shape] = [
         *(Circle((0.0, 0.0), scale * radius) for radius in seen),
         Circle((0.0, 0.0), scale * gear.reference_diameter / 2, Pen.CENTRE),

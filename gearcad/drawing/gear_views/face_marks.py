@@ -91,9 +91,18 @@ class FaceMarks:
         ways = [way for way in _WAYS if abs(way - 90.0) >= open_at]
         within = circle_dimension((0.0, 0.0), radius, size, self.draughting, ways)
         beyond = circle_dimension((0.0, 0.0), radius, size, self.draughting, ways, beyond=self._reach - radius)
-        whole = [led + self._of_bore(led) for led in chain(within, beyond)]
-        free = (each for each in whole if self._is_free(Box.of_all(shape.box for shape in each.shapes[1:])))
-        yield from sorted(free, key=lambda each: self._growth(each.box))
+        demands = {to_right: self._of_bore(to_right) for to_right in (True, False)}
+        boxes = {to_right: figure.box for to_right, figure in demands.items()}
+        found = []
+        for led in chain(within, beyond):
+            landing = _landing(led)
+            to_right = landing.end[0] > landing.start[0]
+            box = boxes[to_right].moved(*landing.end)
+            if self._is_free(box):
+                grown = self._growth(Box.of_all((box, landing.box)))
+                found.append((grown, led, demands[to_right], landing.end))
+        for _, led, figure, end in sorted(found, key=lambda each: each[0]):
+            yield led + figure.moved(*end)
 
     def _growth(self, box: Box) -> float:
         """How much more room the view takes with a box: that across counts more, as views stand beside each other."""
@@ -101,22 +110,17 @@ class FaceMarks:
         taller = max(0.0, box.top - self._reach) + max(0.0, -box.bottom - self._reach)
         return wider + 0.5 * taller
 
-    def _of_bore(self, led: Figure) -> Figure:
-        """What stands on and below the line under the diameter, away from the arrow."""
-        (dimension,) = led.shapes
-        assert isinstance(dimension, Dimension)
-        landing = next(each for each in dimension.parts if isinstance(each, Line) and each.start[1] == each.end[1])
-        (edge, up), to_right = landing.end, landing.end[0] > landing.start[0]
+    def _of_bore(self, to_right: bool) -> Figure:
+        """What stands on and below the line under the diameter, whose end, the one away from the arrow, is at (0, 0)."""
         symbol = roughness_symbol(f"Ra {self.draughting.words.shortest(self.requirements.bore_roughness)}")
-        symbol = symbol.moved(edge + _AIR - symbol.box.left if to_right else edge - _AIR - symbol.box.right, up)
+        symbol = symbol.moved(_AIR - symbol.box.left if to_right else -_AIR - symbol.box.right, 0.0)
         end = symbol.box.right if to_right else symbol.box.left
-        marks, low = [symbol, Figure.of(Line(landing.end, (end, up), Pen.DIMENSION))], up
+        marks, low = [symbol, Figure.of(Line((0.0, 0.0), (end, 0.0), Pen.DIMENSION))], 0.0
         if (deviation := self.requirements.cylindricity) is not None:
             frame = tolerance_frame(Characteristic.CYLINDRICITY, self.draughting.words.shortest(deviation / 1000, 4))
-            marks.append(frame.moved(edge - frame.box.width if to_right else edge, up - _AIR - FRAME_HEIGHT / 2))
+            marks.append(frame.moved(-frame.box.width if to_right else 0.0, -_AIR - FRAME_HEIGHT / 2))
             low = marks[-1].box.bottom
-        foot = edge - FRAME_HEIGHT if to_right else edge + FRAME_HEIGHT
-        marks.append(next(iter(datum("A", (foot, low), Side.BELOW))))
+        marks.append(next(iter(datum("A", (-FRAME_HEIGHT if to_right else FRAME_HEIGHT, low), Side.BELOW))))
         return Figure.of(*marks)
 
     def _is_free(self, box: Box) -> bool:
@@ -128,3 +132,10 @@ class FaceMarks:
         crossed = any(nearest < radius < furthest for radius in (*radii, self.draughting.paper(max(self._within))))
         on_axis = box.left < 0.0 < box.right or box.bottom < 0.0 < box.top
         return not crossed and not (on_axis and nearest < self._reach + BEYOND_AXIS)
+
+
+def _landing(led: Figure) -> Line:
+    """The line under the text of a diameter, from its leader outwards."""
+    (dimension,) = led.shapes
+    assert isinstance(dimension, Dimension)
+    return next(each for each in dimension.parts if isinstance(each, Line) and each.start[1] == each.end[1])

@@ -11,10 +11,13 @@ from gearcad.drawing.gear_views.meridian import contour, edges, opening_radius, 
 from gearcad.drawing.shapes import Figure, Hatching, Line, Pen, Polyline, Shape, Vertex
 from gearcad.geometry import Gear
 
-__all__ = ["BEYOND_AXIS", "BEYOND_PITCH", "half_section"]
+__all__ = ["BEYOND_AXIS", "BEYOND_PITCH", "LEAST_APART", "half_section"]
 
 BEYOND_AXIS, BEYOND_PITCH = 6.0, 3.0
 """How far the axis and the reference line reach beyond what they belong to (mm of paper)."""
+
+LEAST_APART = 1.0
+"""Edges of chamfers that are nearer to others would run into them (mm of paper; ISO 128-2)."""
 
 _HATCH, _FINEST_HATCH, _STROKES = 2.5, 0.7, 4
 """Distance of hatching lines, the least of it, and how many lines a narrow part should have at least."""
@@ -33,7 +36,7 @@ def half_section(gear: Gear, along: Along) -> Figure:
         hatching(gear, along),
         silhouette,
         *cut_lines(gear, along),
-        *(along.line((z, -radius), (z, 0.0)) for z, radius in edges(gear)),
+        *(along.line((z, -radius), (z, 0.0)) for z, radius in edges(gear, LEAST_APART / along.scale)),
         *(along.line(*ends, Pen.CENTRE, beyond=BEYOND_PITCH) for ends in pitch_lines),
         along.line((low, 0.0), (high, 0.0), Pen.CENTRE, beyond=BEYOND_AXIS),
     ]

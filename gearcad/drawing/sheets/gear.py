@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
+from functools import cached_property
 
 from gearcad.drawing.frame import Furnished, Furniture, SheetTemplate, title_values
 from gearcad.drawing.gear_data import Row, gear_rows
-from gearcad.drawing.layout import Fixed, Views, arranged
+from gearcad.drawing.layout import Fixed, View, Views, arranged
 from gearcad.drawing.marks import general_roughness
 from gearcad.drawing.options import DrawingOptions, PartDrawing, SheetSize
 from gearcad.drawing.requirements import Requirements
@@ -93,7 +94,11 @@ class _Content:
     def views(self, scale: float) -> Views:
         """The views at a scale, and the details, which have scales of their own."""
         draughting = Draughting(self.words, scale)
-        return Views(part_rows(self.drawn, self.requirements, draughting), detail_blocks(self.drawn, self.words))
+        return Views(part_rows(self.drawn, self.requirements, draughting), self._blocks)
+
+    @cached_property
+    def _blocks(self) -> tuple[View, ...]:
+        return detail_blocks(self.drawn, self.words)
 
     def fixed(self, sheet: SheetSize, scale: str) -> Fixed:
         """All else, as the layout takes it."""
