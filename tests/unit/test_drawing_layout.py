@@ -11,7 +11,7 @@ import pytest
 from gearcad.drawing.layout import Fixed, View, Views, arranged, dressed
 from gearcad.drawing.marks import Characteristic, Side, frame_leader, half_dimension, leader, linear_dimension, tolerance_frame
 from gearcad.drawing.options import SCALES, Projection, SheetSize
-from gearcad.drawing.shapes import Box, Dimension, Figure, Line, Pen, Point, Polyline, Shape, Text
+from gearcad.drawing.shapes import Anchor, Box, Dimension, Figure, Hatching, Line, Occupied, Pen, Point, Polyline, Shape, Text
 from gearcad.drawing.words import Draughting, Language, Size, Words
 from gearcad.errors import ParameterError
 
@@ -206,3 +206,39 @@ def test_a_sheet_that_is_too_small_names_one_that_is_not() -> None:
     big = View("big", Figure.of(rectangle(Box(0.0, 0.0, 190.0, 150.0))))
     with pytest.raises(ParameterError, match=r"^sheet = 'A4': no scale has room on A4; sheet A3 has at 10:1$"):
         arranged(lambda scale: Views(((block(9.0, 5.0)(scale),),), (big,)), fixed, sheet=SheetSize.A4)
+
+
+def test_a_text_and_random_lines_clash_where_points_of_them_are_near_it() -> None:
+    """Against 2001 points of each line; lines that only just graze it are left out."""
+    generator = np.random.default_rng(5)
+    text = Text("40 h11", (0.0, 0.0))
+    occupied, near, far = Occupied(Figure.of(text)), text.box.grown(0.57), text.box.grown(0.63)
+    ends = generator.uniform(-25.0, 35.0, (300, 2, 2))
+    share = np.linspace(0.0, 1.0, 2001)[:, None]
+    crossed = 0
+    for start, end in ends.tolist():
+        points = (1 - share) * np.array(start) + share * np.array(end)
+        within, outside = _inside(points, near).any(), not _inside(points, far).any()
+        crossed += within
+        if within or outside:
+            line = Line((start[0], start[1]), (end[0], end[1]))
+            assert occupied.clashes(Figure.of(line)) is bool(within)
+            assert Occupied(Figure.of(line)).clashes(Figure.of(text)) is bool(within)
+    assert 40 < crossed < 260
+
+
+def test_texts_keep_off_hatching_and_symbols_and_dimension_lines_off_each_other() -> None:
+    hole = ((10.0, 10.0, 0.0), (30.0, 10.0, 0.0), (30.0, 30.0, 0.0), (10.0, 30.0, 0.0))
+    area = Figure.of(Hatching((tuple((x, y, 0.0) for x, y in ((0, 0), (40, 0), (40, 40), (0, 40))), hole)))
+    occupied = Occupied(area)
+    where = [((20.0, 20.0), False), ((5.0, 36.0), True), ((38.0, 20.0), True), ((60.0, 20.0), False), ((11.0, 20.0), True)]
+    for place, clash in where:
+        assert occupied.clashes(Figure.of(Text("Ra", place, 2.5, Anchor.MIDDLE))) is clash
+    frame = tolerance_frame(Characteristic.CIRCULAR_RUNOUT, "0.02", "A")
+    assert Occupied(frame).clashes(Figure.of(Line((3.0, -9.0), (3.0, 9.0))))  # through the cell of the symbol
+    near, wide = Draughting(WORDS), Size(value=30.0)
+    lanes = list(linear_dimension((0.0, 0.0), (30.0, 0.0), Side.BELOW, wide, near, clear=0.0))
+    other = next(linear_dimension((28.0, 0.0), (60.0, 0.0), Side.BELOW, Size(value=32.0), near, clear=0.0))
+    beside = next(linear_dimension((30.0, 0.0), (60.0, 0.0), Side.BELOW, wide, near, clear=0.0))
+    assert Occupied(lanes[0]).clashes(other) and not Occupied(lanes[0]).clashes(beside)
+    assert Occupied(lanes[0]).clashes(Figure.of(Text("x", (10.0, -11.0))))

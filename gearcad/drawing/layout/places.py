@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gearcad.drawing.layout.balance import balanced
 from gearcad.drawing.shapes import Box, Point
 
 __all__ = ["Room"]
@@ -19,6 +20,9 @@ _AROUND = 5.0
 
 _STEP = 4.0
 """Between the heights that are tried for an axis, and between places for a block."""
+
+_ENOUGH_AIR = 12.0
+"""Around a row; more makes a height no better."""
 
 _TRIED = 8
 """So many heights of a row's axis are gone on with."""
@@ -42,7 +46,21 @@ class Room:
         Boxes are relative to the origins of what they hold. Views of a row have their origins at one height; rows follow each
         other downwards, and their views of number `aligned` (-1 the last) have their origins one below the other.
         """
-        return next(self._rows(rows, blocks, aligned, None, self.free.top), None)
+        found = next(self._rows(rows, blocks, aligned, None, self.free.top), None)
+        return None if found is None else self._balanced(rows, blocks, found)
+
+    def _balanced(
+        self, rows: Sequence[Sequence[Box]], blocks: Sequence[Box], places: Sequence[Sequence[Point]]
+    ) -> list[list[Point]]:
+        """Rows in the middle of the room above and below them, blocks also across."""
+        stood = [
+            [box.moved(*place) for box, place in zip(row, ats, strict=True)]
+            for row, ats in zip((*rows, blocks), places, strict=True)
+        ]
+        groups = [*stood[:-1], *([box] for box in stood[-1])]
+        moves = balanced(groups, [number >= len(rows) for number in range(len(groups))], self.taken, self.free)
+        shifted = [[(x, y + up) for x, y in row] for row, (_, up) in zip(places[:-1], moves, strict=False)]
+        return [*shifted, [(x + right, y + up) for (x, y), (right, up) in zip(places[-1], moves[len(rows) :], strict=True)]]
 
     def _rows(
         self, rows: Sequence[Sequence[Box]], blocks: Sequence[Box], aligned: int, column: float | None, below: float
@@ -56,12 +74,12 @@ class Room:
         for places in self._row(rows[0], aligned, column, below):
             boxes = tuple(box.moved(*place) for box, place in zip(rows[0], places, strict=True))
             room = Room(self.free, self.taken + boxes)
-            foot = min(box.bottom for box in boxes) - _BETWEEN
-            for rest in room._rows(rows[1:], blocks, aligned, places[aligned][0], foot):
+            foot = min((box.bottom - _BETWEEN for box in boxes), default=below)
+            for rest in room._rows(rows[1:], blocks, aligned, places[aligned][0] if places else column, foot):
                 yield [places, *rest]
 
     def _row(self, boxes: Sequence[Box], aligned: int, column: float | None, below: float) -> list[list[Point]]:
-        """A row at several heights, those first where there is most air around it."""
+        """A row at several heights: those with enough air around it from the top, then those with less."""
         if not boxes:
             return [[]]
         top, bottom = max(box.top for box in boxes), min(box.bottom for box in boxes)
@@ -71,7 +89,7 @@ class Room:
             places = self._along(boxes, float(axis), aligned, column)
             if places is not None:
                 found.append((self._air([box.moved(*place) for box, place in zip(boxes, places, strict=True)]), places))
-        found.sort(key=lambda each: -each[0])
+        found.sort(key=lambda each: -min(each[0], _ENOUGH_AIR))  # what is alike stays in order, from the top
         chosen = found[:_TRIED] + found[_TRIED :: max(1, len(found) // _TRIED)]
         return [places for _, places in chosen]
 
@@ -86,7 +104,11 @@ class Room:
                 return None
             lefts.append(left)
             cursor = left + box.width + _BETWEEN
-        spare = (self.free.right - _AROUND) - (lefts[-1] + boxes[-1].width)
+        last = boxes[-1].moved(lefts[-1] - boxes[-1].left, axis)
+        walls = (
+            each.left for each in self.taken if each.left >= last.right and each.bottom < last.top and last.bottom < each.top
+        )
+        spare = min([self.free.right, *walls]) - _AROUND - last.right
         for share in (1.0, 0.75, 0.5, 0.25):
             each = spare * share / (len(boxes) + 1)
             wider = [left + each * (number + 1) for number, left in enumerate(lefts)]

@@ -68,7 +68,7 @@ class Occupied:
         symbols = _symbol_boxes(figure)
         return bool(
             _meet(texts, self._texts).any()
-            or _meet(symbols, self._symbols).any()
+            or _meet(_grown(symbols, _AIR), self._symbols).any()
             or _meet(texts, self._symbols).any()
             or _meet(symbols, self._texts).any()
             or _crossed(texts, self._segments).any()
