@@ -10,6 +10,7 @@ import pytest
 
 from gearcad.arrays import Floats
 from gearcad.drawing.layout import dressed
+from gearcad.drawing.marks import freehand
 from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.rack_views import end_section, front_view, plan_view
 from gearcad.drawing.rack_views.figures import front_figure, plan_figure, tooth_middles
@@ -98,6 +99,12 @@ def test_a_ring_without_a_rim_ends_in_a_freehand_line() -> None:
     assert any(each.closed and each.pen is Pen.THIN for each in of_kind(end_face(ring), Polyline))
     view = dressed(section_view(*demands(BARE)[:2], Draughting(Words.of(Language.GERMAN), SCALE)))
     assert view is not None and "Außenform nicht festgelegt" in [text.words for text in view.texts]
+
+
+def test_a_freehand_line_far_larger_than_paper_has_few_waves() -> None:
+    """A ring of 17 m at 50:1, as where a scale is looked for: some 660 000 waves of 4 mm."""
+    line = freehand([(0.0, 0.0), (1e6, 0.0), (1e6, 1e6)], closed=True)
+    assert 500 < len(line.vertices) <= 1001
 
 
 @pytest.mark.parametrize("direction", [1, -1])

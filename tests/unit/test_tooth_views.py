@@ -121,7 +121,7 @@ def test_heights_of_a_rack_are_named() -> None:
     assert isinstance(rack, Rack)
     for height in (rack.tip_height, rack.tip_form_height, rack.form_depth, rack.root_depth, rack.height):
         assert any(f"{height:.3f}" in each for each in words)
-    assert "0.15×45°" in words
+    assert "(0.15×45°)" in words
 
 
 def modified(kind: str, **other: object) -> Gear:

@@ -10,7 +10,9 @@ from gearcad.drawing.shapes import Pen, Point, Polyline, Vertex
 __all__ = ["freehand", "zigzag"]
 
 _WAVE = 4.0
-"""Length of half a wave."""
+"""Length of half a wave, more where a line would have more than `_MOST` of them: it is then longer than any paper."""
+
+_MOST = 1000
 
 _BULGE = 0.22
 """Of each half: some half a millimetre off the path."""
@@ -22,9 +24,10 @@ _TOOTH = 2.0
 def freehand(path: list[Point], *, closed: bool = False) -> Polyline:
     """A thin wavy line along a path of straight pieces; a closed one ends where it begins."""
     row = [*path, path[0]] if closed else path
+    wave = max(_WAVE, sum(math.dist(*piece) for piece in pairwise(row)) / _MOST)
     vertices: list[Vertex] = []
     for (x, y), (to_x, to_y) in pairwise(row):
-        halves = max(1, round(math.dist((x, y), (to_x, to_y)) / _WAVE))
+        halves = max(1, round(math.dist((x, y), (to_x, to_y)) / wave))
         for i in range(halves):
             side = -1 if len(vertices) % 2 else 1
             vertices.append((x + (to_x - x) * i / halves, y + (to_y - y) * i / halves, side * _BULGE))

@@ -50,7 +50,7 @@ def _shown(place: Placing) -> Box:
 
 
 def _chamfer(gear: Gear | Rack, place: Placing, draughting: Draughting) -> Figure:
-    """A leader to the chamfer on the left, with its height; nothing where there is none."""
+    """A leader to the chamfer on the left, with its height in brackets: the gear data has it; nothing where there is none."""
     size = gear.tip_chamfer if isinstance(gear, Rack) else gear.body.tip_chamfer
     if not size:
         return Figure()
@@ -60,7 +60,7 @@ def _chamfer(gear: Gear | Rack, place: Placing, draughting: Draughting) -> Figur
     x, y = place.point(at, -(place.flank(at) or 0.0))
     rise = 6.0 if up else -6.0
     knee = (x - 6.0, y + rise)
-    text = plain(draughting.words.shortest(size, 3) + "×45°", _TEXT)
+    text = plain(f"({draughting.words.shortest(size, 3)}×45°)", _TEXT)
     end = knee[0] - text.width - _AIR
     return Figure.of(
         Line((x, y), knee, Pen.DIMENSION),

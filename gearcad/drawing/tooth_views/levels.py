@@ -17,7 +17,7 @@ _DEEPEST = 0.6
 class Level:
     """A radius, or a height over a rack's reference line, with its symbol, the value that is written beside it, and its pen.
 
-    A `reference` value stands elsewhere on the sheet with its tolerance, so it is in brackets here.
+    A `reference` value stands elsewhere on the sheet, so it is in brackets here.
     """
 
     symbol: str
@@ -40,7 +40,7 @@ def _of_gear(gear: Gear) -> list[Level]:
         ("d_Fa", profile.tip_form_diameter, Pen.THIN, False),
         ("d", profile.reference_diameter, Pen.CENTRE, True),
         ("d_b", profile.base_diameter, Pen.THIN, True),
-        ("d_Ff", profile.form_diameter, Pen.THIN, False),
+        ("d_Ff", profile.form_diameter, Pen.THIN, True),
         ("d_f", profile.root_diameter, Pen.THIN, True),
     ]
     tip, root = profile.tip_diameter, profile.root_diameter
@@ -53,11 +53,11 @@ def _of_gear(gear: Gear) -> list[Level]:
 
 def _of_rack(rack: Rack) -> list[Level]:
     lines = [
-        ("h_a", rack.tip_height, rack.tip_height),
-        ("h_Fa", rack.tip_form_height, rack.tip_form_height),
-        ("h_Ff", -rack.form_depth, rack.form_depth),
-        ("h_f", -rack.root_depth, rack.root_depth),
+        Level("h_a", rack.tip_height, rack.tip_height, reference=True),
+        Level("h_Fa", rack.tip_form_height, rack.tip_form_height),
+        Level("h_Ff", -rack.form_depth, rack.form_depth),
+        Level("h_f", -rack.root_depth, rack.root_depth, reference=True),
     ]
     if not rack.tip_chamfer:
         del lines[1]
-    return [Level("H_0", 0.0, rack.height, Pen.CENTRE, True), *(Level(*each, reference=False) for each in lines)]
+    return [Level("H_0", 0.0, rack.height, Pen.CENTRE, True), *lines]

@@ -25,7 +25,7 @@ def modification_figures(drawn: DrawnGear, draughting: Draughting, direction: in
     figures = []
     if (profile := profile_depths(gear)) is not None:
         notes = tuple(_notes(gear, profile, direction, words))
-        figures.append(depth_diagram(words["rings.profile_diagram"], "L_y", profile, notes, draughting))
+        figures.append(depth_diagram(words["rings.profile_diagram"], "L", profile, notes, draughting))
     if (helix := helix_depths(gear)) is not None:
         notes = tuple(_notes(gear, helix, direction, words))
         figures.append(depth_diagram(words["rings.helix_diagram"], "z", helix, notes, draughting))

@@ -42,7 +42,7 @@ def _start(level: Level, place: Placing) -> float:
 
 
 def _name(level: Level, draughting: Draughting) -> Written:
-    """Its symbol and value, the value in brackets where it is toleranced elsewhere."""
+    """Its symbol and value, the value in brackets where it stands elsewhere."""
     value = draughting.words.number(level.value, 3)
     prefix = "⌀" if level.symbol.startswith("d") else ""
     text = f"({prefix}{value})" if level.reference else prefix + value
