@@ -34,9 +34,9 @@ def flank_directions(gear: Gear, along: Along) -> Figure:
         return Figure()
     radius = gear.reference_diameter / 2
     room = (_FURTHEST - _NEAREST) * radius * along.scale
-    spacing = min(_SPACING, room / 6)
-    tangent = abs(math.tan(math.radians(gear.helix_angle)))
-    longest = min(_LONGEST * math.cos(math.atan(tangent)), (room - 2 * spacing) / tangent) / along.scale
+    tangent, cosine = (function(math.radians(abs(gear.helix_angle))) for function in (math.tan, math.cos))
+    spacing = min(_SPACING / cosine, room / 5)
+    longest = min(_LONGEST * cosine, (room - 2 * spacing) / tangent) / along.scale
     middle = -(_FURTHEST + _NEAREST) / 2 * radius * along.scale
     rows = [_row(gear, along, heights) for heights in _heights(gear, min(longest, _SHARE * gear.half_width))]
     ups = [middle + step * spacing for step in (-1, 0, 1)]

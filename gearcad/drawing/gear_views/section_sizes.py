@@ -20,6 +20,9 @@ __all__ = ["SectionSizes"]
 
 _ABOVE_FIRST, _BELOW_FIRST = (Side.ABOVE, Side.BELOW), (Side.BELOW, Side.ABOVE)
 
+_LONG_EXTENSION = 40.0
+"""Extension lines that are longer go to the other side, if there is room (mm of paper)."""
+
 _BEYOND = (8.0, 16.0, 26.0, 40.0)
 """How far beyond the outline a leader from within it may end (mm of paper)."""
 
@@ -90,10 +93,10 @@ class SectionSizes:
         back = float(EndCone.of(self.outline.gear).setback(self.outline.tip))
         inwards = back * self.outline.along.direction
         left, right = self.outline.tooth_ends
-        return chain(
-            self._diameter(left + inwards, self.outline.tip, Side.LEFT, self.requirements.tip),
-            self._diameter(right - inwards, self.outline.tip, Side.RIGHT, self.requirements.tip),
-        )
+        places = [(Side.LEFT, left + inwards), (Side.RIGHT, right - inwards)]
+        across_hub = self.outline.along.scale * abs(left - self.outline.ends[0])
+        ordered = places if across_hub < _LONG_EXTENSION else reversed(places)
+        return chain.from_iterable(self._diameter(z, self.outline.tip, side, self.requirements.tip) for side, z in ordered)
 
     def _diameter(self, height: float, radius: float, side: Side, size: Size | None) -> Iterable[Figure]:
         """One whose edges are at a height along the axis, at the left or at the right."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 from gearcad.drawing.frame import Furnished, Furniture, SheetTemplate, title_values
@@ -91,6 +91,13 @@ class _Content:
         sizes = {each.name: getattr(self.requirements, each.name) for each in fields(self.requirements)}
         return numbers | {f"sizes.{name}": size.value for name, size in sizes.items() if isinstance(size, Size)}
 
+    @property
+    def _sizes(self) -> str:
+        """Teeth, module and helix angle, for where nobody gave a supplementary title."""
+        gear, words = self.drawn.gear, self.words
+        texts = [f"z = {gear.teeth}", f"mₙ = {words.shortest(gear.normal_module, 6)}"]
+        return ", ".join([*texts, *([f"β = {words.shortest(abs(gear.helix_angle), 4)}°"] if gear.helix_angle else [])])
+
     def views(self, scale: float) -> Views:
         """The views at a scale, and the details, which have scales of their own."""
         draughting = Draughting(self.words, scale)
@@ -117,7 +124,7 @@ class _Content:
             notes=tuple(self._notes()),
         )
         values = title_values(
-            self.options,
+            replace(self.options, supplementary_title=self.options.supplementary_title or self._sizes),
             self.words,
             title=self.title,
             document_type=self.words["frame.document_part"],
