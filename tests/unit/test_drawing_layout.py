@@ -131,11 +131,11 @@ def test_the_scale_is_the_largest_that_has_room(width: float) -> None:
     for sheet, (scale, factor) in product((SheetSize.A3, SheetSize.A2, SheetSize.A1, SheetSize.A0), SCALES.items()):
         side = width * factor
         free, taken = fixed(sheet, scale).free, fixed(sheet, scale).taken
-        tops = np.arange(free.bottom + side + 5.0, free.top - 4.9, 0.5)
-        beside_table = tops > taken[1].bottom - 5.0
-        over_block = tops - side > taken[0].top + 5.0
+        tops = np.arange(free.bottom + side + 2.0, free.top - 1.9, 0.5)  # as near as it may be where there is little room
+        beside_table = tops > taken[1].bottom - 2.0
+        over_block = tops - side > taken[0].top + 2.0
         right = np.where(beside_table, taken[1].left, np.where(over_block, free.right, taken[0].left))
-        if factor <= 50 and (right - free.left >= 2 * side + 5.0 + 10.0 + 5.0).any():
+        if factor <= 50 and (right - free.left >= 2 * side + 2.0 + 6.0 + 2.0).any():
             fits.setdefault(sheet, factor)
     good = [each for each in (SheetSize.A3, SheetSize.A2) if fits.get(each, 0.0) >= 0.5]
     good += [each for each, scale in fits.items() if scale >= 0.2]

@@ -131,7 +131,9 @@ class _Trial:
         shown = self._with_marks(scale)
         if shown is None:
             return None
-        places = room.places(shown.boxes, shown.block_boxes, aligned=0 if self.projection is Projection.FIRST else -1)
+        aligned = 0 if self.projection is Projection.FIRST else -1
+        tried = (each.places(shown.boxes, shown.block_boxes, aligned=aligned) for each in (room, room.tight))
+        places = next((each for each in tried if each is not None), None)
         if places is None:
             return None
         stood = {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,12 +11,6 @@ from gearcad.drawing.layout.balance import balanced
 from gearcad.drawing.shapes import Box, Point
 
 __all__ = ["Room"]
-
-_BETWEEN = 10.0
-"""Least distance of views from each other."""
-
-_AROUND = 5.0
-"""Least distance of views from the frame, and from what stands beside them."""
 
 _STEP = 4.0
 """Between the heights that are tried for an axis, and between places for a block."""
@@ -33,10 +27,20 @@ _LOOSE = (20.0, 12.0, 7.0)
 
 @dataclass(frozen=True)
 class Room:
-    """An area, and the boxes within it that are taken."""
+    """An area, and the boxes within it that are taken.
+
+    Views stand at least `between` mm from each other, and `around` from the edge of the area and from what is taken.
+    """
 
     free: Box
     taken: tuple[Box, ...] = ()
+    between: float = 10.0
+    around: float = 5.0
+
+    @property
+    def tight(self) -> Room:
+        """The same with less air, for what would else have no room."""
+        return replace(self, between=6.0, around=2.0)
 
     def places(
         self, rows: Sequence[Sequence[Box]], blocks: Sequence[Box] = (), *, aligned: int = 0
@@ -73,8 +77,8 @@ class Room:
             return
         for places in self._row(rows[0], aligned, column, below):
             boxes = tuple(box.moved(*place) for box, place in zip(rows[0], places, strict=True))
-            room = Room(self.free, self.taken + boxes)
-            foot = min((box.bottom - _BETWEEN for box in boxes), default=below)
+            room = replace(self, taken=self.taken + boxes)
+            foot = min((box.bottom - self.between for box in boxes), default=below)
             for rest in room._rows(rows[1:], blocks, aligned, places[aligned][0] if places else column, foot):
                 yield [places, *rest]
 
@@ -83,7 +87,7 @@ class Room:
         if not boxes:
             return [[]]
         top, bottom = max(box.top for box in boxes), min(box.bottom for box in boxes)
-        high, low = min(below, self.free.top - _AROUND) - top, self.free.bottom + _AROUND - bottom
+        high, low = min(below, self.free.top - self.around) - top, self.free.bottom + self.around - bottom
         found = []
         for axis in np.arange(high, low - 1e-9, -_STEP):
             places = self._along(boxes, float(axis), aligned, column)
@@ -97,18 +101,18 @@ class Room:
         """Views from left to right on an axis, as much air between them as there is."""
         if column is not None:
             return self._in_column(boxes, axis, aligned, column)
-        lefts, cursor = [], self.free.left + _AROUND
+        lefts, cursor = [], self.free.left + self.around
         for box in boxes:
             left = self._clear(box.moved(-box.left, axis), cursor)
             if left is None:
                 return None
             lefts.append(left)
-            cursor = left + box.width + _BETWEEN
+            cursor = left + box.width + self.between
         last = boxes[-1].moved(lefts[-1] - boxes[-1].left, axis)
         walls = (
             each.left for each in self.taken if each.left >= last.right and each.bottom < last.top and last.bottom < each.top
         )
-        spare = min([self.free.right, *walls]) - _AROUND - last.right
+        spare = min([self.free.right, *walls]) - self.around - last.right
         for share in (1.0, 0.75, 0.5, 0.25):
             each = spare * share / (len(boxes) + 1)
             wider = [left + each * (number + 1) for number, left in enumerate(lefts)]
@@ -124,29 +128,29 @@ class Room:
         if not self._is_clear(pinned):
             return None
         places: list[Point] = [(column, axis)] * len(boxes)
-        edge = pinned.right + _BETWEEN if aligned == 0 else pinned.left - _BETWEEN
+        edge = pinned.right + self.between if aligned == 0 else pinned.left - self.between
         for number in others if aligned == 0 else reversed(others):
             box = boxes[number]
             left = self._clear(box.moved(-box.left, axis), edge) if aligned == 0 else edge - box.width
             if left is None or not self._is_clear(box.moved(left - box.left, axis)):
                 return None
             places[number] = left - box.left, axis
-            edge = left + box.width + _BETWEEN if aligned == 0 else left - _BETWEEN
+            edge = left + box.width + self.between if aligned == 0 else left - self.between
         return places
 
     def _clear(self, box: Box, left: float) -> float | None:
         """The least left side from `left` on where a box, its own left side at 0, is clear; None where it never is."""
         while True:
             stood = box.moved(left, 0.0)
-            if stood.right > self.free.right - _AROUND + 1e-9:
+            if stood.right > self.free.right - self.around + 1e-9:
                 return None
-            hit = [each.right for each in self.taken if each.meets(stood.grown(_AROUND - 1e-9))]
+            hit = [each.right for each in self.taken if each.meets(stood.grown(self.around - 1e-9))]
             if not hit:
                 return left
-            left = max(hit) + _AROUND
+            left = max(hit) + self.around
 
     def _is_clear(self, box: Box) -> bool:
-        wide = box.grown(_AROUND - 1e-9)
+        wide = box.grown(self.around - 1e-9)
         return self.free.holds(wide) and not any(each.meets(wide) for each in self.taken)
 
     def _air(self, boxes: Sequence[Box]) -> float:
