@@ -1,4 +1,4 @@
-"""Renders the pictures of the README, of what its own commands make: `python docs/render.py` (off screen, through VTK)."""
+"""Makes the pictures of the README, by what its own commands do: `python docs/render.py`."""
 
 from __future__ import annotations
 
@@ -6,24 +6,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 - registers the renderer
 from PIL import Image
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkPolyDataNormals
-from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingCore import (
-    vtkActor,
-    vtkLight,
-    vtkPolyDataMapper,
-    vtkRenderer,
-    vtkRenderWindow,
-    vtkWindowToImageFilter,
-)
 
 import gearcad
-from gearcad import Body, Gear, Load, Material
+from gearcad import Body, Gear, Load, Material, picture
 from gearcad.batch import run_table
 from gearcad.batch.study import plan_study, write_study
 from gearcad.designs import read_spec
@@ -38,93 +24,12 @@ from gearcad.plots.sizing import save_front
 from gearcad.plots.table_data import read_points
 from gearcad.rating import RatingOptions
 from gearcad.sizing import SizeTask, search_pairs
-from gearcad.solids import tessellate
-from gearcad.solids.files.options import FileOptions
-from gearcad.solids.files.part import Part
-from gearcad.solids.files.products import PairProduct
-from gearcad.solids.files.rack_products import RackPairProduct
 
 FOLDER = Path(__file__).parent
 SPEC = FOLDER.parent / "templates" / "volvo-13-44.toml"
 """What `gearcad new volvo` writes."""
 
 FZG_C = SPEC.with_name("fzg-c.toml")
-
-BRASS, STEEL = (0.83, 0.62, 0.30), (0.60, 0.68, 0.76)
-FEATURE_ANGLE = 25.0
-
-Place = tuple[float, float, float]
-
-
-def actors(gear: Gear, colour: tuple[float, float, float], turn: float = 0.0, x: float = 0.0, z: float = 0.0) -> list[vtkActor]:
-    """A gear in its place."""
-    part = Part(name="gear", facets=tessellate(gear, 0.002), colour=colour, rotation=turn, offset=(x, 0.0, z))
-    return shaded(part, colour)
-
-
-def shaded(part: Part, colour: tuple[float, float, float]) -> list[vtkActor]:
-    """A shaded body and its sharp edges."""
-    points = part.facets.vertices @ part.pose[:3, :3].T + part.pose[:3, 3]
-    cells = np.ascontiguousarray(part.facets.faces, np.int64).ravel()
-    mesh, places, triangles = vtkPolyData(), vtkPoints(), vtkCellArray()
-    places.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
-    triangles.SetData(3, numpy_to_vtkIdTypeArray(cells, deep=True))
-    mesh.SetPoints(places)
-    mesh.SetPolys(triangles)
-    smooth, edges = vtkPolyDataNormals(), vtkFeatureEdges()
-    smooth.SetInputData(mesh)
-    smooth.SetFeatureAngle(FEATURE_ANGLE)
-    edges.SetInputData(mesh)
-    edges.SetFeatureAngle(FEATURE_ANGLE)
-    edges.BoundaryEdgesOff()
-    edges.ColoringOff()
-    made = []
-    for source, shade in ((smooth, colour), (edges, (0.12, 0.13, 0.15))):
-        mapper, actor = vtkPolyDataMapper(), vtkActor()
-        mapper.SetInputConnection(source.GetOutputPort())
-        mapper.ScalarVisibilityOff()
-        actor.SetMapper(mapper)
-        actor.GetProperty().SetColor(*shade)
-        made.append(actor)
-    made[0].GetProperty().SetSpecular(0.35)
-    made[0].GetProperty().SetSpecularPower(25)
-    made[1].GetProperty().SetLineWidth(1.6)
-    return made
-
-
-def render(
-    parts: list[vtkActor], path: Path, *, focus: Place, eye: Place, scale: float, size: tuple[int, int] = (1400, 700)
-) -> None:
-    """Write one picture; `eye` is the direction to look from, `scale` half the height of the view in mm."""
-    renderer, window = vtkRenderer(), vtkRenderWindow()
-    renderer.SetBackground(1, 1, 1)
-    for part in parts:
-        renderer.AddActor(part)
-    for direction, strength in (((-0.6, -0.9, 1.3), 0.85), ((0.9, -0.7, 0.5), 0.55), ((0.0, 1.0, 0.4), 0.3)):
-        light = vtkLight()
-        light.SetLightTypeToSceneLight()
-        light.SetPosition(*direction)
-        light.SetIntensity(strength)
-        light.PositionalOff()
-        renderer.AddLight(light)
-    camera = renderer.GetActiveCamera()
-    camera.ParallelProjectionOn()
-    camera.SetFocalPoint(*focus)
-    camera.SetPosition(*(np.array(focus) + 300 * np.array(eye) / np.linalg.norm(eye)))
-    camera.SetViewUp(0, 0, 1)
-    camera.SetParallelScale(scale)
-    renderer.ResetCameraClippingRange()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(8)
-    window.SetSize(*size)
-    window.AddRenderer(renderer)
-    window.Render()
-    image, writer = vtkWindowToImageFilter(), vtkPNGWriter()
-    image.SetInput(window)
-    image.ReadFrontBufferOff()
-    writer.SetFileName(str(path))
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.Write()
 
 
 def plot_study(path: Path) -> None:
@@ -155,23 +60,14 @@ def plot_elements(path: Path) -> None:
     Image.open(path).convert("RGB").quantize(48).save(path, optimize=True)
 
 
-def render_kinds(path: Path) -> None:
+def picture_kinds(path: Path) -> None:
     """A pinion in its ring, one on a rack, and double helical gears: the starters, side by side."""
-    fine = FileOptions(chord_error=0.004)
-    views = {
-        "ring-22-70": (PairProduct, ((-66, 0, 0), (0.35, -0.8, 1.3), 122)),
-        "rack": (RackPairProduct, ((12, 0, 12), (-1.1, -0.35, 0.9), 62)),
-        "double-23-81": (PairProduct, ((165, 0, 75), (-0.25, -1.0, 0.75), 235)),
-    }
-    pictures = []
     with TemporaryDirectory() as folder:
-        for name, (product, (focus, eye, scale)) in views.items():
-            scene = product(read_spec(SPEC.with_name(f"{name}.toml")).assembly, fine).scene()
-            parts = [actor for part, colour in zip(scene, (BRASS, STEEL), strict=True) for actor in shaded(part, colour)]
-            target = Path(folder, f"{name}.png")
-            render(parts, target, focus=focus, eye=eye, scale=scale, size=(640, 560))
-            pictures.append(np.array(Image.open(target).convert("RGB")))
-    Image.fromarray(np.hstack(pictures)).quantize(96).save(path, optimize=True)
+        taken = []
+        for name in ("ring-22-70", "rack", "double-23-81"):
+            picture(read_spec(SPEC.with_name(f"{name}.toml")), Path(folder, f"{name}.png"), size=(640, 560))
+            taken.append(np.array(Image.open(Path(folder, f"{name}.png"))))
+    Image.fromarray(np.hstack(taken)).quantize(128).save(path, optimize=True)
 
 
 def plot_train(path: Path) -> None:
@@ -197,15 +93,11 @@ def plot_sizes(path: Path) -> None:
 
 
 def main() -> None:
-    pair = read_spec(SPEC).pair
-    assert pair is not None  # the starter is one
-    pose = pair.wheel_pose()
-    pinion, wheel = actors(pair.pinion, BRASS), actors(pair.wheel, STEEL, pose.rotation, pose.x, pose.z)
-    render(pinion + wheel, FOLDER / "pair.png", focus=(62, 0, 6), eye=(-0.3, -1.0, 0.75), scale=50)
-    render(pinion + wheel, FOLDER / "mesh.png", focus=(19, 0, 18), eye=(0.0, -0.05, 1.0), scale=9)
+    picture(read_spec(SPEC), FOLDER / "pair.png", size=(1400, 700))
+    picture(read_spec(SPEC), FOLDER / "mesh.png", view="mesh", size=(1400, 700))
     plot_study(FOLDER / "study.png")
     plot_elements(FOLDER / "elements.png")
-    render_kinds(FOLDER / "kinds.png")
+    picture_kinds(FOLDER / "kinds.png")
     plot_train(FOLDER / "train.png")
     plot_sizes(FOLDER / "size.png")
 
