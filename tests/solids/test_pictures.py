@@ -17,10 +17,10 @@ from support.train_solids import alm_train, simple_set, small_train
 from gearcad import Body, Gear, GearPair, Rack, RackPair
 from gearcad.errors import OutputError
 from gearcad.planetary.speeds import speeds
-from gearcad.solids import FileOptions, tessellate
+from gearcad.solids import Facets, FileOptions, tessellate, tessellate_rack
 from gearcad.solids.files.part import Part
 from gearcad.solids.files.pictures import opengl
-from gearcad.solids.files.pictures.cutaway import Cut, Cutaway, cut_away
+from gearcad.solids.files.pictures.cutaway import Cut, Cutaway, CutFacets, cut_away
 from gearcad.solids.files.pictures.edges import Edges
 from gearcad.solids.files.pictures.images import Animation, write_animation
 from gearcad.solids.files.pictures.loops import MOST_FRAMES, come_round, frames_for
@@ -154,25 +154,55 @@ def test_edges_of_a_cylinder_are_its_ends_and_two_lines_at_its_sides() -> None:
     assert np.linalg.norm(np.diff(rims, axis=1), axis=-1).sum() == pytest.approx(2 * math.pi * 110, rel=1e-3)
 
 
-@pytest.mark.parametrize("gear", [_keyed(PINION), Gear(teeth=-50, normal_module=1, face_width=4, body=Body(rim_diameter=60))])
-def test_cuts_are_closed_and_take_their_share(gear: Gear) -> None:
-    whole = tessellate(gear, 0.02)
-    near, aside = np.array([0.0, -1.0, 0.0]), np.array([-1.0, 0.0, 0.0])
-    half, quarter = (cut_away(whole, Cut(np.zeros(3), normals)) for normals in ((near,), (near, aside)))
-    both = cut_away(whole, Cut(np.zeros(3), (-near,))).facets.volume
-    assert half.facets.volume + both == pytest.approx(whole.volume)
-    rest = cut_away(whole, Cut(np.zeros(3), (near, -aside))).facets.volume
-    assert quarter.facets.volume + rest == pytest.approx(whole.volume + both)
-    for cut in (half, quarter):
-        edges = Edges.of(cut.facets)
-        assert 2 * len(edges.ends) == 3 * len(cut.facets.faces)
-        a, b, c = (cut.facets.vertices[cut.facets.faces[cut.caps][:, corner]] for corner in range(3))
-        across = np.cross(b - a, c - a)[np.linalg.norm(np.cross(b - a, c - a), axis=1) > 1e-9]
-        assert np.abs(across[:, 2]).max() < 1e-9 * np.abs(across).max()
-    # Where both pieces stand side by side there is no edge.
-    edges = Edges.of(quarter.facets)
-    between = quarter.facets.vertices[edges.ends[quarter.between(edges.ends)]]
-    assert len(between) and np.abs(between[..., 1]).max() < 1e-9 and between[..., 0].min() > -1e-9
+def _volume(left: CutFacets) -> float:
+    """Of what a cut leaves, its faces included, which close it."""
+    found = left.facets.volume
+    for triangles, normal, _ in left.faces:
+        areas = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]) @ normal / 2
+        assert areas.min(initial=0.0) >= -1e-9 * areas.sum()  # all of them face the way the cut does
+        found += float((areas * (triangles.mean(axis=1) @ normal)).sum()) / 3
+    return found
+
+
+def _turned(facets: Facets, angle: float) -> Facets:
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return Facets(facets.vertices @ np.array([[cosine, sine, 0], [-sine, cosine, 0], [0, 0, 1]]), facets.faces.copy())
+
+
+CUT_OPEN = {
+    "keyway and hub": (tessellate(_keyed(replace(PINION, body=Body(bore=8, hub_diameter=14, hub_length=5))), 0.02), (0, 0, 4)),
+    "ring": (tessellate(Gear(teeth=-50, normal_module=1, face_width=4, body=Body(rim_diameter=60)), 0.02), (0, 0, 2)),
+    "long rack": (tessellate_rack(Rack(teeth=400, normal_module=1, face_width=10, height=10), 0.01), (600.0, 0, 5)),
+}
+
+
+@pytest.mark.parametrize("angle", [0.0, 1.1])
+@pytest.mark.parametrize("name", CUT_OPEN)
+def test_cuts_are_closed_and_leave_what_they_should(name: str, angle: float) -> None:
+    """The pieces on both sides of a plane, and in four quarters, add up to the whole: their faces close each."""
+    facets, at = CUT_OPEN[name]
+    whole, point = _turned(facets, angle), _turned(Facets(np.array([at], float), np.zeros((0, 3), int)), angle).vertices[0]
+    near, aside, up = (np.array(normal, float) for normal in ((0, -1, 0), (1, 0, 0), (0, 0, 1)))
+    for one, other in ((near, aside), (up, near)):
+        halves = [_volume(cut_away(whole, Cut(point, (normal,)))) for normal in (one, -one)]
+        assert sum(halves) == pytest.approx(whole.volume, rel=1e-9)
+        rests = [_volume(cut_away(whole, Cut(point, (a, b)))) for a in (one, -one) for b in (other, -other)]
+        assert sum(rests) == pytest.approx(3 * whole.volume, rel=1e-9)
+        assert rests[0] + rests[1] == pytest.approx(whole.volume + halves[0], rel=1e-9)
+
+
+def test_the_face_of_a_cut_has_the_area_and_the_outline_of_the_section() -> None:
+    """A rack of 400 teeth cut in the middle of its width: its volume over its width, the same around it as at its end."""
+    facets, at = CUT_OPEN["long rack"]
+    (face,) = cut_away(facets, Cut(np.array(at), (np.array([0.0, 0.0, 1.0]),))).faces
+    a, b, c = face.triangles.transpose(1, 0, 2)
+    assert np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2 == pytest.approx(facets.volume / 10, rel=1e-9)
+    assert face.triangles[..., 2] == pytest.approx(5)
+    # Its back, the lowest line, is in it twice.
+    around = np.linalg.norm(np.diff(face.outline, axis=1), axis=-1).sum() - 400 * math.pi
+    ends = facets.vertices[Edges.of(facets).drawn(np.array([0.0, 0.0, 1.0]))]
+    ends = ends[(ends[..., 2] == 10).all(axis=1)]
+    assert around == pytest.approx(np.linalg.norm(np.diff(ends, axis=1), axis=-1).sum(), rel=1e-3)
 
 
 # ---------------------------------------------------------------------- images

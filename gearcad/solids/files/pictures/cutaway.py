@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.arrays import Bools, Floats, Wholes
 from gearcad.solids.facets.tessellation import Facets
-from gearcad.solids.files.pictures.poly_data import arrays_of, poly_data
+from gearcad.solids.files.pictures.section import section_of
 
-__all__ = ["Cut", "CutFacets", "Cutaway", "cut_away"]
+__all__ = ["Cut", "CutFace", "CutFacets", "Cutaway", "cut_away"]
 
-_ON = 1e-7
-"""How far from a plane a point counts as in it, as a share of the part's size."""
+_IN_PLANE = 1e-10
+"""Distance from a plane that counts as none, as a share of the extent of what is cut."""
+
+_DIGITS = 9
+"""Of levels (mm) that are told apart where they are counted."""
 
 
 class Cutaway(Enum):
@@ -26,7 +30,10 @@ class Cutaway(Enum):
 
 @dataclass(frozen=True, eq=False)
 class Cut:
-    """Takes off what is beyond all planes through `point` (3,), one or two with unit normals (3,) towards what is taken off."""
+    """Takes off what is beyond all planes through `point` (3,), one or two with unit normals (3,) towards what is taken off.
+
+    Two planes are square to each other.
+    """
 
     point: Floats
     normals: tuple[Floats, ...]
@@ -37,57 +44,97 @@ class Cut:
         return ~beyond
 
 
+class CutFace(NamedTuple):
+    """A face where a part was cut: triangles (n, 3, 3) by their corners, its normal (3,), the lines around it (m, 2, 3)."""
+
+    triangles: Floats
+    normal: Floats
+    outline: Floats
+
+
 @dataclass(frozen=True, eq=False)
 class CutFacets:
-    """What a cut leaves: facets, and which of them (m,) are its faces. Two planes leave two pieces, side by side."""
+    """What a cut leaves: facets, open where the `faces` close them. Two planes leave two pieces, side by side."""
 
     facets: Facets
-    caps: Bools
-    cut: Cut
-
-    def between(self, ends: Wholes) -> Bools:
-        """Which edges, with these ends (n, 2), are only where both pieces stand side by side."""
-        if len(self.cut.normals) == 1 or not len(ends):
-            return np.zeros(len(ends), bool)
-        first, second = ((self.facets.vertices - self.cut.point) @ normal for normal in self.cut.normals)
-        near = _ON * np.ptp(self.facets.vertices, axis=0).max()
-        inside: Bools = ((abs(first) < near) & (second < near))[ends].all(axis=1)
-        beside: Bools = (second[ends] < -near).any(axis=1)
-        return inside & beside
+    faces: tuple[CutFace, ...]
 
 
 def cut_away(facets: Facets, cut: Cut) -> CutFacets:
-    """What a cut leaves of facets that stand in their place; all of it in two pieces where two planes cut."""
-    first, *others = cut.normals
-    sides = [(-first,), *((first, -other) for other in others)]
-    pieces = [piece for side in sides if len((piece := _clipped(facets, cut.point, side))[1])]
-    if not pieces:
-        return CutFacets(Facets(np.zeros((0, 3)), np.zeros((0, 3), np.int64)), np.zeros(0, bool), cut)
-    starts = np.cumsum([0, *(len(vertices) for vertices, _, _ in pieces)])
-    vertices = np.concatenate([vertices for vertices, _, _ in pieces])
-    faces = np.concatenate([faces + start for (_, faces, _), start in zip(pieces, starts, strict=False)])
-    return CutFacets(Facets(vertices, faces), np.concatenate([caps for _, _, caps in pieces]), cut)
+    """What a cut leaves of facets that stand in their place."""
+    first = cut.normals[0]
+    near, beyond, lines = _parted(facets, cut.point, first)
+    if len(cut.normals) == 1:
+        return CutFacets(near, (_cut_face(lines, cut.point, first, _fewest_levels(lines, first)),))
+    second = cut.normals[1]
+    beside, _, more = _parted(beyond, cut.point, second)
+    left = Facets(
+        np.concatenate([near.vertices, beside.vertices]), np.concatenate([near.faces, beside.faces + len(near.vertices)])
+    )
+    lines = _clipped(lines, (lines - cut.point) @ second)
+    return CutFacets(left, (_cut_face(lines, cut.point, first, second), _cut_face(more, cut.point, second, first)))
 
 
-def _clipped(facets: Facets, point: Floats, inward: tuple[Floats, ...]) -> tuple[Floats, Wholes, Bools]:
-    """Vertices, faces and which of them are cut faces, of what is on the inward side of all planes through a point."""
-    from vtkmodules.vtkCommonDataModel import vtkPlane, vtkPlaneCollection
-    from vtkmodules.vtkFiltersCore import vtkTriangleFilter
-    from vtkmodules.vtkFiltersGeneral import vtkClipClosedSurface
+def _parted(facets: Facets, point: Floats, normal: Floats) -> tuple[Facets, Facets, Floats]:
+    """Facets on this side of a plane, those beyond, and the lines (m, 2, 3) in the plane between them."""
+    height = (facets.vertices - point) @ normal
+    height[np.abs(height) < _IN_PLANE * np.ptp(facets.vertices, axis=0).max(initial=0.0)] = 0.0
+    above = height > 0  # a vertex in the plane is on this side, so every triangle across it is crossed at two edges
+    count = above[facets.faces].sum(axis=1)
+    cut = facets.faces[(count == 1) | (count == 2)]
+    # Turned so that the vertex that is alone on its side comes first.
+    alone = above[cut] == (above[cut].sum(axis=1) == 1)[:, None]
+    a, b, c = np.take_along_axis(cut, (alone.argmax(axis=1)[:, None] + np.arange(3)) % 3, axis=1).T
+    vertices, (ab, ac) = _crossings(facets.vertices, height, a, np.stack([b, c]))
+    tips, stumps = np.stack([a, ab, ac], axis=1), np.concatenate([np.stack([ab, b, c], axis=1), np.stack([ab, c, ac], axis=1)])
+    upper = above[a]
+    twice = np.tile(upper, 2)
+    here = np.concatenate([facets.faces[count == 0], _true(tips[~upper]), _true(stumps[twice])])
+    beyond = np.concatenate([facets.faces[count == 3], _true(tips[upper]), _true(stumps[~twice])])
+    return Facets(vertices.copy(), here), Facets(vertices.copy(), beyond), vertices[np.stack([ab, ac], axis=1)[ab != ac]]
 
-    planes = vtkPlaneCollection()
-    for normal in inward:
-        plane = vtkPlane()
-        plane.SetOrigin(*point)
-        plane.SetNormal(*normal)
-        planes.AddItem(plane)
-    clip, triangles = vtkClipClosedSurface(), vtkTriangleFilter()
-    clip.SetInputData(poly_data(facets))
-    clip.SetClippingPlanes(planes)
-    clip.SetScalarModeToLabels()
-    triangles.SetInputConnection(clip.GetOutputPort())
-    triangles.PassLinesOff()
-    triangles.PassVertsOff()
-    triangles.Update()
-    vertices, faces, labels = arrays_of(triangles.GetOutput())
-    return vertices, faces, labels > 0
+
+def _true(faces: Wholes) -> Wholes:
+    """Triangles (n, 3) with three corners."""
+    found: Wholes = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
+    return found
+
+
+def _crossings(vertices: Floats, height: Floats, one: Wholes, others: Wholes) -> tuple[Floats, Wholes]:
+    """The vertices with those where edges (k, m) cross height 0 behind them, each once, and the numbers (k, m) of these.
+
+    An edge that ends at height 0 crosses it at that vertex.
+    """
+    low, high = np.minimum(one, others), np.maximum(one, others)
+    keys, places = np.unique((low * len(vertices) + high).ravel(), return_inverse=True)
+    low, high = keys // max(len(vertices), 1), keys % max(len(vertices), 1)
+    share = (height[low] / (height[low] - height[high]))[:, None]
+    found = vertices[low] * (1 - share) + vertices[high] * share
+    numbers = np.where(height[low] == 0, low, np.where(height[high] == 0, high, len(vertices) + np.arange(len(keys))))
+    return np.concatenate([vertices, found]), numbers[places.reshape(others.shape)]
+
+
+def _clipped(lines: Floats, height: Floats) -> Floats:
+    """The parts of lines (m, 2, 3) above height 0, that of their ends being (m, 2)."""
+    lines, height = lines[(height > 0).any(axis=1)], height[(height > 0).any(axis=1)]
+    fall = np.where(height[:, 0] == height[:, 1], 1.0, height[:, 0] - height[:, 1])
+    crossing = lines[:, 0] + (height[:, 0] / fall)[:, None] * (lines[:, 1] - lines[:, 0])
+    return np.where((height > 0)[..., None], lines, crossing[:, None])
+
+
+def _cut_face(lines: Floats, point: Floats, normal: Floats, level: Floats) -> CutFace:
+    """What lines (m, 2, 3) in a plane enclose, as strips across a direction in it; at level 0 it ends where they do."""
+    frame = np.stack([level, np.cross(normal, level)])
+    section = section_of((lines - point) @ frame.T)
+    strips, end = point + section.strips @ frame, point + section.lowest @ frame
+    # Where the lowest side is a line itself, it is drawn twice, which nobody sees.
+    return CutFace(np.concatenate([strips[:, [0, 3, 1]], strips[:, [0, 2, 3]]]), normal, np.concatenate([lines, end]))
+
+
+def _fewest_levels(lines: Floats, normal: Floats) -> Floats:
+    """The one of two directions in a plane along which fewer levels have ends of lines."""
+    one = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
+    one /= np.linalg.norm(one)
+    directions = one, np.cross(normal, one)
+    counts = [len(np.unique(np.round((lines.reshape(-1, 3) @ each), _DIGITS))) for each in directions]
+    return directions[int(np.argmin(counts))]

@@ -18,6 +18,9 @@ FEATURE_ANGLE = 25.0
 _ACROSS = 1e-6
 """Cosine between a normal and the way to the eye that counts as none: walls along the view are not seen from either side."""
 
+_SLIMMEST = 1e-9
+"""Height over length of a triangle whose direction is known."""
+
 
 @dataclass(frozen=True, eq=False)
 class Edges:
@@ -29,7 +32,7 @@ class Edges:
 
     @classmethod
     def of(cls, facets: Facets) -> Self:
-        """The edges of facets."""
+        """The edges between two facets that have a direction: where they are open there are none."""
         faces = facets.faces
         a, b, c = (facets.vertices[faces[:, corner]] for corner in range(3))
         across = np.cross(b - a, c - a)
@@ -42,15 +45,13 @@ class Edges:
         one, other = order[first], order[first + 1]
         both = np.stack([normals[one % len(faces)], normals[other % len(faces)]], axis=1)
         bent = np.einsum("ij,ij->i", both[:, 0], both[:, 1]) < np.cos(np.radians(FEATURE_ANGLE))
-        solid = (lengths[one % len(faces)] > 0) & (lengths[other % len(faces)] > 0)
-        return cls(ends[one], both, bent & solid)
+        longest = np.linalg.norm([b - a, c - b, a - c], axis=2).max(axis=0)
+        solid = lengths > _SLIMMEST * longest**2
+        known = solid[one % len(faces)] & solid[other % len(faces)]
+        return cls(ends[one][known], both[known], bent[known])
 
     def drawn(self, towards: Floats) -> Wholes:
         """Ends (k, 2) of the sharp edges and of those at which the surface turns away from an eye that way (3,)."""
         facing = self.normals @ towards > _ACROSS
         ends: Wholes = self.ends[self.sharp | (facing[:, 0] != facing[:, 1])]
         return ends
-
-    def only(self, kept: Bools) -> Edges:
-        """Some of them (n,)."""
-        return Edges(self.ends[kept], self.normals[kept], self.sharp[kept])

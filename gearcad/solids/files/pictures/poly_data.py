@@ -1,4 +1,4 @@
-"""Facets and lines as VTK has them, and back."""
+"""Facets and lines as VTK has them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from gearcad.solids.facets.tessellation import Facets
 if TYPE_CHECKING:
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
-__all__ = ["arrays_of", "line_data", "poly_data"]
+__all__ = ["line_data", "poly_data"]
 
 
 def poly_data(facets: Facets) -> vtkPolyData:
@@ -27,17 +27,6 @@ def line_data(vertices: Floats, ends: Wholes) -> vtkPolyData:
     mesh = _points(vertices)
     mesh.SetLines(_cells(ends))
     return mesh
-
-
-def arrays_of(mesh: vtkPolyData) -> tuple[Floats, Wholes, Wholes]:
-    """Points (n, 3), triangles (m, 3) and the numbers (m,) on them."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
-    if not mesh.GetNumberOfCells():
-        return np.zeros((0, 3)), np.zeros((0, 3), np.int64), np.zeros(0, np.int64)
-    points = vtk_to_numpy(mesh.GetPoints().GetData()).astype(float)
-    cells = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).astype(np.int64).reshape(-1, 3)
-    return points, cells, vtk_to_numpy(mesh.GetCellData().GetScalars()).astype(np.int64)
 
 
 def _points(vertices: Floats) -> vtkPolyData:

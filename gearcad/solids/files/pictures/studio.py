@@ -5,22 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.arrays import Bools, Floats
+from gearcad.arrays import Floats
 from gearcad.solids.colours import Colour
-from gearcad.solids.facets.tessellation import Facets
 from gearcad.solids.files.part import Part
-from gearcad.solids.files.pictures.cutaway import Cut, cut_away
-from gearcad.solids.files.pictures.edges import FEATURE_ANGLE, Edges
+from gearcad.solids.files.pictures.cutaway import Cut
 from gearcad.solids.files.pictures.opengl import window_in_memory
-from gearcad.solids.files.pictures.poly_data import line_data, poly_data
+from gearcad.solids.files.pictures.shapes import Shape, cut_shape, whole_shape
 from gearcad.solids.files.pictures.views import Camera
 
 if TYPE_CHECKING:
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
     from vtkmodules.vtkRenderingCore import vtkActor, vtkRenderer, vtkRenderWindow
 
 __all__ = ["Pixels", "Studio", "studio"]
@@ -32,9 +31,7 @@ _FINE, _LESS_FINE, _FINE_UP_TO = 3, 2, 5_000_000
 """Into how many finer pixels each way one is divided, and in pictures of more pixels than so many."""
 
 _EDGE = (0.10, 0.11, 0.13)
-_CUT = (0.96, 0.38, 0.28)
-_CUT_SHARE = 0.7
-"""Colour of lines; that of cut faces, and its share in them: the rest is the part's."""
+"""Colour of lines."""
 
 _LINE = 1.3 / 900
 """Width of lines, in heights of the picture."""
@@ -44,18 +41,8 @@ _LIGHTS = (((-0.55, 0.75, 0.65), 0.66), ((0.80, 0.15, 0.55), 0.36), ((-0.25, -0.
 
 _AMBIENT, _SHINE = 0.28, 0.12
 
-
 _BAND = 128
 """Rows that are computed at a time, as floats need more memory than pixels."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Shape:
-    """What is drawn of facets: surfaces, and the edges in front of them."""
-
-    facets: Facets
-    edges: Edges
-    surface: Any
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +53,7 @@ class Studio:
     size: tuple[int, int]
     transparent: bool
     finer: int
-    shapes: dict[int, _Shape] = field(default_factory=dict)
+    shapes: dict[int, Shape] = field(default_factory=dict)
 
     def photograph(self, parts: Sequence[Part], camera: Camera, cuts: Mapping[str, Cut] | None = None) -> Pixels:
         """The parts, those with a cut by their name without what that takes off."""
@@ -101,35 +88,25 @@ class Studio:
         return pixels
 
     def _actors(self, part: Part, camera: Camera, cut: Cut | None) -> Iterator[vtkActor]:
-        from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
-
         pose = part.pose if cut is None else np.eye(4)
-        shape = self._shape(part) if cut is None else _cut_shape(part, cut)
-        if not len(shape.facets.faces):
-            return
-        lines = line_data(shape.facets.vertices, shape.edges.drawn(camera.axes[2] @ pose[:3, :3]))
-        for data, colour in ((shape.surface, part.colour), (lines, _EDGE)):
-            mapper, actor = vtkPolyDataMapper(), vtkActor()
-            mapper.SetInputData(data)
-            mapper.SetScalarVisibility(cut is not None and data is shape.surface)
-            actor.SetMapper(mapper)
-            actor.SetUserMatrix(_matrix(pose))
+        shape = self._shape(part) if cut is None else cut_shape(part, cut)
+        for surface, colour in shape.surfaces:
+            actor = _actor(surface, colour, pose)
             look = actor.GetProperty()
-            look.SetColor(*colour)
-            if data is lines:
-                look.LightingOff()
-                look.SetLineWidth(max(1.0, _LINE * self.finer * min(self.size)))
-            else:
-                look.SetAmbient(_AMBIENT)
-                look.SetSpecularColor(1, 1, 1)
-                look.SetSpecular(_SHINE)
-                look.SetSpecularPower(25)
+            look.SetAmbient(_AMBIENT)
+            look.SetSpecularColor(1, 1, 1)
+            look.SetSpecular(_SHINE)
+            look.SetSpecularPower(25)
             yield actor
+        lines = _actor(shape.lines(camera.axes[2] @ pose[:3, :3]), _EDGE, pose)
+        lines.GetProperty().LightingOff()
+        lines.GetProperty().SetLineWidth(max(1.0, _LINE * self.finer * min(self.size)))
+        yield lines
 
-    def _shape(self, part: Part) -> _Shape:
+    def _shape(self, part: Part) -> Shape:
         key = id(part.facets)  # the shape holds the facets, so nothing else can come to this number
         if key not in self.shapes:
-            self.shapes[key] = _Shape(part.facets, Edges.of(part.facets), _smoothed(part.facets))
+            self.shapes[key] = whole_shape(part)
         return self.shapes[key]
 
 
@@ -167,45 +144,19 @@ def _renderer(camera: Camera) -> vtkRenderer:
     return renderer
 
 
-def _smoothed(facets: Facets, colours: NDArray[np.uint8] | None = None) -> Any:
-    """Surfaces with normals that are smooth but for sharp edges; `colours` (m, 3) of the faces, if they have their own."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
-
-    mesh = poly_data(facets)
-    if colours is not None:
-        mesh.GetCellData().SetScalars(numpy_to_vtk(colours, deep=True))
-    smooth = vtkPolyDataNormals()
-    smooth.SetInputData(mesh)
-    smooth.SetFeatureAngle(FEATURE_ANGLE)
-    smooth.ConsistencyOff()
-    smooth.Update()
-    return smooth.GetOutput()
-
-
-def _cut_shape(part: Part, cut: Cut) -> _Shape:
-    """A part in its place without what a cut takes off; it has its colours itself."""
-    vertices = part.facets.vertices @ part.pose[:3, :3].T + part.pose[:3, 3]
-    left = cut_away(Facets(vertices, part.facets.faces), cut)
-    edges = Edges.of(left.facets)
-    colours = _colours(part.colour, left.caps)
-    return _Shape(left.facets, edges.only(~left.between(edges.ends)), _smoothed(left.facets, colours))
-
-
-def _colours(colour: Colour, caps: Bools) -> NDArray[np.uint8]:
-    """Red, green and blue (m, 3) of faces of a part, 0 ... 255."""
-    own = np.array(colour)
-    cut = _CUT_SHARE * np.array(_CUT) + (1 - _CUT_SHARE) * own
-    colours: NDArray[np.uint8] = np.rint(255 * np.where(caps[:, None], cut, own)).astype(np.uint8)
-    return colours
-
-
-def _matrix(pose: Floats) -> Any:
+def _actor(data: vtkPolyData, colour: Colour, pose: Floats) -> vtkActor:
+    """Surfaces or lines in their place."""
     from vtkmodules.vtkCommonMath import vtkMatrix4x4
+    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-    matrix = vtkMatrix4x4()
-    matrix.DeepCopy(pose.ravel().tolist())
-    return matrix
+    mapper, actor, place = vtkPolyDataMapper(), vtkActor(), vtkMatrix4x4()
+    mapper.SetInputData(data)
+    mapper.ScalarVisibilityOff()
+    actor.SetMapper(mapper)
+    place.DeepCopy(pose.ravel().tolist())
+    actor.SetUserMatrix(place)
+    actor.GetProperty().SetColor(*colour)
+    return actor
 
 
 def _mean(finer: Pixels) -> NDArray[np.float32]:
