@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from gearcad.drawing.frame.fitting import fit, shortened_notice
 from gearcad.drawing.frame.framed import Framed
@@ -16,6 +17,9 @@ from gearcad.drawing.shapes import Box, Figure, Line, Pen
 from gearcad.drawing.words import Words
 
 __all__ = ["title_block", "title_values"]
+
+_CLEAR = 0.3
+"""Between the ink of a value and the lines and the caption of its cell."""
 
 _MARGIN = 1.2
 """From the side of a cell to its text."""
@@ -127,8 +131,21 @@ def _cell(
         depth = cell.value_top(caption_height) - bottom
         fitted = fit(value, room, min(cell.text, depth), depth=depth)
         figure = fitted.at((box.left + _MARGIN, bottom + max(0.0, depth - fitted.depth) / 2))
+        ceiling = found.figure.box.bottom if text else box.top
+        figure = _between(figure, box.bottom + _CLEAR, ceiling - _CLEAR)
         found += Framed(figure, shortened_notice(name, value, fitted, _OWNER))
     return found
+
+
+def _between(figure: Figure, floor: float, ceiling: float) -> Figure:
+    """A text lower, and if it must be smaller, where marks above its letters would meet what is above: Kuggstång."""
+    box = figure.box
+    if box.height > ceiling - floor:
+        share = (ceiling - floor) / box.height
+        texts = (replace(each, height=each.height * share) for each in figure.texts)
+        figure = Figure(tuple(each.moved(0.0, (share - 1) * (each.at[1] - floor)) for each in texts))
+        box = figure.box
+    return figure.moved(0.0, min(0.0, ceiling - box.top) + max(0.0, floor - box.bottom))
 
 
 def _caption(name: str, cell: TitleCell, words: Words) -> str:

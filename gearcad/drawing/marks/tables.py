@@ -14,6 +14,9 @@ __all__ = ["Cell", "table"]
 _MARGIN = 1.5
 """Between the text of a cell and its side."""
 
+_CLEAR = 0.3
+"""Between letters that reach down, of subscripts too, and the line below them."""
+
 
 @dataclass(frozen=True)
 class Cell:
@@ -60,7 +63,13 @@ def table(
             written, short = cell.written(height, right - left - 2 * _MARGIN)
             shortened += [cell.text] * short
             along = left + _MARGIN + cell.anchor.along * (right - left - 2 * _MARGIN)
-            shapes += written.at((along, top - (row_height + height) / 2), cell.anchor, pen=pen).shapes
+            placed = written.at((along, top - (row_height + height) / 2), cell.anchor, pen=pen)
+            shapes += _above(placed, top - row_height + _CLEAR).shapes
         shapes.append(Line((width, top), (width, top - row_height), Pen.TABLE))
     shapes.append(Line((0.0, bottom), (width, bottom), Pen.TABLE))
     return Figure(tuple(shapes)), tuple(shortened)
+
+
+def _above(figure: Figure, floor: float) -> Figure:
+    """Higher, if it reaches below a floor."""
+    return figure.moved(0.0, max(0.0, floor - figure.box.bottom)) if figure.shapes else figure
