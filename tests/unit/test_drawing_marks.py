@@ -18,7 +18,7 @@ from gearcad.drawing.marks import (
     leader,
     linear_dimension,
     roughness,
-    symbol_text,
+    symbol,
     table,
     tolerance_frame,
     written_size,
@@ -115,11 +115,11 @@ def test_a_circle_is_measured_across() -> None:
 
 
 def test_subscripts_are_smaller_and_lower() -> None:
-    base, small = symbol_text("A_sne", (10.0, 20.0)).texts
+    base, small = symbol("A_sne").at((10.0, 20.0)).texts
     assert (base.words, small.words) == ("A", "sne")
     assert small.height < base.height and small.at[1] < base.at[1] and small.start[0] > base.box.right - 0.2
-    assert [each.words for each in symbol_text("A_sne / A_sni").texts] == ["A", "sne", " / A", "sni"]
-    assert [each.words for each in symbol_text("z").texts] == ["z"]
+    assert [each.words for each in symbol("A_sne / A_sni").at((0.0, 0.0)).texts] == ["A", "sne", " / A", "sni"]
+    assert [each.words for each in symbol("z").at((0.0, 0.0)).texts] == ["z"]
 
 
 def test_the_width_of_a_written_size_is_that_of_its_texts() -> None:

@@ -10,9 +10,9 @@ from gearcad.drawing.marks.roughness import general_roughness, roughness, roughn
 from gearcad.drawing.marks.sections import section_arrows, view_label
 from gearcad.drawing.marks.sheet_symbols import edge_symbol, projection_symbol
 from gearcad.drawing.marks.side import Side
-from gearcad.drawing.marks.size_text import size_text, written_size
+from gearcad.drawing.marks.size_text import written_size
 from gearcad.drawing.marks.tables import Cell, table
-from gearcad.drawing.marks.written import Written, deviations, plain, ringed, symbol, symbol_text
+from gearcad.drawing.marks.written import Written, deviations, plain, ringed, symbol
 
 __all__ = [
     "ARROW",
@@ -40,9 +40,7 @@ __all__ = [
     "roughness",
     "roughness_symbol",
     "section_arrows",
-    "size_text",
     "symbol",
-    "symbol_text",
     "table",
     "tolerance_frame",
     "view_label",

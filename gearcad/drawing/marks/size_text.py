@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from gearcad.drawing.marks.written import Written, deviations, plain, ringed
-from gearcad.drawing.shapes import Anchor, Figure, Pen, Point
 from gearcad.drawing.words import Size, Words
 
-__all__ = ["cad_words", "size_text", "written_size"]
+__all__ = ["cad_words", "written_size"]
 
 _AIR = 0.35
 """Between the parts of a size, over the height of its text."""
@@ -15,20 +14,6 @@ _MOST_DECIMALS = 4
 """Of deviations: half of a standard tolerance may end with half a micrometre (JS7 of 8: 0.0075)."""
 
 _OF_CAD = {"\\": "\\\\", "{": "\\{", "}": "\\}", "⌀": "%%c", "±": "%%p", "°": "%%d"}
-
-
-def size_text(
-    size: Size,
-    at: Point,
-    words: Words,
-    *,
-    anchor: Anchor = Anchor.LEFT,
-    height: float = 3.5,
-    rotation: float = 0.0,
-    pen: Pen = Pen.FINE_TEXT,
-) -> Figure:
-    """A size as text at a place."""
-    return written_size(size, words, height).at(at, anchor, rotation, pen)
 
 
 def written_size(size: Size, words: Words, height: float = 3.5) -> Written:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from gearcad.drawing.shapes import Anchor, Box, Circle, Figure, Pen, Point, Shape, Text, text_width
 
-__all__ = ["Written", "deviations", "plain", "ringed", "symbol", "symbol_text"]
+__all__ = ["Written", "deviations", "plain", "ringed", "symbol"]
 
 _SMALL, _LEAST = 0.7, 1.8
 """Height of limit deviations and of subscripts over that of the text, and the least (mm) that one can read."""
@@ -121,10 +121,3 @@ def symbol(words: str, height: float = 3.5) -> Written:
 def _subscript(words: str, height: float) -> Written:
     small = max(_SMALL * height, _LEAST)
     return Written((_Piece(words, 0.0, -_SUBSCRIPT_DROP * height, small),), text_width(words, small), height)
-
-
-def symbol_text(
-    words: str, at: Point = (0.0, 0.0), *, height: float = 3.5, anchor: Anchor = Anchor.LEFT, pen: Pen = Pen.FINE_TEXT
-) -> Figure:
-    """Symbols with their subscripts as smaller texts."""
-    return symbol(words, height).at(at, anchor, pen=pen)
