@@ -92,3 +92,9 @@ def test_sheets_are_documents_of_their_size() -> None:
     document = _drawn(GEAR).document()
     assert document.header["$EXTMAX"][:2] == (420.0, 297.0)
     assert not document.audit().errors
+
+
+def test_sheets_say_what_is_assumed_and_how_it_is_hardened() -> None:
+    sheet = _drawn(GEAR, replace(OPTIONS, heat_treatment="carburised", case_depth="0.6"))
+    assert "carburised, CHD 0.6" in _words(sheet)
+    assert {"no-thickness-limits", "no-material"} <= {each.code for each in sheet.notices}

@@ -82,7 +82,7 @@ class FaceMarks:
         return self.draughting.paper(self.gear.tip_diameter / 2)
 
     def bore(self) -> Iterator[Figure]:
-        """Its diameter, with roughness, cylindricity and datum A (ISO 5459: at a size it is the axis)."""
+        """Its diameter, roughness and cylindricity; datum A where run-outs are to it (ISO 5459: at a size it is the axis)."""
         size = self.requirements.bore
         if size is None:
             return
@@ -120,7 +120,8 @@ class FaceMarks:
             frame = tolerance_frame(Characteristic.CYLINDRICITY, self.draughting.words.shortest(deviation / 1000, 4))
             marks.append(frame.moved(-frame.box.width if to_right else 0.0, -_AIR - FRAME_HEIGHT / 2))
             low = marks[-1].box.bottom
-        marks.append(next(iter(datum("A", (-FRAME_HEIGHT if to_right else FRAME_HEIGHT, low), Side.BELOW))))
+        if self.requirements.tip_runout is not None or self.requirements.face_runout is not None:
+            marks.append(next(iter(datum("A", (-FRAME_HEIGHT if to_right else FRAME_HEIGHT, low), Side.BELOW))))
         return Figure.of(*marks)
 
     def _is_free(self, box: Box) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 from gearcad.drawing.frame import Furnished, Furniture, SheetTemplate, title_values
-from gearcad.drawing.gear_data import Row, gear_rows
+from gearcad.drawing.gear_data import Row, gear_notices, gear_rows
 from gearcad.drawing.layout import Fixed, View, Views, arranged
 from gearcad.drawing.marks import general_roughness
 from gearcad.drawing.options import DrawingOptions, PartDrawing, SheetSize
@@ -49,7 +49,7 @@ def draw_gear(drawn: DrawnGear, options: DrawingOptions, part: PartDrawing | Non
         language=own.language,
         figure=found.figure,
         shown=content.shown,
-        notices=content.furnished(found.sheet, found.scale).notices,
+        notices=(*content.furnished(found.sheet, found.scale).notices, *gear_notices(drawn, own)),
     )
 
 
@@ -74,7 +74,7 @@ class _Content:
             template=template,
             words=words,
             requirements=Requirements.of(drawn, options),
-            rows=gear_rows(drawn, words),
+            rows=gear_rows(drawn, words, options),
         )
 
     @property
@@ -123,15 +123,16 @@ class _Content:
             table_title=self.words["data.title"],
             notes=tuple(self._notes()),
         )
+        treatment = self.requirements.heat_treatment(self.words)  # with the depth of the case
+        title = self.options.supplementary_title or self._sizes
         values = title_values(
-            replace(self.options, supplementary_title=self.options.supplementary_title or self._sizes),
+            replace(self.options, heat_treatment=treatment, supplementary_title=title),
             self.words,
             title=self.title,
             document_type=self.words["frame.document_part"],
             size=sheet,
             scale=scale,
             material=self.requirements.material,
-            heat_treatment=self.requirements.heat_treatment(self.words),
         )
         return furniture.on(sheet, values)
 
