@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from gearcad.drawing.shapes import Point
 
-__all__ = ["Polygon", "Segment", "Where", "pieces", "visible", "within"]
+__all__ = ["Polygon", "Segment", "Where", "distance", "pieces", "visible", "within"]
 
 Polygon = tuple[Point, ...]
 """Its corners in turn, the last joined to the first."""
@@ -94,15 +94,15 @@ def _stops(segment: Segment, polygon: Polygon) -> Iterator[float]:
 def _where(point: Point, polygons: Sequence[Polygon]) -> Where:
     on_edge = False
     for polygon in polygons:
-        if any(_distance(point, edge) <= _NEAR for edge in _edges(polygon)):
+        if any(distance(point, edge) <= _NEAR for edge in _edges(polygon)):
             on_edge = True
         elif within(point, polygon):
             return Where.INSIDE
     return Where.EDGE if on_edge else Where.OUTSIDE
 
 
-def _distance(point: Point, edge: Segment) -> float:
-    """Of a point from an edge."""
+def distance(point: Point, edge: Segment) -> float:
+    """Of a point from a segment."""
     (x, y), (to_x, to_y) = edge
     way = to_x - x, to_y - y
     square = way[0] ** 2 + way[1] ** 2

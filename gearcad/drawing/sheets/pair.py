@@ -36,7 +36,7 @@ def draw_pair(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, Par
     template = SheetTemplate.of(options.template)
     words = template.words(options.language)
     pair = drawn.pair
-    rows, whole = pair_rows(drawn, words), PairPlaces.of(pair).front
+    rows, places = pair_rows(drawn, words), PairPlaces.of(pair)
     furniture = Furniture(
         options=options,
         template=template,
@@ -52,7 +52,7 @@ def draw_pair(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, Par
         views=lambda draughting: (pair_section(pair, draughting, _Z_TO_THE_LEFT), pair_face(pair, draughting)),
         title=drawn.name,
         document_type=words["frame.document_assembly"],
-        extent=max(whole.width, whole.height),
+        extent=max(places.front.width, places.front.height, places.extent.width),
     )
     return sheet.drawn(NAME, tuple(_notices(pair)))
 

@@ -52,7 +52,7 @@ def draw_train(drawn: DrawnTrain, options: DrawingOptions, parts: Mapping[str, P
         views=lambda draughting: (train_section(plan, items, draughting, _Z_TO_THE_LEFT), train_face(plan, draughting)),
         title=drawn.name,
         document_type=words["frame.document_arrangement"],
-        extent=2 * plan.reach,
+        extent=plan.largest,
     )
     return sheet.drawn(NAME, tuple(_notices(plan)))
 

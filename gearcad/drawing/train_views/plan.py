@@ -108,6 +108,12 @@ class TrainPlan:
         rings = (outer_diameter(central.gear) / 2 for central in self.train.centrals if central.gear.internal)
         return max((*planets, *rings))
 
+    @property
+    def largest(self) -> float:
+        """The largest size of it: across, or along its axis."""
+        ends = [end for each in self.layout.standing for end in each.extent]
+        return max(2 * self.reach, max(ends) - min(ends))
+
     # ------------------------------------------------------------------ stages
 
     @cached_property
