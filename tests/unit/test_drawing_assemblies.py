@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,8 +15,9 @@ from matplotlib.path import Path as Outline
 from gearcad import Body, Gear, GearPair, Rack, RackPair
 from gearcad.designs import read_spec
 from gearcad.drawing.assembled.hiding import Where, pieces
+from gearcad.drawing.files import sheet_document, write_dxf
 from gearcad.drawing.layout import View
-from gearcad.drawing.options import DrawingOptions, PartDrawing, SheetSize
+from gearcad.drawing.options import DrawingOptions, PartDrawing, Projection, SheetSize
 from gearcad.drawing.pair_views import pair_face, pair_section
 from gearcad.drawing.shapes import Circle, Hatching, Pen, Text
 from gearcad.drawing.sheets.drawing import Sheet
@@ -28,6 +30,7 @@ from gearcad.errors import ParameterError
 from gearcad.planetary import Central, PlanetaryTrain, Rim
 from gearcad.shipped import templates
 from tests.support.sets import alm_train
+from tests.support.written_sheet import read_sheet
 
 EXACT = 1e-9
 """mm: what follows by a formula of two terms."""
@@ -292,3 +295,20 @@ def test_it_is_seen_which_circles_are_drawn() -> None:
     plain = GearPair(pinion=gear(20, 10.0), wheel=gear(31, 10.0))
     sheet = drawn(type("Design", (), {"name": "pair", "pair": plain}))
     assert "pitch circles" not in " ".join(text.words for text in sheet.figure.texts)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("language", Language)
+@pytest.mark.parametrize("projection", Projection)
+def test_nothing_overlaps_and_nothing_leaves_the_frame(language: Language, projection: Projection, tmp_path: Path) -> None:
+    for name in (*STARTERS, "planetary-24-21-66", "planetary-alm-in-phase", "volvo-13-44", "alm-18-161", "reducer-21-43"):
+        sheet = drawn(starter(name), language=language, projection=projection)
+        document = sheet_document(sheet.figure, sheet.size, sheet.scale, title=sheet.title, language=language)
+        write_dxf(document, tmp_path / "sheet.dxf")
+        assert read_sheet(tmp_path / "sheet.dxf").faults == [], name
+
+
+@pytest.mark.parametrize("sheet", [size for size in SheetSize if size is not SheetSize.AUTO])
+def test_a_train_has_room_on_every_paper(sheet: SheetSize) -> None:
+    found = drawn(starter("planetary-24-21-66"), sheet=sheet)
+    assert found.size == sheet.size
