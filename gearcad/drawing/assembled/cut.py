@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from gearcad.drawing.assembled.hiding import Polygon, Segment
+from gearcad.drawing.gear_views.meridian import strips
 from gearcad.drawing.shapes import Point
 from gearcad.geometry import Gear, Rack
 from gearcad.rating.rim import outer_diameter
@@ -62,12 +63,6 @@ def cut_rack(rack: Rack, z: float, height: float) -> Cut:
     return _placed(Cut((body,), (((0.0, root), (0.0, tip), (width, tip), (width, root)),)), z, height)
 
 
-def spans(gear: Gear) -> tuple[tuple[float, float], ...]:
-    """Where its teeth begin and end: of a double helical gear with a gap twice."""
-    width, gap = gear.face_width, gear.double_helix.gap_width
-    return ((0.0, gear.half_width), (width - gear.half_width, width)) if gap else ((0.0, width),)
-
-
 def _half(gear: Gear) -> _Half:
     cone, root, tip = EndCone.of(gear), gear.profile.root_diameter / 2, gear.profile.tip_diameter / 2
     chamfer, face = gear.body.end_chamfer, cone.face_radius if cone.present else tip
@@ -77,7 +72,7 @@ def _half(gear: Gear) -> _Half:
     hub, groove = gear.body.hub_diameter / 2, abs(gear.gap_diameter) / 2
     roots: list[Point] = [(-back, hub), (0.0, hub)] if back else []
     teeth: list[Polygon] = []
-    for number, (low, high) in enumerate(spans(gear)):
+    for number, (low, high) in enumerate(strips(gear)):
         if number:
             roots += [(roots[-1][0], groove), (low, groove)]
         ends = [(low, face), (low + setback, root), (high - setback, root), (high, face)]
@@ -114,8 +109,8 @@ def _ring(gear: Gear) -> Cut:
     areas: list[Polygon] = []
     axes: list[Segment] = []
     edges = _openings(gear)
-    hole, inner, outer = body.bolt_circle / 2, (body.bolt_circle - body.bolt_diameter) / 2, 0.0
-    outer = inner + body.bolt_diameter
+    hole = body.bolt_circle / 2
+    inner, outer = hole - body.bolt_diameter / 2, hole + body.bolt_diameter / 2
     for mirror, holed in ((_same, body.bolt_holes > 0), (_mirrored, body.bolt_holes > 0 and body.bolt_holes % 2 == 0)):
         if not holed:
             areas.append(mirror((*half.roots, (width, rim), (0.0, rim))))
@@ -133,7 +128,7 @@ def _openings(gear: Gear) -> list[Segment]:
     """The circles of a ring's teeth behind the plane, where they begin and end: lines across its opening."""
     cone, tip = EndCone.of(gear), gear.profile.tip_diameter / 2
     circles: list[Point] = []
-    for low, high in spans(gear):
+    for low, high in strips(gear):
         circles += [(z, cone.face_radius if cone.present else tip) for z in (low, high)]
         if cone.present:
             circles += [(z, tip) for z in (low + gear.body.end_chamfer, high - gear.body.end_chamfer)]
