@@ -110,10 +110,10 @@ def _limits_height(row: TableRow, sizes: DataTableSizes, height: float) -> float
 
 
 def _symbol(words: str, room: float, text: float, height: float) -> Figure:
-    """As large as it can be."""
+    """As large as it can be, its subscripts above the line below."""
     sizes = [text * (1 - step / 20) for step in range(10) if text * (1 - step / 20) >= _LEAST] or [text]
     written = next((each for size in sizes if (each := symbol(words, size)).width <= room), symbol(words, sizes[-1]))
-    return written.at((0.0, (height - written.height) / 2))
+    return written.at((0.0, max((height - written.height) / 2, written.below + _AIR / 2)))
 
 
 def _notices(row: TableRow, text: str, fitted: Fitted) -> tuple[Notice, ...]:
