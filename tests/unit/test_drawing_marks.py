@@ -13,6 +13,7 @@ from gearcad.drawing.marks import (
     Side,
     circle_dimension,
     datum,
+    deviations,
     frame_leader,
     half_dimension,
     leader,
@@ -167,3 +168,9 @@ def test_a_table_shortens_what_does_not_fit_and_names_it() -> None:
     assert shortened == (long,)
     assert figure.box == pytest.approx((0.0, -3 * 6.4, 42.0, 0.0))
     assert all(figure.box.holds(text.box) for text in figure.texts)
+
+
+def test_stacked_limits_with_units_do_not_touch() -> None:
+    """The tail of µ reaches below the line."""
+    upper, lower = deviations("−70 µm", "−110 µm", 2.5).at((0.0, 0.0)).texts
+    assert upper.box.bottom > lower.box.top

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from gearcad.drawing.shapes import Anchor, Box, Circle, Figure, Pen, Point, Shape, Text, text_width
+from gearcad.drawing.shapes.font import reach
 
 __all__ = ["Written", "deviations", "plain", "ringed", "symbol"]
 
@@ -20,6 +21,9 @@ _SUBSCRIPT_DROP = 0.3
 
 _STACK_AIR = 0.18
 """Between the two of a stack, over the height."""
+
+_LEAST_AIR = 0.1
+"""Between letters of the upper one that reach below its line ("µm") and the lower one."""
 
 _SYMBOL_WITH_SUBSCRIPT = re.compile(r"_([^\s_,;:/()=]+)")
 
@@ -103,7 +107,8 @@ def deviations(upper: str, lower: str, height: float = 3.5) -> Written:
     small = max(_SMALL * height, _LEAST)
     sign = text_width("+", small)
     starts = [0.0 if each[:1] in "+−" else sign for each in (upper, lower)]
-    ups = ((1 + _STACK_AIR) * height / 2, (1 - _STACK_AIR) * height / 2 - small)
+    air = max(_STACK_AIR * height, reach(upper).below * small + _LEAST_AIR)
+    ups = ((height + air) / 2, (height - air) / 2 - small)
     pieces = tuple(_Piece(each, start, up, small) for each, start, up in zip((upper, lower), starts, ups, strict=True))
     width = max(start + text_width(each, small) for each, start in zip((upper, lower), starts, strict=True))
     return Written(pieces, width, height)
