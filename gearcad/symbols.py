@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 __all__ = [
     "CHECK",
+    "DRAW",
     "DRIVE",
     "DYNAMICS",
     "GEAR",
@@ -525,6 +526,8 @@ TRAIN_DYNAMICS = {
     "shaft_overload_speed": Symbol("n_1", "rpm", "", "speed of that torque"),
 }
 """Of each mesh or shaft of a train, whose name stands behind."""
+
+DRAW = {"sheets": Symbol("", "", "", "sheets that were drawn")}
 
 MESH = {
     "passed": Symbol("", "", "", "whether the gates of the meshes are passed"),

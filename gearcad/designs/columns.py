@@ -43,6 +43,7 @@ _COMPUTED = {
     "check.rating.pinion": symbols.GEAR_RATING,
     "check.rating.wheel": symbols.GEAR_RATING,
     "check.rating.wheel.formula": symbols.RING_FORMULA,
+    "draw": symbols.DRAW,
     "rate": symbols.STRENGTH_FIGURES,
     "stiffness": symbols.STIFFNESS,
     "dynamics": symbols.DYNAMICS,
