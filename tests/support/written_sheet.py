@@ -5,6 +5,7 @@ Nothing of the project is used: lengths of texts are matplotlib's, places of ent
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -91,8 +92,8 @@ class WrittenSheet:
     widths: Floats
     hatched: list[list[Floats]]
     audit: list[str]
-    dimensions: list[tuple[float, str]]
-    """What each measures (mm of the part), and its text."""
+    dimensions: list[tuple[float, str, str]]
+    """What each measures (mm of the part), its text as programs draw it anew, and what is written now."""
 
     @property
     def words(self) -> list[str]:
@@ -113,7 +114,7 @@ class WrittenSheet:
     @property
     def faults(self) -> list[str]:
         """Everything that is wrong with it, a line each; none if it is as it should be."""
-        return [*self.audit, *self._clashes(), *self._outside()]
+        return [*self.audit, *self._clashes(), *self._outside(), *self._misread()]
 
     def _clashes(self) -> Iterator[str]:
         for one, other in self._neighbours():
@@ -154,6 +155,16 @@ class WrittenSheet:
             if layer not in MARGIN_LAYERS:
                 yield f"a line of {layer} leaves the frame"
 
+    def _misread(self) -> Iterator[str]:
+        """Dimensions that would say something else if a program drew them anew: "<>" stands for what is measured."""
+        for measured, text, written in self.dimensions:
+            number = re.search(r"\d+(?:[.,](\d+))?", written)
+            if "<>" not in text or number is None:
+                continue
+            half = 0.5 * 10.0 ** -len(number[1] or "")
+            if abs(float(number[0].replace(",", ".")) - measured) > half + 1e-6:
+                yield f"{written!r} measures {measured:.4f} mm"
+
     def _past(self, left: float, bottom: float, right: float, top: float) -> NDArray[np.bool_]:
         """Which segments leave a rectangle."""
         low, high = self.segments.min(axis=1), self.segments.max(axis=1)
@@ -180,7 +191,14 @@ def read_sheet(path: Path | str) -> WrittenSheet:
             rows += list(pairwise(row))
             layers += [layer] * (len(row) - 1)
     size = document.header["$LIMMAX"]
-    dimensions = [(each.dxf.actual_measurement, each.dxf.text) for each in space.query("DIMENSION")]
+    dimensions = [
+        (
+            each.dxf.actual_measurement,
+            each.dxf.text,
+            " ".join(text.plain_text() for text in each.get_geometry_block().query("TEXT")),
+        )
+        for each in space.query("DIMENSION")
+    ]
     return WrittenSheet(
         (size[0], size[1]),
         texts,

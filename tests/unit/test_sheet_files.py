@@ -73,7 +73,7 @@ def test_dxf_is_a_drawing(tmp_path: Path) -> None:
         pen.value: round(100 * pen.stroke.width) for pen in Pen
     } | {"Defpoints": -3}
     assert document.linetypes.get("CENTER").pattern_tags.tags[2:] and not document.audit().has_errors
-    assert sheet.dimensions == [(80.0, "<> h11")]
+    assert sheet.dimensions == [(80.0, "<> h11", "80 h11")]
     (dimension,) = document.modelspace().query("DIMENSION")
     assert HOSTILE in sheet.words
     dimension.render()  # anew, by the library
@@ -107,6 +107,7 @@ def test_a_dimension_of_a_detail_measures_at_the_scale_of_the_detail(tmp_path: P
         (Text("upwards", (18, 40), rotation=90.0), "leaves the frame"),
         (Line((10, 40), (40, 40)), "a line of OUTLINE leaves the frame"),
         (Text("round", (314, 180)), "meets a line of OUTLINE"),
+        (replace(_dimension(), second=(140.3, 100)).moved(0, 60), "'80 h11' measures 80.6000 mm"),
     ],
 )
 def test_checker_sees_faults(shape: object, fault: str | None, tmp_path: Path) -> None:
@@ -138,8 +139,11 @@ def test_pdf_is_the_paper_and_its_circle_is_round(tmp_path: Path) -> None:
     _written(_figure(), tmp_path)
     content = (tmp_path / "sheet.pdf").read_bytes()
     boxes = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", content)
+    page = _pages(content)[0]
+    assert {float(width) for width in re.findall(r"([\d.]+) w\b", page)} - {1.0} == {0.7, 0.5, 0.25, 0.18}  # of a page in mm
+    assert f"{72 / 25.4:.6f} 0 0 {72 / 25.4:.6f} 0 0 cm" in page
     assert np.array(boxes, dtype=float) * 25.4 / 72 == pytest.approx(np.array([SIZE, SIZE]), abs=1e-4)
-    curves = _curves(_pages(content)[0])
+    curves = _curves(page)
     assert np.hypot(*(curves - (250, 180)).T) == pytest.approx(65.0, abs=1e-3)
     assert len(curves) == 9 * 8
 
