@@ -33,8 +33,11 @@ SCALES = {
 _LONGEST = 2000
 """Most characters of a text: a longer one was not meant for a sheet."""
 
-_HIDDEN = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069\u200e\u200f\ufeff"
-"""Letters that nobody sees, and that turn others round: what a sheet says must be what one reads."""
+_HIDDEN = (
+    "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069\u200e\u200f\u061c"  # turn others round
+    "\u00ad\u034f\u115f\u1160\u180e\u200b\u2060\u2061\u2062\u2063\u2064\u3164\ufeff\uffa0"  # have no width, or no ink
+)
+"""Letters that nobody sees: what a sheet says must be what one reads. Joiners, which scripts need, are not among them."""
 
 _ANY_SIZE = 10.0
 """Size (mm) for which the classes of ISO 286 that are permitted have limits."""
@@ -244,7 +247,7 @@ def _check(options: DrawingOptions | PartDrawing, kind: type[DataclassInstance])
 
 
 def one_line(parameter: str, value: Any) -> str:
-    """A text in one line. Raises ParameterError for what is no text, too long or has control characters."""
+    """A text in one line. Raises ParameterError for what is no text, too long or has hidden or control characters."""
     if isinstance(value, date):  # as TOML has dates
         value = value.isoformat()
     if not isinstance(value, str):
@@ -254,7 +257,7 @@ def one_line(parameter: str, value: Any) -> str:
     line = " ".join(value.split())
     bad = next((each for each in line if unicodedata.category(each) in ("Cc", "Cs") or each in _HIDDEN), None)
     if bad is not None:
-        raise ParameterError(parameter, value, f"must be a text without control characters; U+{ord(bad):04X} is one")
+        raise ParameterError(parameter, value, f"must be a text without hidden or control characters; U+{ord(bad):04X} is one")
     return line
 
 

@@ -222,7 +222,7 @@ def _corners(solid: Any) -> Floats:
 
 def _text(entity: Any, document: Any) -> WrittenText:
     """Where its ink is."""
-    dxf, words = entity.dxf, entity.plain_text()
+    dxf, words = entity.dxf, ezdxf.decode_dxf_unicode(entity.plain_text())
     alignment, place, _ = entity.get_placement()
     ink, advance = _ink(words, document.styles.get(dxf.style).dxf.font)
     low, high = ink[:2] * dxf.height, ink[2:] * dxf.height

@@ -35,7 +35,7 @@ from gearcad.drawing.words import Language
 SIZE = (420.0, 297.0)
 FRAME = Polyline.straight([(20, 10), (410, 10), (410, 287), (20, 287)], Pen.FRAME, closed=True)
 SQUARE = ((100.0, 100.0, 0.0), (140.0, 100.0, 0.0), (140.0, 130.0, 0.0), (100.0, 130.0, 0.0))
-HOSTILE = '<img src=x onerror=alert(1)> & "q" 50%%c 90 % ^J'
+HOSTILE = '<img src=x onerror=alert(1)> & "q" 50%%c 90 % ^J \\U+0041 \\M+18140 \\U+005C'
 
 
 def _dimension(words: str = "<> h11") -> Dimension:

@@ -8,6 +8,7 @@ import unicodedata
 __all__ = ["as_code", "as_read", "one_line"]
 
 _PERCENT = re.compile(r"%(?=%)|(?<=%)%")
+_BACKSLASH, _AS_CODE = re.compile(r"\\(?=[UM]\+)", re.IGNORECASE), r"\U+005C"
 _REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 
 
@@ -17,12 +18,13 @@ def one_line(words: str) -> str:
 
 
 def as_code(words: str) -> str:
-    """A text for an entity of DXF, in which "%%c" and "^J" would be codes.
+    """A text for an entity of DXF, in which "%%c", "^J", and a backslash with "U+2300" or "M+18140" would be codes.
 
     >>> as_code("90 %, 50%%c")
     '90 %, 50%%%%%%c'
     """
-    return _PERCENT.sub("%%%", one_line(words)).replace("^", "^ ")
+    words = _BACKSLASH.sub(lambda _: _AS_CODE, one_line(words))
+    return _PERCENT.sub("%%%", words).replace("^", "^ ")
 
 
 def as_read(code: str) -> str:
@@ -31,7 +33,7 @@ def as_read(code: str) -> str:
     >>> as_read(as_code("90 %, 50%%c ^ <&>"))
     '90 %, 50%%c ^ <&>'
     """
-    return code.replace("%%%", "%").replace("^ ", "^")
+    return code.replace("%%%", "%").replace("^ ", "^").replace(_AS_CODE, "\\")
 
 
 def _printable(letter: str) -> str:
