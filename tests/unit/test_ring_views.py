@@ -20,7 +20,7 @@ from gearcad.drawing.ring_views import face_view, section_view
 from gearcad.drawing.ring_views.face import end_face, hole_places
 from gearcad.drawing.ring_views.meridian import Meridian
 from gearcad.drawing.ring_views.section import full_section
-from gearcad.drawing.shapes import Circle, Figure, Hatching, Line, Pen, Polyline
+from gearcad.drawing.shapes import Circle, Dimension, Figure, Hatching, Line, Pen, Polyline
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.tooth_views import detail_mark
 from gearcad.drawing.words import Draughting, Language, Words
@@ -170,6 +170,9 @@ def test_a_long_rack_is_broken_and_says_its_length() -> None:
     view = dressed(front_view(*demands(rack)[:2], Draughting(Words.of(Language.ENGLISH), 1.0)))
     assert view is not None
     assert "500" in [text.words for text in view.texts]
+    (length,) = [each for each in of_kind(view, Dimension) if "500" in [text.words for text in Figure.of(each).texts]]
+    measured = math.dist(length.first, length.second) / (length.scale or 1.0)
+    assert (length.words, measured) == ("<>", pytest.approx(500.0))
     first, second = tooth_middles(span)
     assert second - first == pytest.approx(rack.transverse_pitch)
     assert len(Span(RACKS["cut"], 1.0).parts) == 1

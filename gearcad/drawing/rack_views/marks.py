@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gearcad.drawing.marks import Side, linear_dimension, roughness, roughness_symbol, section_arrows
 from gearcad.drawing.rack_views.figures import SECTION, tooth_middles
@@ -43,11 +43,12 @@ class FrontMarks:
         return self.first_tooth, self.pitch, self.length, self.cutting_line
 
     def length(self) -> Iterator[Figure]:
-        """All of it, however much is shown."""
+        """All of it, however much is shown: a program that draws it anew measures at a scale of its own."""
         size, back = self.requirements.length, -self.span.scale * self.span.rack.height
         if size is not None:
             left, right = (-self.span.right, back), (self.span.right, back)
-            yield from linear_dimension(left, right, Side.BELOW, size, self.draughting, clear=back)
+            draughting = replace(self.draughting, scale=2 * self.span.right / self.span.rack.length)
+            yield from linear_dimension(left, right, Side.BELOW, size, draughting, clear=back)
 
     def pitch(self) -> Iterable[Figure]:
         """Between the first two teeth, in brackets: it follows from module and helix angle."""
