@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gearcad.drawing.layout import Fixed, View, Views, arranged, dressed
-from gearcad.drawing.marks import Characteristic, Side, frame_leader, half_dimension, leader, linear_dimension, tolerance_frame
+from gearcad.drawing.marks import Characteristic, Side, frame_leader, leader, linear_dimension, tolerance_frame
 from gearcad.drawing.options import SCALES, Projection, SheetSize
 from gearcad.drawing.shapes import Anchor, Box, Dimension, Figure, Hatching, Line, Occupied, Pen, Point, Polyline, Shape, Text
 from gearcad.drawing.words import Draughting, Language, Size, Words
@@ -42,7 +42,9 @@ def block(width: float, height: float, name: str = "block") -> Callable[[float],
                 lambda: linear_dimension(
                     (-right, -top), (-right, top), Side.LEFT, Size(value=height), draughting, clear=-right
                 ),
-                lambda: half_dimension((right, top / 2), 0.0, Side.RIGHT, Size(value=height / 2), draughting, clear=right),
+                lambda: linear_dimension(
+                    (right, -top / 2), (right, top / 2), Side.RIGHT, Size(value=height / 2), draughting, clear=right
+                ),
                 lambda: frame_leader((right / 2, top), Side.ABOVE, frame),
                 lambda: leader((right, -top), "1×45°", draughting),
             ),

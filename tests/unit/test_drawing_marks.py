@@ -15,7 +15,6 @@ from gearcad.drawing.marks import (
     datum,
     deviations,
     frame_leader,
-    half_dimension,
     leader,
     linear_dimension,
     roughness,
@@ -79,8 +78,7 @@ def test_the_text_of_a_dimension_meets_none_of_its_own_lines(side: Side, length:
     size = Size(value=length, prefix="⌀", fit="H7", upper=0.025, lower=0.0, envelope=True)
     draughting = Draughting(ENGLISH)
     both = linear_dimension(side.point(0.0, 0.0), side.point(length, 0.0), side, size, draughting, clear=0.0)
-    half = half_dimension(side.point(length, 0.0), length / 2, side, size, draughting, clear=0.0)
-    for figure in (*islice(both, 8), *islice(half, 4)):
+    for figure in islice(both, 8):
         whole = [each.box for each in figure.texts]
         for part in only(figure).parts:
             if isinstance(part, Line | Filled):
@@ -100,19 +98,15 @@ def test_arrows_are_of_fifteen_degrees_and_touch_what_is_measured() -> None:
         assert each.box.width == pytest.approx(3.2)
 
 
-def test_the_line_of_a_half_dimension_goes_past_the_axis_and_measures_all() -> None:
-    size = Size(value=120.0, prefix="⌀")
-    dimension = only(next(half_dimension((10.0, 80.0), 50.0, Side.RIGHT, size, HALF_SIZE, clear=10.0)))
-    assert len([part for part in dimension.parts if isinstance(part, Filled)]) == 1
-    assert min(part.box.bottom for part in dimension.parts) < 50.0 - 4.0
-    assert abs(dimension.second[1] - dimension.first[1]) / HALF_SIZE.scale == pytest.approx(120.0)
-
-
-def test_a_circle_is_measured_across() -> None:
+def test_a_leader_to_a_circle_is_square_to_it_and_no_dimension_of_a_program() -> None:
+    """LibreCAD draws diameters anew across the circle, wherever their text was."""
     for figure in islice(circle_dimension((5.0, 5.0), 20.0, Size(value=80.0, prefix="⌀"), HALF_SIZE), 12):
-        dimension = only(figure)
-        assert math.dist(dimension.first, dimension.second) / HALF_SIZE.scale == pytest.approx(80.0)
-        assert math.dist(dimension.first, (5.0, 5.0)) == pytest.approx(20.0)
+        assert not [each for each in figure.shapes if isinstance(each, Dimension)]
+        (point,) = (each for each in figure.shapes if isinstance(each, Filled))
+        line = next(each for each in figure.shapes if isinstance(each, Line))
+        assert point.points[0] == line.start and math.dist(line.start, (5.0, 5.0)) == pytest.approx(20.0)
+        assert math.dist(line.end, (5.0, 5.0)) == pytest.approx(20.0 + math.dist(*line.segments[0]))
+        assert [each.words for each in figure.texts] == ["⌀80"]
 
 
 def test_subscripts_are_smaller_and_lower() -> None:

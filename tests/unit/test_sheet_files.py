@@ -81,12 +81,25 @@ def test_dxf_is_a_drawing(tmp_path: Path) -> None:
     assert [each.plain_text() for each in block.query("MTEXT")] == ["80 h11"]
 
 
-def test_half_a_dimension_has_one_arrow_when_drawn_anew(tmp_path: Path) -> None:
-    parts = (Line((90, 115), (90, 133)), Filled(((90, 130), (90.4, 127), (89.6, 127)), Pen.DIMENSION), Text("⌀60", (85, 115)))
-    half = Dimension(Measured.VERTICAL, (100, 100), (100, 130), (90, 115), "%%c<>", parts)
-    (written,) = ezdxf.readfile(_written(Figure.of(FRAME, half), tmp_path)).modelspace().query("DIMENSION")
-    style = written.override()
-    assert (style.get("dimsd1"), style.get("dimse1"), style.get("dimsd2", 0)) == (1, 1, 0)
+@pytest.mark.parametrize(("measured", "place"), [(10.0, 5.0), (10.0, 24.0), (13.0, 6.5), (20.0, 10.0), (60.0, 75.0)])
+@pytest.mark.parametrize("upright", [False, True])
+def test_a_dimension_drawn_anew_keeps_its_text(tmp_path: Path, upright: bool, measured: float, place: float) -> None:
+    """LibreCAD 2.2 centres the text on its point, and moves it aside by half of both lengths if it is the longer one."""
+
+    def at(along: float, out: float) -> tuple[float, float]:
+        return (100 - out, 100 + along) if upright else (100 + along, 100 + out)
+
+    text = Text("80 h11", at(place, 11.0), anchor=Anchor.CENTRE, rotation=90.0 * upright)
+    kind = Measured.VERTICAL if upright else Measured.HORIZONTAL
+    shape = Dimension(kind, at(0.0, 0.0), at(measured, 0.0), at(place, 10.0), "<> h11", (text,), scale=measured / 80)
+    path = _written(Figure.of(FRAME, shape), tmp_path)
+    assert "80 h11" in read_sheet(path).words
+    for written in ezdxf.readfile(path).modelspace().query("DIMENSION"):
+        middle, width = written.dxf.text_midpoint[upright] - 100, 1.25 * text.width
+        pushed = (width + measured) / 2 if width > measured else 0.0
+        assert middle + pushed == pytest.approx(place, abs=0.5)
+        assert 0.0 < middle < measured
+    assert bool(ezdxf.readfile(path).modelspace().query("DIMENSION")) is (measured == 20.0)
 
 
 def test_a_dimension_of_a_detail_measures_at_the_scale_of_the_detail(tmp_path: Path) -> None:

@@ -6,17 +6,20 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from gearcad.drawing.files.plain import one_line
-from gearcad.drawing.shapes import Dimension, Filled, Measured, Point, Text
+from gearcad.drawing.shapes import Box, Dimension, Measured, Text
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
     from ezdxf.layouts import BaseLayout, BlockLayout
 
-__all__ = ["add_dimension", "add_dimension_style"]
+__all__ = ["add_dimension", "add_dimension_style", "is_drawn_alike"]
 
 _STYLE = "ISO129"
 
-_LINEAR, _DIAMETER, _OWN_BLOCK, _TEXT_STAYS = 0, 3, 32, 128
+_LINEAR, _OWN_BLOCK, _TEXT_STAYS = 0, 32, 128
+
+_WIDER, _SPARE = 1.25, 2.0
+"""Fonts of other programs are so much wider than ours, and a text should have so much room left (mm)."""
 
 _LOOK = {
     "dimtxt": 3.5,  # height of the text
@@ -62,26 +65,19 @@ def add_dimension(dimension: Dimension, space: BaseLayout, attributes: dict[str,
             "dimstyle": _STYLE,
             "geometry": block.name,
             "text": one_line(dimension.words),
-            "text_midpoint": _text_middle(dimension),
+            "text_midpoint": _text_box(dimension).middle,
             "actual_measurement": _length(dimension) * factor,
         }
     )
-    lone = _without_arrow(dimension)
-    own: dict[str, float] = {f"dimsd{lone}": 1, f"dimse{lone}": 1} if lone else {}
     if not math.isclose(factor, of_sheet):
-        own["dimlfac"] = factor
-    if own:
         from ezdxf.entities.dimstyleoverride import DimStyleOverride
 
-        DimStyleOverride(entity, own).commit()
+        DimStyleOverride(entity, {"dimlfac": factor}).commit()
     return block
 
 
 def _points(dimension: Dimension) -> dict[str, Any]:
     """What is measured, and where the line of the dimension is."""
-    if dimension.measured is Measured.DIAMETER:
-        kind = _DIAMETER | _OWN_BLOCK | _TEXT_STAYS
-        return {"dimtype": kind, "defpoint": dimension.first, "defpoint4": dimension.second}
     upright = dimension.measured is Measured.VERTICAL
     end = (dimension.line[0], dimension.second[1]) if upright else (dimension.second[0], dimension.line[1])
     kind = _LINEAR | _OWN_BLOCK | _TEXT_STAYS
@@ -94,24 +90,30 @@ def _points(dimension: Dimension) -> dict[str, Any]:
     }
 
 
+def is_drawn_alike(dimension: Dimension) -> bool:
+    """Whether programs that draw a dimension anew set its text where it is: between the points that are measured.
+
+    LibreCAD pushes texts aside that are longer than what is measured, from wherever they were put.
+    """
+    axis = _axis(dimension)
+    box = _text_box(dimension)
+    low, high = sorted((dimension.first[axis], dimension.second[axis]))
+    longer = ((box[2 + axis] - box[axis]) * (_WIDER - 1) + _SPARE) / 2
+    return low <= box[axis] - longer and box[2 + axis] + longer <= high
+
+
+def _axis(dimension: Dimension) -> int:
+    """Along which it measures: 0 for x, 1 for y."""
+    return 1 if dimension.measured is Measured.VERTICAL else 0
+
+
 def _length(dimension: Dimension) -> float:
     """On paper."""
-    across, up = (abs(end - start) for start, end in zip(dimension.first, dimension.second, strict=True))
-    return {Measured.HORIZONTAL: across, Measured.VERTICAL: up, Measured.DIAMETER: math.hypot(across, up)}[dimension.measured]
+    axis = _axis(dimension)
+    return abs(dimension.second[axis] - dimension.first[axis])
 
 
-def _text_middle(dimension: Dimension) -> Point:
-    """That of its texts, or of the line where it has none."""
+def _text_box(dimension: Dimension) -> Box:
+    """That of its texts, or the point of the line where it has none."""
     boxes = [part.box for part in dimension.parts if isinstance(part, Text)]
-    return type(boxes[0]).of_all(boxes).middle if boxes else dimension.line
-
-
-def _without_arrow(dimension: Dimension) -> int | None:
-    """Which end (1 or 2) has no arrow, of a dimension that has one only: its line goes on past the axis."""
-    arrows = [part for part in dimension.parts if isinstance(part, Filled)]
-    if len(arrows) != 1 or dimension.measured is Measured.DIAMETER:
-        return None
-    upright = dimension.measured is Measured.VERTICAL
-    ends = [point[upright] for point in (dimension.first, dimension.second)]
-    distances = [min(abs(corner[upright] - end) for corner in arrows[0].points) for end in ends]
-    return 1 if distances[0] > distances[1] else 2
+    return Box.of_all(boxes) if boxes else Box.around([dimension.line])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import singledispatch
 from typing import TYPE_CHECKING, Any
 
-from gearcad.drawing.files.dimensions import add_dimension, add_dimension_style
+from gearcad.drawing.files.dimensions import add_dimension, add_dimension_style, is_drawn_alike
 from gearcad.drawing.files.plain import as_code, one_line
 from gearcad.drawing.shapes import Arc, Circle, Dimension, Figure, Filled, Hatching, Line, Pen, Polyline, Shape, Text
 from gearcad.drawing.shapes.font import STRETCH, font_file
@@ -136,9 +136,10 @@ def _(hatching: Hatching, space: BaseLayout) -> None:
 
 @draw.register(Dimension)
 def _(dimension: Dimension, space: BaseLayout) -> None:
-    block = add_dimension(dimension, space, _on(Pen.DIMENSION))
+    """With a block of its parts; only the parts, where other programs would make something else of it."""
+    seen = add_dimension(dimension, space, _on(Pen.DIMENSION)) if is_drawn_alike(dimension) else space
     for part in dimension.parts:
-        draw(part, block)
+        draw(part, seen)
 
 
 def _on(pen: Pen) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from gearcad.drawing.marks import (
     tolerance_frame,
 )
 from gearcad.drawing.requirements import Requirements
-from gearcad.drawing.shapes import Box, Circle, Dimension, Figure, Line, Pen
+from gearcad.drawing.shapes import Box, Circle, Figure, Line, Pen
 from gearcad.drawing.words import Draughting, Size
 from gearcad.geometry import Gear
 from gearcad.solids.keyway import keyway_half_angle
@@ -137,6 +137,4 @@ class FaceMarks:
 
 def _landing(led: Figure) -> Line:
     """The line under the text of a diameter, from its leader outwards."""
-    (dimension,) = led.shapes
-    assert isinstance(dimension, Dimension)
-    return next(each for each in dimension.parts if isinstance(each, Line) and each.start[1] == each.end[1])
+    return next(each for each in led.shapes if isinstance(each, Line) and each.start[1] == each.end[1])

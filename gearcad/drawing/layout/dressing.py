@@ -127,7 +127,7 @@ def _in_order(view: View) -> list[_Places]:
 
 def _beside(first: Figure) -> _Beside | None:
     dimension = first.shapes[0]
-    if not isinstance(dimension, Dimension) or dimension.measured is Measured.DIAMETER:
+    if not isinstance(dimension, Dimension):
         return None
     axis = 0 if dimension.measured is Measured.HORIZONTAL else 1
     above = 2 * dimension.line[1 - axis] > dimension.first[1 - axis] + dimension.second[1 - axis]

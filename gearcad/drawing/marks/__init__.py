@@ -5,10 +5,10 @@ from gearcad.drawing.marks.arrows import ARROW, arrow
 from gearcad.drawing.marks.broken import freehand, zigzag
 from gearcad.drawing.marks.frames import FRAME_HEIGHT, Characteristic, datum, tolerance_frame
 from gearcad.drawing.marks.leaders import circle_dimension, frame_leader, leader
-from gearcad.drawing.marks.linear import FIRST_LANE, LANE_PITCH, half_dimension, linear_dimension
+from gearcad.drawing.marks.linear import FIRST_LANE, LANE_PITCH, linear_dimension
 from gearcad.drawing.marks.roughness import general_roughness, roughness, roughness_symbol
 from gearcad.drawing.marks.sections import section_arrows, view_label
-from gearcad.drawing.marks.sheet_symbols import edge_symbol, projection_symbol
+from gearcad.drawing.marks.sheet_symbols import projection_symbol
 from gearcad.drawing.marks.side import Side
 from gearcad.drawing.marks.size_text import written_size
 from gearcad.drawing.marks.tables import Cell, table
@@ -27,11 +27,9 @@ __all__ = [
     "circle_dimension",
     "datum",
     "deviations",
-    "edge_symbol",
     "frame_leader",
     "freehand",
     "general_roughness",
-    "half_dimension",
     "leader",
     "linear_dimension",
     "plain",

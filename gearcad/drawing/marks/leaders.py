@@ -7,9 +7,9 @@ from collections.abc import Iterable, Iterator
 
 from gearcad.drawing.marks.arrows import arrow
 from gearcad.drawing.marks.side import Side
-from gearcad.drawing.marks.size_text import cad_words, written_size
+from gearcad.drawing.marks.size_text import written_size
 from gearcad.drawing.marks.written import Written, plain
-from gearcad.drawing.shapes import Anchor, Dimension, Figure, Line, Measured, Pen, Point, Shape
+from gearcad.drawing.shapes import Anchor, Figure, Line, Pen, Point, Shape
 from gearcad.drawing.words import Draughting, Size
 
 __all__ = ["circle_dimension", "frame_leader", "leader"]
@@ -48,17 +48,16 @@ def circle_dimension(
     *,
     beyond: float = 0.0,
 ) -> Iterator[Figure]:
-    """The diameter of a circle: an arrow at it from outside, its text at least `beyond` mm away from the circle."""
+    """The diameter of a circle: an arrow at it from outside, its text at least `beyond` mm away from the circle.
+
+    Lines and texts, no dimension of a CAD program: those that draw diameters anew put their texts across the circle.
+    """
     ways, text = tuple(directions), written_size(size, draughting.words)
     for length in _LENGTHS:
         for way in ways:
             cosine, sine = math.cos(math.radians(way)), math.sin(math.radians(way))
             tip = centre[0] + radius * cosine, centre[1] + radius * sine
-            opposite = centre[0] - radius * cosine, centre[1] - radius * sine
-            elbow = tip[0] + (beyond + length) * cosine, tip[1] + (beyond + length) * sine
-            words = cad_words(size, draughting.words, 2 * radius / draughting.scale, sign="⌀")
-            parts = _led(tip, way, beyond + length, text)
-            yield Figure.of(Dimension(Measured.DIAMETER, tip, opposite, elbow, words, parts, draughting.scale))
+            yield Figure(_led(tip, way, beyond + length, text))
 
 
 def frame_leader(tip: Point, side: Side, frame: Figure, *, clear: float | None = None) -> Iterator[Figure]:

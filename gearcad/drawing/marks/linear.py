@@ -13,7 +13,7 @@ from gearcad.drawing.marks.written import Written
 from gearcad.drawing.shapes import Anchor, Dimension, Figure, Line, Measured, Pen, Point, Shape
 from gearcad.drawing.words import Draughting, Size
 
-__all__ = ["FIRST_LANE", "LANE_PITCH", "half_dimension", "linear_dimension"]
+__all__ = ["FIRST_LANE", "LANE_PITCH", "linear_dimension"]
 
 FIRST_LANE = 10.0
 """From the outline to the first dimension line."""
@@ -35,9 +35,6 @@ _LIFT, _LEAST_LIFT = 0.9, 0.6
 
 _TAIL = 3.0
 """Of a line behind an arrow that points at it from outside."""
-
-_PAST_AXIS = 6.0
-"""How far the line of a half dimension goes past the axis."""
 
 _SHIFTS = (0.0, 0.6, -0.6)
 """Where along its line a text may stand, over the room that it has on either side of the middle."""
@@ -61,23 +58,6 @@ def linear_dimension(
             yield from drawn.beside(out, farther)
     for out in outs[_NEAR:]:
         yield from drawn.in_lane(out)
-
-
-def half_dimension(
-    edge: Point, axis: float, side: Side, size: Size, draughting: Draughting, *, clear: float, datum_letter: str = ""
-) -> Iterator[Figure]:
-    """A diameter of which only one edge is seen, as on half sections: one arrow, the line goes past the axis.
-
-    `axis` is the axis' y for LEFT and RIGHT, its x for ABOVE and BELOW; the other edge is taken opposite. `datum_letter` is
-    the letter of the axis as a datum: its triangle stands on the extension line, opposite to the arrow or for it (ISO 5459).
-    """
-    opposite = side.point(2 * axis - side.along(edge), side.out(edge))
-    drawn = _Drawn(edge, opposite, side, size, draughting, datum_letter)
-    outs = _lanes(side, clear)
-    for near, far in zip(outs, (None, *outs), strict=False):
-        yield drawn.half_in_lane(near, axis)
-        if far is not None and not datum_letter:
-            yield drawn.half_beyond(far, axis)
 
 
 def _lanes(side: Side, clear: float) -> list[float]:
@@ -141,29 +121,6 @@ class _Drawn:
             self._extension(self.second, out),
         ]
         return self._figure(out, shapes, self.text, middle)
-
-    def half_in_lane(self, out: float, axis: float) -> Figure:
-        """The text on the edge's side of the axis as far as there is room, else the line is as much longer."""
-        edge, text = self.side.along(self.first), self.text
-        way = 1.0 if edge > axis else -1.0
-        within = abs(edge - axis) + _PAST_AXIS >= ARROW + 1.0
-        room = abs(edge - axis) - ARROW - 1.0 - text.width
-        middle = edge - way * (ARROW + 0.5 + max(0.0, room / 2) + text.width / 2)
-        past = max(_PAST_AXIS, (axis - (middle - way * (text.width / 2 + 0.5))) * way)
-        begin = edge if within or self.datum_letter else edge + way * (ARROW + _TAIL)
-        return self._half(out, begin, axis - way * past, middle, way if within else -way)
-
-    def half_beyond(self, out: float, axis: float) -> Figure:
-        """Arrow and text beyond the edge."""
-        edge, text = self.side.along(self.first), self.text
-        way = 1.0 if edge > axis else -1.0
-        begin = edge + way * (ARROW + _TAIL + text.width)
-        return self._half(out, begin, axis - way * _PAST_AXIS, begin - way * text.width / 2, -way)
-
-    def _half(self, out: float, start: float, end: float, middle: float, way: float) -> Figure:
-        edge = self.side.along(self.first)
-        arrows = self._arrows([edge], out, within=(edge > end) == (way > 0))
-        return self._figure(out, [self._line(start, end, out), *arrows, self._extension(self.first, out)], self.text, middle)
 
     def _line(self, low: float, high: float, out: float) -> Line:
         return Line(self.side.point(low, out), self.side.point(high, out), Pen.DIMENSION)

@@ -34,15 +34,15 @@ def written_size(size: Size, words: Words, height: float = 3.5) -> Written:
     return whole
 
 
-def cad_words(size: Size, words: Words, measured: float, *, sign: str = "") -> str:
+def cad_words(size: Size, words: Words, measured: float) -> str:
     """What the text of a CAD program's dimension holds: "%%c<> H7 {\\S+0.025^0;}".
 
-    "<>" stands for what it measures, where that (mm) is what the size is; `sign` is one that it writes before it of its own.
+    "<>" stands for what it measures, where that (mm) is what the size is.
     """
     opening, closing = ("(", ")") if size.reference else ("", "")
     nominal = _nominal(size, words)
     if words.shortest(size.value, size.decimals) == words.shortest(measured, size.decimals):
-        nominal = size.prefix.removeprefix(sign) + "<>" + size.suffix
+        nominal = size.prefix + "<>" + size.suffix
     parts = [opening + _escaped(nominal)]
     if size.fit:
         parts.append(_escaped(size.fit))

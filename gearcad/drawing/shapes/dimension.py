@@ -13,12 +13,10 @@ __all__ = ["Dimension", "Measured"]
 
 
 class Measured(Enum):
-    """What a dimension says of two points, or of a circle."""
+    """What a dimension says of two points."""
 
     HORIZONTAL = "horizontal"
     VERTICAL = "vertical"
-    DIAMETER = "diameter"
-    """Between opposite points of a circle."""
 
 
 @dataclass(frozen=True)
