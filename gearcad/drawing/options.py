@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, cast
 
 from gearcad.drawing.words import Language
 from gearcad.errors import InputError, ParameterError
-from gearcad.geometry.iso286 import limit_deviations
+from gearcad.geometry.iso286 import limit_deviations, require_hole, require_shaft
 from gearcad.output import source_date
 from gearcad.ranges import Range
 from gearcad.reprs import concise
@@ -101,11 +101,11 @@ _MATERIAL = Words("material as the sheet names it; else the name of the material
 _HEAT = Words("heat treatment")
 _CASE = Words("case hardening depth as the sheet says it", "CHD", "ISO 18203")
 _NOTES = Words("notes on the sheet")
-_BORE = Words("tolerance class of the bore", "", "ISO 286-2")
+_BORE = Words("tolerance class of the bore, a hole", "", "ISO 286-2")
 _TIP = Words("tolerance class of the tip diameter; of a ring the hole of this letter", "", "ISO 286-2")
-_FACE = Words("tolerance class of the face width", "", "ISO 286-2")
-_KEYWAY = Words("tolerance class of the keyway's width", "", "ISO 286-2")
-_RIM = Words("tolerance class of a ring's outer diameter", "", "ISO 286-2")
+_FACE = Words("tolerance class of the face width, a shaft", "", "ISO 286-2")
+_KEYWAY = Words("tolerance class of the keyway's width, a hole", "", "ISO 286-2")
+_RIM = Words("tolerance class of a ring's outer diameter, a shaft", "", "ISO 286-2")
 _ROUGH = Words("roughness of what has none of its own", "Ra", "ISO 21920-1")
 _BORE_ROUGH = Words("roughness of bore and faces; else by the accuracy grade", "Ra", "ISO 21920-1")
 _TIP_RUNOUT = Words("run-out of the tip cylinder; else by the accuracy grade", "", "ISO 1101")
@@ -173,7 +173,7 @@ class DrawingOptions:
     scale: Annotated[str, _SCALE] = "auto"
     projection: Annotated[Projection, Words("projection", "", "ISO 5456-2")] = Projection.FIRST
     template: Annotated[str | None, Words("file that changes title block, frame and words")] = None
-    general_tolerance: Annotated[str, Words("general tolerances", "", "ISO 2768-1")] = "ISO 2768-m"
+    general_tolerance: Annotated[str, Words("general tolerances", "", "ISO 2768-1")] = "ISO 2768-mK"
     material: Annotated[str | None, _MATERIAL] = None
     heat_treatment: Annotated[str, _HEAT] = ""
     case_depth: Annotated[str, _CASE] = ""
@@ -286,13 +286,22 @@ def _revisions(parameter: str, value: Any) -> tuple[tuple[str, ...], ...]:
 _LISTS = {"notes": _texts, "revisions": _revisions}
 
 
+_HOLES, _SHAFTS = ("bore_tolerance", "keyway_tolerance"), ("face_width_tolerance", "rim_tolerance")
+"""Classes of sizes that are holes on every part, and shafts; tips are holes of rings alone."""
+
+
 def _require_fit(parameter: str, value: str) -> None:
-    """Raise ParameterError unless a text is a class of ISO 286 that we have, or blank."""
-    if value:
-        try:
-            limit_deviations(value, _ANY_SIZE)
-        except InputError as error:
-            raise ParameterError(parameter, value, f'{error.permitted}, or "" for general tolerances') from None
+    """Raise ParameterError unless a text is a class of ISO 286 that we have, of what the size is, or blank."""
+    if not value:
+        return
+    try:
+        limit_deviations(value, _ANY_SIZE)
+    except InputError as error:
+        raise ParameterError(parameter, value, f'{error.permitted}, or "" for general tolerances') from None
+    if parameter in _HOLES:
+        require_hole(parameter, value)
+    elif parameter in _SHAFTS:
+        require_shaft(parameter, value)
 
 
 def _require_date(value: str) -> None:

@@ -5,13 +5,12 @@ Roughness and deviations in µm, sizes in mm.
 
 from __future__ import annotations
 
-import re
 from typing import NamedTuple
 
 from gearcad.drawing.subject import DrawnGear
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear
-from gearcad.geometry.iso286 import standard_tolerance
+from gearcad.geometry.iso286 import grade_of_class, standard_tolerance
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.tolerances import gear_tolerances
 
@@ -38,6 +37,9 @@ _COARSEST = 6.3
 _GROUND = 5
 """Last accuracy grade that is not reached without grinding."""
 
+_GROUND_FIT = 6
+"""Last grade of ISO 286 to which bores and rims are ground."""
+
 
 def grade_of(drawn: DrawnGear) -> int:
     """Its accuracy grade, and where nobody gave one that of which ratings go out."""
@@ -53,9 +55,10 @@ def flank_roughness(drawn: DrawnGear) -> Roughness:
     return Roughness("Ra", next((value for most, value in _FLANKS if grade <= most), _COARSEST), given=False)
 
 
-def seat_roughness(drawn: DrawnGear) -> float:
-    """Ra of bore, rim and end faces: 0.8 of the grades that are ground, else 1.6."""
-    return 0.8 if grade_of(drawn) <= _GROUND else 1.6
+def seat_roughness(drawn: DrawnGear, fit: str = "") -> float:
+    """Ra of bore, rim and end faces: 0.8 of the grades that are ground, and with a fit that asks for it, else 1.6."""
+    ground = grade_of(drawn) <= _GROUND or (bool(fit) and grade_of_class(fit) <= _GROUND_FIT)
+    return 0.8 if ground else 1.6
 
 
 def blank_runout(drawn: DrawnGear) -> float | None:
@@ -74,10 +77,9 @@ def blank_runout(drawn: DrawnGear) -> float | None:
 
 def cylindricity(diameter: float, fit: str) -> float | None:
     """Of a bore or a rim: a quarter of the tolerance of its fit, in whole µm; None without a fit, and beyond ISO 286."""
-    grade = re.search(r"\d+", fit)
-    if grade is None:
+    if not fit:
         return None
     try:
-        return max(float(standard_tolerance(int(grade[0]), diameter) // 4), 1.0)
+        return max(float(standard_tolerance(grade_of_class(fit), diameter) // 4), 1.0)
     except ParameterError:
         return None

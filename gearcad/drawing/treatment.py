@@ -19,12 +19,16 @@ _BRINELL = (
 )
 """Groups whose hardness ISO 6336-5 has in HBW, all others' in HV."""
 
+_STEEL = Material().name
+"""The name of a material that nobody named."""
 
-def material_text(drawn: DrawnGear, options: DrawingOptions) -> str:
-    """As the sheet shall name it, else the name of the material; "" where nothing is known."""
+
+def material_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> str:
+    """As the sheet shall name it, else the name of the material, that which nobody gave in words; "" where nothing is known."""
     if options.material is not None:
         return options.material
-    return "" if drawn.material is None else drawn.material.name
+    name = "" if drawn.material is None else drawn.material.name
+    return words["data.steel"] if name == _STEEL else name
 
 
 def treatment_text(drawn: DrawnGear, options: DrawingOptions, words: Words) -> str:

@@ -8,7 +8,15 @@ from typing import NamedTuple
 
 from gearcad.errors import ParameterError, require_number
 
-__all__ = ["LARGEST_SIZE", "LimitDeviations", "limit_deviations", "standard_tolerance"]
+__all__ = [
+    "LARGEST_SIZE",
+    "LimitDeviations",
+    "grade_of_class",
+    "limit_deviations",
+    "require_hole",
+    "require_shaft",
+    "standard_tolerance",
+]
 
 
 class LimitDeviations(NamedTuple):
@@ -143,6 +151,25 @@ def limit_deviations(tolerance_class: str, size: float) -> LimitDeviations:
         return LimitDeviations(upper, upper - tolerance)
     lower = float(_J[grade][place]) if small == "j" else _shaft_lower(small, grade, size)
     return LimitDeviations(lower + tolerance, lower)
+
+
+def grade_of_class(tolerance_class: str) -> int:
+    """The grade of a class: 7 of "H7". Raises ParameterError."""
+    return _parted(tolerance_class)[1]
+
+
+def require_hole(parameter: str, tolerance_class: str) -> None:
+    """Raise ParameterError unless a class is that of a hole, whose letters are capitals."""
+    if not tolerance_class[:1].isupper():
+        permitted = f'must be the class of a hole, in capitals, such as "{tolerance_class.upper()}"; small letters are shafts'
+        raise ParameterError(parameter, tolerance_class, permitted)
+
+
+def require_shaft(parameter: str, tolerance_class: str) -> None:
+    """Raise ParameterError unless a class is that of a shaft, whose letters are small."""
+    if not tolerance_class[:1].islower():
+        permitted = f'must be the class of a shaft, in small letters, such as "{tolerance_class.lower()}"; capitals are holes'
+        raise ParameterError(parameter, tolerance_class, permitted)
 
 
 def _parted(tolerance_class: str) -> tuple[str, int]:

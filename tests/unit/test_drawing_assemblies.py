@@ -23,6 +23,7 @@ from gearcad.drawing.shapes import Circle, Hatching, Pen, Text
 from gearcad.drawing.sheets.drawing import Sheet
 from gearcad.drawing.sheets.pair import draw_pair
 from gearcad.drawing.sheets.train import draw_train
+from gearcad.drawing.sheets.train_rows import train_rows
 from gearcad.drawing.subject import DrawnGear, DrawnPair, DrawnTrain
 from gearcad.drawing.train_views import TrainPlan, train_face, train_section
 from gearcad.drawing.words import Draughting, Language, Words
@@ -171,6 +172,13 @@ def unequal() -> PlanetaryTrain:
     rims = (Rim(name="planet", gear=gear(21, 14.0, body=Body(bore=12.0))),)
     given: dict[str, Any] = {"input": "sun", "output": "carrier", "fixed": "ring", "planet_angles": "permitted"}
     return PlanetaryTrain(planets=5, centrals=centrals, rims=rims, **given)
+
+
+def test_members_are_called_by_words_unless_they_have_names() -> None:
+    plan = TrainPlan(read_spec(templates() / "planetary-24-21-66.toml").train)
+    items = {key: number for number, key in enumerate(plan.layout.bodies, 1)}
+    found = {row.key: row for row in train_rows(plan, items, Words.of(Language.SWEDISH))}
+    assert found["ratio"].words == "Utväxling solhjul : planethållare" and found["fixed"].text == "Ringhjul"
 
 
 def test_planets_stand_where_the_train_has_them() -> None:

@@ -364,7 +364,7 @@ def test_a_company_changes_what_it_likes(tmp_path: Path) -> None:
         ("[title.cells]\nowner.value = 'a\x7f'", "is not valid TOML"),
         (
             '[title.cells]\nowner.value = "a\\u0007"',
-            "title.cells.owner.value = 'a\\x07': must be a text without control characters",
+            "title.cells.owner.value = 'a\\x07': must be a text without hidden or control characters",
         ),
         ("[title.cells]\nowner.symbol = 'x'", "company.toml: title.cells.owner.symbol = 'x': must be"),
         ("[title.cells]\nowner.width = 60", "must not lie over the cell"),

@@ -163,8 +163,8 @@ def test_a_planet_has_two_mates_and_one_centre_distance():
     found = [(row.key, row.text, dict(row.numbers)) for row in rows if row.key.startswith(("sun.", "ring."))]
     assert found == [
         ("sun.centre_distance", "45.000", {"sun.pair.centre_distance": inner.centre_distance}),
-        ("sun.mate", "24 / sun", {"sun.mate.teeth": 24}),
-        ("ring.mate", "−66 / ring", {"ring.mate.teeth": -66}),
+        ("sun.mate", "24 / Sun gear", {"sun.mate.teeth": 24}),
+        ("ring.mate", "−66 / Ring gear", {"ring.mate.teeth": -66}),
     ]
     assert len({row.key for row in rows}) == len(rows)
 
@@ -172,14 +172,15 @@ def test_a_planet_has_two_mates_and_one_centre_distance():
 def test_what_has_no_number_says_why():
     """Beyond ISO 1328 the limit that is passed, and where a gauge does not fit its reason: nothing is left out silently."""
     rows = {row.key: row for row in gear_rows(DRAWN[7], WORDS[Language.ENGLISH])}
-    assert rows["helix_total"].text == "— (b < 4 mm)" and not rows["helix_total"].numbers
+    assert rows["helix_total"].text == "— (face width below 4 mm)" and not rows["helix_total"].numbers
     assert rows["single_pitch"].text == "30 µm" and rows["span_teeth"].text == "— (face too narrow)"
     tiny = gear_rows(DRAWN[8], WORDS[Language.GERMAN])
-    assert [row.text for row in tiny if row.key == "runout"] == ["— (d < 5 mm)"]
+    assert [row.text for row in tiny if row.key == "runout"] == ["— (Teilkreisdurchmesser unter 5 mm)"]
     steep = DrawnGear(
         role="gear", gear=Gear(teeth=20, normal_module=2, face_width=20, helix_angle=50), accuracy=Accuracy.ISO_2013, grade=6
     )
-    assert {row.key: row.text for row in gear_rows(steep, WORDS[Language.ENGLISH])}["single_pitch"] == "— (β > 45°)"
+    said = {row.key: row.text for row in gear_rows(steep, WORDS[Language.ENGLISH])}
+    assert said["single_pitch"] == "— (helix angle above 45°)"
     assert "tolerances" in {row.key for row in gear_rows(DRAWN[5], WORDS[Language.ENGLISH])}
 
 
@@ -218,6 +219,14 @@ def test_materials_are_named_in_every_language(language):
         assert rows["material"] == "X" and re.fullmatch(r".+, 250 (HV|HBW), CHD 0.6", rows["heat_treatment"])
         said.add(rows["heat_treatment"])
     assert len(said) >= len(MaterialGroup) - 2  # wrought and carbon steels, cast or not, are treated alike
+
+
+def test_names_that_nobody_gave_are_words_and_small_modules_are_said_in_them():
+    rows = {row.key: row.text for row in gear_rows(replace(DRAWN[1], material=Material()), WORDS[Language.SWEDISH])}
+    assert (rows["mate"], rows["material"]) == ("17 / Pinjong", "stål")
+    small = DrawnGear(role="gear", gear=Gear(teeth=40, normal_module=0.3, face_width=5))
+    said = {row.key: row.text for row in gear_rows(small, WORDS[Language.SWEDISH])}
+    assert said["single_pitch"] == "— (normalmodul under 0,5 mm)"
 
 
 def _drift(points, radius, count, inner, outer):

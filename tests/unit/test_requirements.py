@@ -9,6 +9,7 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.words import Language, Size, Words
+from gearcad.errors import ParameterError
 from gearcad.geometry import HubSide
 
 USUAL = DrawingOptions()
@@ -50,6 +51,13 @@ def test_fits_are_those_that_one_asks_for():
     assert _limits(found.bore) == (7, -18) and _limits(found.keyway_width) == (-18, -61)
     assert found.tip == Size(value=129.0, prefix="⌀") and _limits(found.face_width) == (26, -26)
     assert not _of(GEAR, DrawingOptions(bore_tolerance="")).bore.envelope
+
+
+def test_tips_of_external_gears_are_shafts_and_those_of_rings_holes():
+    with pytest.raises(ParameterError, match=r"tip_tolerance = 'H9': must be the class of a shaft"):
+        _of(GEAR, DrawingOptions(tip_tolerance="H9"))
+    ring = Gear(teeth=-70, normal_module=2, face_width=20)
+    assert [_of(ring, DrawingOptions(tip_tolerance=given)).tip.fit for given in ("h8", "H8")] == ["H8", "H8"]
 
 
 def test_a_ring_has_a_hole_for_its_tips_and_a_rim():
@@ -104,6 +112,8 @@ def test_roughness_goes_by_grade_unless_it_is_given():
     found = [_of(GEAR, grade=grade) for grade in range(3, 11)]
     assert [each.flanks.value for each in found] == [0.4, 0.4, 0.8, 0.8, 1.6, 3.2, 6.3, 6.3]
     assert [each.bore_roughness for each in found] == [0.8, 0.8, 0.8, 1.6, 1.6, 1.6, 1.6, 1.6]
+    fine = _of(GEAR, DrawingOptions(bore_tolerance="H6"), grade=8)
+    assert (fine.bore_roughness, fine.face_roughness) == (0.8, 1.6)
     given = _of(replace(GEAR, flank_roughness=4.0), DrawingOptions(bore_roughness=0.4, surface_roughness=6.3))
     assert (given.flanks.parameter, given.flanks.value, given.bore_roughness, given.rest_roughness) == ("Rz", 4, 0.4, 6.3)
 
@@ -113,10 +123,11 @@ def test_what_is_ours_is_marked_and_treatment_is_said(language):
     words = Words.of(language)
     hard = Material(name="Eh MQ", hardness=720)
     found = _of(GEAR, replace(USUAL, case_depth="0.6"), material=hard)
-    assert found.material == "Eh MQ" and found.heat_treatment(words) == f"{words['data.group_case_hardened']}, 720 HV, CHD 0.6"
+    assert found.material(words) == "Eh MQ"
+    assert found.heat_treatment(words) == f"{words['data.group_case_hardened']}, 720 HV, CHD 0.6"
     assert found.tooth_notes(words) == (words["data.note_by_grade"],)
     few = replace(GEAR, teeth=14, body=Body())
     assert few.undercut and words["data.note_undercut"] in _of(few).tooth_notes(words)
     given = DrawingOptions(tip_runout=20, face_runout=15, bore_roughness=0.8, material="20MnCr5", heat_treatment="58+4 HRC")
     told = _of(replace(GEAR, flank_roughness=4.0), given, material=hard)
-    assert told.tooth_notes(words) == () and (told.material, told.heat_treatment(words)) == ("20MnCr5", "58+4 HRC")
+    assert told.tooth_notes(words) == () and (told.material(words), told.heat_treatment(words)) == ("20MnCr5", "58+4 HRC")

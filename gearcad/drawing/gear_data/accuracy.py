@@ -34,9 +34,6 @@ _TOLERANCES = {
 }
 """Those of the table: their keys in documents, and their symbols."""
 
-_SIZES = {"reference_diameter": "d", "normal_module": "m_n", "face_width": "b", "teeth": "z", "helix_angle": "β"}
-"""Symbols of the sizes that the standard limits."""
-
 
 def grade_row(drawn: DrawnGear, write: RowWriter) -> Row:
     """Grade, standard and year; one that nobody gave is said to be assumed."""
@@ -55,7 +52,7 @@ def tolerance_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
         try:
             value = getattr(found, name)
         except ParameterError as error:
-            yield write.text(name, f"— ({_why(error, drawn.accuracy)})", symbol)
+            yield write.text(name, f"— ({_why(error, drawn.accuracy, write)})", symbol)
         else:
             yield write.text(name, f"{write.words.shortest(value, 1)} µm", symbol, {f"tolerances.{key}": value})
 
@@ -71,10 +68,13 @@ def tolerance_notices(drawn: DrawnGear) -> Iterator[Notice]:
         yield Notice("not-covered", f"tolerances: {drawn.accuracy.value} does not cover all: {reason}")
 
 
-def _why(error: ParameterError, accuracy: Accuracy) -> str:
-    """The limit that a size is past: "b < 4 mm"."""
+def _why(error: ParameterError, accuracy: Accuracy, write: RowWriter) -> str:
+    """The limit that a size is past: "face width below 4 mm"."""
     permitted, size = covered(accuracy)[error.parameter], abs(error.value)
     below = permitted.least is not None and size < permitted.least
     unit = permitted.unit if isinstance(permitted, Range) else ""
-    limit = f"{_SIZES[error.parameter]} {'<' if below else '>'} {permitted.least if below else permitted.most:g} {unit}"
-    return limit.replace(" deg", "°").rstrip()
+    limit = permitted.least if below else permitted.most
+    assert limit is not None  # it is past one of them
+    text = f"{write.words.shortest(limit)} {unit}".replace(" deg", "°").rstrip()
+    size_words = write.words.within_text(write.word(error.parameter))
+    return write.word("below_limit" if below else "above_limit").format(size=size_words, limit=text)

@@ -77,7 +77,7 @@ def double_helix_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
 def material_rows(drawn: DrawnGear, write: RowWriter, options: DrawingOptions) -> Iterator[Row]:
     """What it is made of and how it is hardened, as far as anybody said."""
     for key, text in (
-        ("material", material_text(drawn, options)),
+        ("material", material_text(drawn, options, write.words)),
         ("heat_treatment", treatment_text(drawn, options, write.words)),
     ):
         if text:

@@ -7,13 +7,14 @@ from dataclasses import replace
 
 from gearcad.drawing.gear_data.row import Row, RowWriter
 from gearcad.drawing.subject import DrawnGear, Mate
+from gearcad.drawing.titles import kind_of, titled
 from gearcad.geometry import RackPair
 
 __all__ = ["mate_rows"]
 
 
 def mate_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
-    """The distance from each mate, and its teeth and number; of several mates the keys begin with their names.
+    """The distance from each mate, and its teeth and number, or title; of several mates the keys begin with their names.
 
     A distance that is that of another mate too stands once.
     """
@@ -35,7 +36,8 @@ def _led(row: Row, lead: str) -> Row:
 def _teeth(mate: Mate, write: RowWriter) -> Row:
     teeth = mate.gear.teeth
     assert teeth is not None  # a rack has counted its own
-    return write.text("mate", f"{write.words.number(teeth, 0)} / {mate.number or mate.name}", "z", {"mate.teeth": teeth})
+    name = mate.number or titled(write.words, kind_of(mate.name, mate.gear), mate.gear.name, mate.name)
+    return write.text("mate", f"{write.words.number(teeth, 0)} / {name}", "z", {"mate.teeth": teeth})
 
 
 def _distance(mate: Mate, write: RowWriter) -> Row:

@@ -20,7 +20,6 @@ from gearcad.drawing.gear_data.thickness import thickness_rows
 from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.quality import flank_roughness
 from gearcad.drawing.subject import DrawnGear
-from gearcad.drawing.treatment import material_text
 from gearcad.drawing.words import Words
 from gearcad.geometry import Gear, Rack
 from gearcad.notice import Notice
@@ -89,5 +88,5 @@ def _notices(drawn: DrawnGear, options: DrawingOptions) -> Iterator[Notice]:
     if not flank_roughness(drawn).given:
         text = "roughness of the flanks: flank_roughness is not given; the Ra by the accuracy grade is ours, verify it"
         yield Notice("roughness-of-grade", text)
-    if not material_text(drawn, options):
+    if not options.material and (drawn.material is None or options.material == ""):
         yield Notice("no-material", "material: none is given")

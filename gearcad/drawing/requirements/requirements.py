@@ -14,7 +14,7 @@ from gearcad.drawing.treatment import material_text, treatment_text
 from gearcad.drawing.words import Size, Words
 from gearcad.geometry import Body, Gear, Rack
 from gearcad.geometry.din6885 import depth_allowance
-from gearcad.geometry.iso286 import LARGEST_SIZE
+from gearcad.geometry.iso286 import LARGEST_SIZE, require_shaft
 from gearcad.notice import Notice
 
 __all__ = ["Requirements"]
@@ -59,7 +59,10 @@ class Requirements:
 
     @classmethod
     def of(cls, drawn: DrawnGear, options: DrawingOptions) -> Self:
-        """Those of a part, whose `options` are what holds for it (`DrawingOptions.of_part`)."""
+        """Those of a part, whose `options` are what holds for it (`DrawingOptions.of_part`).
+
+        Raises ParameterError for the class of a hole at the tips of an external gear.
+        """
         part = drawn.gear
         own: dict[str, Any] = _rack(part) if isinstance(part, Rack) else _gear(part, options)
         deviations: dict[str, Any] = _deviations(drawn, part, options) if isinstance(part, Gear) else {}
@@ -68,17 +71,16 @@ class Requirements:
             options=options,
             face_width=toleranced(part.face_width, options.face_width_tolerance),
             flanks=flank_roughness(drawn),
-            bore_roughness=options.bore_roughness or seat_roughness(drawn),
+            bore_roughness=options.bore_roughness or seat_roughness(drawn, _seat_fit(part, options)),
             face_roughness=options.bore_roughness or seat_roughness(drawn),
             rest_roughness=options.surface_roughness,
             **own,
             **deviations,
         )
 
-    @property
-    def material(self) -> str:
+    def material(self, words: Words) -> str:
         """As the sheet names it; "" where nothing is known."""
-        return material_text(self.drawn, self.options)
+        return material_text(self.drawn, self.options, words)
 
     def heat_treatment(self, words: Words) -> str:
         """In the words of a language; "" where nothing is known."""
@@ -140,8 +142,10 @@ def _chamfer(length: float, angle: str) -> Size:
 
 
 def _disc(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
-    """What an external gear has."""
+    """What an external gear has. Raises ParameterError for a tip diameter with the class of a hole."""
     body = gear.body
+    if options.tip_tolerance:
+        require_shaft("drawing.tip_tolerance", options.tip_tolerance)
     found = {"tip": diameter(gear.tip_diameter, options.tip_tolerance)}
     if body.bore:
         found["bore"] = diameter(body.bore, options.bore_tolerance, envelope=bool(options.bore_tolerance))
@@ -177,6 +181,11 @@ def _datum(gear: Gear) -> float | None:
     return gear.body.rim_diameter if gear.internal else gear.body.bore or None
 
 
+def _seat_fit(part: Gear | Rack, options: DrawingOptions) -> str:
+    """The class of the surface that is the datum."""
+    return options.rim_tolerance if isinstance(part, Gear) and part.internal else options.bore_tolerance
+
+
 def _deviations(drawn: DrawnGear, gear: Gear, options: DrawingOptions) -> dict[str, float | None]:
     """Run-out as it was given, else by the grade, and the cylindricity of the datum; without one none of them."""
     datum = _datum(gear)
@@ -185,5 +194,5 @@ def _deviations(drawn: DrawnGear, gear: Gear, options: DrawingOptions) -> dict[s
     return {
         "tip_runout": options.tip_runout or blank_runout(drawn),
         "face_runout": options.face_runout or blank_runout(drawn),
-        "cylindricity": cylindricity(datum, options.rim_tolerance if gear.internal else options.bore_tolerance),
+        "cylindricity": cylindricity(datum, _seat_fit(gear, options)),
     }

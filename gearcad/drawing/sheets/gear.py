@@ -14,8 +14,9 @@ from gearcad.drawing.options import DrawingOptions, PartDrawing, SheetSize
 from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.shapes import Box, Figure
 from gearcad.drawing.sheets.drawing import Sheet
-from gearcad.drawing.sheets.part_views import detail_blocks, part_kind, part_rows
+from gearcad.drawing.sheets.part_views import detail_blocks, part_rows
 from gearcad.drawing.subject import DrawnGear
+from gearcad.drawing.titles import kind_of, titled
 from gearcad.drawing.words import Draughting, Size, Words
 from gearcad.geometry import Gear
 
@@ -23,9 +24,6 @@ __all__ = ["draw_gear"]
 
 _AIR = 4.0
 """From the frame, or what stands beside it, to the roughness of the rest."""
-
-_UNNAMED = ("gear", "rack")
-"""Names that nobody gave."""
 
 _USUAL_CHAMFER = 45.0
 """An angle of chamfers that may be taken from either side."""
@@ -80,9 +78,8 @@ class _Content:
     @property
     def title(self) -> str:
         """As it was given, else the word for such a part, with its name if it has one."""
-        word, name = self.words[f"assembly.{part_kind(self.drawn)}"], self.drawn.gear.name
-        named = name not in (*_UNNAMED, self.drawn.role)
-        return self.options.title or (f"{word} {name}" if named else word)
+        role, gear = self.drawn.role, self.drawn.gear
+        return self.options.title or titled(self.words, kind_of(role, gear), "gear" if gear.name == role else gear.name)
 
     @property
     def shown(self) -> Mapping[str, float]:
@@ -132,7 +129,7 @@ class _Content:
             document_type=self.words["frame.document_part"],
             size=sheet,
             scale=scale,
-            material=self.requirements.material,
+            material=self.requirements.material(self.words),
         )
         return furniture.on(sheet, values)
 

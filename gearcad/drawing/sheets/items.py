@@ -8,15 +8,14 @@ from dataclasses import dataclass
 from gearcad.drawing.frame import PartLine
 from gearcad.drawing.options import DrawingOptions, PartDrawing
 from gearcad.drawing.subject import DrawnGear, DrawnPair, DrawnTrain
+from gearcad.drawing.titles import titled
 from gearcad.drawing.train_views import TrainPlan
 from gearcad.drawing.treatment import material_text
 from gearcad.drawing.words import Words
 from gearcad.geometry import Gear, Rack
+from gearcad.planetary import PlanetaryTrain
 
-__all__ = ["Item", "pair_items", "train_items"]
-
-_UNNAMED = ("gear", "pinion", "wheel", "rack", "sun", "planet", "ring", "carrier")
-"""Names of parts that say no more than the words for them."""
+__all__ = ["Item", "member_title", "pair_items", "train_items"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,9 +45,16 @@ def train_items(
         found.append(_item(number, quantity, key, part, kind, options, parts, words))
     if plan.carrier is not None:
         name = plan.train.carrier.name
-        title = _titled(words["assembly.carrier"], name)
+        title = titled(words, "carrier", name)
         found.append(Item(key=name, item=len(found) + 1, quantity=1, title=title))
     return tuple(found)
+
+
+def member_title(train: PlanetaryTrain, name: str, words: Words) -> str:
+    """What a member, a central gear or the carrier, is called."""
+    internal = {central.name: central.gear.internal for central in train.centrals}
+    kind = "carrier" if name not in internal else "ring" if internal[name] else "sun"
+    return titled(words, kind, name)
 
 
 def _kinds(plan: TrainPlan) -> Iterator[tuple[str, str]]:
@@ -83,12 +89,6 @@ def _item(
         item=number,
         quantity=quantity,
         number=own.number,
-        title=own.title or _titled(words[f"assembly.{kind}"], part.gear.name, key),
-        material=material_text(part, own),
+        title=own.title or titled(words, kind, part.gear.name, key),
+        material=material_text(part, own, words),
     )
-
-
-def _titled(word: str, *names: str) -> str:
-    """The word for a part, and its name if that says more."""
-    name = next((name for name in names if name not in _UNNAMED), "")
-    return f"{word} {name}" if name else word

@@ -12,7 +12,7 @@ from gearcad.drawing.tooth_views import detail_mark, detail_scale, modification_
 from gearcad.drawing.words import Draughting, Words
 from gearcad.geometry import Gear, Rack
 
-__all__ = ["detail_blocks", "part_kind", "part_rows"]
+__all__ = ["detail_blocks", "part_rows"]
 
 
 def part_rows(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> tuple[tuple[View, ...], ...]:
@@ -38,12 +38,3 @@ def detail_blocks(drawn: DrawnGear, words: Words) -> tuple[View, ...]:
     direction = gear_views.direction_of(gear) if isinstance(gear, Gear) and not gear.internal else 1
     diagrams = modification_figures(drawn, Draughting(words), direction)
     return View("detail", detail), *(View(f"diagram {number}", each) for number, each in enumerate(diagrams, 1))
-
-
-def part_kind(drawn: DrawnGear) -> str:
-    """What it is called among the words of assemblies."""
-    if isinstance(drawn.gear, Rack):
-        return "rack"
-    if drawn.role in ("sun", "planet", "pinion"):
-        return drawn.role
-    return "ring" if drawn.gear.internal else "wheel"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from gearcad.drawing.gear_data import Row
+from gearcad.drawing.sheets.items import member_title
 from gearcad.drawing.sheets.pair_rows import backlash_row, distance_row
 from gearcad.drawing.train_views import TrainPlan
 from gearcad.drawing.words import Words
@@ -21,13 +22,15 @@ def train_rows(plan: TrainPlan, items: Mapping[str, int], words: Words) -> tuple
 
 
 def _rows(train: PlanetaryTrain, items: Mapping[str, int], words: Words) -> Iterator[Row]:
-    ends = {"input": train.input, "output": train.output}
+    titles = {name: member_title(train, name, words) for name in (train.input, train.output)}
     if train.ratio is not None:
         numbers = {"planetary.ratio": train.ratio}
-        yield _row("ratio", words, "i", words.number(train.ratio, 4), numbers, **ends)
+        input_end, output_end = map(words.within_text, titles.values())
+        yield _row("ratio", words, "i", words.number(train.ratio, 4), numbers, input=input_end, output=output_end)
     else:
-        yield _row("input_output", words, "", " / ".join(ends.values()), {})
-    yield _row("fixed", words, "", train.fixed or words["assembly.no_fixed"], {})
+        yield _row("input_output", words, "", " / ".join(titles.values()), {})
+    fixed = words["assembly.no_fixed"] if train.fixed is None else member_title(train, train.fixed, words)
+    yield _row("fixed", words, "", fixed, {})
     yield _row("planets", words, "N", str(train.planets), {"planetary.planets": float(train.planets)})
     distance = float(train.centre_distance)
     yield _row("centre_distance", words, "a", words.number(distance, 3), {"planetary.centre_distance": distance})

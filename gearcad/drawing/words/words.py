@@ -34,6 +34,10 @@ class Words:
     def __getitem__(self, key: str) -> str:
         return self.labels[key]
 
+    def within_text(self, label: str) -> str:
+        """A label in the middle of a sentence: without its capital, but in German, where nouns have one."""
+        return label if self.language is Language.GERMAN else label[:1].lower() + label[1:]
+
     def number(self, value: float, decimals: int, *, signed: bool = False) -> str:
         """With so many decimals, a true minus sign, and the mark of the language; zero has no sign."""
         text = f"{value:{'+' if signed else ''}.{decimals}f}"
