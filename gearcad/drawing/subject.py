@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
+from gearcad.geometry.body import HubSide
 from gearcad.material import Material
 from gearcad.planetary import PlanetaryTrain
 from gearcad.rating.tolerances import Accuracy
@@ -35,6 +36,15 @@ class DrawnGear:
     accuracy: Accuracy = Accuracy.ISO_1995
     grade: int | None = None
     mates: tuple[Mate, ...] = ()
+
+    @property
+    def direction(self) -> int:
+        """1 where z goes to the right in the section on its sheet, -1 to the left: the end of an external gear that has a hub
+        is at the left, and that at z = face width unless a hub is at z = 0 alone."""
+        part = self.gear
+        if isinstance(part, Rack) or part.internal or (part.body.hub_length and part.body.hub_side is HubSide.BACK):
+            return 1
+        return -1
 
 
 @dataclass(frozen=True, kw_only=True)

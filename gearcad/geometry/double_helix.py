@@ -10,10 +10,14 @@ from gearcad.ranges import Range
 from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
 
-__all__ = ["DoubleHelix"]
+__all__ = ["HALF_PITCH", "DoubleHelix"]
 
 _GAP = Range("mm", 0, 10000)
-_OFFSET = Range("", -0.5, 0.5)
+
+HALF_PITCH = 0.5
+"""The largest offset of halves, in pitches, alike in both directions."""
+
+_OFFSET = Range("", -HALF_PITCH, HALF_PITCH)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,10 +9,14 @@ import pytest
 import gearcad
 from gearcad import Body, DoubleHelix, FlankModification, Gear, GearPair, Material, Rack, RackPair, ShaperCutter
 from gearcad.drawing.gear_data import gear_notices, gear_rows
+from gearcad.drawing.gear_views import section_view
 from gearcad.drawing.options import DrawingOptions
+from gearcad.drawing.requirements import Requirements
+from gearcad.drawing.shapes import Pen, Polyline
 from gearcad.drawing.subject import DrawnGear, Mate
-from gearcad.drawing.words import Language, Words
+from gearcad.drawing.words import Draughting, Language, Words
 from gearcad.geometry import ISO53_D, BasicRack
+from gearcad.geometry.body import HubSide
 from gearcad.material import MaterialGroup
 from gearcad.rating.tolerances import Accuracy, gear_tolerances
 from gearcad.solids.facets.rack_facets import tessellate_rack
@@ -252,13 +256,28 @@ def test_hands_are_those_of_the_solids(teeth, angle, hand, way):
     assert turned == pytest.approx(way * 6 * np.tan(np.radians(12)) / gear.transverse_pitch, rel=1e-3)
 
 
-def test_hands_of_two_halves_and_of_racks_are_those_of_the_solids():
-    """The first half of "right / left" begins at z = 0. Right-hand teeth on +y go to -x as they rise."""
-    gear = Gear(teeth=21, normal_module=2, face_width=16, helix_angle=12, double_helix=DoubleHelix(gap_width=4))
-    rows = {row.key: row.text for row in gear_rows(DrawnGear(role="gear", gear=gear), WORDS[Language.ENGLISH])}
-    points, radius = tessellate(gear, 0.05).vertices, gear.tip_diameter / 2
-    assert rows["hand"] == "right / left"
-    assert _drift(points, radius, 21, 0.0, 6.0) > 0.1 and _drift(points, radius, 21, 10.0, 16.0) < -0.1
+@pytest.mark.parametrize("side", HubSide)
+@pytest.mark.parametrize(("angle", "offset"), [(12.0, 0.2), (-12.0, -0.3)])
+def test_hands_and_offset_of_two_halves_are_those_of_the_solid_as_it_is_drawn(side, angle, offset):
+    """The half that is at the left in the section comes first, and is turned on as one sees from its end."""
+    halves, body = DoubleHelix(gap_width=4, offset=offset), Body(bore=10, hub_diameter=20, hub_length=3, hub_side=side)
+    gear = Gear(teeth=21, normal_module=2, face_width=16, helix_angle=angle, double_helix=halves, body=body)
+    drawn = DrawnGear(role="gear", gear=gear)
+    rows = {row.key: row.text for row in gear_rows(drawn, WORDS[Language.ENGLISH])}
+    view = section_view(drawn, Requirements.of(drawn, DrawingOptions()), Draughting(WORDS[Language.ENGLISH]))
+    lines = [each.points for each in view.figure.shapes if isinstance(each, Polyline) and each.pen is Pen.THIN]
+    falling = [(end < start) == (x < right) for (x, start), (right, end) in sorted(lines)[::3]]  # right hand (ISO 2203)
+    assert rows["hand_of_halves"] == " / ".join("right" if each else "left" for each in falling)
+    points, radius, to_right = tessellate(gear, 0.05).vertices, gear.tip_diameter / 2, 1 if side is HubSide.BACK else -1
+    drifts = [_drift(points, radius, 21, low, low + 6) for low in (0.0, 10.0)][::to_right]
+    assert rows["hand_of_halves"] == " / ".join("right" if each > 0.1 else "left" for each in drifts)
+    left, right = (6.0, 10.0)[::to_right]
+    ahead = -to_right * _drift(points, radius, 21, right, left)  # from the left one looks along z, or against it
+    assert ahead == pytest.approx(offset, abs=1e-6) and float(rows["half_offset"].replace("−", "-")) == pytest.approx(ahead)
+
+
+def test_hands_of_racks_are_those_of_the_solids():
+    """Right-hand teeth on +y go to -x as they rise."""
     rack = Rack(teeth=6, normal_module=2, face_width=6, height=10, helix_angle=12)
     drawn = DrawnGear(role="rack", gear=rack)
     assert {row.key: row.text for row in gear_rows(drawn, WORDS[Language.ENGLISH])}["hand"] == "right"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -15,7 +16,7 @@ from gearcad.drawing.options import DrawingOptions
 from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.shapes import Circle, Dimension, Figure, Hatching, Line, Measured, Pen, Polyline, Text
 from gearcad.drawing.subject import DrawnGear
-from gearcad.drawing.words import Draughting, Language, Words
+from gearcad.drawing.words import Draughting, Language, Size, Words
 from gearcad.geometry import DoubleHelix
 from gearcad.geometry.body import HubSide
 from gearcad.solids import tessellate
@@ -185,15 +186,34 @@ def test_sizes_measure_what_they_say() -> None:
     assert [text for _, text in _said(face, SCALE)] == ["6JS9±0.015", "22.8+0.10"]
     assert [length for length, _ in _said(face, SCALE)] == pytest.approx([6, 22.8])
     texts = [each.words for figure in (section, face) for each in figure.texts]
-    assert {"1.5×30°", "Ra 1.6", "Ra 0.8", "A", "2×", "⌀20", "H7"} <= set(texts)
+    assert texts.count("2×") == 2  # run-out and roughness of both faces
+    assert {"2× 1.5×30°", "Ra 1.6", "Ra 0.8", "A", "2×", "⌀20", "H7"} <= set(texts)
 
 
 def test_groove_and_hubs_of_double_helical_gears_are_dimensioned() -> None:
-    body = Body(bore=20.0, hub_diameter=34.0, hub_length=5.0, hub_side=HubSide.BOTH)
+    body = Body(bore=20.0, hub_diameter=34.0, hub_length=5.0, hub_side=HubSide.BOTH, end_chamfer=1.0)
     gear = Gear(teeth=30, normal_module=2.5, face_width=40, helix_angle=30, double_helix=DoubleHelix(gap_width=8), body=body)
     section, _ = _dressed(gear)
+    floor = gear.gap_diameter / 2
     assert [round(length, 6) for length, _ in _said(section, 1.0)] == [5, 8, 16, 34, 40, 50, round(gear.tip_diameter, 6)]
-    assert f"⌀{gear.gap_diameter:.3f}" in [each.words for each in section.texts]
+    words = [each.words for each in section.texts]
+    assert f"⌀{gear.gap_diameter:.1f}" in words and "4× 1×45°" in words
+    arrow = next(each for each in section.shapes if isinstance(each, Line) and each.start == pytest.approx((0.0, -floor)))
+    for each in (part for shape in section.shapes if isinstance(shape, Dimension) for part in shape.parts):
+        assert not (isinstance(each, Line) and _cross(arrow, each))
+    given = Requirements.of(
+        DrawnGear(role="gear", gear=replace(gear, double_helix=DoubleHelix(gap_width=8, gap_diameter=75.125))), DrawingOptions()
+    )
+    assert given.gap_diameter == Size(value=75.125, prefix="⌀")
+
+
+def _cross(one: Line, other: Line) -> bool:
+    """Whether two lines have a point in common within both."""
+    ways = np.array([one.end, other.start]) - [one.start, other.end]
+    if abs(np.linalg.det(ways)) < 1e-9:
+        return False
+    along = np.linalg.solve(ways.T, np.array(other.start) - one.start)
+    return bool(((along > 1e-6) & (along < 1 - 1e-6)).all())
 
 
 def test_marks_keep_off_each_other_and_the_outline() -> None:

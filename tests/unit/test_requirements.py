@@ -38,7 +38,7 @@ def test_sizes_of_a_gear_with_hub_and_keyway():
         "keyway_depth": ("", 43.3, "", "", (200, 0)),
         "hub_diameter": ("⌀", 60, "", "", None),
         "hub_width": ("", 46, "", "", None),
-        "end_chamfer": ("", 1.5, "×22.5°", "", None),
+        "end_chamfer": ("2× ", 1.5, "×22.5°", "", None),
         "tip_chamfer": ("", 0.3, "×45°", "", None),
     }
     assert found.bore.envelope and not found.tip.envelope

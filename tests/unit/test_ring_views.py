@@ -169,10 +169,11 @@ def test_a_long_rack_is_broken_and_says_its_length() -> None:
     assert 2 * span.right == pytest.approx(6 * 24.0 + 3.0) and len(span.parts) == 2
     view = dressed(front_view(*demands(rack)[:2], Draughting(Words.of(Language.ENGLISH), 1.0)))
     assert view is not None
-    assert "500" in [text.words for text in view.texts]
     (length,) = [each for each in of_kind(view, Dimension) if "500" in [text.words for text in Figure.of(each).texts]]
     measured = math.dist(length.first, length.second) / (length.scale or 1.0)
     assert (length.words, measured) == ("<>", pytest.approx(500.0))
+    names = sorted(text.at[1] for text in view.texts if text.words == "A")
+    assert length.line[1] < names[0] and -22.0 - names[0] == pytest.approx(names[1] - 2.0)  # as far below as above
     first, second = tooth_middles(span)
     assert second - first == pytest.approx(rack.transverse_pitch)
     assert len(Span(RACKS["cut"], 1.0).parts) == 1

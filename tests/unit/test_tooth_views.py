@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import combinations, pairwise
 
 import numpy as np
@@ -19,6 +20,7 @@ from gearcad.drawing.tooth_views.levels import levels_of
 from gearcad.drawing.tooth_views.spread import spread
 from gearcad.drawing.words import Draughting, Language, Words
 from gearcad.geometry import BasicRack, Body, DoubleHelix, FlankModification, Gear, Rack, ReliefShape, ShaperCutter
+from gearcad.geometry.body import HubSide
 from gearcad.geometry.curves import parameters_within
 from gearcad.geometry.halves import halves
 
@@ -180,6 +182,25 @@ def test_both_halves_of_a_double_helical_gear_are_alike_from_outside() -> None:
         for form, heights in ((lower, helix.places), (upper, gear.half_width - helix.places)):
             at_middle = form.depth(middle, gear.half_width / 2, left=left)
             assert each.at_places == pytest.approx(1000 * (form.depth(middle, heights, left=left) - at_middle), abs=1e-9)
+
+
+@pytest.mark.parametrize("side", [HubSide.FRONT, HubSide.BACK])
+def test_the_helix_diagram_lies_as_the_section_does(side: HubSide) -> None:
+    """Its left end is that of the section: z = face width, unless a hub is behind z = 0. Both say which end z counts from."""
+    gear = replace(modified("slopes"), body=Body(hub_diameter=20, hub_length=2, hub_side=side))
+    helix = helix_depths(gear)
+    assert helix is not None
+    figures = modification_figures(DrawnGear(role="gear", gear=gear), Draughting(Words.of(Language.ENGLISH)))
+    curves = [shape for shape in figures[1].shapes if isinstance(shape, Polyline)]
+    for curve, series in zip(curves, helix.series, strict=True):
+        x, y = np.array(curve.points).T
+        seen = series.along[::-1] if side is HubSide.FRONT else series.along
+        assert (np.diff(x) > 0).all() and np.ptp(y) > 1
+        assert y == pytest.approx(-15 * seen / (helix.extent[1] - helix.extent[0]))
+    for figure in figures:
+        words = {text.words for text in figure.texts}
+        assert f"z from the {'right' if side is HubSide.FRONT else 'left'} end of the section" in words
+        assert "+ material removed, − material added" in words
 
 
 def test_what_is_not_modified_has_no_diagram() -> None:

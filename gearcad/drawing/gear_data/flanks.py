@@ -10,6 +10,7 @@ from gearcad.drawing.quality import flank_roughness
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.treatment import material_text, treatment_text
 from gearcad.geometry import FlankModification, Gear, Rack, ReliefShape
+from gearcad.geometry.double_helix import HALF_PITCH
 from gearcad.geometry.tooling import corner_radius, shaped
 from gearcad.schema import symbols_of
 
@@ -64,14 +65,15 @@ def chamfer_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:
 
 
 def double_helix_rows(gear: Gear, write: RowWriter) -> Iterator[Row]:
-    """The gap between two halves, and how the teeth of one stand to those of the other."""
-    double = gear.double_helix
-    if double.gap_width is None:
-        return
-    yield write.length("gap_width", double.gap_width, "b_g", "double_helix.gap_width")
-    if double.offset:
-        offset = write.words.number(double.offset, 4, signed=True)
-        yield write.text("half_offset", offset, "", {"double_helix.offset": double.offset})
+    """How the teeth of the left half in the section stand to those of the right one, counter-clockwise as seen from the left.
+
+    That is the upper half as seen from beyond it, or the lower one, which is as far behind, as seen from below: the same.
+    Half a pitch is alike in both directions.
+    """
+    if offset := gear.double_helix.offset:
+        half = abs(offset) == HALF_PITCH
+        shown = write.words.number(HALF_PITCH if half else offset, 4, signed=not half)
+        yield write.text("half_offset", shown, "", {"double_helix.offset": offset})
 
 
 def material_rows(drawn: DrawnGear, write: RowWriter, options: DrawingOptions) -> Iterator[Row]:

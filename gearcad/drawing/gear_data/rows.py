@@ -41,7 +41,7 @@ def gear_rows(drawn: DrawnGear, words: Words, options: DrawingOptions | None = N
 
 
 def _gear(drawn: DrawnGear, gear: Gear, write: RowWriter) -> Iterator[Row]:
-    yield from teeth_rows(gear, write)
+    yield from teeth_rows(drawn, write)
     yield from diameter_rows(gear, write)
     yield from double_helix_rows(gear, write)
     yield grade_row(drawn, write)
@@ -55,7 +55,7 @@ def _gear(drawn: DrawnGear, gear: Gear, write: RowWriter) -> Iterator[Row]:
 
 
 def _rack(drawn: DrawnGear, rack: Rack, write: RowWriter) -> Iterator[Row]:
-    yield from teeth_rows(rack, write)
+    yield from teeth_rows(drawn, write)
     yield write.length("normal_pitch", rack.normal_pitch, "p_n")
     if rack.helix_angle:
         yield write.length("transverse_pitch", rack.transverse_pitch, "p_t")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from gearcad.drawing.gear_data.row import Row, RowWriter
+from gearcad.drawing.subject import DrawnGear
 from gearcad.geometry import NAMED_RACKS, Gear, Rack
 from gearcad.geometry.derived import is_given
 
@@ -14,8 +15,9 @@ _SAME = 1e-9
 """Difference of coefficients that is rounding."""
 
 
-def teeth_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:
+def teeth_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
     """What gears and racks are alike in."""
+    part = drawn.gear
     helix = "double_helical" if _double(part) else "helical" if part.helix_angle else "spur"
     form = "rack" if isinstance(part, Rack) else "internal" if part.internal else "external"
     yield write.text("kind", f"{write.word(form)}, {write.word(helix)}")
@@ -30,17 +32,20 @@ def teeth_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:
     shown = write.words.number(angle, 4) if angle else "0"
     yield write.text("helix_angle", f"{shown}°", "β", {"helix_angle": part.helix_angle})
     if part.helix_angle:
-        yield write.text("hand", _hand(part, write))
+        yield _hand(drawn, write)
 
 
 def _double(part: Gear | Rack) -> bool:
     return isinstance(part, Gear) and part.double_helix.present
 
 
-def _hand(part: Gear | Rack, write: RowWriter) -> str:
-    """Right where the helix angle is positive; of two halves that at z = 0, then the other."""
+def _hand(drawn: DrawnGear, write: RowWriter) -> Row:
+    """Right where the helix angle is positive; of two halves, of which the one at z = 0 has it, in the order of the section."""
+    part = drawn.gear
     hands = [write.word("right"), write.word("left")][:: 1 if part.helix_angle > 0 else -1]
-    return " / ".join(hands) if _double(part) else hands[0]
+    if _double(part):
+        return write.text("hand_of_halves", " / ".join(hands[:: drawn.direction]))
+    return write.text("hand", hands[0])
 
 
 def rack_rows(part: Gear | Rack, write: RowWriter) -> Iterator[Row]:

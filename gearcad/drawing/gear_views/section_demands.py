@@ -79,7 +79,7 @@ class SectionDemands:
                 yield Figure.of(Line((at_left.box.left, up), (left, up), Pen.DIMENSION), at_left)
 
     def face_roughness(self) -> Iterator[Figure]:
-        """Of the faces, where it is not that of the rest."""
+        """Of both outermost faces, where it is not that of the rest."""
         if self.requirements.face_roughness == self.requirements.rest_roughness:
             return
         value = f"Ra {self.draughting.words.shortest(self.requirements.face_roughness)}"
@@ -87,4 +87,5 @@ class SectionDemands:
         (_, (_, low), (_, high)), _ = faces
         for side, (x, inner), (_, outer) in faces if high - low >= _STANDING else reversed(faces):
             for upwards in (1, -1):
-                yield from roughness((x, upwards * inner), (x, upwards * outer), side, value, self.draughting)
+                ends = (x, upwards * inner), (x, upwards * outer)
+                yield from roughness(*ends, side, value, self.draughting, count="2×")

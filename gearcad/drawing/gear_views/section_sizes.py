@@ -27,6 +27,10 @@ _BEYOND = (8.0, 16.0, 26.0, 40.0)
 """How far beyond the outline a leader from within it may end (mm of paper)."""
 
 
+_BELOW_TEETH = (7.0, 12.0, 18.0)
+"""How far below the teeth it may end."""
+
+
 @dataclass(frozen=True)
 class SectionSizes:
     """Those that a gear has."""
@@ -42,15 +46,20 @@ class SectionSizes:
         return *lengths, self.hub_diameter, self.tip, self.gap_diameter, self.end_chamfer
 
     def face_width(self) -> Iterator[Figure]:
-        corner = self.outline.corner
-        return self._length((0.0, corner), (self.outline.gear.face_width, corner), _BELOW_FIRST, self.requirements.face_width)
+        corner, ends = self.outline.corner, (0.0, self.outline.gear.face_width)
+        return self._length((ends[0], corner), (ends[1], corner), self._overall, self.requirements.face_width)
+
+    @property
+    def _overall(self) -> tuple[Side, ...]:
+        """Where lengths over all stand: beyond those of the halves where a gap parts them, whose leader comes from below."""
+        return _ABOVE_FIRST if self.requirements.gap_width else _BELOW_FIRST
 
     def hub_width(self) -> Iterator[Figure]:
         """Over all, where hubs stand out."""
         (low, high), width = overall(self.outline.gear), self.outline.gear.face_width
         hub, corner = self.outline.gear.body.hub_diameter / 2, self.outline.corner
         ends = (low, hub if low < 0 else corner), (high, hub if high > width else corner)
-        return self._length(*ends, _BELOW_FIRST, self.requirements.hub_width)
+        return self._length(*ends, self._overall, self.requirements.hub_width)
 
     def hub_length(self) -> Iterator[Figure]:
         """How far one of two hubs stands out; of a single one face width and the width over all say it."""
@@ -107,11 +116,16 @@ class SectionSizes:
         return linear_dimension(low, high, side, size, self.draughting, clear=clear)
 
     def gap_diameter(self) -> Iterator[Figure]:
-        """A leader to the floor of the groove, across the teeth that are seen from outside."""
+        """A leader to the floor of the groove that is seen from outside: out of the groove, else across the teeth."""
         size = self.requirements.gap_diameter
         if size is None:
             return
         floor = self.outline.along.point(self.outline.gear.face_width / 2, -self.outline.gear.gap_diameter / 2)
+        depth = self.outline.top + floor[1]
+        for below in _BELOW_TEETH:
+            for way in (-60.0, -120.0, -75.0, -105.0, -45.0, -135.0):
+                down = -math.sin(math.radians(way))
+                yield from leader(floor, size, self.draughting, (way,), lengths=((depth + below) / down,))
         for beyond in _BEYOND:
             for way in (-35.0, -25.0, -50.0, -15.0, -65.0):
                 across = math.cos(math.radians(way))

@@ -14,15 +14,14 @@ from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.words import Draughting
 from gearcad.geometry import Gear
-from gearcad.geometry.body import HubSide
 
-__all__ = ["direction_of", "face_view", "section_view"]
+__all__ = ["face_view", "section_view"]
 
 
 def section_view(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> View:
     """The half section: cut above the axis, through the keyway; the end that `face_view` shows is at its left."""
     gear = _external(drawn)
-    along = Along.of(gear, draughting.scale, direction_of(gear))
+    along = Along.of(gear, draughting.scale, drawn.direction)
     outline = Silhouette(gear, along)
     sizes = SectionSizes(outline, requirements, draughting).sources
     demands = SectionDemands(outline, requirements, draughting).sources
@@ -32,20 +31,10 @@ def section_view(drawn: DrawnGear, requirements: Requirements, draughting: Draug
 def face_view(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> View:
     """What one sees from the left of the section, the keyway up: the end with the hub, of one with two hubs the front."""
     gear = _external(drawn)
-    figure = end_face(gear, draughting.scale, front=_front_is_seen(gear))
+    figure = end_face(gear, draughting.scale, front=drawn.direction < 0)
     return View("face", figure, FaceMarks(gear, figure, requirements, draughting).sources)
-
-
-def direction_of(gear: Gear) -> int:
-    """1 where z goes to the right in the section, -1 to the left: the end with the hub is at the left."""
-    return -1 if _front_is_seen(gear) else 1
 
 
 def _external(drawn: DrawnGear) -> Gear:
     assert isinstance(drawn.gear, Gear) and not drawn.gear.internal  # rings and racks have views of their own
     return drawn.gear
-
-
-def _front_is_seen(gear: Gear) -> bool:
-    """From beyond z = face width, unless a hub is behind z = 0 alone."""
-    return not gear.body.hub_length or gear.body.hub_side is not HubSide.BACK

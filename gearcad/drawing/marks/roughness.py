@@ -20,8 +20,11 @@ _PLACES = (0.5, 0.3, 0.7, 0.15, 0.85)
 """Where along an edge a symbol may stand."""
 
 
-def roughness_symbol(value: str, *, height: float = 2.5, side: Side = Side.ABOVE) -> Figure:
-    """Removal of material required, and the value ("Ra 1.6"); its point at (0, 0), upright, or (LEFT) read from the right."""
+def roughness_symbol(value: str, *, height: float = 2.5, side: Side = Side.ABOVE, count: str = "") -> Figure:
+    """Removal of material required, and the value ("Ra 1.6"); its point at (0, 0), upright, or (LEFT) read from the right.
+
+    `count` stands before it: of how many surfaces it is ("2×").
+    """
     if side not in (Side.ABOVE, Side.LEFT):
         raise ValueError("A symbol would stand upside down: it needs a leader.")
     low, high = _LOW * height, _HIGH * height
@@ -31,20 +34,25 @@ def roughness_symbol(value: str, *, height: float = 2.5, side: Side = Side.ABOVE
     bar = Line(_at(-low / _SLOPE, low, side), _at(low / _SLOPE, low, side), Pen.SYMBOL)
     rotation = 90.0 if side.is_upright else 0.0
     text = Text(value, _at(start, high - 1.4 * height, side), height, rotation=rotation)
-    return Figure.of(Polyline.straight(check, Pen.SYMBOL), bar, text)
+    before = -low / _SLOPE - 0.3 * height - text_width(count, height)
+    counted = [Text(count, _at(before, 0.3 * height, side), height, rotation=rotation)] if count else []
+    return Figure.of(Polyline.straight(check, Pen.SYMBOL), bar, text, *counted)
 
 
-def roughness(start: Point, end: Point, side: Side, value: str, draughting: Draughting) -> Iterator[Figure]:
-    """On an edge or an extension line from `start` to `end` whose outside is at `side`; below and at the right by a leader."""
+def roughness(start: Point, end: Point, side: Side, value: str, draughting: Draughting, *, count: str = "") -> Iterator[Figure]:
+    """On an edge or an extension line from `start` to `end` whose outside is at `side`; below and at the right by a leader.
+
+    `count` says of how many such surfaces it is ("2×").
+    """
     places = [(start[0] + (end[0] - start[0]) * part, start[1] + (end[1] - start[1]) * part) for part in _PLACES]
     if side in (Side.ABOVE, Side.LEFT):
         for place in places:
-            yield roughness_symbol(value, side=side).moved(*place)
+            yield roughness_symbol(value, side=side, count=count).moved(*place)
     for place in places:
-        yield from _on_leader(place, side, value, draughting)
+        yield from _on_leader(place, side, roughness_symbol(value, count=count), draughting)
 
 
-def _on_leader(place: Point, side: Side, value: str, draughting: Draughting) -> Iterator[Figure]:
+def _on_leader(place: Point, side: Side, symbol: Figure, draughting: Draughting) -> Iterator[Figure]:
     """The symbol stands on the horizontal part of a leader."""
     directions = {
         Side.ABOVE: (60.0, 120.0, 30.0, 150.0),
@@ -52,7 +60,6 @@ def _on_leader(place: Point, side: Side, value: str, draughting: Draughting) -> 
         Side.LEFT: (135.0, -135.0, 160.0, -160.0),
         Side.RIGHT: (45.0, -45.0, 20.0, -20.0),
     }[side]
-    symbol = roughness_symbol(value)
     box = symbol.box
     foot = Line((box.left, 0.0), (box.right, 0.0), Pen.DIMENSION)
     yield from leader(place, Figure.of(symbol, foot), draughting, directions)

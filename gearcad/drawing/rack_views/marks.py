@@ -20,9 +20,6 @@ _EXTENSIONS = (4.0, 12.0, 20.0, 28.0)
 _CUT_OFF = (3.0, 10.0, 18.0, 27.0, 37.0, 50.0, 65.0, 80.0)
 """How far from the outline the ends of the cutting line may be (mm of paper)."""
 
-_BELOW_LENGTH = 12.0
-"""More below, where the length stands."""
-
 _CUT_AT = (0.6, 0.75, 0.45, 0.9, 0.3, 0.97)
 """Where along a part that is shown it may be, over its length."""
 
@@ -40,7 +37,7 @@ class FrontMarks:
     @property
     def sources(self) -> _Sources:
         """All of them, those nearest to the outline first."""
-        return self.first_tooth, self.pitch, self.length, self.cutting_line
+        return self.first_tooth, self.pitch, self.cutting_line, self.length
 
     def length(self) -> Iterator[Figure]:
         """All of it, however much is shown: a program that draws it anew measures at a scale of its own."""
@@ -62,14 +59,14 @@ class FrontMarks:
         return self._above(-self.span.right, middles[0], Size(value=self.span.first_middle)) if middles else ()
 
     def cutting_line(self) -> Iterator[Figure]:
-        """Of the end section, somewhere along the rack, as near to it as other marks let it be."""
+        """Of the end section, somewhere along the rack, as near to it as other marks let it be; the length stands below it."""
         tip, back = self.span.scale * self.span.rack.tip_height, -self.span.scale * self.span.rack.height
         ends = [(self.span.across(low), self.span.across(high)) for low, high in reversed(self.span.parts)]
         for off in _CUT_OFF:
             for left, right in ends:
                 for part in _CUT_AT:
                     x = left + part * (right - left)
-                    yield section_arrows((x, tip + off), (x, back - off - _BELOW_LENGTH), Side.RIGHT, SECTION)
+                    yield section_arrows((x, tip + off), (x, back - off), Side.RIGHT, SECTION)
 
     def _above(self, left: float, right: float, size: Size) -> Iterator[Figure]:
         tip = self.span.scale * self.span.rack.tip_height

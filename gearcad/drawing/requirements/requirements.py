@@ -13,7 +13,9 @@ from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.treatment import material_text, treatment_text
 from gearcad.drawing.words import Size, Words
 from gearcad.geometry import Body, Gear, Rack
+from gearcad.geometry.derived import is_given
 from gearcad.geometry.din6885 import depth_allowance
+from gearcad.geometry.double_helix import HALF_PITCH
 from gearcad.geometry.iso286 import LARGEST_SIZE, require_shaft
 from gearcad.notice import Notice
 
@@ -87,10 +89,13 @@ class Requirements:
         return treatment_text(self.drawn, self.options, words)
 
     def tooth_notes(self, words: Words) -> tuple[str, ...]:
-        """What has no place in the table: that fillets may be undercut, and what goes by the accuracy grade alone."""
+        """What has no place in the table: that fillets may be undercut, which way the halves of a double helical gear are
+        offset, and what goes by the accuracy grade alone."""
         part, options = self.drawn.gear, self.options
         by_grade = not self.flanks.given or None in (options.tip_runout, options.face_runout, options.bore_roughness)
-        noted = {"note_undercut": isinstance(part, Gear) and part.undercut, "note_by_grade": by_grade}
+        turned = isinstance(part, Gear) and abs(part.double_helix.offset) not in (0.0, HALF_PITCH)
+        undercut = isinstance(part, Gear) and part.undercut
+        noted = {"note_undercut": undercut, "note_offset": turned, "note_by_grade": by_grade}
         return tuple(words[f"data.{key}"] for key, holds in noted.items() if holds)
 
     @property
@@ -128,17 +133,24 @@ def _gear(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
     body, mark = gear.body, options.language.decimal_mark
     found = _ring(gear, options) if gear.internal else _disc(gear, options)
     if body.end_chamfer:
-        found["end_chamfer"] = _chamfer(body.end_chamfer, f"{body.end_chamfer_angle:.4g}".replace(".", mark))
+        angle = f"{body.end_chamfer_angle:.4g}".replace(".", mark)
+        found["end_chamfer"] = _chamfer(body.end_chamfer, angle, count=4 if gear.double_helix.gap_width else 2)
     if body.tip_chamfer:
         found["tip_chamfer"] = _chamfer(body.tip_chamfer, "45")
     if gear.double_helix.gap_width:
         found["gap_width"] = Size(value=gear.double_helix.gap_width)
-        found["gap_diameter"] = diameter(gear.gap_diameter)
+        found["gap_diameter"] = _floor(gear)
     return found
 
 
-def _chamfer(length: float, angle: str) -> Size:
-    return Size(value=length, suffix=f"×{angle}°")
+def _chamfer(length: float, angle: str, count: int = 1) -> Size:
+    return Size(value=length, prefix=f"{count}× " if count > 1 else "", suffix=f"×{angle}°")
+
+
+def _floor(gear: Gear) -> Size:
+    """Of the groove between two halves: as it was given, else in as few decimals as tell it from the root circle."""
+    given, module = is_given(gear.double_helix.gap_diameter), gear.normal_module
+    return diameter(gear.gap_diameter, decimals=3 if given or module < 0.1 else 2 if module < 1.0 else 1)
 
 
 def _disc(gear: Gear, options: DrawingOptions) -> dict[str, Size]:

@@ -166,12 +166,14 @@ class SectionMarks:
             yield from self._roughness(self.requirements.bore_roughness, (-self._right, up), (self._right, up), side)
 
     def face_roughness(self) -> Iterator[Figure]:
+        """Of both end faces."""
         low, high = self.ring.scale * max(self.ring.root, self.ring.corner), self._top
         for side in (Side.LEFT, Side.RIGHT):
             for up in (1, -1):
                 out = side.outwards * self._right
-                yield from self._roughness(self.requirements.face_roughness, (out, up * low), (out, up * high), side)
+                yield from self._roughness(self.requirements.face_roughness, (out, up * low), (out, up * high), side, "2×")
 
-    def _roughness(self, value: float, start: Point, end: Point, side: Side) -> Iterator[Figure]:
+    def _roughness(self, value: float, start: Point, end: Point, side: Side, count: str = "") -> Iterator[Figure]:
         if value != self.requirements.rest_roughness:
-            yield from roughness(start, end, side, f"Ra {self.draughting.words.shortest(value)}", self.draughting)
+            text = f"Ra {self.draughting.words.shortest(value)}"
+            yield from roughness(start, end, side, text, self.draughting, count=count)

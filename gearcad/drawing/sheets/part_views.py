@@ -10,7 +10,7 @@ from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.tooth_views import detail_mark, detail_scale, modification_figures, tooth_figure
 from gearcad.drawing.words import Draughting, Words
-from gearcad.geometry import Gear, Rack
+from gearcad.geometry import Rack
 
 __all__ = ["detail_blocks", "part_rows"]
 
@@ -34,7 +34,5 @@ def _with_detail(view: View, drawn: DrawnGear, draughting: Draughting) -> View:
 def detail_blocks(drawn: DrawnGear, words: Words) -> tuple[View, ...]:
     """A tooth in detail, and the diagrams of its modifications; they have scales of their own."""
     detail = tooth_figure(drawn, Draughting(words, detail_scale(drawn)))
-    gear = drawn.gear
-    direction = gear_views.direction_of(gear) if isinstance(gear, Gear) and not gear.internal else 1
-    diagrams = modification_figures(drawn, Draughting(words), direction)
+    diagrams = modification_figures(drawn, Draughting(words))
     return View("detail", detail), *(View(f"diagram {number}", each) for number, each in enumerate(diagrams, 1))

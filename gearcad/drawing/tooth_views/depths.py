@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -41,6 +42,13 @@ class Depths:
         """Least and greatest of all depths and 0."""
         every = np.concatenate([[0.0], *(each.along for each in self.series)])
         return float(every.min()), float(every.max())
+
+    @property
+    def turned(self) -> Self:
+        """The same from the last place to the first."""
+        series = tuple(replace(each, at_places=each.at_places[::-1], along=each.along[::-1]) for each in self.series)
+        diameters = None if self.diameters is None else self.diameters[::-1]
+        return replace(self, places=self.places[::-1], fine=self.fine[::-1], series=series, diameters=diameters)
 
 
 def profile_depths(gear: Gear) -> Depths | None:
