@@ -144,6 +144,16 @@ def test_hatching_ends_at_the_roots_and_goes_two_ways() -> None:
     assert lower == pytest.approx(-pair.wheel.root_diameter / 2, abs=EXACT)
 
 
+def test_a_ring_of_no_rim_is_shown_as_far_as_its_bolts_need() -> None:
+    body = Body(bolt_circle=155.0, bolt_holes=8, bolt_diameter=6.6)
+    pair = GearPair(pinion=gear(20, 20.0), wheel=Gear(teeth=-66, normal_module=2.0, face_width=24.0, body=body))
+    faces = [shape for shape in pair_section(pair, PAPER).figure.shapes if isinstance(shape, Hatching)]
+    heights = [y / PAPER.scale for shape in faces for edge in shape.edges for _, y, _ in edge]
+    assert (max(heights), min(heights)) == pytest.approx((77.5 + 6.6, -77.5 - 6.6), abs=EXACT)
+    rims = [radius for radii in circles(pair_face(pair, PAPER), Pen.THIN).values() for radius in radii]
+    assert max(rims) == pytest.approx(77.5 + 6.6)
+
+
 def test_a_rack_stands_at_its_mounting_distance_and_its_pitch_line_touches() -> None:
     pair = racked()
     view = pair_face(pair, PAPER)

@@ -6,15 +6,14 @@ The plane has z along the axes and y across them, the keyway and a bolt hole tur
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial
 
 from gearcad.drawing.assembled.hiding import Polygon, Segment
-from gearcad.drawing.gear_views.meridian import strips
-from gearcad.drawing.shapes import Point
+from gearcad.drawing.gear_views.meridian import Corner, along_strip, contour, opening_radius, overall, strips
+from gearcad.drawing.ring_views.meridian import Meridian
 from gearcad.geometry import Gear, Rack
-from gearcad.rating.rim import outer_diameter
-from gearcad.solids.cone import EndCone
 
 __all__ = ["Cut", "cut_gear", "cut_rack"]
 
@@ -41,16 +40,6 @@ class Cut:
         return self.areas + self.teeth + self.opening
 
 
-@dataclass(frozen=True)
-class _Half:
-    """The outline of a gear above its axis, z from the bottom of its teeth: (z, r) left to right."""
-
-    roots: tuple[Point, ...]
-    """The body under the teeth, its hubs and the groove between halves with it."""
-
-    teeth: tuple[Polygon, ...]
-
-
 def cut_gear(gear: Gear, z: float = 0.0, height: float = 0.0) -> Cut:
     """A gear whose teeth begin at `z`, its axis at a `height` (mm)."""
     return _placed(_ring(gear) if gear.internal else _disc(gear), z, height)
@@ -63,83 +52,55 @@ def cut_rack(rack: Rack, z: float, height: float) -> Cut:
     return _placed(Cut((body,), (((0.0, root), (0.0, tip), (width, tip), (width, root)),)), z, height)
 
 
-def _half(gear: Gear) -> _Half:
-    cone, root, tip = EndCone.of(gear), gear.profile.root_diameter / 2, gear.profile.tip_diameter / 2
-    chamfer, face = gear.body.end_chamfer, cone.face_radius if cone.present else tip
-    into = max(cone.side * (root - face), 0.0)  # a cone may go deeper than the teeth
-    setback = into / cone.slope
-    back, front = gear.body.hub_ends
-    hub, groove = gear.body.hub_diameter / 2, abs(gear.gap_diameter) / 2
-    roots: list[Point] = [(-back, hub), (0.0, hub)] if back else []
-    teeth: list[Polygon] = []
-    for number, (low, high) in enumerate(strips(gear)):
-        if number:
-            roots += [(roots[-1][0], groove), (low, groove)]
-        ends = [(low, face), (low + setback, root), (high - setback, root), (high, face)]
-        roots += ends if into else [(low, root), (high, root)]
-        flat = [(low + chamfer, tip), (high - chamfer, tip)]
-        outline = ends[1:2] + flat + ends[2:3] if into else [(low, root), (low, face), *flat, (high, face), (high, root)]
-        teeth.append(tuple(dict.fromkeys(outline)))
-    if front:
-        roots += [(gear.face_width, hub), (gear.face_width + front, hub)]
-    return _Half(tuple(dict.fromkeys(roots)), tuple(teeth))
-
-
 def _disc(gear: Gear) -> Cut:
-    half, body = _half(gear), gear.body
-    left, right = half.roots[0][0], half.roots[-1][0]
-    teeth = half.teeth + tuple(map(_mirrored, half.teeth))
+    body, (left, right), root = gear.body, overall(gear), gear.root_diameter / 2
+    strip = partial(along_strip, gear)
+    halves = [_tooth(strip(*ends, root), strip(*ends, gear.tip_diameter / 2)) for ends in strips(gear)]
+    teeth = (*halves, *map(_mirrored, halves))
     if not body.bore:
-        return Cut(((*half.roots, *_mirrored(half.roots)[::-1]),), teeth)
-    bore = body.bore / 2
-    opening = bore + body.keyway_depth
-    upper = (*half.roots, (right, opening), (left, opening))
-    lower = _mirrored((*half.roots, (right, bore), (left, bore)))
+        half = contour(gear, root, 0.0)[1:-1]
+        return Cut(((*half, *_mirrored(half)[::-1]),), teeth)
+    bore, opening = body.bore / 2, opening_radius(gear)
     edges: list[Segment] = [((z, -bore), (z, opening)) for z in (left, right)]
     if body.keyway_width:
         side = math.sqrt(bore**2 - (body.keyway_width / 2) ** 2)
         edges.append(((left, side), (right, side)))
     through = ((left, -bore), (right, -bore), (right, opening), (left, opening))
-    return Cut((upper, lower), teeth, tuple(edges), opening=(through,))
+    areas = (tuple(contour(gear, root, opening)), _mirrored(contour(gear, root, bore)))
+    return Cut(areas, teeth, tuple(edges), opening=(through,))
 
 
 def _ring(gear: Gear) -> Cut:
-    half, body = _half(gear), gear.body
-    rim, width = outer_diameter(gear) / 2, gear.face_width
+    ring, body, width = Meridian(gear, 1.0), gear.body, gear.face_width
+    rim, roots = ring.rim, ring.along_teeth(ring.root)
     areas: list[Polygon] = []
     axes: list[Segment] = []
-    edges = _openings(gear)
-    hole = body.bolt_circle / 2
-    inner, outer = hole - body.bolt_diameter / 2, hole + body.bolt_diameter / 2
+    edges: list[Segment] = [((z, -radius), (z, radius)) for z, radius in ring.edges]
     for mirror, holed in ((_same, body.bolt_holes > 0), (_mirrored, body.bolt_holes > 0 and body.bolt_holes % 2 == 0)):
-        if not holed:
-            areas.append(mirror((*half.roots, (width, rim), (0.0, rim))))
+        if ring.holes is None or not holed:
+            areas.append(mirror((*roots, (width, rim), (0.0, rim))))
             continue
-        areas.append(mirror((*half.roots, (width, inner), (0.0, inner))))
+        inner, outer = ring.holes
+        areas.append(mirror((*roots, (width, inner), (0.0, inner))))
         areas.append(mirror(((0.0, outer), (width, outer), (width, rim), (0.0, rim))))
         edges += [_ends(mirror(((z, inner), (z, outer)))) for z in (0.0, width)]
-        axes.append(_ends(mirror(((0.0, hole), (width, hole)))))
-    teeth = half.teeth + tuple(map(_mirrored, half.teeth))
-    broken = () if body.rim_diameter else tuple(_ends(((0.0, side * rim), (width, side * rim))) for side in (1, -1))
-    return Cut(tuple(areas), teeth, tuple(edges), tuple(axes), broken=broken)
+        axes.append(_ends(mirror(((0.0, sum(ring.holes) / 2), (width, sum(ring.holes) / 2)))))
+    tooth = _tooth(roots, ring.along_teeth(ring.tip))
+    broken = tuple(_ends(((0.0, side * rim), (width, side * rim))) for side in (1, -1)) if ring.is_open else ()
+    return Cut(tuple(areas), (tooth, _mirrored(tooth)), tuple(edges), tuple(axes), broken=broken)
 
 
-def _openings(gear: Gear) -> list[Segment]:
-    """The circles of a ring's teeth behind the plane, where they begin and end: lines across its opening."""
-    cone, tip = EndCone.of(gear), gear.profile.tip_diameter / 2
-    circles: list[Point] = []
-    for low, high in strips(gear):
-        circles += [(z, cone.face_radius if cone.present else tip) for z in (low, high)]
-        if cone.present:
-            circles += [(z, tip) for z in (low + gear.body.end_chamfer, high - gear.body.end_chamfer)]
-    return [((z, -radius), (z, radius)) for z, radius in circles]
+def _tooth(roots: list[Corner], tips: list[Corner]) -> Polygon:
+    """Between the roots and the tips of a strip of teeth, either with end chamfers: one deeper than the teeth is at both."""
+    start, *under, end = roots
+    return (under[0], *tips[1:-1], under[-1]) if under else (start, *tips, end)
 
 
 def _same(polygon: Polygon) -> Polygon:
     return polygon
 
 
-def _mirrored(polygon: Polygon) -> Polygon:
+def _mirrored(polygon: Iterable[Corner]) -> Polygon:
     """Below the axis."""
     return tuple((z, -r) for z, r in polygon)
 

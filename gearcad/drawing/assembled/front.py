@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from gearcad.drawing.shapes import Circle, Figure, Line, Pen, Point, Polyline, Shape
-from gearcad.geometry import Body, Gear
-from gearcad.rating.rim import outer_diameter
-from gearcad.solids.keyway import keyway_half_angle
+from gearcad.drawing.gear_views.face import opening
+from gearcad.drawing.ring_views.face import hole_places
+from gearcad.drawing.ring_views.meridian import Meridian
+from gearcad.drawing.shapes import Circle, Figure, Line, Pen, Point, Shape
+from gearcad.geometry import Gear
 
 __all__ = ["BEYOND_AXIS", "Front", "cross"]
 
@@ -36,7 +36,7 @@ class Front:
     @property
     def reach(self) -> float:
         """Radius of all of it (mm)."""
-        return (outer_diameter(self.gear) if self.gear.internal else self.gear.tip_diameter) / 2
+        return Meridian(self.gear, 1.0).rim if self.gear.internal else self.gear.tip_diameter / 2
 
     def figure(self, scale: float) -> Figure:
         """Without centre lines."""
@@ -59,27 +59,12 @@ def _disc(gear: Gear, scale: float) -> Iterator[Shape]:
     body = gear.body
     if body.hub_ends[1]:
         yield Circle((0.0, 0.0), scale * body.hub_diameter / 2)
-    if body.keyway_width:
-        yield _keyed(body, scale)
-    elif body.bore:
-        yield Circle((0.0, 0.0), scale * body.bore / 2)
-
-
-def _keyed(body: Body, scale: float) -> Polyline:
-    """Bore and keyway as one closed line."""
-    half, floor = scale * body.keyway_width / 2, scale * (body.bore / 2 + body.keyway_depth)
-    angle = keyway_half_angle(body)
-    wall = scale * body.bore / 2 * math.cos(angle)
-    around = math.tan((math.pi - angle) / 2)
-    return Polyline(((-half, wall, around), (half, wall, 0.0), (half, floor, 0.0), (-half, floor, 0.0)), closed=True)
+    yield from opening(body, scale)
 
 
 def _rim(gear: Gear, scale: float) -> Iterator[Shape]:
-    body = gear.body
-    yield Circle((0.0, 0.0), scale * outer_diameter(gear) / 2, Pen.OUTLINE if body.rim_diameter else Pen.THIN)
-    if body.bolt_holes:
-        around = scale * body.bolt_circle / 2
-        yield Circle((0.0, 0.0), around, Pen.CENTRE)
-        for number in range(body.bolt_holes):
-            turn = math.pi / 2 + number * math.tau / body.bolt_holes
-            yield Circle((around * math.cos(turn), around * math.sin(turn)), scale * body.bolt_diameter / 2)
+    ring = Meridian(gear, scale)
+    yield Circle((0.0, 0.0), scale * ring.rim, Pen.THIN if ring.is_open else Pen.OUTLINE)
+    if ring.holes is not None:
+        yield Circle((0.0, 0.0), scale * sum(ring.holes) / 2, Pen.CENTRE)
+        yield from (Circle(place, scale * gear.body.bolt_diameter / 2) for place in hole_places(ring))

@@ -11,7 +11,7 @@ from gearcad.geometry import Body, Gear
 from gearcad.solids.cone import EndCone
 from gearcad.solids.keyway import keyway_half_angle
 
-__all__ = ["end_face"]
+__all__ = ["end_face", "opening"]
 
 
 def end_face(gear: Gear, scale: float, *, front: bool = True) -> Figure:
@@ -24,14 +24,14 @@ def end_face(gear: Gear, scale: float, *, front: bool = True) -> Figure:
     shapes: list[Shape] = [
         *(Circle((0.0, 0.0), scale * radius) for radius in seen),
         Circle((0.0, 0.0), scale * gear.reference_diameter / 2, Pen.CENTRE),
-        *_opening(body, scale),
+        *opening(body, scale),
         Line((-reach, 0.0), (reach, 0.0), Pen.CENTRE),
         Line((0.0, -reach), (0.0, reach), Pen.CENTRE),
     ]
     return Figure(tuple(shapes))
 
 
-def _opening(body: Body, scale: float) -> Iterator[Shape]:
+def opening(body: Body, scale: float) -> Iterator[Shape]:
     """The bore as a circle, or with its keyway as one closed line."""
     if not body.keyway_width:
         if body.bore:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from gearcad.geometry import Gear
 from gearcad.solids.cone import EndCone
 
-__all__ = ["Corner", "contour", "edges", "opening_radius", "overall", "root_lines", "strips"]
+__all__ = ["Corner", "along_strip", "contour", "edges", "opening_radius", "overall", "root_lines", "strips"]
 
 Corner = tuple[float, float]
 """Height z and radius."""
@@ -44,14 +44,20 @@ def contour(gear: Gear, top: float, inner: float) -> list[Corner]:
 
 def _along_teeth(gear: Gear, top: float) -> Iterator[Corner]:
     """Along the teeth, and the groove between two strips of them."""
-    cone, floor, before = EndCone.of(gear), gear.gap_diameter / 2, None
-    back = float(cone.setback(top))
+    floor, before = gear.gap_diameter / 2, None
     for low, high in strips(gear):
         if before is not None:
             yield from ((before, floor), (low, floor))
-        ends = ((low, cone.face_radius), (high, cone.face_radius)) if back else ()
-        yield from (*ends[:1], (low + back, top), (high - back, top), *ends[1:])
+        yield from along_strip(gear, low, high, top)
         before = high
+
+
+def along_strip(gear: Gear, low: float, high: float, top: float) -> list[Corner]:
+    """Along the teeth at radius `top` from `low` to `high`, one of their `strips`, and their end chamfers."""
+    cone = EndCone.of(gear)
+    back = float(cone.setback(top))
+    flat = [(low + back, top), (high - back, top)]
+    return [(low, cone.face_radius), *flat, (high, cone.face_radius)] if back else flat
 
 
 def root_lines(gear: Gear) -> list[tuple[float, float]]:

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 
+from gearcad.drawing.ring_views.meridian import Meridian
 from gearcad.errors import GeometryError
 from gearcad.planetary import PairStage, PlanetaryTrain
-from gearcad.rating.rim import outer_diameter
 from gearcad.solids.carrier_plan import CarrierPlan, carrier_plan
 from gearcad.solids.train_layout import Standing, TrainLayout
 from gearcad.solids.train_room import require_room
@@ -105,7 +105,7 @@ class TrainPlan:
     def reach(self) -> float:
         """How far from the axis of the train its set reaches."""
         planets = (self.distance + rim.gear.tip_diameter / 2 for rim in self.train.rims)
-        rings = (outer_diameter(central.gear) / 2 for central in self.train.centrals if central.gear.internal)
+        rings = (Meridian(central.gear, 1.0).rim for central in self.train.centrals if central.gear.internal)
         return max((*planets, *rings))
 
     @property
