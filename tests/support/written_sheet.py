@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
-from itertools import pairwise
+from itertools import combinations, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -95,6 +95,9 @@ class WrittenSheet:
     dimensions: list[tuple[float, str, str]]
     """What each measures (mm of the part), its text as programs draw it anew, and what is written now."""
 
+    centre_lines: Floats
+    """Ends (n, 2, 2) of straight lines of dashes and dots."""
+
     @property
     def words(self) -> list[str]:
         return [text.words for text in self.texts]
@@ -114,7 +117,7 @@ class WrittenSheet:
     @property
     def faults(self) -> list[str]:
         """Everything that is wrong with it, a line each; none if it is as it should be."""
-        return [*self.audit, *self._clashes(), *self._outside(), *self._misread()]
+        return [*self.audit, *self._clashes(), *self._outside(), *self._misread(), *self._centres()]
 
     def _clashes(self) -> Iterator[str]:
         for one, other in self._neighbours():
@@ -165,6 +168,22 @@ class WrittenSheet:
             if abs(float(number[0].replace(",", ".")) - measured) > half + 1e-6:
                 yield f"{written!r} measures {measured:.4f} mm"
 
+    def _centres(self) -> Iterator[str]:
+        """Centre lines that cross where neither begins: a gap or a dot may be there; and those that lie on each other."""
+        for (start, end), (other, far) in combinations(self.centre_lines, 2):
+            way, across, between = end - start, far - other, other - start
+            lengths = np.hypot(*way), np.hypot(*across)
+            sine = way[0] * across[1] - way[1] * across[0]
+            if abs(sine) > 1e-6 * lengths[0] * lengths[1]:
+                at = (between[0] * across[1] - between[1] * across[0]) / sine
+                other_at = (between[0] * way[1] - between[1] * way[0]) / sine
+                if all(TOUCH < part * length < length - TOUCH for part, length in zip((at, other_at), lengths, strict=True)):
+                    yield "centre lines cross without dashes at {:.0f}, {:.0f}".format(*(start + at * way))
+            elif abs(way[0] * between[1] - way[1] * between[0]) < TOUCH * lengths[0]:
+                low, high = sorted((between @ way / lengths[0], (far - start) @ way / lengths[0]))
+                if min(high, lengths[0]) - max(low, 0.0) > TOUCH:
+                    yield "a centre line is drawn twice at {:.0f}, {:.0f}".format(*start)
+
     def _past(self, left: float, bottom: float, right: float, top: float) -> NDArray[np.bool_]:
         """Which segments leave a rectangle."""
         low, high = self.segments.min(axis=1), self.segments.max(axis=1)
@@ -208,6 +227,7 @@ def read_sheet(path: Path | str) -> WrittenSheet:
         hatched,
         audit,
         dimensions,
+        np.array([[each.dxf.start.vec2, each.dxf.end.vec2] for each in space.query("LINE[layer=='CENTRE']")]).reshape(-1, 2, 2),
     )
 
 

@@ -20,7 +20,7 @@ from gearcad.drawing.ring_views import face_view, section_view
 from gearcad.drawing.ring_views.face import end_face, hole_places
 from gearcad.drawing.ring_views.meridian import Meridian
 from gearcad.drawing.ring_views.section import full_section
-from gearcad.drawing.shapes import Circle, Dimension, Figure, Hatching, Line, Pen, Polyline
+from gearcad.drawing.shapes import Arc, Circle, Dimension, Figure, Hatching, Line, Pen, Polyline
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.tooth_views import detail_mark
 from gearcad.drawing.words import Draughting, Language, Words
@@ -87,8 +87,12 @@ def test_face_of_a_ring_has_its_circles_and_a_hole_up() -> None:
     circles = of_kind(end_face(ring), Circle)
     thick = sorted(each.radius for each in circles if each.pen is Pen.OUTLINE and each.centre == (0.0, 0.0))
     assert thick == pytest.approx([SCALE * abs(RING.tip_diameter) / 2, SCALE * (abs(RING.tip_diameter) / 2 + 1), SCALE * 85])
-    dashed = sorted(each.radius for each in circles if each.pen is Pen.CENTRE)
-    assert dashed == pytest.approx([SCALE * abs(RING.reference_diameter) / 2, SCALE * 77.5])
+    assert [each.radius for each in circles if each.pen is Pen.CENTRE] == pytest.approx(
+        [SCALE * abs(RING.reference_diameter) / 2]
+    )
+    arcs = of_kind(end_face(ring), Arc)  # from hole to hole: dashes begin there
+    assert [each.radius for each in arcs] == pytest.approx(7 * [SCALE * 77.5])
+    assert sorted(each.start % 360 for each in arcs) == pytest.approx(sorted((90 + 360 * k / 7) % 360 for k in range(7)))
     holes = [each for each in circles if each.radius == pytest.approx(SCALE * 3.3)]
     assert len(holes) == 7 and hole_places(ring)[0] == pytest.approx((0.0, 38.75))
 

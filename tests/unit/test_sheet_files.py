@@ -16,7 +16,9 @@ from support.written_sheet import read_sheet
 
 from gearcad.drawing.files import sheet_document, unshown, write_dxf, write_pdf, write_svg
 from gearcad.drawing.files.hatch_lines import hatch_lines
+from gearcad.drawing.files.items import Stroked
 from gearcad.drawing.files.lettering import runs
+from gearcad.drawing.marks import centre_cross
 from gearcad.drawing.shapes import (
     Anchor,
     Circle,
@@ -120,6 +122,12 @@ def test_a_dimension_of_a_detail_measures_at_the_scale_of_the_detail(tmp_path: P
         (Text("upwards", (18, 40), rotation=90.0), "leaves the frame"),
         (Line((10, 40), (40, 40)), "a line of OUTLINE leaves the frame"),
         (Text("round", (314, 180)), "meets a line of OUTLINE"),
+        (
+            Figure.of(Line((30, 40), (80, 40), Pen.CENTRE), Line((60, 20), (60, 60), Pen.CENTRE)),
+            "cross without dashes at 60, 40",
+        ),
+        (Figure.of(Line((30, 40), (80, 40), Pen.CENTRE), Line((90, 40), (60, 40), Pen.CENTRE)), "is drawn twice at 30, 40"),
+        (centre_cross((60, 40), 20), None),
         (replace(_dimension(), second=(140.3, 100)).moved(0, 60), "'80 h11' measures 80.6000 mm"),
     ],
 )
@@ -211,3 +219,10 @@ def test_letters_of_other_scripts_are_told() -> None:
         ("letters-not-shown", " 🦄"),
         ("letters-of-other-fonts", "轮齿"),
     ]
+
+
+def test_short_hidden_edges_are_seen_to_be_dashed() -> None:
+    """The ends of a tooth behind another are of a few millimetres."""
+    width, dashes = Pen.HIDDEN.stroke
+    assert (width, dashes) == (0.25, (3.0, 0.75))  # ISO 128-2: 12 and 3 widths
+    assert Stroked(((0, 0, 0), (5, 0, 0)), False, Pen.HIDDEN).dashes

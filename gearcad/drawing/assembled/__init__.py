@@ -3,7 +3,7 @@
 from gearcad.drawing.assembled.balloons import balloons, dots
 from gearcad.drawing.assembled.cut import Cut, cut_gear, cut_rack
 from gearcad.drawing.assembled.distance import distance_size
-from gearcad.drawing.assembled.front import BEYOND_AXIS, Front, cross
+from gearcad.drawing.assembled.front import BEYOND_AXIS, Front
 from gearcad.drawing.assembled.overall import overall_height, overall_width
 from gearcad.drawing.assembled.section import Across, Sectioned, pitch_lines, section_figure
 
@@ -14,7 +14,6 @@ __all__ = [
     "Front",
     "Sectioned",
     "balloons",
-    "cross",
     "cut_gear",
     "cut_rack",
     "distance_size",

@@ -6,18 +6,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from gearcad.drawing.gear_views.face import opening
+from gearcad.drawing.marks import centre_circle
 from gearcad.drawing.ring_views.face import hole_places
 from gearcad.drawing.ring_views.meridian import Meridian
-from gearcad.drawing.shapes import Circle, Figure, Line, Pen, Point, Shape
+from gearcad.drawing.shapes import Circle, Figure, Pen, Point, Shape
 from gearcad.geometry import Gear
 
-__all__ = ["BEYOND_AXIS", "Front", "cross"]
+__all__ = ["BEYOND_AXIS", "Front"]
 
 BEYOND_AXIS = 6.0
 """How far centre lines reach beyond what they belong to (mm of paper)."""
-
-_LEAST_CROSS = 3.0
-"""Half a cross of centre lines (mm of paper) at the least."""
 
 
 @dataclass(frozen=True)
@@ -49,12 +47,6 @@ class Front:
         return Figure(tuple(shapes))
 
 
-def cross(centre: Point, reach: float) -> Figure:
-    """Two centre lines through a centre, so far to each side (mm of paper)."""
-    (x, y), far = centre, max(reach, _LEAST_CROSS)
-    return Figure.of(Line((x - far, y), (x + far, y), Pen.CENTRE), Line((x, y - far), (x, y + far), Pen.CENTRE))
-
-
 def _disc(gear: Gear, scale: float) -> Iterator[Shape]:
     body = gear.body
     if body.hub_ends[1]:
@@ -66,5 +58,6 @@ def _rim(gear: Gear, scale: float) -> Iterator[Shape]:
     ring = Meridian(gear, scale)
     yield Circle((0.0, 0.0), scale * ring.rim, Pen.THIN if ring.is_open else Pen.OUTLINE)
     if ring.holes is not None:
-        yield Circle((0.0, 0.0), scale * sum(ring.holes) / 2, Pen.CENTRE)
-        yield from (Circle(place, scale * gear.body.bolt_diameter / 2) for place in hole_places(ring))
+        places = hole_places(ring)
+        yield from centre_circle(scale * sum(ring.holes) / 2, places).shapes
+        yield from (Circle(place, scale * gear.body.bolt_diameter / 2) for place in places)

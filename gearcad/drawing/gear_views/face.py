@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 
 from gearcad.drawing.gear_views.section import BEYOND_AXIS, LEAST_APART
-from gearcad.drawing.shapes import Circle, Figure, Line, Pen, Polyline, Shape
+from gearcad.drawing.marks import centre_cross
+from gearcad.drawing.shapes import Circle, Figure, Pen, Polyline, Shape
 from gearcad.geometry import Body, Gear
 from gearcad.solids.cone import EndCone
 from gearcad.solids.keyway import keyway_half_angle
@@ -25,8 +26,7 @@ def end_face(gear: Gear, scale: float, *, front: bool = True) -> Figure:
         *(Circle((0.0, 0.0), scale * radius) for radius in seen),
         Circle((0.0, 0.0), scale * gear.reference_diameter / 2, Pen.CENTRE),
         *opening(body, scale),
-        Line((-reach, 0.0), (reach, 0.0), Pen.CENTRE),
-        Line((0.0, -reach), (0.0, reach), Pen.CENTRE),
+        *centre_cross((0.0, 0.0), reach).shapes,
     ]
     return Figure(tuple(shapes))
 

@@ -3,6 +3,7 @@ come best first."""
 
 from gearcad.drawing.marks.arrows import ARROW, arrow
 from gearcad.drawing.marks.broken import freehand, zigzag
+from gearcad.drawing.marks.centres import centre_circle, centre_cross, centre_line, centre_star
 from gearcad.drawing.marks.frames import FRAME_HEIGHT, Characteristic, datum, tolerance_frame
 from gearcad.drawing.marks.leaders import circle_dimension, frame_leader, leader
 from gearcad.drawing.marks.linear import FIRST_LANE, LANE_PITCH, linear_dimension
@@ -24,6 +25,10 @@ __all__ = [
     "Side",
     "Written",
     "arrow",
+    "centre_circle",
+    "centre_cross",
+    "centre_line",
+    "centre_star",
     "circle_dimension",
     "datum",
     "deviations",

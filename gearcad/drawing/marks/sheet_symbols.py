@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from gearcad.drawing.marks.centres import centre_line
 from gearcad.drawing.options import Projection
-from gearcad.drawing.shapes import Circle, Figure, Line, Pen, Point, Polyline, Shape
+from gearcad.drawing.shapes import Circle, Figure, Pen, Point, Polyline
 
 __all__ = ["projection_symbol"]
 
@@ -20,11 +21,10 @@ def projection_symbol(projection: Projection, at: Point = (0.0, 0.0), *, height:
         cone_left, rings = over + 2 * big + air, over + big
     corners = [(cone_left, -small), (cone_left, small), (cone_left + length, big), (cone_left + length, -big)]
     width = length + air + 2 * big + 2 * over
-    shapes: tuple[Shape, ...] = (
+    return Figure.of(
         Polyline.straight(corners, Pen.SYMBOL, closed=True),
         Circle((rings, 0.0), big, Pen.SYMBOL),
         Circle((rings, 0.0), small, Pen.SYMBOL),
-        Line((0.0, 0.0), (width, 0.0), Pen.CENTRE),
-        Line((rings, -big - over), (rings, big + over), Pen.CENTRE),
-    )
-    return Figure(shapes).moved(*at)
+        centre_line((0.0, 0.0), (rings, 0.0), (width, 0.0)),
+        centre_line((rings, -big - over), (rings, 0.0), (rings, big + over)),
+    ).moved(*at)

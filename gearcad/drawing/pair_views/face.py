@@ -7,9 +7,9 @@ from functools import partial
 
 from gearcad.drawing.assembled import BEYOND_AXIS, Front, distance_size, overall_height, overall_width
 from gearcad.drawing.layout import Candidates, View
-from gearcad.drawing.marks import Side, linear_dimension, zigzag
+from gearcad.drawing.marks import Side, centre_line, linear_dimension, zigzag
 from gearcad.drawing.pair_views.places import PairPlaces, Placed
-from gearcad.drawing.shapes import Box, Figure, Line, Pen, Polyline, Shape
+from gearcad.drawing.shapes import Box, Figure, Line, Polyline, Shape
 from gearcad.drawing.words import Draughting
 from gearcad.geometry import GearPair, Rack, RackPair
 
@@ -57,12 +57,13 @@ def _centre_lines(places: PairPlaces, scale: float) -> Iterator[Shape]:
     whole = _paper(places.front, scale)
     racked = isinstance(places.mate.part, Rack)
     bottom = 0.0 if racked else whole.bottom
-    yield Line((0.0, bottom - BEYOND_AXIS), (0.0, whole.top + BEYOND_AXIS), Pen.CENTRE)
-    for part in places.parts:
-        box, level = _paper(places.front_of(part), scale), scale * part.height
-        if isinstance(part.part, Rack):
-            level += scale * part.pitch
-        yield Line((box.left - BEYOND_AXIS, level), (box.right + BEYOND_AXIS, level), Pen.CENTRE)
+    levels = [scale * (part.height + (part.pitch if isinstance(part.part, Rack) else 0.0)) for part in places.parts]
+    crossings = ((0.0, level) for level in sorted(levels))
+    yield from centre_line((0.0, bottom - BEYOND_AXIS), *crossings, (0.0, whole.top + BEYOND_AXIS)).shapes
+    for part, level in zip(places.parts, levels, strict=True):
+        box = _paper(places.front_of(part), scale)
+        ends = (box.left - BEYOND_AXIS, level), (box.right + BEYOND_AXIS, level)
+        yield from centre_line(ends[0], (0.0, level), ends[1]).shapes
 
 
 def _distance(pair: GearPair | RackPair, places: PairPlaces, draughting: Draughting) -> Iterable[Figure]:

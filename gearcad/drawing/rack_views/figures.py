@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from gearcad.drawing.marks import view_label, zigzag
+from gearcad.drawing.marks import centre_line, view_label, zigzag
 from gearcad.drawing.rack_views.span import Span
 from gearcad.drawing.rack_views.teeth import teeth_between
 from gearcad.drawing.shapes import Figure, Hatching, Line, Pen, Point, Polyline, Shape, Vertex
@@ -36,7 +36,9 @@ def front_figure(span: Span) -> Figure:
     """Teeth at both ends, between them the line of the tips, and a thin one of the roots; the reference line at height 0."""
     rack, scale = span.rack, span.scale
     tip, root, back = scale * rack.tip_height, -scale * rack.root_depth, -scale * rack.height
-    shapes: list[Shape] = [Line((-span.right - _BEYOND_PITCH, 0.0), (span.right + _BEYOND_PITCH, 0.0), Pen.CENTRE)]
+    middles = [(x, 0.0) for x in tooth_middles(span)]
+    pitch = centre_line((-span.right - _BEYOND_PITCH, 0.0), *middles, (span.right + _BEYOND_PITCH, 0.0))
+    shapes: list[Shape] = [*pitch.shapes]
     for low, high in span.toothed:
         outline = teeth_between(rack, low, high, span.first_middle)
         shapes.append(_placed(span, outline, back))
@@ -45,8 +47,8 @@ def front_figure(span: Span) -> Figure:
     for low, high in span.parts:
         shapes.append(Line((span.across(low), back), (span.across(high), back)))
     shapes += _breaks(span, back, tip)
-    for x in tooth_middles(span):
-        shapes.append(Line((x, root - _BEYOND_BREAK), (x, tip + _BEYOND_BREAK), Pen.CENTRE))
+    for x, _ in middles:
+        shapes += centre_line((x, root - _BEYOND_BREAK), (x, 0.0), (x, tip + _BEYOND_BREAK)).shapes
     return Figure(tuple(shapes))
 
 

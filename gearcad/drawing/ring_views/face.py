@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-from gearcad.drawing.marks import freehand
+from gearcad.drawing.marks import centre_circle, centre_star, freehand
 from gearcad.drawing.ring_views.meridian import Meridian
 from gearcad.drawing.ring_views.section import BEYOND_AXIS
-from gearcad.drawing.shapes import Circle, Figure, Line, Pen, Point, Shape
+from gearcad.drawing.shapes import Box, Circle, Figure, Pen, Point, Shape
 
 __all__ = ["end_face", "hole_places"]
 
@@ -21,15 +20,13 @@ _SIDES = 90
 
 def end_face(ring: Meridian) -> Figure:
     """Outlines and centre lines, the axis at the origin."""
-    reach = ring.scale * ring.rim + BEYOND_AXIS
     seen = [ring.tip, *([ring.corner] if ring.cone.present else [])]
     shapes: list[Shape] = [
         *(Circle((0.0, 0.0), ring.scale * radius) for radius in seen),
         Circle((0.0, 0.0), ring.scale * ring.reference, Pen.CENTRE),
         _rim(ring),
-        *_holes(ring),
-        Line((-reach, 0.0), (reach, 0.0), Pen.CENTRE),
-        Line((0.0, -reach), (0.0, reach), Pen.CENTRE),
+        *(Circle(place, ring.scale * ring.gear.body.bolt_diameter / 2) for place in hole_places(ring)),
+        *_centre_lines(ring).shapes,
     ]
     return Figure(tuple(shapes))
 
@@ -50,14 +47,9 @@ def _rim(ring: Meridian) -> Shape:
     return freehand([(radius * math.cos(turn), radius * math.sin(turn)) for turn in turns], closed=True)
 
 
-def _holes(ring: Meridian) -> Iterator[Shape]:
-    """Holes with their circle, and a short line across each."""
-    if not ring.gear.body.bolt_holes:
-        return
-    yield Circle((0.0, 0.0), ring.scale * ring.gear.body.bolt_circle / 2, Pen.CENTRE)
-    radius = ring.scale * ring.gear.body.bolt_diameter / 2
-    for x, y in hole_places(ring):
-        yield Circle((x, y), radius)
-        far = math.hypot(x, y)
-        near, beyond = (far - radius - _BEYOND_HOLE) / far, (far + radius + _BEYOND_HOLE) / far
-        yield Line((x * near, y * near), (x * beyond, y * beyond), Pen.CENTRE)
+def _centre_lines(ring: Meridian) -> Figure:
+    """Of the ring and its bolt holes, with their circle."""
+    reach, body = ring.scale * ring.rim + BEYOND_AXIS, ring.gear.body
+    places = hole_places(ring)
+    star = centre_star(Box(-reach, -reach, reach, reach), places, ring.scale * body.bolt_diameter / 2 + _BEYOND_HOLE)
+    return star + centre_circle(ring.scale * body.bolt_circle / 2, places) if places else star

@@ -16,7 +16,7 @@ class Stroke(NamedTuple):
 
 
 _LONG_DASH_DOT = (12.0, 3.0, 0.5, 3.0)
-_DASHED = (6.0, 1.5)
+_DASHED = (3.0, 0.75)
 
 
 class Pen(Enum):

@@ -49,7 +49,7 @@ def _of_rack(rack: Rack, view: Figure, scale: float) -> Iterator[tuple[Point, fl
     """A tooth with an upright centre line, of which there are some; the letter above it, or in the body below."""
     top, root = scale * rack.tip_height, -scale * rack.root_depth
     centres = [each for each in view.shapes if isinstance(each, Line) and each.pen is Pen.CENTRE]
-    middles = [each.start[0] for each in centres if each.start[0] == each.end[0]]
+    middles = list(dict.fromkeys(each.start[0] for each in centres if each.start[0] == each.end[0]))
     for way in _BESIDE:
         for along in reversed(middles or [0.0]):
             yield (along, (top + root) / 2), _ring(top, root), (math.cos(math.radians(way)), math.sin(math.radians(way)))

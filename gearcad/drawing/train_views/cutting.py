@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gearcad.drawing.marks import arrow
+from gearcad.drawing.marks import arrow, centre_line
 from gearcad.drawing.shapes import Anchor, Figure, Line, Pen, Point, Shape, Text
 
 __all__ = ["LETTER", "cutting_line"]
@@ -14,10 +14,11 @@ LETTER = "A"
 _STROKE, _CORNER, _STEM = 8.0, 4.0, 9.0
 
 
-def cutting_line(turn: float, reach: float, looking: int) -> Figure:
+def cutting_line(turn: float, distance: float, reach: float, looking: int) -> Figure:
     """Thick ends at `reach` from the axis: above it, and in the direction `turn` (radians); a thick corner at the axis.
 
-    `looking` is -1 to the left, 1 to the right: where one looks at the upper half, the other one being turned into its plane.
+    At a `distance` along that direction is the axis of a planet, whose centre line this is too. `looking` is -1 to the left,
+    1 to the right: where one looks at the upper half, the other one being turned into its plane.
     """
     shapes: list[Shape] = []
     for angle, side in ((math.pi / 2, 1.0), (turn, -1.0)):
@@ -26,7 +27,7 @@ def cutting_line(turn: float, reach: float, looking: int) -> Figure:
         shapes += _end(way, across, reach)
         shapes.append(Line((0.0, 0.0), _along(way, _CORNER), Pen.OUTLINE))
         if side < 0:
-            shapes.append(Line(_along(way, _CORNER), _along(way, reach), Pen.CENTRE))
+            shapes += centre_line(_along(way, _CORNER), _along(way, distance), _along(way, reach)).shapes
     return Figure(tuple(shapes))
 
 

@@ -9,10 +9,10 @@ import math
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from gearcad.drawing.assembled import BEYOND_AXIS, Front, cross, overall_height, overall_width
+from gearcad.drawing.assembled import BEYOND_AXIS, Front, overall_height, overall_width
 from gearcad.drawing.layout import Candidates, View
-from gearcad.drawing.marks import Side, linear_dimension
-from gearcad.drawing.shapes import Box, Circle, Figure, Line, Pen, Point
+from gearcad.drawing.marks import Side, centre_circle, centre_line, centre_star, linear_dimension
+from gearcad.drawing.shapes import Box, Figure, Pen, Point
 from gearcad.drawing.train_views.cutting import cutting_line
 from gearcad.drawing.train_views.pitch import pitch_radii
 from gearcad.drawing.train_views.plan import TrainPlan
@@ -21,8 +21,8 @@ from gearcad.solids.train_layout import Standing
 
 __all__ = ["planet_centres", "train_face"]
 
-_ON_AXIS = 1e-9
-"""mm from the axis of the train that are none."""
+_ON_AXIS = 1e-6
+"""mm from an axis of the train that are none."""
 
 
 def train_face(plan: TrainPlan, draughting: Draughting, looking: int = -1) -> View:
@@ -36,7 +36,7 @@ def train_face(plan: TrainPlan, draughting: Draughting, looking: int = -1) -> Vi
     figure = Figure.of(*(front.figure(scale) for front in fronts)) + _centre_lines(plan, fronts, box, scale)
     if plan.below is not None and plan.bent:
         reach = scale * max(math.hypot(*front.centre) + front.reach for front in fronts) + BEYOND_AXIS
-        figure += cutting_line(math.radians(90 + plan.turns[plan.below]), reach, looking)
+        figure += cutting_line(math.radians(90 + plan.turns[plan.below]), scale * plan.distance, reach, looking)
     round_about = any(front.gear.internal and 2 * front.reach >= whole.height for front in fronts)
     marks: list[Candidates] = [
         partial(_distance, plan, box, draughting),
@@ -88,26 +88,31 @@ def _tip(one: Standing, others: Sequence[Standing]) -> Pen:
 
 
 def _centre_lines(plan: TrainPlan, fronts: Sequence[Front], box: Box, scale: float) -> Figure:
-    """Of all axes; that of the train with the circle on which the axes of several planets are."""
-    out = box.grown(BEYOND_AXIS)
-    figure = Figure.of(Line((out.left, 0.0), (out.right, 0.0), Pen.CENTRE), Line((0.0, out.bottom), (0.0, out.top), Pen.CENTRE))
-    if plan.train.planets > 1:
-        figure += Figure.of(Circle((0.0, 0.0), scale * plan.distance, Pen.CENTRE))
+    """Of all axes, but of the planet through which a bent section goes; with the circle on which those of planets are."""
+    centres = [(scale * x, scale * y) for x, y in planet_centres(plan)]
     half = scale * max(rim.body.gear.tip_diameter for rim in plan.layout.planets[0]) / 2
-    for number, (x, y) in enumerate(planet_centres(plan)):
-        if number:
-            figure += _radial((scale * x, scale * y), half)
-        else:
-            figure += Figure.of(Line((-half, scale * y), (half, scale * y), Pen.CENTRE))
-    for front in fronts:
-        if front.bare and math.hypot(*front.centre) > _ON_AXIS:
-            figure += cross((scale * front.centre[0], scale * front.centre[1]), scale * front.reach + BEYOND_AXIS)
+    (x, y), *others = centres
+    crossed = [each for number, each in enumerate(centres) if not plan.bent or number != plan.below]
+    stages = [front for front in fronts if front.bare and math.hypot(*front.centre) > _ON_AXIS]
+    crossed += [_paper(front, scale) for front in stages if min(map(abs, front.centre)) <= _ON_AXIS]
+    figure = centre_star(box.grown(BEYOND_AXIS), crossed, half) + centre_line((x - half, y), (x, y), (x + half, y))
+    if others:
+        figure += centre_circle(scale * plan.distance, centres)
+    for front in stages:
+        figure += _stage_lines(_paper(front, scale), scale * front.reach + BEYOND_AXIS)
     return figure
 
 
-def _radial(centre: Point, half: float) -> Figure:
-    """The centre line of a planet, on the radius of the train; the circle of the axes crosses it."""
-    distance = math.hypot(*centre)
-    way = centre[0] / distance, centre[1] / distance
-    inner, outer = distance - half, distance + half
-    return Figure.of(Line((inner * way[0], inner * way[1]), (outer * way[0], outer * way[1]), Pen.CENTRE))
+def _paper(front: Front, scale: float) -> Point:
+    """Its centre."""
+    return scale * front.centre[0], scale * front.centre[1]
+
+
+def _stage_lines(centre: Point, reach: float) -> Figure:
+    """A cross, without what would lie on a centre line of the train."""
+    (x, y), figure = centre, Figure()
+    if abs(y) > _ON_AXIS:
+        figure += centre_line((x - reach, y), centre, (x + reach, y))
+    if abs(x) > _ON_AXIS:
+        figure += centre_line((x, y - reach), centre, (x, y + reach))
+    return figure
