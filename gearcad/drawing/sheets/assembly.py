@@ -22,7 +22,10 @@ _LEGIBLE = 80.0
 
 @dataclass(frozen=True, kw_only=True)
 class AssemblySheet:
-    """A sheet to be laid out: what frames its views, and these at any scale; `extent` (mm) is the largest size over all."""
+    """A sheet to be laid out: what frames its views, and these at any scale; `extent` (mm) is the largest size over all.
+
+    `mass` (kg) is that of all parts, None where it is not known.
+    """
 
     furniture: Furniture
     rows: Sequence[Row]
@@ -30,6 +33,7 @@ class AssemblySheet:
     title: str
     document_type: str
     extent: float
+    mass: float | None = None
 
     def drawn(self, name: str, notices: Sequence[Notice] = ()) -> Sheet:
         """It, on the paper and at the scale asked for or found; where nothing is asked for, on larger paper if it is small.
@@ -38,6 +42,8 @@ class AssemblySheet:
         """
         options, found = self.furniture.options, self._found
         shown = {key: value for row in self.rows for key, value in row.numbers.items()}
+        if self.mass is not None:
+            shown["mass"] = self.mass
         return Sheet(
             name=name,
             title=options.title or self.title,
@@ -75,5 +81,13 @@ class AssemblySheet:
 
     def _furnished(self, size: SheetSize, scale: str) -> Furnished:
         options, words = self.furniture.options, self.furniture.words
-        values = title_values(options, words, title=self.title, document_type=self.document_type, size=size, scale=scale)
+        values = title_values(
+            options,
+            words,
+            title=self.title,
+            document_type=self.document_type,
+            size=size,
+            scale=scale,
+            mass=self.mass,
+        )
         return self.furniture.on(size, values)

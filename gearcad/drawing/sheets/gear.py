@@ -10,6 +10,7 @@ from gearcad.drawing.frame import Furnished, Furniture, SheetTemplate, title_val
 from gearcad.drawing.gear_data import Row, gear_notices, gear_rows
 from gearcad.drawing.layout import Fixed, View, Views, arranged
 from gearcad.drawing.marks import general_roughness
+from gearcad.drawing.mass import mass_of
 from gearcad.drawing.options import DrawingOptions, PartDrawing, SheetSize
 from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.shapes import Box, Figure
@@ -83,10 +84,11 @@ class _Content:
 
     @property
     def shown(self) -> Mapping[str, float]:
-        """The numbers of the table by their keys, and the sizes of the views by their names among the requirements."""
+        """Numbers of the table by their keys, sizes of the views by their names among the requirements, and the mass (kg)."""
         numbers = {key: value for row in self.rows for key, value in row.numbers.items()}
         sizes = {each.name: getattr(self.requirements, each.name) for each in fields(self.requirements)}
-        return numbers | {f"sizes.{name}": size.value for name, size in sizes.items() if isinstance(size, Size)}
+        numbers |= {f"sizes.{name}": size.value for name, size in sizes.items() if isinstance(size, Size)}
+        return numbers if self._mass is None else numbers | {"mass": self._mass}
 
     @property
     def _sizes(self) -> str:
@@ -99,6 +101,10 @@ class _Content:
         """The views at a scale, and the details, which have scales of their own."""
         draughting = Draughting(self.words, scale)
         return Views(part_rows(self.drawn, self.requirements, draughting), self._blocks)
+
+    @cached_property
+    def _mass(self) -> float | None:
+        return mass_of(self.drawn)
 
     @cached_property
     def _blocks(self) -> tuple[View, ...]:
@@ -130,6 +136,7 @@ class _Content:
             size=sheet,
             scale=scale,
             material=self.requirements.material(self.words),
+            mass=self._mass,
         )
         return furniture.on(sheet, values)
 

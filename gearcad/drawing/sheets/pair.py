@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from gearcad.drawing.frame import Furniture, SheetTemplate
+from gearcad.drawing.mass import mass_of_pair
 from gearcad.drawing.options import DrawingOptions, PartDrawing
 from gearcad.drawing.pair_views import PairPlaces, pair_face, pair_section
 from gearcad.drawing.sheets.assembly import AssemblySheet
@@ -53,6 +54,7 @@ def draw_pair(drawn: DrawnPair, options: DrawingOptions, parts: Mapping[str, Par
         title=drawn.name,
         document_type=words["frame.document_assembly"],
         extent=max(places.front.width, places.front.height, places.extent.width),
+        mass=mass_of_pair(drawn),
     )
     return sheet.drawn(NAME, tuple(_notices(pair)))
 
