@@ -17,7 +17,7 @@ from support.written_sheet import read_sheet
 from gearcad.drawing.files import sheet_document, unshown, write_dxf, write_pdf, write_svg
 from gearcad.drawing.files.hatch_lines import hatch_lines
 from gearcad.drawing.files.items import Stroked
-from gearcad.drawing.files.lettering import runs
+from gearcad.drawing.files.lettering import set_letters
 from gearcad.drawing.marks import centre_cross
 from gearcad.drawing.shapes import (
     Anchor,
@@ -212,13 +212,19 @@ def test_hatch_fills_what_is_between_edges() -> None:
 
 def test_letters_of_other_scripts_are_told() -> None:
     """Hebrew stands from right to left, its number not; Arabic letters are joined; what no font has is a box."""
-    assert "".join(run.letters for run in runs("Rad שלום 12 גל!")) == "Rad לג 12 םולש!"
-    assert runs("سن")[0].letters == "\ufee6\ufeb3"
-    notices = unshown(Figure.of(Text("Zahnrad 齿轮 🦄", (0, 0))))
-    assert [(each.code, each.text[-2:]) for each in notices] == [
-        ("letters-not-shown", " 🦄"),
-        ("letters-of-other-fonts", "轮齿"),
-    ]
+    assert set_letters("Rad שלום 12 גל!") == "Rad לג 12 םולש!"
+    assert set_letters("سن") == "\ufee6\ufeb3"
+    assert set_letters("齿轮 ギア") == "□□ □□"
+    (notice,) = unshown(Figure.of(Text("Zahnrad 齿轮 🦄", (0, 0))))
+    assert notice.code == "letters-not-shown" and notice.text.endswith(": 轮齿🦄")
+
+
+def test_all_fonts_of_a_pdf_are_in_it(tmp_path: Path) -> None:
+    _written(_figure(Text("齿轮 ギア 기어", (200, 50))), tmp_path)
+    written = (tmp_path / "sheet.pdf").read_bytes()
+    fonts = re.findall(rb"/BaseFont /(\S+)", written)
+    assert fonts and all(re.fullmatch(rb"[A-Z]{6}\+DejaVuSans\S*", each) for each in fonts)  # a subset
+    assert written.count(b"/FontFile2") == len(re.findall(rb"/FontDescriptor ", written)) > 0
 
 
 def test_short_hidden_edges_are_seen_to_be_dashed() -> None:

@@ -1,81 +1,36 @@
-"""Which font of a PDF has a letter, and in which order letters stand there: a PDF does not turn or join them itself."""
+"""Letters of a PDF as they stand there: a PDF does not turn or join them itself, nor take those that its font lacks."""
 
 from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable
-from enum import Enum
 from functools import cache
-from itertools import groupby, pairwise
-from typing import NamedTuple
+from itertools import pairwise
 
 from gearcad.drawing.shapes.font import has_glyph
 
-__all__ = ["Face", "Run", "runs", "unshowable"]
-
-
-class Face(Enum):
-    """Fonts. Those of East Asia are not in the file: who reads it has them, or some like them."""
-
-    SHEET = "DejaVuSans"
-    CHINESE = "STSong-Light"
-    JAPANESE = "HeiseiMin-W3"
-    KOREAN = "HYSMyeongJo-Medium"
-
-
-class Run(NamedTuple):
-    """Letters of one font, in the order in which they stand from left to right."""
-
-    face: Face
-    letters: str
-
+__all__ = ["set_letters", "unshowable"]
 
 _MISSING = "□"
-
-_HANGUL = ((0x1100, 0x11FF), (0x3130, 0x318F), (0xAC00, 0xD7A3))
-_KANA = ((0x3040, 0x30FF), (0x31F0, 0x31FF), (0xFF66, 0xFF9F))
-_HAN = ((0x3000, 0x303F), (0x4E00, 0x9FFF), (0xFF00, 0xFF65))
 
 _RIGHT_TO_LEFT = ("R", "AL")
 _DIGITS = ("EN", "AN")
 
 
-def runs(words: str) -> list[Run]:
-    """A text as its letters stand, from left to right. What no font has is a small box.
+def set_letters(words: str) -> str:
+    """A text as its letters stand, from left to right. What the font of the sheets lacks is a small box.
 
-    >>> runs("Rad 齿轮 1")
-    [Run(face=<Face.SHEET: 'DejaVuSans'>, letters='Rad '), Run(face=<Face.CHINESE: 'STSong-Light'>, letters='齿轮'), \
-Run(face=<Face.SHEET: 'DejaVuSans'>, letters=' 1')]
+    Fonts of other scripts are not named in the PDF instead: without them, readers and printers leave the letters out.
+
+    >>> set_letters("Rad 齿轮 1")
+    'Rad □□ 1'
     """
-    han = Face.JAPANESE if any(_within(letter, _KANA) for letter in words) else Face.CHINESE
-    faces = [(_face(letter, han), letter) for letter in _as_seen(words)]
-    found = [(face or Face.SHEET, letter if face else _MISSING) for face, letter in faces]
-    return [Run(face, "".join(letter for _, letter in row)) for face, row in groupby(found, key=lambda pair: pair[0])]
+    return "".join(letter if has_glyph(letter) else _MISSING for letter in _as_seen(words))
 
 
-def unshowable(words: Iterable[str]) -> dict[Face | None, str]:
-    """The letters of texts that the font of the sheets lacks, by the face that has them; None for those that no face has."""
-    letters = sorted({letter for text in words for letter in text if not has_glyph(letter)})
-    han = Face.JAPANESE if any(_within(letter, _KANA) for letter in letters) else Face.CHINESE
-    found: dict[Face | None, str] = {}
-    for letter in letters:
-        face = _face(letter, han)
-        found[face] = found.get(face, "") + letter
-    return found
-
-
-def _face(letter: str, han: Face) -> Face | None:
-    """The font that has a letter."""
-    if has_glyph(letter):
-        return Face.SHEET
-    for face, ranges in ((Face.KOREAN, _HANGUL), (Face.JAPANESE, _KANA), (han, _HAN)):
-        if _within(letter, ranges):
-            return face
-    return None
-
-
-def _within(letter: str, ranges: tuple[tuple[int, int], ...]) -> bool:
-    return any(low <= ord(letter) <= high for low, high in ranges)
+def unshowable(words: Iterable[str]) -> str:
+    """The letters of texts that the font of the sheets lacks, each once."""
+    return "".join(sorted({letter for text in words for letter in text if not has_glyph(letter)}))
 
 
 def _as_seen(words: str) -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from gearcad.drawing.files.document import LANGUAGE, TITLE
 from gearcad.drawing.files.items import Area, Stroked, items, paper_size
-from gearcad.drawing.files.lettering import Face, Run, runs
+from gearcad.drawing.files.lettering import set_letters
 from gearcad.drawing.shapes import Pen, Text, Vertex
 from gearcad.drawing.shapes.font import CAPITAL_HEIGHT, font_file
 from gearcad.version import __version__
@@ -26,6 +26,8 @@ __all__ = ["write_pdf"]
 _POINT = 25.4 / 72
 """In mm."""
 
+_FONT = "DejaVuSans"
+
 _ROUND, _BUTT = 1, 0
 
 _MOST_OF_A_BEZIER = math.radians(45.0)
@@ -38,9 +40,7 @@ def write_pdf(documents: Iterable[Drawing], path: Path) -> None:
 
     sheets = list(documents)
     properties = sheets[0].header.custom_vars
-    canvas = Canvas(
-        str(path), invariant=True, pageCompression=1, lang=properties.get(LANGUAGE), initialFontName=_font(Face.SHEET)
-    )
+    canvas = Canvas(str(path), invariant=True, pageCompression=1, lang=properties.get(LANGUAGE), initialFontName=_font())
     canvas.setTitle(properties.get(TITLE))
     canvas.setCreator(f"gearcad {__version__}")
     canvas.setAuthor("")
@@ -105,22 +105,21 @@ class _Page:
     def _(self, text: Text) -> None:
         if not text.words.strip():
             return
-        size, parts = text.height / CAPITAL_HEIGHT, runs(text.words)
+        size, words = text.height / CAPITAL_HEIGHT, set_letters(text.words)
         cosine, sine = math.cos(math.radians(text.rotation)), math.sin(math.radians(text.rotation))
         letters = self._canvas.beginText()
         letters.setTextTransform(cosine, sine, -sine, cosine, *text.start)
         # Joined letters are not as wide as those that the length was found for.
-        letters.setHorizScale(100 * text.width / sum(_width(run, size) for run in parts))
-        for face, words in parts:
-            letters.setFont(_font(face), size)
-            letters.textOut(words)
+        letters.setHorizScale(100 * text.width / _width(words, size))
+        letters.setFont(_font(), size)
+        letters.textOut(words)
         self._canvas.drawText(letters)
 
 
-def _width(run: Run, size: float) -> float:
+def _width(words: str, size: float) -> float:
     from reportlab.pdfbase.pdfmetrics import stringWidth
 
-    return float(stringWidth(run.letters, _font(run.face), size))
+    return float(stringWidth(words, _font(), size))
 
 
 def _draw_to(path: PDFPathObject, start: Vertex, end: Vertex) -> None:
@@ -144,11 +143,10 @@ def _draw_to(path: PDFPathObject, start: Vertex, end: Vertex) -> None:
 
 
 @cache
-def _font(face: Face) -> str:
-    """The name of a font, once the library knows it."""
-    from reportlab.pdfbase.cidfonts import UnicodeCIDFont
+def _font() -> str:
+    """The name of the font of the sheets, once the library knows it."""
     from reportlab.pdfbase.pdfmetrics import registerFont
     from reportlab.pdfbase.ttfonts import TTFont
 
-    registerFont(TTFont(face.value, str(font_file())) if face is Face.SHEET else UnicodeCIDFont(face.value))
-    return face.value
+    registerFont(TTFont(_FONT, str(font_file())))
+    return _FONT

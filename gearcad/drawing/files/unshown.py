@@ -1,4 +1,4 @@
-"""What to know of the letters of a sheet: those that its PDF cannot show, or leaves to the fonts of who reads it."""
+"""What to know of the letters of a sheet: those that its PDF cannot show."""
 
 from __future__ import annotations
 
@@ -11,14 +11,9 @@ __all__ = ["unshown"]
 
 
 def unshown(figure: Figure) -> tuple[Notice, ...]:
-    """A notice for letters of no font, one for those whose font is not in the PDF."""
+    """A notice for letters that the font of the sheets lacks."""
     found = unshowable(one_line(text.words) for text in figure.texts)
-    none = found.pop(None, "")
-    notices = []
-    if none:
-        text = f"the PDF has a small box in place of letters that no font of ours has: {none}"
-        notices.append(Notice("letters-not-shown", text))
-    if found:
-        text = f"the fonts of some letters are not in the PDF, the reader must have them: {''.join(found.values())}"
-        notices.append(Notice("letters-of-other-fonts", text))
-    return tuple(notices)
+    if not found:
+        return ()
+    text = f"the PDF has a small box in place of letters that its font lacks, DXF and SVG leave them to others: {found}"
+    return (Notice("letters-not-shown", text),)
