@@ -167,6 +167,24 @@ def test_teeth_run_from_above_as_their_drift(name: str) -> None:
         assert (end - x) / (y - low) == pytest.approx(-math.tan(math.radians(rack.helix_angle)))
 
 
+@pytest.mark.parametrize("name", ["long", "cut"])
+def test_teeth_run_from_above_as_on_the_solid(name: str) -> None:
+    """By how much the tips at the two ends of the solid are apart, whole pitches aside."""
+    rack = RACKS[name]
+    vertices = tessellate_rack(rack, 0.01).vertices
+    tips = vertices[vertices[:, 1] > rack.tip_height - 1e-6]
+    turns = [
+        np.exp(2j * math.pi * tips[np.abs(tips[:, 2] - z) < 1e-9, 0] / rack.transverse_pitch).sum()
+        for z in (0.0, rack.face_width)
+    ]
+    line = next(each for each in of_kind(plan_figure(Span(rack, SCALE)), Line) if each.pen is Pen.THIN)
+    (x, y), (end, low) = line.start, line.end
+    drawn = (end - x) / (y - low) * rack.face_width / rack.transverse_pitch
+    solid = float(np.angle(turns[1] / turns[0])) / (2 * math.pi)
+    assert (drawn - solid + 0.5) % 1.0 - 0.5 == pytest.approx(0.0, abs=0.05)
+    assert abs((-drawn - solid + 0.5) % 1.0 - 0.5) > 0.1  # the other hand would be seen
+
+
 def test_a_long_rack_is_broken_and_says_its_length() -> None:
     rack = RACKS["long"]
     span = Span(rack, 1.0)

@@ -21,6 +21,7 @@ from gearcad.drawing.files.lettering import set_letters
 from gearcad.drawing.marks import centre_cross
 from gearcad.drawing.shapes import (
     Anchor,
+    Arc,
     Circle,
     Dimension,
     Figure,
@@ -197,6 +198,32 @@ def test_svg_is_xml_of_the_paper(tmp_path: Path) -> None:
     assert {HOSTILE, "a b \N{REPLACEMENT CHARACTER}"} <= texts.keys()
     length = float(texts[HOSTILE].get("textLength", ""))
     assert 0.82 * length == pytest.approx(Text(HOSTILE, (0, 0)).width, abs=2e-3)
+
+
+def test_svg_has_all_where_the_dxf_has_it(tmp_path: Path) -> None:
+    """Its y is downwards: circles, the way round of arcs, and where texts begin and which way they run."""
+    more = Arc((60, 200), 20.0, 30.0, 300.0), Text("Ø 12", (200, 60), 3.5, Anchor.CENTRE, 90.0)
+    dxf = ezdxf.readfile(_written(_figure(*more), tmp_path)).modelspace()
+    root = ElementTree.fromstring((tmp_path / "sheet.svg").read_text(encoding="utf-8"))
+    steps = r"M(\S+) (\S+)A(\S+) \S+ 0 (\d) (\d) (\S+) (\S+)A\S+ \S+ 0 \d \d (\S+) (\S+?)Z?"
+    found = [re.fullmatch(steps, path.get("d", "")) for path in root.iter("{http://www.w3.org/2000/svg}path")]
+    circle, arc = sorted(([float(each) for each in one.groups()] for one in found if one), key=lambda each: -each[2])
+    (round_one,), (open_one,) = dxf.query("CIRCLE"), dxf.query("ARC")
+    (x, y), radius = round_one.dxf.center.vec2, round_one.dxf.radius
+    assert circle[:3] == pytest.approx([x + radius, SIZE[1] - y, radius]) and circle[5:7] == pytest.approx(
+        [x - radius, SIZE[1] - y]
+    )
+    start, end = ([each.x, SIZE[1] - each.y] for each in (open_one.start_point, open_one.end_point))
+    angle = np.radians((open_one.dxf.start_angle + open_one.dxf.end_angle) / 2)
+    middle = [60 + 20 * np.cos(angle), SIZE[1] - 200 - 20 * np.sin(angle)]
+    assert arc[:2] + arc[5:9] == pytest.approx([*start, *middle, *end], abs=1e-3)
+    assert arc[3:5] == [0, 0]  # less than a half turn each, and counter-clockwise as one sees it
+    (text,) = (each for each in root.iter("{http://www.w3.org/2000/svg}text") if each.text == "Ø 12")
+    a, b, c, d, e, f = map(float, text.get("transform", "")[7:-1].split())
+    (seen,) = (each for each in read_sheet(tmp_path / "sheet.dxf").texts if each.words == "Ø 12")
+    low, high = seen.corners.min(axis=0), seen.corners.max(axis=0)
+    assert (a, d) == (0, 0) and b < 0 < c
+    assert (e, SIZE[1] - f) == pytest.approx((high[0], low[1]), abs=0.4)  # on its line, but for what a letter has beside it
 
 
 def test_hatch_fills_what_is_between_edges() -> None:
