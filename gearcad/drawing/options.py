@@ -109,6 +109,9 @@ _RIM = Words("tolerance class of a ring's outer diameter, a shaft", "", "ISO 286
 _ROUGH = Words("roughness of what has none of its own", "Ra", "ISO 21920-1")
 _BORE_ROUGH = Words("roughness of bore and faces; else by the accuracy grade", "Ra", "ISO 21920-1")
 _TIP_RUNOUT = Words("run-out of the tip cylinder; else by the accuracy grade", "", "ISO 1101")
+_SYMMETRY = Words("symmetry of the keyway; else by its tolerance class", "", "ISO 1101")
+_POSITION = Words("position of bolt holes; else by their diameter", "", "ISO 1101")
+_PARALLELISM = Words("parallelism of a rack's tips to its back; else by the accuracy grade", "", "ISO 1101")
 _FACE_RUNOUT = Words("axial run-out of the faces; else by the accuracy grade", "", "ISO 1101")
 
 
@@ -139,6 +142,9 @@ class PartDrawing:
     bore_roughness: Annotated[float | None, _RA, _BORE_ROUGH] = None
     tip_runout: Annotated[float | None, _RUNOUT, _TIP_RUNOUT] = None
     face_runout: Annotated[float | None, _RUNOUT, _FACE_RUNOUT] = None
+    keyway_symmetry: Annotated[float | None, _RUNOUT, _SYMMETRY] = None
+    bolt_position: Annotated[float | None, _RUNOUT, _POSITION] = None
+    back_parallelism: Annotated[float | None, _RUNOUT, _PARALLELISM] = None
 
     __repr__ = concise
 
@@ -187,6 +193,9 @@ class DrawingOptions:
     bore_roughness: Annotated[float | None, _RA, _BORE_ROUGH] = None
     tip_runout: Annotated[float | None, _RUNOUT, _TIP_RUNOUT] = None
     face_runout: Annotated[float | None, _RUNOUT, _FACE_RUNOUT] = None
+    keyway_symmetry: Annotated[float | None, _RUNOUT, _SYMMETRY] = None
+    bolt_position: Annotated[float | None, _RUNOUT, _POSITION] = None
+    back_parallelism: Annotated[float | None, _RUNOUT, _PARALLELISM] = None
 
     __repr__ = concise
 

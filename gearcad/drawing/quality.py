@@ -5,16 +5,26 @@ Roughness and deviations in µm, sizes in mm.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from gearcad.drawing.subject import DrawnGear
 from gearcad.errors import ParameterError
-from gearcad.geometry import Gear
-from gearcad.geometry.iso286 import grade_of_class, standard_tolerance
+from gearcad.geometry import Gear, Rack
+from gearcad.geometry.iso286 import LARGEST_SIZE, grade_of_class, standard_tolerance
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.tolerances import gear_tolerances
 
-__all__ = ["Roughness", "blank_runout", "cylindricity", "flank_roughness", "grade_of", "seat_roughness"]
+__all__ = [
+    "Roughness",
+    "back_parallelism",
+    "blank_runout",
+    "cylindricity",
+    "flank_roughness",
+    "grade_of",
+    "hole_position",
+    "seat_roughness",
+]
 
 
 class Roughness(NamedTuple):
@@ -36,6 +46,9 @@ _COARSEST = 6.3
 
 _GROUND = 5
 """Last accuracy grade that is not reached without grinding."""
+
+_POSITION, _STEP, _ROUNDING = 0.035, 0.05, 1e-9
+"""Position tolerance of bolt holes over their diameter, its step (mm), and what is nothing of that."""
 
 _GROUND_FIT = 6
 """Last grade of ISO 286 to which bores and rims are ground."""
@@ -73,6 +86,17 @@ def blank_runout(drawn: DrawnGear) -> float | None:
     except ParameterError:
         return None
     return max(float(teeth // 2), 1.0)
+
+
+def back_parallelism(drawn: DrawnGear, rack: Rack) -> float:
+    """Of tips to the back of a rack: the standard tolerance IT of its grade, 5 to 11, for its length."""
+    grade = min(max(grade_of(drawn), 5), 11)
+    return standard_tolerance(grade, round(min(rack.length, LARGEST_SIZE), 3))
+
+
+def hole_position(diameter: float) -> float:
+    """Of bolt holes: 3.5 % of their diameter in whole 0.05 mm, no more than half the clearance of medium holes (ISO 273)."""
+    return max(math.floor(_POSITION * diameter / _STEP + _ROUNDING) * _STEP, _STEP / 2) * 1000
 
 
 def cylindricity(diameter: float, fit: str) -> float | None:

@@ -289,7 +289,9 @@ def test_a_centre_distance_has_its_limits_and_backlash_its_extremes() -> None:
 
 
 def test_without_limits_the_sheet_says_so() -> None:
-    assert [notice.code for notice in sheet_of("fzg-c").notices] == ["no-limits"]
+    for name in ("fzg-c", "rack", "planetary-alm"):
+        assert "no-limits" in [notice.code for notice in sheet_of(name).notices]
+    assert "— (not for racks)" in [text.words for text in sheet_of("rack").figure.texts]
 
 
 def test_parts_are_called_as_their_own_sheets_are() -> None:

@@ -196,6 +196,8 @@ def test_what_is_assumed_is_said():
     assert (rows["accuracy"].words, rows["accuracy"].text) == ("Accuracy grade, ISO 1328-1:1995", "6 (assumed)")
     assert rows["flank_roughness"].text == "Ra 0.8 µm"
     assert {notice.code for notice in gear_notices(DRAWN[0], DrawingOptions(material="16MnCr5"))} == set()
+    assert "accuracy" not in {row.key for row in gear_rows(DRAWN[5], WORDS[Language.ENGLISH])}
+    assert "rack-tolerances" in {notice.code for notice in gear_notices(DRAWN[5])}
 
 
 def test_racks_have_the_names_of_iso_53_only_where_they_are_those():

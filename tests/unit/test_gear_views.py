@@ -187,7 +187,7 @@ def test_sizes_measure_what_they_say() -> None:
     assert [length for length, _ in _said(face, SCALE)] == pytest.approx([6, 22.8])
     texts = [each.words for figure in (section, face) for each in figure.texts]
     assert texts.count("2×") == 2  # run-out and roughness of both faces
-    assert {"2× 1.5×30°", "Ra 1.6", "Ra 0.8", "A", "2×", "⌀20", "H7"} <= set(texts)
+    assert {"2× 1.5×30°", "Ra 1.6", "Ra 0.8", "A", "2×", "⌀20", "H7", "0.015"} <= set(texts)
 
 
 def test_groove_and_hubs_of_double_helical_gears_are_dimensioned() -> None:

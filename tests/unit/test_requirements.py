@@ -6,6 +6,7 @@ import pytest
 
 from gearcad import Body, DoubleHelix, Gear, Material, Rack
 from gearcad.drawing.options import DrawingOptions
+from gearcad.drawing.quality import hole_position
 from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.words import Language, Size, Words
@@ -108,6 +109,28 @@ def test_run_out_is_half_of_that_of_the_teeth():
     assert _of(small).tip_runout is None and [each.code for each in _of(small).notices] == ["no-runout"]
 
 
+def test_symmetry_position_and_parallelism_are_proposed_unless_they_are_given():
+    """Half of 43 µm of 12 JS9; 3.5 % of 6.6 mm in steps; IT7 of 400 to 500 mm is 63 µm."""
+    body = Body(rim_diameter=170, bolt_circle=158, bolt_holes=8, bolt_diameter=6.6)
+    ring = Gear(teeth=-70, normal_module=2, face_width=20, body=body)
+    rack = Rack(length=450, normal_module=3, face_width=30, height=25)
+    own = DrawingOptions(keyway_symmetry=9, bolt_position=80, back_parallelism=7)
+    for options, found in ((USUAL, (21, 200, 63, 31)), (own, (9, 80, 7, 3))):
+        of_rack = _of(rack, options, grade=7)
+        both = _of(GEAR, options).keyway_symmetry, _of(ring, options).bolt_position
+        assert (*both, of_rack.back_parallelism, of_rack.back_flatness) == pytest.approx(found)
+    assert _of(GEAR, DrawingOptions(keyway_tolerance="")).keyway_symmetry is None
+    assert _of(ring).bolt_circle.exact and not _of(replace(ring, body=replace(body, rim_diameter=None))).bolt_circle.exact
+
+
+@pytest.mark.parametrize(
+    ("hole", "clearance"), [(3.4, 0.4), (5.5, 0.5), (9, 1), (13.5, 1.5), (17.5, 1.5), (26, 2), (39, 3), (70, 6)]
+)
+def test_two_parts_with_medium_holes_fit_wherever_those_are_permitted(hole, clearance):
+    """Holes for bolts M3 to M64 of ISO 273: where the other part is tapped both tolerances share the clearance."""
+    assert 0 < hole_position(hole) / 1000 <= clearance / 2
+
+
 def test_roughness_goes_by_grade_unless_it_is_given():
     found = [_of(GEAR, grade=grade) for grade in range(3, 11)]
     assert [each.flanks.value for each in found] == [0.4, 0.4, 0.8, 0.8, 1.6, 3.2, 6.3, 6.3]
@@ -128,6 +151,8 @@ def test_what_is_ours_is_marked_and_treatment_is_said(language):
     assert found.tooth_notes(words) == (words["data.note_by_grade"],)
     few = replace(GEAR, teeth=14, body=Body())
     assert few.undercut and words["data.note_undercut"] in _of(few).tooth_notes(words)
-    given = DrawingOptions(tip_runout=20, face_runout=15, bore_roughness=0.8, material="20MnCr5", heat_treatment="58+4 HRC")
+    given = DrawingOptions(
+        tip_runout=20, face_runout=15, bore_roughness=0.8, keyway_symmetry=20, material="20MnCr5", heat_treatment="58+4 HRC"
+    )
     told = _of(replace(GEAR, flank_roughness=4.0), given, material=hard)
     assert told.tooth_notes(words) == () and (told.material(words), told.heat_treatment(words)) == ("20MnCr5", "58+4 HRC")

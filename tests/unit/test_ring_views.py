@@ -194,7 +194,7 @@ def test_a_long_rack_is_broken_and_says_its_length() -> None:
     (length,) = [each for each in of_kind(view, Dimension) if "500" in [text.words for text in Figure.of(each).texts]]
     measured = math.dist(length.first, length.second) / (length.scale or 1.0)
     assert (length.words, measured) == ("<>", pytest.approx(500.0))
-    names = sorted(text.at[1] for text in view.texts if text.words == "A")
+    names = sorted(text.at[1] for text in view.texts if text.words == "B")
     assert length.line[1] < names[0] and -22.0 - names[0] == pytest.approx(names[1] - 2.0)  # as far below as above
     first, second = tooth_middles(span)
     assert second - first == pytest.approx(rack.transverse_pitch)
@@ -235,6 +235,8 @@ def test_all_marks_have_a_place(number: int) -> None:
         assert figure is not None
         said += " ".join(text.words for text in figure.texts) + " "
     shown = (needed.face_width, needed.tip, needed.rim, needed.bolt_circle, needed.bolts, needed.end_chamfer)
+    deviations = needed.bolt_position, needed.back_parallelism, needed.back_flatness
+    assert all(words.shortest(each / 1000, 4) in said for each in deviations if each is not None)
     for size in (*shown, needed.length, needed.height, needed.reference_height):
         assert size is None or size.prefix + words.shortest(size.value, size.decimals) in said
 

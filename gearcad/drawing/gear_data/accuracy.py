@@ -45,7 +45,7 @@ def grade_row(drawn: DrawnGear, write: RowWriter) -> Row:
 def tolerance_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
     """Of pitch, profile, helix and run-out; beyond the standard the limit that a size is past stands there."""
     if not isinstance(drawn.gear, Gear):
-        yield write.text("tolerances", f"— ({write.word('rack')})", standard=drawn.accuracy.value)
+        yield write.text("tolerances", f"— ({write.word('not_of_racks')})", standard=drawn.accuracy.value)
         return
     found = gear_tolerances(drawn.gear, grade_of(drawn), drawn.accuracy)
     for name, (key, symbol) in _TOLERANCES[drawn.accuracy].items():
@@ -59,11 +59,14 @@ def tolerance_rows(drawn: DrawnGear, write: RowWriter) -> Iterator[Row]:
 
 def tolerance_notices(drawn: DrawnGear) -> Iterator[Notice]:
     """What is assumed, and what has no tolerance."""
+    if not isinstance(drawn.gear, Gear):
+        said = f"{drawn.accuracy.value} is not for racks: the sheet has no tolerances of pitch, say them in notes"
+        text = f"tolerances: {said}; roughness, flatness and parallelism are what goes with grade {grade_of(drawn)}"
+        yield Notice("rack-tolerances", text)
+        return
     if drawn.grade is None:
         said = f"no grade is given; tolerances, run-out and roughness are those of grade {grade_of(drawn)}"
         yield Notice("grade-assumed", f"accuracy: {said} of {drawn.accuracy.value}")
-    if not isinstance(drawn.gear, Gear):
-        return
     for reason in gear_tolerances(drawn.gear, grade_of(drawn), drawn.accuracy).to_dict()["not_covered"]:
         yield Notice("not-covered", f"tolerances: {drawn.accuracy.value} does not cover all: {reason}")
 

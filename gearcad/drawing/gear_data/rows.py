@@ -62,7 +62,6 @@ def _rack(drawn: DrawnGear, rack: Rack, write: RowWriter) -> Iterator[Row]:
     yield write.length("reference_height", rack.height, "H_0", "height")
     yield write.length("tip_height", rack.tip_height, "h_a")
     yield write.length("root_depth", rack.root_depth, "h_f")
-    yield grade_row(drawn, write)
     yield write.length("normal_tooth_thickness", rack.normal_tooth_thickness, "s_n")
     yield write.plain("ball_diameter", rack.pin_diameter, "D_M", name="pin_diameter")
     if rack.over_pin is None:

@@ -14,6 +14,7 @@ from gearcad.drawing.marks import (
     Side,
     circle_dimension,
     datum,
+    landing_of,
     linear_dimension,
     roughness_symbol,
     tolerance_frame,
@@ -48,9 +49,14 @@ class FaceMarks:
         return self.keyway_width, self.keyway_depth, self.bore
 
     def keyway_width(self) -> Iterable[Figure]:
+        """With its symmetry to the datum axis A."""
         body = self.gear.body
         half, floor = body.keyway_width / 2, body.bore / 2 + body.keyway_depth
-        return self._between((-half, floor), (half, floor), (Side.ABOVE,), self.requirements.keyway_width)
+        frame = None
+        if (deviation := self.requirements.keyway_symmetry) is not None:
+            value = self.draughting.words.shortest(deviation / 1000, 4)
+            frame = tolerance_frame(Characteristic.SYMMETRY, value, "A")
+        return self._between((-half, floor), (half, floor), (Side.ABOVE,), self.requirements.keyway_width, frame)
 
     def keyway_depth(self) -> Iterable[Figure]:
         """Across bore and keyway, d + t2."""
@@ -59,7 +65,12 @@ class FaceMarks:
         return self._between(*ends, (Side.RIGHT, Side.LEFT), self.requirements.keyway_depth)
 
     def _between(
-        self, first: tuple[float, float], second: tuple[float, float], sides: tuple[Side, ...], size: Size | None
+        self,
+        first: tuple[float, float],
+        second: tuple[float, float],
+        sides: tuple[Side, ...],
+        size: Size | None,
+        frame: Figure | None = None,
     ) -> Iterable[Figure]:
         """A size between two points of the part, where there is room within the outline, else beyond it."""
         if size is None:
@@ -68,7 +79,7 @@ class FaceMarks:
         inner = max(self.draughting.paper(radius) for radius in self._within)
         for clear in (inner, self._reach):
             for side in sides:
-                yield from linear_dimension(start, end, side, size, self.draughting, clear=clear * side.outwards)
+                yield from linear_dimension(start, end, side, size, self.draughting, clear=clear * side.outwards, frame=frame)
 
     @property
     def _within(self) -> tuple[float, ...]:
@@ -95,7 +106,7 @@ class FaceMarks:
         boxes = {to_right: figure.box for to_right, figure in demands.items()}
         found = []
         for led in chain(within, beyond):
-            landing = _landing(led)
+            landing = landing_of(led)
             to_right = landing.end[0] > landing.start[0]
             box = boxes[to_right].moved(*landing.end)
             if self._is_free(box):
@@ -120,7 +131,8 @@ class FaceMarks:
             frame = tolerance_frame(Characteristic.CYLINDRICITY, self.draughting.words.shortest(deviation / 1000, 4))
             marks.append(frame.moved(-frame.box.width if to_right else 0.0, -_AIR - FRAME_HEIGHT / 2))
             low = marks[-1].box.bottom
-        if self.requirements.tip_runout is not None or self.requirements.face_runout is not None:
+        needed = self.requirements
+        if any(each is not None for each in (needed.tip_runout, needed.face_runout, needed.keyway_symmetry)):
             marks.append(next(iter(datum("A", (-FRAME_HEIGHT if to_right else FRAME_HEIGHT, low), Side.BELOW))))
         return Figure.of(*marks)
 
@@ -133,8 +145,3 @@ class FaceMarks:
         crossed = any(nearest < radius < furthest for radius in (*radii, self.draughting.paper(max(self._within))))
         on_axis = box.left < 0.0 < box.right or box.bottom < 0.0 < box.top
         return not crossed and not (on_axis and nearest < self._reach + BEYOND_AXIS)
-
-
-def _landing(led: Figure) -> Line:
-    """The line under the text of a diameter, from its leader outwards."""
-    return next(each for each in led.shapes if isinstance(each, Line) and each.start[1] == each.end[1])

@@ -5,7 +5,7 @@ from gearcad.drawing.marks.arrows import ARROW, arrow
 from gearcad.drawing.marks.broken import freehand, zigzag
 from gearcad.drawing.marks.centres import centre_circle, centre_cross, centre_line, centre_star
 from gearcad.drawing.marks.frames import FRAME_HEIGHT, Characteristic, datum, tolerance_frame
-from gearcad.drawing.marks.leaders import circle_dimension, frame_leader, leader
+from gearcad.drawing.marks.leaders import circle_dimension, frame_leader, landing_of, leader, with_frame
 from gearcad.drawing.marks.linear import FIRST_LANE, LANE_PITCH, linear_dimension
 from gearcad.drawing.marks.roughness import general_roughness, roughness, roughness_symbol
 from gearcad.drawing.marks.sections import section_arrows, view_label
@@ -35,6 +35,7 @@ __all__ = [
     "frame_leader",
     "freehand",
     "general_roughness",
+    "landing_of",
     "leader",
     "linear_dimension",
     "plain",
@@ -47,6 +48,7 @@ __all__ = [
     "table",
     "tolerance_frame",
     "view_label",
+    "with_frame",
     "written_size",
     "zigzag",
 ]

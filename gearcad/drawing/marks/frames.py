@@ -28,6 +28,7 @@ class Characteristic(Enum):
     PERPENDICULARITY = "perpendicularity"
     POSITION = "position"
     FLATNESS = "flatness"
+    SYMMETRY = "symmetry"
 
 
 def tolerance_frame(characteristic: Characteristic, value: str, datums: str | tuple[str, ...] = ()) -> Figure:
@@ -122,6 +123,12 @@ def _flatness() -> tuple[Shape, ...]:
     return (Polyline.straight(corners, Pen.SYMBOL, closed=True),)
 
 
+def _symmetry() -> tuple[Shape, ...]:
+    """Three lines, the middle one the longest."""
+    rows = ((1.1, 1.2), (0.0, 2.2), (-1.1, 1.2))
+    return tuple(Line((-half, y), (half, y), Pen.SYMBOL) for y, half in rows)
+
+
 _SYMBOLS = {
     Characteristic.CIRCULAR_RUNOUT: _circular_runout,
     Characteristic.TOTAL_RUNOUT: _total_runout,
@@ -130,4 +137,5 @@ _SYMBOLS = {
     Characteristic.PERPENDICULARITY: _perpendicularity,
     Characteristic.POSITION: _position,
     Characteristic.FLATNESS: _flatness,
+    Characteristic.SYMMETRY: _symmetry,
 }

@@ -6,19 +6,22 @@ import math
 from collections.abc import Iterable, Iterator
 
 from gearcad.drawing.marks.arrows import arrow
+from gearcad.drawing.marks.frames import datum
 from gearcad.drawing.marks.side import Side
 from gearcad.drawing.marks.size_text import written_size
 from gearcad.drawing.marks.written import Written, plain
 from gearcad.drawing.shapes import Anchor, Figure, Line, Pen, Point, Shape
 from gearcad.drawing.words import Draughting, Size
 
-__all__ = ["circle_dimension", "frame_leader", "leader"]
+__all__ = ["circle_dimension", "frame_leader", "landing_of", "leader", "with_frame"]
 
 _LENGTHS = (10.0, 15.0, 21.0, 28.0, 36.0, 46.0, 58.0, 72.0)
 _LANDING = 3.0
 """Of a leader before what it leads to; a text stands upon it."""
 
 _LIFT, _LEAST_LIFT = 0.9, 0.6
+_BELOW_TEXT = 1.0
+"""From the line under a text to the frame below it."""
 
 
 def leader(
@@ -60,12 +63,36 @@ def circle_dimension(
             yield Figure(_led(tip, way, beyond + length, text))
 
 
-def frame_leader(tip: Point, side: Side, frame: Figure, *, clear: float | None = None) -> Iterator[Figure]:
+def landing_of(led: Figure) -> Line:
+    """The line under the text of a leader, from the leader outwards."""
+    return next(each for each in led.shapes if isinstance(each, Line) and each.start[1] == each.end[1])
+
+
+def with_frame(led: Figure, frame: Figure) -> Figure:
+    """A leader to a text, and a tolerance frame below the line of that (ISO 1101)."""
+    landing, box = landing_of(led), frame.box
+    to_right = landing.end[0] > landing.start[0]
+    left = landing.start[0] if to_right else landing.start[0] - box.width
+    return led + frame.moved(left - box.left, landing.start[1] - _BELOW_TEXT - box.top)
+
+
+def frame_leader(
+    tip: Point, side: Side, frame: Figure, *, clear: float | None = None, datum_letter: str = ""
+) -> Iterator[Figure]:
     """A frame with a leader whose arrow is square to the edge at `tip`, whose outside is at `side`.
 
     The frame has the middle of its left side at (0, 0), as `tolerance_frame` makes it. Beyond `clear` (where the outline ends
-    on that side) it may turn once to reach the frame.
+    on that side) it may turn once to reach the frame. `datum_letter` is that of the surface as a datum, whose triangle stands
+    below the frame (ISO 5459).
     """
+    for led, placed in _framed(tip, side, frame, clear):
+        box = placed.box
+        below = (box.left + box.right) / 2, box.bottom
+        yield led + placed + (next(datum(datum_letter, below, Side.BELOW)) if datum_letter else Figure())
+
+
+def _framed(tip: Point, side: Side, frame: Figure, clear: float | None) -> Iterator[tuple[Figure, Figure]]:
+    """Leaders, and the frame where each has it."""
     start = side.out(tip) if clear is None else clear
     start = start if (start - side.out(tip)) * side.outwards > 0 else side.out(tip)
     box = frame.box
@@ -74,14 +101,14 @@ def frame_leader(tip: Point, side: Side, frame: Figure, *, clear: float | None =
         end = side.point(side.along(tip), start + side.outwards * length)
         line = Line(tip, end, Pen.SYMBOL)
         if side.is_upright:
-            yield Figure.of(point, line, _beside(frame, end, side.outwards))
+            yield Figure.of(point, line), _beside(frame, end, side.outwards)
             continue
         for across in (1.0, -1.0):
             for landing in (_LANDING, 3 * _LANDING):
                 corner = end[0] + across * landing, end[1]
-                yield Figure.of(point, line, Line(end, corner, Pen.SYMBOL), _beside(frame, corner, across))
+                yield Figure.of(point, line, Line(end, corner, Pen.SYMBOL)), _beside(frame, corner, across)
         up = box.height / 2 * side.outwards
-        yield Figure.of(point, line, frame.moved(end[0] - box.width / 2, end[1] + up))
+        yield Figure.of(point, line), frame.moved(end[0] - box.width / 2, end[1] + up)
 
 
 def _content(what: str | Size | Written | Figure, draughting: Draughting) -> Written | Figure:

@@ -41,15 +41,24 @@ _SHIFTS = (0.0, 0.6, -0.6)
 
 
 def linear_dimension(
-    first: Point, second: Point, side: Side, size: Size, draughting: Draughting, *, clear: float, datum_letter: str = ""
+    first: Point,
+    second: Point,
+    side: Side,
+    size: Size,
+    draughting: Draughting,
+    *,
+    clear: float,
+    datum_letter: str = "",
+    frame: Figure | None = None,
 ) -> Iterator[Figure]:
     """A size between two points, its line vertical (LEFT, RIGHT) or horizontal, in lanes outwards from `clear`.
 
     `clear` is where the outline ends on that side: an x for LEFT and RIGHT, a y for ABOVE and BELOW. What is too narrow has
     arrows from outside, and its text beside. `datum_letter` is that of the axis or the middle plane as a datum: its triangle
-    stands on the extension line of `first`, opposite to the arrow or for it (ISO 5459).
+    stands on the extension line of `first`, opposite to the arrow or for it (ISO 5459). A tolerance `frame`, the middle of its
+    left side at (0, 0), stands at the end of a horizontal line: it is of the middle plane (ISO 1101).
     """
-    drawn = _Drawn(first, second, side, size, draughting, datum_letter)
+    drawn = _Drawn(first, second, side, size, draughting, datum_letter, frame)
     outs = _lanes(side, clear)
     for out in outs[:_NEAR]:
         yield from drawn.in_lane(out)
@@ -74,6 +83,7 @@ class _Drawn:
     size: Size
     draughting: Draughting
     datum_letter: str = ""
+    frame: Figure | None = None
 
     @property
     def text(self) -> Written:
@@ -120,7 +130,20 @@ class _Drawn:
             self._extension(self.first, out),
             self._extension(self.second, out),
         ]
-        return self._figure(out, shapes, self.text, middle)
+        figure = self._figure(out, shapes, self.text, middle)
+        return figure if self.frame is None else figure + self._framed(self.frame, out, (start, end), middle, within=within)
+
+    def _framed(self, frame: Figure, out: float, line: tuple[float, float], middle: float, *, within: bool) -> Figure:
+        """A frame at the end of the line without the text, with an arrow of its own where there is none from outside."""
+        low, high = sorted(map(self.side.along, (self.first, self.second)))
+        way, edge, far = (-1.0, low, line[0]) if middle > high else (1.0, high, line[1])
+        marks: list[Shape] = []
+        if within:
+            far = edge + way * (ARROW + _TAIL)
+            marks = [self._line(edge, far, out), arrow(self.side.point(edge, out), self.side.point(-way, 0.0))]
+        box = frame.box
+        left = far if way > 0 else far - box.width
+        return Figure.of(*marks, frame.moved(left - box.left, out))
 
     def _line(self, low: float, high: float, out: float) -> Line:
         return Line(self.side.point(low, out), self.side.point(high, out), Pen.DIMENSION)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearcad.drawing.marks.written import Written, deviations, plain, ringed
+from gearcad.drawing.marks.written import Written, boxed, deviations, plain, ringed
 from gearcad.drawing.words import Size, Words
 
 __all__ = ["cad_words", "written_size"]
@@ -17,7 +17,7 @@ _OF_CAD = {"\\": "\\\\", "{": "\\{", "}": "\\}", "⌀": "%%c", "±": "%%p", "°"
 
 
 def written_size(size: Size, words: Words, height: float = 3.5) -> Written:
-    """Value, fit, limit deviations (one above the other, or ± where they are alike), E in a ring."""
+    """Value, fit, limit deviations (one above the other, or ± where they are alike), E in a ring; an exact one in a box."""
     opening, closing = ("(", ")") if size.reference else ("", "")
     air = _AIR * height
     whole = plain(opening + _nominal(size, words), height)
@@ -31,7 +31,7 @@ def written_size(size: Size, words: Words, height: float = 3.5) -> Written:
         whole = whole.then(plain(closing, height))
     if size.envelope:
         whole = whole.then(ringed("E", height), air)
-    return whole
+    return boxed(whole) if size.exact else whole
 
 
 def cad_words(size: Size, words: Words, measured: float) -> str:

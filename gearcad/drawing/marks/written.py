@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
-from gearcad.drawing.shapes import Anchor, Box, Circle, Figure, Pen, Point, Shape, Text, text_width
+from gearcad.drawing.shapes import Anchor, Box, Circle, Figure, Pen, Point, Polyline, Shape, Text, text_width
 from gearcad.drawing.shapes.font import reach
 
-__all__ = ["Written", "deviations", "plain", "ringed", "symbol"]
+__all__ = ["Written", "boxed", "deviations", "plain", "ringed", "symbol"]
 
 _SMALL, _LEAST = 0.7, 1.8
 """Height of limit deviations and of subscripts over that of the text, and the least (mm) that one can read."""
@@ -21,6 +21,9 @@ _SUBSCRIPT_DROP = 0.3
 
 _STACK_AIR = 0.18
 """Between the two of a stack, over the height."""
+
+_BOX_AIR = 0.28
+"""From a text to the box around it, over the height."""
 
 _LEAST_AIR = 0.1
 """Between letters of the upper one that reach below its line ("µm") and the lower one."""
@@ -43,12 +46,13 @@ class _Ring(NamedTuple):
 
 @dataclass(frozen=True)
 class Written:
-    """Texts and rings, by where they are along a line and above it; `height` is that of its capitals."""
+    """Texts, rings and boxes, by where they are along a line and above it; `height` is that of its capitals."""
 
     pieces: tuple[_Piece, ...]
     width: float
     height: float
     rings: tuple[_Ring, ...] = ()
+    boxes: tuple[Box, ...] = ()
 
     def then(self, other: Written, air: float = 0.0) -> Written:
         """The other behind it, `air` between them."""
@@ -57,6 +61,7 @@ class Written:
             self,
             pieces=self.pieces + tuple(each._replace(along=each.along + start) for each in other.pieces),
             rings=self.rings + tuple(each._replace(along=each.along + start) for each in other.rings),
+            boxes=self.boxes + tuple(each.moved(start, 0.0) for each in other.boxes),
             width=start + other.width,
         )
 
@@ -84,13 +89,28 @@ class Written:
 
         texts = (Text(each.words, turned(each.along, each.up), each.height, rotation=rotation, pen=pen) for each in self.pieces)
         rings = (Circle(turned(each.along, each.up), each.radius, pen) for each in self.rings)
-        shapes: tuple[Shape, ...] = (*texts, *rings)
+        frames = (
+            Polyline.straight([turned(*corner) for corner in _corners(each)], Pen.DIMENSION, closed=True) for each in self.boxes
+        )
+        shapes: tuple[Shape, ...] = (*texts, *rings, *frames)
         return Figure(shapes)
 
 
 def plain(words: str, height: float = 3.5) -> Written:
     """A text as it is."""
     return Written((_Piece(words, 0.0, 0.0, height),) if words else (), text_width(words, height), height)
+
+
+def boxed(written: Written) -> Written:
+    """A text in a box, as exact sizes have it (ISO 1101)."""
+    air = _BOX_AIR * written.height
+    room = plain("", written.height)
+    whole = replace(room, width=air).then(written).then(replace(room, width=air))
+    return replace(whole, boxes=(*whole.boxes, Box(0.0, -air, whole.width, written.height + air)))
+
+
+def _corners(box: Box) -> list[Point]:
+    return [(box.left, box.bottom), (box.right, box.bottom), (box.right, box.top), (box.left, box.top)]
 
 
 def ringed(letter: str, height: float = 3.5) -> Written:

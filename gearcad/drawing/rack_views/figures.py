@@ -16,8 +16,8 @@ __all__ = ["SECTION", "end_figure", "front_figure", "plan_figure", "tooth_middle
 _BEYOND_PITCH, _BEYOND_BREAK = 3.0, 2.0
 """How far the reference line, and lines where a view is broken, reach beyond the outline."""
 
-SECTION = "A"
-"""The letter of the end section."""
+SECTION = "B"
+"""The letter of the end section: A is the datum."""
 
 _LABEL = 6.0
 """From the outline to the name of the section."""

@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
-from gearcad.drawing.marks import Side, linear_dimension, roughness, roughness_symbol, section_arrows
+from gearcad.drawing.marks import (
+    Characteristic,
+    Side,
+    frame_leader,
+    linear_dimension,
+    roughness,
+    roughness_symbol,
+    section_arrows,
+    tolerance_frame,
+)
 from gearcad.drawing.rack_views.figures import SECTION, tooth_middles
 from gearcad.drawing.rack_views.span import Span
 from gearcad.drawing.requirements import Requirements
@@ -17,11 +26,21 @@ __all__ = ["EndMarks", "FrontMarks"]
 _EXTENSIONS = (4.0, 12.0, 20.0, 28.0)
 """How far from the outline a symbol may stand on the reference line (mm of paper)."""
 
-_CUT_OFF = (3.0, 10.0, 18.0, 27.0, 37.0, 50.0, 65.0, 80.0)
+_PAST = 2.0
+"""How far such a line goes past it."""
+
+_CUT_OFF = (2.0, 10.0, 18.0, 27.0, 37.0, 50.0, 65.0, 80.0)
 """How far from the outline the ends of the cutting line may be (mm of paper)."""
+
+_ALONG_BACK = (0.1, 0.25, 0.4, 0.55, 0.7, 0.05)
+_ALONG_TIP = (0.75, 0.9, 0.25, 0.1)
+"""Where along an edge a leader may end, over its length."""
 
 _CUT_AT = (0.6, 0.75, 0.45, 0.9, 0.3, 0.97)
 """Where along a part that is shown it may be, over its length."""
+
+_PLACE_DECIMALS = 2
+"""Of the place of the first tooth, for which general tolerances hold."""
 
 _Sources = tuple[Callable[[], Iterable[Figure]], ...]
 
@@ -37,7 +56,7 @@ class FrontMarks:
     @property
     def sources(self) -> _Sources:
         """All of them, those nearest to the outline first."""
-        return self.first_tooth, self.pitch, self.cutting_line, self.length
+        return self.first_tooth, self.pitch, self.back, self.cutting_line, self.length
 
     def length(self) -> Iterator[Figure]:
         """All of it, however much is shown: a program that draws it anew measures at a scale of its own."""
@@ -56,7 +75,19 @@ class FrontMarks:
     def first_tooth(self) -> Iterable[Figure]:
         """From the end to the middle of the first tooth."""
         middles = tooth_middles(self.span)
-        return self._above(-self.span.right, middles[0], Size(value=self.span.first_middle)) if middles else ()
+        size = Size(value=self.span.first_middle, decimals=_PLACE_DECIMALS)
+        return self._above(-self.span.right, middles[0], size) if middles else ()
+
+    def back(self) -> Iterator[Figure]:
+        """How flat it is; it is datum A."""
+        if (deviation := self.requirements.back_flatness) is None:
+            return
+        frame = tolerance_frame(Characteristic.FLATNESS, self.draughting.words.shortest(deviation / 1000, 4))
+        back = -self.span.scale * self.span.rack.height
+        for low, high in self.span.parts:
+            left, right = self.span.across(low), self.span.across(high)
+            for part in _ALONG_BACK:
+                yield from frame_leader((left + part * (right - left), back), Side.BELOW, frame, datum_letter="A")
 
     def cutting_line(self) -> Iterator[Figure]:
         """Of the end section, somewhere along the rack, as near to it as other marks let it be; the length stands below it."""
@@ -89,7 +120,8 @@ class EndMarks:
     @property
     def sources(self) -> _Sources:
         """All of them, those nearest to the outline first."""
-        return self.face_width, self.reference_height, self.height, self.flank_roughness, self.back_roughness
+        sizes = self.face_width, self.reference_height, self.height
+        return *sizes, self.parallelism, self.flank_roughness, self.back_roughness
 
     def face_width(self) -> Iterator[Figure]:
         left, right = (-self.half, self.back), (self.half, self.back)
@@ -109,6 +141,20 @@ class EndMarks:
         for side in (Side.RIGHT, Side.LEFT):
             out = side.outwards * self.half
             yield from linear_dimension((out, self.back), (out, top), side, size, self.draughting, clear=out)
+
+    def parallelism(self) -> Iterator[Figure]:
+        """Of the tips to the back, which is datum A; where there is no room on their line made longer."""
+        if (deviation := self.requirements.back_parallelism) is None:
+            return
+        frame = tolerance_frame(Characteristic.PARALLELISM, self.draughting.words.shortest(deviation / 1000, 4), "A")
+        for part in _ALONG_TIP:
+            yield from frame_leader(((2 * part - 1) * self.half, self.tip), Side.ABOVE, frame)
+        for out in _EXTENSIONS:
+            for along in (Side.RIGHT, Side.LEFT):
+                start, end = along.outwards * self.half, along.outwards * (self.half + out)
+                line = Line((start, self.tip), (end + along.outwards * _PAST, self.tip), Pen.DIMENSION)
+                for side in (Side.ABOVE, Side.BELOW):
+                    yield from (Figure.of(line) + each for each in frame_leader((end, self.tip), side, frame))
 
     def flank_roughness(self) -> Iterator[Figure]:
         """On the reference line, made longer for it (ISO 1302)."""

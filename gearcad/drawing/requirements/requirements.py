@@ -7,8 +7,16 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from gearcad.drawing.options import DrawingOptions
-from gearcad.drawing.quality import Roughness, blank_runout, cylindricity, flank_roughness, seat_roughness
-from gearcad.drawing.requirements.toleranced import as_hole, diameter, toleranced
+from gearcad.drawing.quality import (
+    Roughness,
+    back_parallelism,
+    blank_runout,
+    cylindricity,
+    flank_roughness,
+    hole_position,
+    seat_roughness,
+)
+from gearcad.drawing.requirements.toleranced import as_hole, diameter, half_tolerance, toleranced
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.treatment import material_text, treatment_text
 from gearcad.drawing.words import Size, Words
@@ -21,6 +29,9 @@ from gearcad.notice import Notice
 
 __all__ = ["Requirements"]
 
+_PROPOSED = ("tip_runout", "face_runout", "bore_roughness", "keyway_symmetry", "bolt_position", "back_parallelism")
+"""What is ours where nobody gave it, by the names of the options."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Requirements:
@@ -29,7 +40,8 @@ class Requirements:
     `tip` is the tip diameter, `hub_width` that of the gear with its hubs; `keyway_depth` is measured across the bore, d + t2.
     `length`, `height` (back to tips) and `reference_height` (back to reference line) are a rack's. `bolts` are the holes.
     `tip_runout` and `face_runout` are those to the datum axis, `cylindricity` that of the surface which is the datum: the bore,
-    of a ring the rim.
+    of a ring the rim. `keyway_symmetry` and `bolt_position` are to that axis too; `back_parallelism` is that of a rack's tips
+    to its back, whose own is `back_flatness`.
     """
 
     drawn: DrawnGear
@@ -58,6 +70,10 @@ class Requirements:
     tip_runout: float | None = None
     face_runout: float | None = None
     cylindricity: float | None = None
+    keyway_symmetry: float | None = None
+    bolt_position: float | None = None
+    back_parallelism: float | None = None
+    back_flatness: float | None = None
 
     @classmethod
     def of(cls, drawn: DrawnGear, options: DrawingOptions) -> Self:
@@ -67,7 +83,8 @@ class Requirements:
         """
         part = drawn.gear
         own: dict[str, Any] = _rack(part) if isinstance(part, Rack) else _gear(part, options)
-        deviations: dict[str, Any] = _deviations(drawn, part, options) if isinstance(part, Gear) else {}
+        of_part = _deviations(drawn, part, options) if isinstance(part, Gear) else _of_back(drawn, part, options)
+        deviations: dict[str, Any] = dict(of_part)
         return cls(
             drawn=drawn,
             options=options,
@@ -92,7 +109,9 @@ class Requirements:
         """What has no place in the table: that fillets may be undercut, which way the halves of a double helical gear are
         offset, and what goes by the accuracy grade alone."""
         part, options = self.drawn.gear, self.options
-        by_grade = not self.flanks.given or None in (options.tip_runout, options.face_runout, options.bore_roughness)
+        by_grade = not self.flanks.given or any(
+            getattr(self, name) is not None and getattr(options, name, None) is None for name in _PROPOSED
+        )
         turned = isinstance(part, Gear) and abs(part.double_helix.offset) not in (0.0, HALF_PITCH)
         undercut = isinstance(part, Gear) and part.undercut
         noted = {"note_undercut": undercut, "note_offset": turned, "note_by_grade": by_grade}
@@ -124,7 +143,7 @@ def _rack(rack: Rack) -> dict[str, Size]:
     found = {
         "length": Size(value=rack.length),
         "height": Size(value=rack.total_height),
-        "reference_height": Size(value=rack.height),
+        "reference_height": Size(value=rack.height, reference=True),
     }
     return found | ({"tip_chamfer": _chamfer(rack.tip_chamfer, "45")} if rack.tip_chamfer else {})
 
@@ -183,7 +202,7 @@ def _ring(gear: Gear, options: DrawingOptions) -> dict[str, Size]:
     if body.rim_diameter is not None:
         found["rim"] = diameter(body.rim_diameter, options.rim_tolerance)
     if body.bolt_holes:
-        found["bolt_circle"] = diameter(body.bolt_circle)
+        found["bolt_circle"] = diameter(body.bolt_circle, exact=_datum(gear) is not None)
         found["bolts"] = Size(value=body.bolt_diameter, prefix=f"{body.bolt_holes}×⌀")
     return found
 
@@ -203,8 +222,17 @@ def _deviations(drawn: DrawnGear, gear: Gear, options: DrawingOptions) -> dict[s
     datum = _datum(gear)
     if datum is None:
         return {}
+    keyway = toleranced(gear.body.keyway_width, options.keyway_tolerance) if gear.body.keyway_width else None
     return {
         "tip_runout": options.tip_runout or blank_runout(drawn),
         "face_runout": options.face_runout or blank_runout(drawn),
         "cylindricity": cylindricity(datum, _seat_fit(gear, options)),
+        "keyway_symmetry": None if keyway is None else options.keyway_symmetry or half_tolerance(keyway),
+        "bolt_position": (options.bolt_position or hole_position(gear.body.bolt_diameter)) if gear.body.bolt_holes else None,
     }
+
+
+def _of_back(drawn: DrawnGear, rack: Rack, options: DrawingOptions) -> dict[str, float | None]:
+    """How parallel a rack's tips are to its back, as it was given, else by the grade; and how flat that is, half of it."""
+    parallelism = options.back_parallelism or back_parallelism(drawn, rack)
+    return {"back_parallelism": parallelism, "back_flatness": max(float(parallelism // 2), 1.0)}

@@ -8,7 +8,7 @@ from gearcad.drawing.words import Size
 from gearcad.errors import ParameterError
 from gearcad.geometry.iso286 import LARGEST_SIZE, limit_deviations
 
-__all__ = ["as_hole", "diameter", "toleranced"]
+__all__ = ["as_hole", "diameter", "half_tolerance", "toleranced"]
 
 
 def toleranced(value: float, fit: str, **of_size: Any) -> Size:
@@ -29,6 +29,13 @@ def toleranced(value: float, fit: str, **of_size: Any) -> Size:
 def diameter(value: float, fit: str = "", **of_size: Any) -> Size:
     """The same of a circle."""
     return toleranced(value, fit, prefix="⌀", **of_size)
+
+
+def half_tolerance(size: Size) -> float | None:
+    """Half of what a size may vary, in whole µm; None without limits."""
+    if size.upper is None or size.lower is None:
+        return None
+    return max(float(round((size.upper - size.lower) * 1000) // 2), 1.0)
 
 
 def as_hole(fit: str) -> str:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
-from gearcad.drawing.marks import circle_dimension, leader
+from gearcad.drawing.marks import Characteristic, circle_dimension, leader, tolerance_frame, with_frame
 from gearcad.drawing.requirements import Requirements
 from gearcad.drawing.ring_views.face import hole_places
 from gearcad.drawing.ring_views.meridian import Meridian
@@ -36,7 +36,7 @@ class FaceMarks:
         return self.bolt_circle, self.bolts
 
     def bolts(self) -> Iterator[Figure]:
-        """To one of the holes, from outside the rim: their number and diameter."""
+        """To one of the holes, from outside the rim: their number and diameter, and where they are."""
         size = self.requirements.bolts
         if size is None:
             return
@@ -48,7 +48,18 @@ class FaceMarks:
                 tip = x + radius * math.cos(math.radians(way)), y + radius * math.sin(math.radians(way))
                 if abs(math.cos(math.radians(way))) < _OFF_AXIS:
                     continue
-                yield from leader(tip, size, self.draughting, (way,), lengths=[rim - math.hypot(x, y) + out for out in _BEYOND])
+                lengths = [rim - math.hypot(x, y) + out for out in _BEYOND]
+                for led in leader(tip, size, self.draughting, (way,), lengths=lengths):
+                    yield led if self._position is None else with_frame(led, self._position)
+
+    @property
+    def _position(self) -> Figure | None:
+        """The frame for where the holes are, to the datum axis A."""
+        deviation = self.requirements.bolt_position
+        if deviation is None:
+            return None
+        value = self.draughting.words.shortest(deviation / 1000, 4)
+        return tolerance_frame(Characteristic.POSITION, f"⌀{value}", "A")
 
     def bolt_circle(self) -> Iterator[Figure]:
         """Between holes, its text outside the rim."""

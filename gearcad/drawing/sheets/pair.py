@@ -76,6 +76,10 @@ def _remarks(drawn: DrawnPair, words: Words) -> Iterator[str]:
 
 
 def _notices(pair: GearPair | RackPair) -> Iterator[Notice]:
+    if isinstance(pair, RackPair):
+        yield Notice(
+            "no-limits", "the sheet has it without limits: racks have none here, say them in notes", where="mounting distance"
+        )
     if isinstance(pair, GearPair) and pair.centre_distance_tolerance is None:
         text = 'the sheet has it without limits: none are given (centre_distance_tolerance, such as "js7")'
         yield Notice("no-limits", text, where="centre distance")

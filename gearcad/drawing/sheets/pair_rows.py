@@ -42,6 +42,9 @@ def _rows(drawn: DrawnPair, words: Words) -> Iterator[Row]:
     for name, symbol in (("circumferential_backlash", "j_wt"), ("normal_backlash", "j_bn")):
         yield backlash_row(name, symbol, pair, words)
     for number, part in enumerate(drawn.parts, 1):
+        if isinstance(part.gear, Rack):
+            yield _row("accuracy", words, "", f"— ({words['data.not_of_racks']})", {}, item=str(number))
+            continue
         grade = grade_of(part)
         assumed = f" ({words['assembly.assumed']})" if part.grade is None else ""
         text = f"{grade}  {part.accuracy.value}{assumed}"

@@ -96,6 +96,9 @@ def _pitch(key: str, plan: TrainPlan, items: Mapping[str, int], words: Words) ->
 
 
 def _notices(plan: TrainPlan) -> Iterator[Notice]:
+    yield Notice(
+        "no-limits", "the sheet has it without limits: trains have none here, say them in notes", where="centre distance"
+    )
     if plan.room:
         yield Notice("no-room", f"bodies are drawn over each other: {plan.room}")
     for name in plan.left_out:

@@ -12,6 +12,9 @@ __all__ = ["Level", "levels_of"]
 _DEEPEST = 0.6
 """A base circle further below the root circle (tooth depths) is left out: nothing of the tooth is there."""
 
+_FORM_DECIMALS = 2
+"""Of where a rack's flank ends: no third one is true, as the root radii of ISO 53 have two."""
+
 
 @dataclass(frozen=True)
 class Level:
@@ -25,6 +28,7 @@ class Level:
     value: float
     pen: Pen = Pen.THIN
     reference: bool = False
+    decimals: int = 3
 
 
 def levels_of(gear: Gear | Rack) -> tuple[Level, ...]:
@@ -55,7 +59,7 @@ def _of_rack(rack: Rack) -> list[Level]:
     lines = [
         Level("h_a", rack.tip_height, rack.tip_height, reference=True),
         Level("h_Fa", rack.tip_form_height, rack.tip_form_height),
-        Level("h_Ff", -rack.form_depth, rack.form_depth),
+        Level("h_Ff", -rack.form_depth, rack.form_depth, decimals=_FORM_DECIMALS),
         Level("h_f", -rack.root_depth, rack.root_depth, reference=True),
     ]
     if not rack.tip_chamfer:

@@ -43,7 +43,7 @@ def _start(level: Level, place: Placing) -> float:
 
 def _name(level: Level, draughting: Draughting) -> Written:
     """Its symbol and value, the value in brackets where it stands elsewhere."""
-    value = draughting.words.number(level.value, 3)
+    value = draughting.words.number(level.value, level.decimals)
     prefix = "⌀" if level.symbol.startswith("d") else ""
     text = f"({prefix}{value})" if level.reference else prefix + value
     return symbol(level.symbol, _TEXT).then(plain(text, _TEXT), 1.2)

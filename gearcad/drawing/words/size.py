@@ -12,7 +12,8 @@ class Size:
     """A nominal size, the code of its fit ("H7") and its limit deviations; without deviations general tolerances hold.
 
     `prefix` stands before it ("⌀", "R"), `suffix` behind ("×45°"). `envelope` is the E in a ring of ISO 14405-1, `reference`
-    puts it in brackets: it is for information.
+    puts it in brackets: it is for information. `exact` puts it in a
+    box: what is there has a geometrical tolerance instead (ISO 1101).
     """
 
     value: float
@@ -24,3 +25,4 @@ class Size:
     decimals: int = 3
     envelope: bool = False
     reference: bool = False
+    exact: bool = False
