@@ -244,3 +244,16 @@ def test_texts_keep_off_hatching_and_symbols_and_dimension_lines_off_each_other(
     beside = next(linear_dimension((30.0, 0.0), (60.0, 0.0), Side.BELOW, wide, near, clear=0.0))
     assert Occupied(lanes[0]).clashes(other) and not Occupied(lanes[0]).clashes(beside)
     assert Occupied(lanes[0]).clashes(Figure.of(Text("x", (10.0, -11.0))))
+
+
+@pytest.mark.parametrize(
+    ("up", "along", "doubled"), [(0.0, 5.0, 0), (0.2, 5.0, 1), (-0.9, 5.0, 1), (1.1, 5.0, 0), (0.2, 19.5, 0)]
+)
+def test_lines_that_would_look_doubled_are_better_avoided(up: float, along: float, doubled: int) -> None:
+    """A leader 0.2 mm beside an extension line looks like a thick one; upon it, further off, or past its end it does not."""
+    for turn in (1, -1):
+        standing, line = (
+            Line(start[::turn], end[::turn], Pen.DIMENSION)
+            for start, end in (((0.0, 0.0), (20.0, 0.0)), ((along, up), (along + 20.0, up)))
+        )
+        assert Occupied(Figure.of(standing)).crossings(Figure.of(line)) == doubled

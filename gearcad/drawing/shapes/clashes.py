@@ -30,6 +30,9 @@ _LEVEL = 0.15
 _ALONG = 1.0
 """So much may lines run beside each other, for they end in rounded numbers."""
 
+_DOUBLE, _SAME = 1.0, 1e-6
+"""Lines of marks that are nearer look like one that is drawn twice, but for those that lie upon each other."""
+
 
 class Occupied:
     """What stands: no text may meet another, a line or hatching; lines may cross lines, but not symbols.
@@ -80,8 +83,12 @@ class Occupied:
         )
 
     def crossings(self, figure: Figure) -> int:
-        """How many lines of dimensions, leaders and symbols it would cross with its own: permitted, but better avoided."""
-        return int(_intersecting(_mark_lines(figure), self._marks).sum())
+        """How many lines of dimensions, leaders and symbols it would cross with its own, or double.
+
+        That is permitted, but better avoided.
+        """
+        lines = _mark_lines(figure)
+        return int(_intersecting(lines, self._marks).sum() + _doubled(lines, self._marks).sum())
 
     def _too_near(self, figure: Figure, measured: Measured) -> bool:
         """Whether a dimension line would run beside another, or beside any other line."""
@@ -157,6 +164,22 @@ def _beside(spans: Floats, others: Floats, distance: float) -> Bools:
     one, other = spans[:, None, :], others[None, :, :]
     shared = np.minimum(one[..., 1], other[..., 1]) - np.maximum(one[..., 0], other[..., 0])
     return (shared > _ALONG) & (np.abs(one[..., 2] - other[..., 2]) < distance)
+
+
+def _doubled(ones: Floats, others: Floats) -> Bools:
+    """Which level or upright segments run so near beside which others that they look like one line drawn twice."""
+    found = np.zeros((len(ones), len(others)), dtype=bool)
+    for turn in ([0, 1, 2, 3], [1, 0, 3, 2]):
+        one, other = _level_spans(ones[:, turn]), _level_spans(others[:, turn])
+        apart = np.abs(one[:, None, 2] - other[None, :, 2])
+        found |= _beside(one, other, _DOUBLE) & (apart > _SAME)
+    return found
+
+
+def _level_spans(segments: Floats) -> Floats:
+    """Segments as (from, to, height); those that are not level have no height."""
+    height = np.where(np.abs(segments[:, 1] - segments[:, 3]) < _SAME, segments[:, 1], np.nan)
+    return np.stack([np.minimum(segments[:, 0], segments[:, 2]), np.maximum(segments[:, 0], segments[:, 2]), height], axis=1)
 
 
 def _crossed(boxes: Floats, segments: Floats) -> Bools:
