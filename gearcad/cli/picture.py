@@ -14,6 +14,8 @@ from gearcad.cli.progress import file_progress
 __all__ = ["picture"]
 
 _IMAGES = (".png", ".gif", ".apng", ".webp")
+_OTHERS = tuple(".avi .bmp .eps .jpe .jpeg .jpg .mov .mp4 .pdf .ps .svg .tga .tif .tiff .webm".split())
+"""Of images and films that nobody means for a folder."""
 
 
 @click.command(short_help="Write a picture of SPEC, still or turning.")
@@ -59,13 +61,16 @@ def picture(
     that alone, else picture.json beside it says what is on it.
     """
     from gearcad.designs import read_spec
-    from gearcad.errors import as_choice
+    from gearcad.errors import ParameterError, as_choice
     from gearcad.jobs.picture import Background, Picture
     from gearcad.output import json_text
     from gearcad.solids.files.pictures.cutaway import Cutaway
     from gearcad.solids.files.pictures.images import Animation
     from gearcad.solids.files.pictures.views import View
 
+    if output is not None and output.suffix.lower() in _OTHERS and not output.is_dir():
+        permitted = f"must end in {', '.join(_IMAGES[:-1])} or {_IMAGES[-1]}, or be a folder"
+        raise ParameterError("output", str(output), permitted)
     job = Picture(
         view=as_choice("view", view.lower(), View),
         size=None if size is None else _pixels(size),

@@ -22,6 +22,7 @@ __all__ = [
     "Described",
     "Design",
     "DesignKind",
+    "kinds_in_words",
     "not_accepted",
     "require_plain_name",
 ]
@@ -120,9 +121,13 @@ class Design(ABC):
 
 def not_accepted(kind: type[Design], accepted: Iterable[type[Design]], why: str) -> ParameterError:
     """The error for a kind of design that is none of the accepted ones; `why` is said of those that know no better."""
+    return ParameterError("kind", kind.kind.words, f"must be {kinds_in_words(accepted)}: {kind.elsewhere or why}")
+
+
+def kinds_in_words(accepted: Iterable[type[Design]]) -> str:
+    """ "a gear, a pair or a rack"."""
     *others, last = (f"a {each.kind.words}" for each in accepted)
-    permitted = f"{', '.join(others)} or {last}" if others else last
-    return ParameterError("kind", kind.kind.words, f"must be {permitted}: {kind.elsewhere or why}")
+    return f"{', '.join(others)} or {last}" if others else last
 
 
 def require_plain_name(name: Any) -> None:

@@ -71,6 +71,12 @@ def test_wrong_options_are_told(tmp_path: Path) -> None:
         Draw(formats=[])  # type: ignore[arg-type]
 
 
+def test_a_train_of_pairs_is_told_all_that_can_be_drawn(tmp_path: Path) -> None:
+    result = _draw(_spec("train-pairs", tmp_path))
+    kinds = "a gear, a pair, a rack, a rack and pinion or a planetary train"
+    assert result.exit_code == 2 and f"must be {kinds}: `gearcad dynamics` writes the specs of the pairs" in result.stderr
+
+
 def test_a_pair_has_a_sheet_for_each_gear_and_one_for_both(tmp_path: Path) -> None:
     job = Draw(formats=["dxf", "pdf"])  # type: ignore[arg-type]
     drawing = job.run(read_spec(_spec("fzg-c", tmp_path)))

@@ -57,6 +57,7 @@ def test_the_name_of_an_image_writes_that_alone_the_same_from_python(tmp_path: P
         ((PAIR, "--turning", "gif", "--size", "4000x4000"), "size = '4000x4000': must be at most 250 million pixels in all 24"),
         ((PAIR, "--turning", "avi"), "turning = 'avi': must be one of 'gif', 'apng', 'webp'"),
         ((PAIR, "--turning", "gif", "-o", "x.png"), "output = 'x.png': must end in .gif"),
+        ((PAIR, "-o", "x.jpg"), "output = 'x.jpg': must end in .png, .gif, .apng or .webp, or be a folder"),
         ((str(TEMPLATES / "spur.toml"), "--view", "mesh"), "view = 'mesh': needs a pair or a train"),
         ((str(TEMPLATES / "spur.toml"), "--explode"), "explode = True: needs a pair or a train"),
         ((str(TEMPLATES / "train-1-stage.toml"),), "kind = 'train': must be a gear, a pair, a rack"),

@@ -98,3 +98,26 @@ def test_sheets_say_what_is_assumed_and_how_it_is_hardened() -> None:
     sheet = _drawn(GEAR, replace(OPTIONS, heat_treatment="carburised", case_depth="0.6"))
     assert "carburised, CHD 0.6" in _words(sheet)
     assert {"no-thickness-limits", "no-material"} <= {each.code for each in sheet.notices}
+
+
+@pytest.mark.parametrize(
+    ("gear", "scale", "detailed"),
+    [
+        (
+            Gear(teeth=30, normal_module=2.0, face_width=20.0, body=Body(bore=20.0, keyway_width=6.0, keyway_depth=2.8)),
+            0.5,
+            True,
+        ),
+        (Gear(teeth=44, normal_module=2.5, face_width=15.0, helix_angle=28.0, body=Body(bore=45.0)), 0.5, False),
+    ],
+    ids=["spur", "wheel"],
+)
+def test_simple_gears_have_a_sheet_that_can_be_read_on_a4(gear: Gear, scale: float, detailed: bool) -> None:
+    """Without the tooth in detail, and saying so, only where that would make the views too small."""
+    for language in Language:
+        sheet = _drawn(gear, DrawingOptions(sheet=SheetSize.A4, language=language))
+        left_out = [str(each) for each in sheet.notices if each.code == "drawing-without-detail"]
+        assert (sheet.size, sheet.scale) == ((210.0, 297.0), scale)
+        assert left_out == ([] if detailed else ["tooth in detail: no room on A4"])
+        assert ("Z" in _words(sheet)) is detailed
+        assert all(sheet.paper.holds(text.box) for text in sheet.figure.texts)

@@ -28,8 +28,8 @@ def inside_frame(size: SheetSize, sizes: FrameSizes) -> Box:
 
 
 def free_area(size: SheetSize, sizes: FrameSizes) -> Box:
-    """Where views may stand: inside the frame, and off its centring marks."""
-    return inside_frame(size, sizes).grown(-_AIR)
+    """Where views may stand: inside the frame, and off its centring marks; on A4 as close to these as can be."""
+    return inside_frame(size, sizes).grown(-sizes.centring if size is SheetSize.A4 else -_AIR)
 
 
 def border(size: SheetSize, sizes: FrameSizes, taken: Iterable[Box] = ()) -> Figure:

@@ -132,7 +132,8 @@ class _Trial:
         if shown is None:
             return None
         aligned = 0 if self.projection is Projection.FIRST else -1
-        tried = (each.places(shown.boxes, shown.block_boxes, aligned=aligned) for each in (room, room.tight))
+        rooms = (room, room.tight, *([room.tightest] if sheet is SheetSize.A4 else []))  # nothing is narrower than A4
+        tried = (each.places(shown.boxes, shown.block_boxes, aligned=aligned) for each in rooms)
         places = next((each for each in tried if each is not None), None)
         if places is None:
             return None

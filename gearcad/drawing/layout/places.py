@@ -42,6 +42,11 @@ class Room:
         """The same with less air, for what would else have no room."""
         return replace(self, between=6.0, around=2.0)
 
+    @property
+    def tightest(self) -> Room:
+        """The same with as little air as can be read."""
+        return replace(self, between=3.0, around=0.5)
+
     def places(
         self, rows: Sequence[Sequence[Box]], blocks: Sequence[Box] = (), *, aligned: int = 0
     ) -> list[list[Point]] | None:

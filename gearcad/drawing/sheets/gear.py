@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 from gearcad.drawing.frame import Furnished, Furniture, SheetTemplate, title_values
 from gearcad.drawing.gear_data import Row, gear_notices, gear_rows
-from gearcad.drawing.layout import Fixed, View, Views, arranged
+from gearcad.drawing.layout import Arrangement, Fixed, View, Views, arranged
 from gearcad.drawing.marks import general_roughness
 from gearcad.drawing.mass import mass_of
 from gearcad.drawing.options import DrawingOptions, PartDrawing, SheetSize
@@ -19,12 +19,17 @@ from gearcad.drawing.sheets.part_views import detail_blocks, part_rows
 from gearcad.drawing.subject import DrawnGear
 from gearcad.drawing.titles import kind_of, titled
 from gearcad.drawing.words import Draughting, Size, Words
+from gearcad.errors import ParameterError
 from gearcad.geometry import Gear
+from gearcad.notice import Notice
 
 __all__ = ["draw_gear"]
 
 _AIR = 4.0
 """From the frame, or what stands beside it, to the roughness of the rest."""
+
+_LEGIBLE = 40.0
+"""Least size (mm of paper) of views with their centre lines, where leaving something out makes them larger."""
 
 _USUAL_CHAMFER = 45.0
 """An angle of chamfers that may be taken from either side."""
@@ -38,7 +43,7 @@ def draw_gear(drawn: DrawnGear, options: DrawingOptions, part: PartDrawing | Non
     """
     content = _Content.of(drawn, options.of_part(part, alone=alone))
     own = content.options
-    found = arranged(content.views, content.fixed, sheet=own.sheet, scale=own.scale, projection=own.projection)
+    found, notices = content.arranged()
     return Sheet(
         name=drawn.role,
         title=content.title,
@@ -48,7 +53,7 @@ def draw_gear(drawn: DrawnGear, options: DrawingOptions, part: PartDrawing | Non
         language=own.language,
         figure=found.figure,
         shown=content.shown,
-        notices=(*content.furnished(found.sheet, found.scale).notices, *gear_notices(drawn, own)),
+        notices=(*content.furnished(found.sheet, found.scale).notices, *notices, *gear_notices(drawn, own)),
     )
 
 
@@ -97,10 +102,40 @@ class _Content:
         texts = [f"z = {gear.teeth}", f"mₙ = {words.shortest(gear.normal_module, 6)}"]
         return ", ".join([*texts, *([f"β = {words.shortest(abs(gear.helix_angle), 4)}°"] if gear.helix_angle else [])])
 
-    def views(self, scale: float) -> Views:
+    def arranged(self) -> tuple[Arrangement, tuple[Notice, ...]]:
+        """All that stands on the sheet; on one that was asked for without the tooth in detail, if all of it has no room or
+        would be too small to be read. Raises ParameterError."""
+        found = self._tried()
+        if self.options.sheet is not SheetSize.AUTO and not self._is_legible(found):
+            bare = self._tried(detailed=False)
+            if isinstance(bare, Arrangement) and self._is_better(bare, found):
+                return bare, (Notice("drawing-without-detail", f"no room on {bare.sheet.value}", where="tooth in detail"),)
+        if isinstance(found, ParameterError):
+            raise found
+        return found, ()
+
+    def _tried(self, *, detailed: bool = True) -> Arrangement | ParameterError:
+        """What was found, or what says that there is no room."""
+        own, views = self.options, partial(self.views, detailed=detailed)
+        try:
+            return arranged(views, self.fixed, sheet=own.sheet, scale=own.scale, projection=own.projection)
+        except ParameterError as error:
+            return error
+
+    def _is_better(self, bare: Arrangement, found: Arrangement | ParameterError) -> bool:
+        return bare.factor > found.factor if isinstance(found, Arrangement) else self._is_legible(bare)
+
+    def _is_legible(self, found: Arrangement | ParameterError) -> bool:
+        """Whether there are views, and large enough; at a scale that was asked for they are."""
+        if isinstance(found, ParameterError):
+            return False
+        boxes = [view.figure.box for row in self.views(found.factor).rows for view in row]
+        return self.options.scale != "auto" or max(max(box.width, box.height) for box in boxes) >= _LEGIBLE
+
+    def views(self, scale: float, *, detailed: bool = True) -> Views:
         """The views at a scale, and the details, which have scales of their own."""
-        draughting = Draughting(self.words, scale)
-        return Views(part_rows(self.drawn, self.requirements, draughting), self._blocks)
+        rows = part_rows(self.drawn, self.requirements, Draughting(self.words, scale), detailed=detailed)
+        return Views(rows, self._blocks if detailed else self._blocks[1:])
 
     @cached_property
     def _mass(self) -> float | None:
@@ -148,11 +183,14 @@ class _Content:
             yield self.words["views.note_chamfer_angle"]
 
     def _roughness(self, furnished: Furnished) -> Figure:
-        """That of all other surfaces, above the title block, or above the notes where the table is there."""
+        """That of all other surfaces, above the title block: at its left or, where the notes are there, its right; else above
+        the notes."""
         figure = general_roughness(f"Ra {self.words.shortest(self.requirements.rest_roughness)}")
         figure = figure.moved(-figure.box.left, -figure.box.bottom)
         stack, notes = furnished.taken[0], furnished.taken[-1]
-        moved = [figure.moved(box.left + _AIR, box.top + _AIR) for box in (stack, notes)]
+        right = stack.right - figure.box.width - 2 * _AIR
+        places = (stack.left + _AIR, stack.top), (right, stack.top), (notes.left + _AIR, notes.top)
+        moved = [figure.moved(across, up + _AIR) for across, up in places]
         return next((each for each in moved if _is_clear(each.box, furnished.taken)), moved[-1])
 
 

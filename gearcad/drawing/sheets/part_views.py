@@ -15,15 +15,20 @@ from gearcad.geometry import Rack
 __all__ = ["detail_blocks", "part_rows"]
 
 
-def part_rows(drawn: DrawnGear, requirements: Requirements, draughting: Draughting) -> tuple[tuple[View, ...], ...]:
-    """The views at a scale, in the rows in which they stand in first angle projection."""
+def part_rows(
+    drawn: DrawnGear, requirements: Requirements, draughting: Draughting, *, detailed: bool = True
+) -> tuple[tuple[View, ...], ...]:
+    """The views at a scale, in the rows in which they stand in first angle projection; `detailed` where a tooth of them is
+    drawn in detail."""
     given = drawn, requirements, draughting
     if isinstance(drawn.gear, Rack):
         plan = rack_views.plan_view(*given)
-        front = _with_detail(rack_views.front_view(*given), drawn, draughting)
+        front = rack_views.front_view(*given)
+        front = _with_detail(front, drawn, draughting) if detailed else front
         return ((front, rack_views.end_section(*given)), *(() if plan is None else ((plan,),)))
     views = ring_views if drawn.gear.internal else gear_views
-    return ((views.section_view(*given), _with_detail(views.face_view(*given), drawn, draughting)),)
+    face = views.face_view(*given)
+    return ((views.section_view(*given), _with_detail(face, drawn, draughting) if detailed else face),)
 
 
 def _with_detail(view: View, drawn: DrawnGear, draughting: Draughting) -> View:
@@ -32,7 +37,7 @@ def _with_detail(view: View, drawn: DrawnGear, draughting: Draughting) -> View:
 
 
 def detail_blocks(drawn: DrawnGear, words: Words) -> tuple[View, ...]:
-    """A tooth in detail, and the diagrams of its modifications; they have scales of their own."""
+    """A tooth in detail, which comes first, and the diagrams of its modifications; they have scales of their own."""
     detail = tooth_figure(drawn, Draughting(words, detail_scale(drawn)))
     diagrams = modification_figures(drawn, Draughting(words))
     return View("detail", detail), *(View(f"diagram {number}", each) for number, each in enumerate(diagrams, 1))
