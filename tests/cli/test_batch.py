@@ -134,7 +134,7 @@ def test_each_kind_of_wrong_row_has_its_message() -> None:
     ("arguments", "message"),
     [
         (["nowhere.csv"], "nowhere.csv: cannot be read (No such file or directory)"),
-        (["table.csv", "--do", "data,draw"], "do = 'draw': must be one of 'data', 'build'"),
+        (["table.csv", "--do", "data,print"], "do = 'print': must be one of 'data', 'build'"),
         (
             ["table.csv", "--format", "step,iges"],
             "format = 'iges': must be one of 'step', 'stl', '3mf', 'glb', 'png', 'dxf', 'csv'",
