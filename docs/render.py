@@ -14,6 +14,7 @@ from gearcad.batch import run_table
 from gearcad.batch.study import plan_study, write_study
 from gearcad.designs import read_spec
 from gearcad.jobs.data import Data
+from gearcad.jobs.draw import Draw
 from gearcad.per_gear import PerGear
 from gearcad.planetary.speeds import speeds
 from gearcad.plots import plot_contours, save_plot
@@ -92,9 +93,18 @@ def plot_sizes(path: Path) -> None:
     Image.open(path).convert("RGB").quantize(32).save(path, optimize=True)
 
 
+def draw_sheet(path: Path) -> None:
+    """The sheet of the wheel of the pair."""
+    with TemporaryDirectory() as folder:
+        job = Draw(formats=("svg",))
+        job.write(job.run(read_spec(SPEC)), folder)
+        path.write_bytes(Path(folder, "drawing-wheel.svg").read_bytes())
+
+
 def main() -> None:
     picture(read_spec(SPEC), FOLDER / "pair.png", size=(1400, 700))
     picture(read_spec(SPEC), FOLDER / "mesh.png", view="mesh", size=(1400, 700))
+    draw_sheet(FOLDER / "sheet.svg")
     plot_study(FOLDER / "study.png")
     plot_elements(FOLDER / "elements.png")
     picture_kinds(FOLDER / "kinds.png")
