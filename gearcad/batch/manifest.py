@@ -20,7 +20,9 @@ __all__ = ["MANIFEST", "Manifest", "Part", "inputs_hash", "publish", "read_manif
 
 MANIFEST = "manifest.json"
 
-_OUR_FILE = re.compile(r"[a-z_]{1,20}\.[a-z0-9]{1,10}")
+_NO_NAME = r'\x00-\x1f\ud800-\udfff/\\<>:"|?*'
+_OUR_FILE = re.compile(rf"[^\s.\-{_NO_NAME}][^{_NO_NAME}]{{0,200}}\.[a-z0-9]{{1,10}}")
+"""Some are called as gears are, which may be anything that a folder can be called."""
 
 
 @dataclass(frozen=True)
