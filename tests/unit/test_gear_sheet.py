@@ -121,3 +121,13 @@ def test_simple_gears_have_a_sheet_that_can_be_read_on_a4(gear: Gear, scale: flo
         assert left_out == ([] if detailed else ["tooth in detail: no room on A4"])
         assert ("Z" in _words(sheet)) is detailed
         assert all(sheet.paper.holds(text.box) for text in sheet.figure.texts)
+
+
+def test_views_that_cannot_be_read_on_the_sheet_asked_for_are_told() -> None:
+    """At a scale that was asked for they are as wanted."""
+    wide = Gear(teeth=81, normal_module=4.0, face_width=60.0, body=Body(bore=110.0))
+    notices = _drawn(wide, DrawingOptions(sheet=SheetSize.A4, scale="1:20")).notices
+    assert "drawing-small" not in {each.code for each in notices}
+    small = Gear(teeth=20, normal_module=0.01, face_width=0.2)
+    assert "drawing-small" in {each.code for each in _drawn(small, DrawingOptions(sheet=SheetSize.A3)).notices}
+    assert "drawing-small" not in {each.code for each in _drawn(small, DrawingOptions()).notices}

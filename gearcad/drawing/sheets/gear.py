@@ -109,10 +109,11 @@ class _Content:
         if self.options.sheet is not SheetSize.AUTO and not self._is_legible(found):
             bare = self._tried(detailed=False)
             if isinstance(bare, Arrangement) and self._is_better(bare, found):
-                return bare, (Notice("drawing-without-detail", f"no room on {bare.sheet.value}", where="tooth in detail"),)
+                left_out = Notice("drawing-without-detail", f"no room on {bare.sheet.value}", where="tooth in detail")
+                return bare, (left_out, *self._small(bare))
         if isinstance(found, ParameterError):
             raise found
-        return found, ()
+        return found, () if self.options.sheet is SheetSize.AUTO else self._small(found)
 
     def _tried(self, *, detailed: bool = True) -> Arrangement | ParameterError:
         """What was found, or what says that there is no room."""
@@ -121,6 +122,11 @@ class _Content:
             return arranged(views, self.fixed, sheet=own.sheet, scale=own.scale, projection=own.projection)
         except ParameterError as error:
             return error
+
+    def _small(self, found: Arrangement) -> tuple[Notice, ...]:
+        """That they are."""
+        text = f"at {found.scale} on {found.sheet.value} they are too small to be read well"
+        return () if self._is_legible(found) else (Notice("drawing-small", text, where="views"),)
 
     def _is_better(self, bare: Arrangement, found: Arrangement | ParameterError) -> bool:
         return bare.factor > found.factor if isinstance(found, Arrangement) else self._is_legible(bare)
