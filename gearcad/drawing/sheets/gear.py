@@ -99,7 +99,8 @@ class _Content:
     def _sizes(self) -> str:
         """Teeth, module and helix angle, for where nobody gave a supplementary title."""
         gear, words = self.drawn.gear, self.words
-        texts = [f"z = {gear.teeth}", f"mₙ = {words.shortest(gear.normal_module, 6)}"]
+        assert gear.teeth is not None  # derived by now
+        texts = [f"z = {words.number(gear.teeth, 0)}", f"mₙ = {words.shortest(gear.normal_module, 6)}"]
         return ", ".join([*texts, *([f"β = {words.shortest(abs(gear.helix_angle), 4)}°"] if gear.helix_angle else [])])
 
     def arranged(self) -> tuple[Arrangement, tuple[Notice, ...]]:
