@@ -157,6 +157,20 @@ def test_equal_sheets_give_equal_bytes(tmp_path: Path) -> None:
         assert (folders[0] / name).read_bytes() == (folders[1] / name).read_bytes()
 
 
+def test_large_sheets_have_wider_lines(tmp_path: Path) -> None:
+    """Group 0.7 of ISO 128-2 from A1 on, 0.5 up to A2; the frame is 0.7 on all (ISO 5457)."""
+    found = {}
+    for size in ((594.0, 420.0), (841.0, 594.0)):
+        document = sheet_document(_figure(), size, 1.0, title="")
+        write_svg(document, tmp_path / "large.svg")
+        write_pdf([document], tmp_path / "large.pdf")
+        page = _pages((tmp_path / "large.pdf").read_bytes())[0]
+        found[size] = {float(width) for width in re.findall(r"([\d.]+) w\b", page)} - {1.0}
+        drawn = re.findall(r'stroke-width="([\d.]+)"', (tmp_path / "large.svg").read_text(encoding="utf-8"))
+        assert found[size] <= set(map(float, drawn))
+    assert list(found.values()) == [{0.7, 0.5, 0.25, 0.18}, {0.7, 0.35, 0.25}]
+
+
 def test_pdf_is_the_paper_and_its_circle_is_round(tmp_path: Path) -> None:
     _written(_figure(), tmp_path)
     content = (tmp_path / "sheet.pdf").read_bytes()

@@ -29,6 +29,15 @@ _BLACK = 7
 _LINE_TYPES = {Pen.CENTRE: "CENTER", Pen.HIDDEN: "HIDDEN"}
 """Names that programs know which do not read what line types are made of; dashes are in mm, as pens have them."""
 
+_LARGEST_OF_GROUP_05 = 594.0
+"""Longer side of A2: larger sheets have lines of group 0.7 (ISO 128-2)."""
+
+_GROUP_07 = {18: 25, 25: 35, 35: 50, 50: 70}
+"""Widths of that group (hundredths of mm) by those of group 0.5."""
+
+_SAME_ON_ALL = (Pen.FRAME, Pen.GRID)
+"""ISO 5457 has one width for all sizes."""
+
 _ANSI31_SPACING, _ANSI31_ANGLE = 3.175, 45.0
 _MOST_OF_A_PROPERTY = 250
 
@@ -41,6 +50,7 @@ def sheet_document(
     Model space is the paper. Dimensions measure the part: a program that draws them anew writes its sizes.
     """
     document = new_document()
+    _add_layers(document, size)
     _add_styles(document, scale, language)
     _set_paper(document, size)
     properties = document.header.custom_vars
@@ -53,15 +63,22 @@ def sheet_document(
     return document
 
 
-def _add_styles(document: Drawing, scale: float, language: Language) -> None:
-    """Layers, line types, the style of texts and that of dimensions."""
+def _add_layers(document: Drawing, size: tuple[float, float]) -> None:
+    """A layer and a line type for each pen."""
     for pen in Pen:
         width, dashes = pen.stroke
         line_type = _LINE_TYPES.get(pen, "CONTINUOUS")
         if line_type not in document.linetypes:
             lengths = [length * (-1) ** k for k, length in enumerate(dashes)]
             document.linetypes.add(line_type, [sum(dashes), *lengths], description=f"ISO 128-2, {line_type.lower()}")
-        document.layers.add(pen.value, color=_BLACK, linetype=line_type, lineweight=round(100 * width))
+        weight = round(100 * width)
+        if max(size) > _LARGEST_OF_GROUP_05 and pen not in _SAME_ON_ALL:
+            weight = _GROUP_07[weight]
+        document.layers.add(pen.value, color=_BLACK, linetype=line_type, lineweight=weight)
+
+
+def _add_styles(document: Drawing, scale: float, language: Language) -> None:
+    """The style of texts and that of dimensions."""
     document.header["$LTSCALE"] = 1.0
     document.styles.add(TEXT_STYLE, font=font_file().name).dxf.width = STRETCH
     add_dimension_style(document, TEXT_STYLE, scale, language.decimal_mark)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ezdxf.document import Drawing
     from ezdxf.entities import DXFEntity
 
-__all__ = ["Area", "Item", "Stroked", "items", "paper_size"]
+__all__ = ["Area", "Item", "Stroked", "items", "line_widths", "paper_size"]
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,11 @@ Item = Stroked | Area | Text
 def items(document: Drawing) -> Iterator[Item]:
     """All that a document shows, in its order."""
     return _of_all(document.modelspace(), document)
+
+
+def line_widths(document: Drawing) -> dict[Pen, float]:
+    """Of the lines of each pen on this sheet."""
+    return {pen: document.layers.get(pen.value).dxf.lineweight / 100 for pen in Pen}
 
 
 def paper_size(document: Drawing) -> tuple[float, float]:

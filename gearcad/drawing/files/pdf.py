@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cache, singledispatchmethod
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gearcad.drawing.files.document import LANGUAGE, TITLE
-from gearcad.drawing.files.items import Area, Stroked, items, paper_size
+from gearcad.drawing.files.items import Area, Stroked, items, line_widths, paper_size
 from gearcad.drawing.files.lettering import set_letters
 from gearcad.drawing.shapes import Pen, Text, Vertex
 from gearcad.drawing.shapes.font import CAPITAL_HEIGHT, font_file
@@ -50,7 +50,7 @@ def write_pdf(documents: Iterable[Drawing], path: Path) -> None:
         canvas.setPageSize((across / _POINT, up / _POINT))
         canvas.bookmarkPage(title := sheet.header.custom_vars.get(TITLE))
         canvas.addOutlineEntry(title, title)
-        page = _Page(canvas)
+        page = _Page(canvas, line_widths(sheet))
         for item in items(sheet):
             page.show(item)
         canvas.showPage()
@@ -60,8 +60,9 @@ def write_pdf(documents: Iterable[Drawing], path: Path) -> None:
 class _Page:
     """What is drawn on the page of a canvas, in mm."""
 
-    def __init__(self, canvas: Canvas) -> None:
+    def __init__(self, canvas: Canvas, widths: Mapping[Pen, float]) -> None:
         self._canvas = canvas
+        self._widths = widths
         self._pen: Pen | None = None
         canvas.scale(1 / _POINT, 1 / _POINT)
         canvas.setLineJoin(_ROUND)
@@ -86,7 +87,7 @@ class _Page:
         """Change to the pen of a line."""
         if line.pen is not self._pen:
             self._pen = line.pen
-            self._canvas.setLineWidth(line.pen.stroke.width)
+            self._canvas.setLineWidth(self._widths[line.pen])
             self._canvas.setLineCap(_BUTT if line.pen.stroke.dashes else _ROUND)
             self._canvas.setDash()
         if line.pen.stroke.dashes:

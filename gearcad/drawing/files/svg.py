@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape, quoteattr
 
 from gearcad.drawing.files.document import LANGUAGE, TITLE
-from gearcad.drawing.files.items import Area, Stroked, items, paper_size
+from gearcad.drawing.files.items import Area, Stroked, items, line_widths, paper_size
 from gearcad.drawing.shapes import Pen, Text, Vertex
 from gearcad.drawing.shapes.font import CAPITAL_HEIGHT
 
@@ -30,7 +30,7 @@ def write_svg(document: Drawing, path: Path) -> None:
 
 def _lines(document: Drawing) -> Iterator[str]:
     across, up = paper_size(document)
-    page, properties = _Page(up), document.header.custom_vars
+    page, properties, widths = _Page(up), document.header.custom_vars, line_widths(document)
     groups: dict[Pen, list[str]] = {pen: [] for pen in Pen}
     for item in items(document):
         groups[item.pen] += page.shown(item)
@@ -43,7 +43,7 @@ def _lines(document: Drawing) -> Iterator[str]:
     for pen, elements in groups.items():
         if elements:
             cap = "butt" if pen.stroke.dashes else "round"
-            yield f'<g id="{pen.value}" stroke-width="{_number(pen.stroke.width)}" stroke-linecap="{cap}">'
+            yield f'<g id="{pen.value}" stroke-width="{_number(widths[pen])}" stroke-linecap="{cap}">'
             yield from elements
             yield "</g>"
     yield "</g>"

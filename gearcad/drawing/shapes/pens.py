@@ -9,7 +9,7 @@ __all__ = ["Pen", "Stroke"]
 
 
 class Stroke(NamedTuple):
-    """Width of a line (of group 0.5), and the lengths of its dashes and gaps in turn; none for a continuous line."""
+    """Width of a line of group 0.5, and the lengths of its dashes and gaps in turn; none for a continuous line."""
 
     width: float
     dashes: tuple[float, ...] = ()
