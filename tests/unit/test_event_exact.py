@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from gearcad.dynamics.compiled import compiled
+from gearcad.compiled import compiled
 from gearcad.dynamics.tooth_springs.event_exact import (
     Motion,
     MotionOutcome,

@@ -1,8 +1,6 @@
-"""A sector condensed to its cuts (static condensation): its section is divided in two, and again, and nodes go with the part
-that needs them last.
+"""A sector condensed to its cuts (static condensation): part by part, nodes go and leave their load to those around them.
 
-Fronts are dense (nested dissection, multifrontal Cholesky): above a node of the section stand all nodes of the sweep, so even
-small parts make large blocks.
+Fronts are dense (multifrontal Cholesky), and BLAS works in place: matrices lie column by column, loads row by row.
 """
 
 from __future__ import annotations
@@ -13,74 +11,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
+from gearcad.contact.solid.dissection import SolidPart
 from gearcad.errors import SolverError
 from gearcad.progress import Share, unheard
 
-__all__ = ["Condensed", "condense", "parts_of"]
+__all__ = ["Condensed", "condense", "node_dofs"]
 
 
-_SMALLEST = 8
-"""Quadrangles of a part that is not divided further."""
-
-_DIRECTIONS, _SHARES = 16, (0.42, 0.46, 0.5, 0.54, 0.58)
-"""Lines along which a division is tried: directions, and parts of the quadrangles on one side."""
-
-
-@dataclass(frozen=True)
-class SectionPart:
-    """Some quadrangles of a section, divided or not, the nodes (n,) that nothing else needs, and how many others do."""
-
-    quads: Wholes
-    own: Wholes
-    shared: int
-    halves: tuple[SectionPart, ...]
-
-    @property
-    def work(self) -> float:
-        """Of eliminating its own nodes, in no unit: multiplications over the cube of the nodes above one of the section."""
-        own = len(self.own)
-        return own**3 / 3 + own**2 * self.shared + own * self.shared**2
-
-
-def parts_of(points: Floats, quads: Wholes, kept: Wholes) -> SectionPart:
-    """Divide a section: nodes `points` (n, 2), quadrangles (m, 8), and nodes that are not to go."""
-    uses = np.bincount(quads.ravel(), minlength=len(points))
-    uses[kept] = len(quads) * 8 + 1  # more than there can be
-    return _divided(points, quads, np.arange(len(quads)), uses)
-
-
-def _divided(points: Floats, quads: Wholes, chosen: Wholes, uses: Wholes) -> SectionPart:
-    nodes, times = np.unique(quads[chosen], return_counts=True)
-    complete = nodes[times == uses[nodes]]
-    if len(chosen) <= _SMALLEST:
-        return SectionPart(chosen, complete, len(nodes) - len(complete), ())
-    halves = tuple(_divided(points, quads, chosen[half], uses) for half in _halves(points, quads[chosen]))
-    gone = np.concatenate([_all_own(half) for half in halves])
-    return SectionPart(chosen, np.setdiff1d(complete, gone), len(nodes) - len(complete), halves)
-
-
-def _halves(points: Floats, quads: Wholes) -> tuple[Wholes, Wholes]:
-    """The quadrangles on both sides of a line with the fewest nodes on it, among lines that leave a fair part on each."""
-    centres = points[quads[:, :4]].mean(axis=1)
-    best: tuple[int, Wholes, Wholes] | None = None
-    for angle in np.linspace(0, np.pi, _DIRECTIONS, endpoint=False):
-        order = np.argsort(centres @ [np.cos(angle), np.sin(angle)], kind="stable")
-        for share in _SHARES:
-            count = round(share * len(order))
-            first, second = order[:count], order[count:]
-            shared = len(np.intersect1d(quads[first], quads[second]))
-            if best is None or shared < best[0]:
-                best = (shared, first, second)
-    assert best is not None  # there are directions
-    return best[1], best[2]
-
-
-def _all_work(part: SectionPart) -> float:
-    return part.work + sum(_all_work(half) for half in part.halves)
-
-
-def _all_own(part: SectionPart) -> Wholes:
-    return np.concatenate([part.own, *(_all_own(half) for half in part.halves)])
+def node_dofs(nodes: Wholes) -> Wholes:
+    """Dofs (..., 3 n) of nodes (..., n)."""
+    return (3 * nodes[..., None] + np.arange(3)).reshape(*nodes.shape[:-1], -1)
 
 
 @dataclass(frozen=True)
@@ -91,6 +31,21 @@ class _Front:
     aside: Wholes
     lower: Floats
     across: Floats
+
+    def solved(self, loads: Floats) -> Floats:
+        """L^-1 loads (n, m)."""
+        return self._divided(loads, transposed=1)
+
+    def moved(self, solved: Floats) -> Floats:
+        """L^-T solved (n, m)."""
+        return self._divided(solved, transposed=0)
+
+    def _divided(self, right: Floats, transposed: int) -> Floats:
+        from scipy.linalg.blas import dtrsm
+
+        # From the right: rows of C are columns of Fortran.
+        turned: Floats = dtrsm(1.0, self.lower, right.T, side=1, lower=1, trans_a=transposed, overwrite_b=1)
+        return turned.T
 
 
 @dataclass(frozen=True)
@@ -103,84 +58,87 @@ class Condensed:
 
     def forward(self, loads: Floats) -> tuple[list[Floats], Floats]:
         """What `backward` needs of loads (dofs, m), and the loads (kept, m) that arrive at the dofs that are kept."""
-        import scipy.linalg
-
         left, found = loads.copy(), []
         for front in self.fronts:
-            solved = scipy.linalg.solve_triangular(front.lower, left[front.own], lower=True, check_finite=False)
+            solved = front.solved(left[front.own])
             left[front.aside] -= front.across.T @ solved
             found.append(solved)
         return found, left[self.kept]
 
     def backward(self, found: list[Floats] | None, moved: Floats) -> Floats:
         """Displacements (dofs, m); `moved` holds those of the kept dofs and is 0 elsewhere, `found` None stands for no load."""
-        import scipy.linalg
-
         moved = moved.copy()
         for place in range(len(self.fronts) - 1, -1, -1):
             front = self.fronts[place]
-            right = -front.across @ moved[front.aside]
+            right = -(front.across @ moved[front.aside])
             if found is not None:
                 right += found[place]
-            moved[front.own] = scipy.linalg.solve_triangular(front.lower, right, lower=True, trans=1, check_finite=False)
+            moved[front.own] = front.moved(right)
         return moved
 
 
 def condense(
-    part: SectionPart,
-    dofs_of: Callable[[Wholes], Wholes],
-    matrix_of: Callable[[Wholes], tuple[Wholes, Floats]],
+    whole: SolidPart,
+    nodes: int,
+    hexahedra_of: Callable[[SolidPart], tuple[Wholes, Floats]],
     kept: Wholes,
     tell: Share = unheard,
 ) -> Condensed:
-    """Eliminate all but the dofs `kept`.
+    """Eliminate all nodes but those of the dofs `kept`.
 
-    `dofs_of` gives the dofs above section nodes, `matrix_of` the dofs of some quadrangles and their dense matrix, held dofs
-    left out. Raises SolverError for a matrix that is not positive definite.
+    `hexahedra_of` gives the nodes (m, 20) of the hexahedra of a part, of `nodes` in all, and their matrices (m, 60, 60); nodes
+    that no part has are held. Raises SolverError for a matrix that is not positive definite.
     """
-    fronts: list[_Front] = []
-    whole, done = _all_work(part), 0.0
-
-    def finished(front: _Front, part: SectionPart) -> None:
-        nonlocal done
-        fronts.append(front)
-        done += part.work
-        tell(done / whole)
-
-    dofs, matrix = _eliminated(part, dofs_of, matrix_of, finished)
-    place = np.searchsorted(dofs, kept)
-    result = matrix[np.ix_(place, place)]
-    return Condensed(tuple(fronts), kept, (result + result.T) / 2)
+    elimination = _Elimination(np.full(nodes, -1), hexahedra_of, [], sum(part.flops for part in whole.every()), tell)
+    matrix = elimination.eliminated(whole)
+    place = np.searchsorted(node_dofs(whole.aside), kept)
+    matrix += np.tril(matrix, -1).T
+    return Condensed(tuple(elimination.fronts), kept, matrix[np.ix_(place, place)])
 
 
-def _eliminated(
-    part: SectionPart,
-    dofs_of: Callable[[Wholes], Wholes],
-    matrix_of: Callable[[Wholes], tuple[Wholes, Floats]],
-    finished: Callable[[_Front, SectionPart], None],
-) -> tuple[Wholes, Floats]:
-    """The dofs (sorted) that a part leaves, and the matrix on them; `finished` gets its fronts."""
-    import scipy.linalg
+@dataclass
+class _Elimination:
+    """`places` are -1 for all nodes but while a part's are looked up, `done` of the operations `flops` are."""
 
-    given = [_eliminated(half, dofs_of, matrix_of, finished) for half in part.halves] or [matrix_of(part.quads)]
-    every = np.unique(np.concatenate([dofs for dofs, _ in given]))
-    goes = np.isin(every, dofs_of(part.own), assume_unique=True)
-    own, aside = every[goes], every[~goes]
-    # Those that go come first, so that the parts of the matrix are slices.
-    place = np.empty(len(every), int)
-    place[goes], place[~goes] = np.arange(len(own)), len(own) + np.arange(len(aside))
-    matrix = np.zeros((len(every), len(every)))
-    for dofs, block in given:
-        here = place[np.searchsorted(every, dofs)]
-        for row, values in zip(here, block, strict=True):  # an order of magnitude faster than all rows at once
-            matrix[row, here] += values
-    count = len(own)
-    try:
-        lower = scipy.linalg.cholesky(matrix[:count, :count], lower=True, check_finite=False)
-    except np.linalg.LinAlgError as error:
-        raise SolverError(f"the stiffness matrix of a gear body could not be factorised ({error})") from error
-    across = scipy.linalg.solve_triangular(lower, matrix[:count, count:], lower=True, check_finite=False)
-    finished(_Front(own, aside, lower, across), part)
-    rest = matrix[count:, count:]
-    rest -= across.T @ across
-    return aside, rest
+    places: Wholes
+    hexahedra_of: Callable[[SolidPart], tuple[Wholes, Floats]]
+    fronts: list[_Front]
+    flops: float
+    tell: Share
+    done: float = 0.0
+
+    def eliminated(self, part: SolidPart) -> Floats:
+        """The matrix, its lower triangle only, on the dofs of the nodes that a part leaves."""
+        from scipy.linalg.blas import dsyrk, dtrsm
+        from scipy.linalg.lapack import dpotrf
+
+        own, across, rest = self._assembled(part)
+        if len(own):
+            lower, failed = dpotrf(own, lower=1, clean=0, overwrite_a=1)
+            if failed:
+                raise SolverError(f"the stiffness matrix of a gear body could not be factorised (its minor {failed})")
+            across = dtrsm(1.0, lower, across, lower=1, overwrite_b=1)
+            if len(rest):
+                rest = dsyrk(-1.0, across, beta=1.0, c=rest, trans=1, lower=1, overwrite_c=1)
+            self.fronts.append(_Front(node_dofs(part.own), node_dofs(part.aside), lower, across))
+        self.done += part.flops
+        self.tell(self.done / self.flops)
+        return rest
+
+    def _assembled(self, part: SolidPart) -> tuple[Floats, ...]:
+        """The matrix of a part: that of its own dofs, that across and that of the others."""
+        from gearcad.contact.solid.assembling import add_block, add_hexahedra
+
+        given = [(half, self.eliminated(half)) for half in part.parts]
+        count, others = 3 * len(part.own), 3 * len(part.aside)
+        whole = tuple(np.zeros(shape, order="F") for shape in ((count, count), (count, others), (others, others)))
+        every = np.r_[part.own, part.aside]
+        self.places[every] = np.arange(len(every))
+        while given:
+            half, matrix = given.pop()
+            add_block(matrix, self.places[half.aside], *whole)
+        if not part.parts:
+            nodes, matrices = self.hexahedra_of(part)
+            add_hexahedra(matrices, self.places[nodes], *whole)
+        self.places[every] = -1
+        return whole

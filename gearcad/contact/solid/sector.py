@@ -10,7 +10,8 @@ import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.contact.shared.chain import Chain, polar_turn
-from gearcad.contact.solid.condensation import Condensed, condense, parts_of
+from gearcad.contact.solid.condensation import Condensed, condense, node_dofs
+from gearcad.contact.solid.dissection import SolidPart, dissected
 from gearcad.contact.solid.hexahedra import layer_matrices
 from gearcad.contact.solid.hub import bore_forces, seen_at
 from gearcad.material import Material
@@ -41,12 +42,12 @@ class SolidSector:
     @cached_property
     def behind(self) -> Wholes:
         """Dofs of the cut behind, but for those on the hub."""
-        return _dofs(self.mesh.over(self._off_hub(self.mesh.section.behind)))
+        return node_dofs(self.mesh.over(self._off_hub(self.mesh.section.behind)))
 
     @cached_property
     def ahead(self) -> Wholes:
         """Dofs of the cut ahead, but for those on the hub: the k-th meets the k-th of `behind`."""
-        return _dofs(self.mesh.over(self._off_hub(self.mesh.section.ahead)))
+        return node_dofs(self.mesh.over(self._off_hub(self.mesh.section.ahead)))
 
     def _off_hub(self, cut: Wholes) -> Wholes:
         """The nodes of a cut of the section that are not on the hub: all but the last, which lies on the bore, if that is."""
@@ -55,7 +56,7 @@ class SolidSector:
     @cached_property
     def hub(self) -> Wholes:
         """Dofs that belong to the hub."""
-        return np.empty(0, int) if self.free else _dofs(self.mesh.over(self.mesh.side(Side.HELD)))
+        return np.empty(0, int) if self.free else node_dofs(self.mesh.over(self.mesh.side(Side.HELD)))
 
     @property
     def cut_radii(self) -> Floats:
@@ -67,11 +68,16 @@ class SolidSector:
     @cached_property
     def cut_turn(self) -> Any:
         """Matrix (scipy CSR) from dofs with polar cuts to those in x, y, z of the turning axes."""
+        return polar_turn(self._cut_angles, 3)
+
+    @cached_property
+    def _cut_angles(self) -> Floats:
+        """Angles (rad) of the nodes of the cuts, 0 for all others."""
         angles = np.zeros(self.mesh.nodes)
         for nodes in (self.mesh.section.ahead, self.mesh.section.behind):
             every = self.mesh.over(nodes)
             angles[every] = np.arctan2(*self.mesh.in_section[every].T[::-1])
-        return polar_turn(angles, 3)
+        return angles
 
     def stiffness(self, quads: Wholes | None = None) -> Any:
         """Matrix (scipy CSR, N/mm) over the section's quadrangles, or some of them, in the turning axes."""
@@ -80,7 +86,7 @@ class SolidSector:
         chosen = self.mesh.section.quads if quads is None else self.mesh.section.quads[quads]
         row, column, value = [], [], []
         for layer, matrices in self._layers(chosen):
-            dofs = _dofs(self.mesh.elements(chosen, layer)).reshape(len(chosen), 60).astype(np.int32)
+            dofs = node_dofs(self.mesh.elements(chosen, layer)).reshape(len(chosen), 60).astype(np.int32)
             row.append(np.repeat(dofs, 60, axis=1).ravel())
             column.append(np.tile(dofs, (1, 60)).ravel())
             value.append(matrices.ravel())
@@ -100,27 +106,29 @@ class SolidSector:
     @cached_property
     def condensed(self) -> Condensed:
         """The sector with its hub held, condensed to its cuts."""
-        section = self.mesh.section
+        section, layers = self.mesh.section, [matrices for _, matrices in self._layers(self.mesh.section.quads)]
         held = np.empty(0, int) if self.free else self.mesh.side(Side.HELD)
-        part = parts_of(section.points, section.quads, np.r_[section.behind, section.ahead, held])
-        layers = list(self._layers(section.quads))
-        local = np.full(self.dofs, -1)
 
-        def matrix_of(quads: Wholes) -> tuple[Wholes, Floats]:
-            elements = [_dofs(self.mesh.elements(section.quads[quads], layer)) for layer, _ in layers]
-            dofs = np.setdiff1d(np.concatenate(elements), self.hub)
-            local[dofs] = np.arange(len(dofs))
-            size = len(dofs) + 1  # the last row and column collect what is held
-            matrix = np.zeros(size * size)
-            for numbers, (_, matrices) in zip(elements, layers, strict=True):
-                place = local[numbers] % size
-                np.add.at(matrix, (place[:, :, None] * size + place[:, None, :]).ravel(), matrices[quads].ravel())
-            local[dofs] = -1
-            turn = self.cut_turn[dofs][:, dofs]
-            return dofs, turn.T @ (turn.T @ matrix.reshape(size, size)[:-1, :-1]).T
+        def hexahedra_of(part: SolidPart) -> tuple[Wholes, Floats]:
+            chosen, every = section.quads[part.quads], range(part.first, part.last)
+            nodes = np.concatenate([self.mesh.elements(chosen, layer) for layer in every])
+            return nodes, self._with_polar_cuts(nodes, np.concatenate([layers[layer][part.quads] for layer in every]))
 
         kept = np.r_[self.behind, self.ahead]
-        return condense(part, lambda nodes: np.sort(_dofs(self.mesh.over(nodes))), matrix_of, kept, self.tell)
+        whole = dissected(self.mesh, np.r_[section.behind, section.ahead], held)
+        return condense(whole, self.mesh.nodes, hexahedra_of, kept, self.tell)
+
+    def _with_polar_cuts(self, nodes: Wholes, matrices: Floats) -> Floats:
+        """Matrices (m, 60, 60) of hexahedra with nodes (m, 20), in dofs that are radial and tangential at the cuts."""
+        angles = self._cut_angles[nodes]
+        at_cut = np.flatnonzero(angles.any(axis=1))
+        if not len(at_cut):
+            return matrices
+        turn = polar_turn(angles[at_cut].ravel(), 3)
+        blocks = matrices[at_cut].reshape(-1, 60)
+        half = (turn.T @ blocks).reshape(-1, 60, 60).transpose(0, 2, 1).reshape(-1, 60)
+        matrices[at_cut] = (turn.T @ half).reshape(-1, 60, 60).transpose(0, 2, 1)
+        return matrices
 
     @cached_property
     def chain(self) -> Chain:
@@ -172,7 +180,3 @@ class SolidSector:
         held[self.hub] = motion[self.hub]
         result: Floats = self.cut_turn.T @ held
         return result
-
-
-def _dofs(nodes: Wholes) -> Wholes:
-    return (3 * nodes[..., None] + np.arange(3)).reshape(*nodes.shape[:-1], -1)

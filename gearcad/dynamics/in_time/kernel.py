@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.dynamics.compiled import compiled, inlined
+from gearcad.compiled import compiled, inlined
 
 __all__ = ["CourseTables", "Model", "Records", "State", "propagators", "run"]
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.dynamics.compiled import compiled, inlined
+from gearcad.compiled import compiled, inlined
 
 __all__ = ["Pattern", "Samples", "Steps", "advance"]
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.dynamics.compiled import compiled
+from gearcad.compiled import compiled
 
 __all__ = ["Motion", "MotionOutcome", "Spring", "Zone", "accelerated", "advanced", "next_turn", "run"]
 

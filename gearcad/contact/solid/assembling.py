@@ -1,0 +1,66 @@
+"""Matrices of parts added to that of the whole, three dofs a node: only its lower triangle, in its three blocks.
+
+Compiled by numba: import this room inside functions only. Places are those of nodes in the order of the whole, its own first; a
+node at a negative place is left out.
+"""
+
+from __future__ import annotations
+
+from gearcad.arrays import Floats, Wholes
+from gearcad.compiled import compiled
+
+__all__ = ["add_block", "add_hexahedra"]
+
+
+@compiled
+def add_block(block: Floats, places: Wholes, own: Floats, across: Floats, rest: Floats) -> None:
+    """Add a matrix (3 n, 3 n), of which only the lower triangle is read.
+
+    The whole is [[own, across], [across.T, rest]].
+    """
+    count = own.shape[0] // 3
+    for second in range(len(places)):
+        column = places[second]
+        if column < 0:
+            continue
+        for first in range(second, len(places)):
+            row = places[first]
+            if row < 0:
+                continue
+            for b in range(3):
+                for a in range(b if first == second else 0, 3):
+                    value = block[3 * first + a, 3 * second + b]
+                    low, high = 3 * row + a, 3 * column + b
+                    if low < high:
+                        low, high = high, low
+                    if low < 3 * count:
+                        own[low, high] += value
+                    elif high < 3 * count:
+                        across[high, low - 3 * count] += value
+                    else:
+                        rest[low - 3 * count, high - 3 * count] += value
+
+
+@compiled
+def add_hexahedra(blocks: Floats, places: Wholes, own: Floats, across: Floats, rest: Floats) -> None:
+    """Add matrices (m, 60, 60) of hexahedra with nodes at places (m, 20)."""
+    count = own.shape[0] // 3
+    for element in range(len(places)):
+        for second in range(20):
+            column = places[element, second]
+            if column < 0:
+                continue
+            for first in range(20):
+                row = places[element, first]
+                if row < column:
+                    continue
+                for a in range(3):
+                    for b in range(a + 1 if row == column else 3):
+                        value = blocks[element, 3 * first + a, 3 * second + b]
+                        low, high = 3 * row + a, 3 * column + b
+                        if low < 3 * count:
+                            own[low, high] += value
+                        elif high < 3 * count:
+                            across[high, low - 3 * count] += value
+                        else:
+                            rest[low - 3 * count, high - 3 * count] += value
