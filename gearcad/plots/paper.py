@@ -44,10 +44,10 @@ _LEGEND, _HANDLE, _LETTER = 5.9, 0.55, 0.072
 
 
 def new_figure(inches: tuple[float, float] = FIGURE_INCHES) -> Figure:
-    """An empty figure as wide as the text of a report."""
-    from matplotlib.figure import Figure
+    """An empty figure as wide as the text of a report, with margins as its texts need them."""
+    from gearcad.plots.margins import FittedFigure
 
-    return Figure(figsize=inches, layout="constrained")
+    return FittedFigure(inches)
 
 
 def prepared(ax: Axes | None, x: str, y: str) -> Axes:
