@@ -86,17 +86,19 @@ def contact_lines(
     reach = math.ceil((sum(abs(each.last) for each in line.flanks) + width * abs(slope)) / line.pitch)
     pinion_start = pair.pinion.face_width / 2 + common.offset
     wheel_start = pair.wheel.face_width / 2 + common.offset - pair.axial_offset
+    middle = (edges[1:] + edges[:-1]) / 2
     found = []
     for tooth in range(-reach, reach + 1):
-        nominal = pinion_length + tooth * line.pitch + edges * slope
-        usable, (one, *_) = _facing(line, nominal)
-        ends = flank.points((one, edges + pinion_start))
-        middle = (edges[1:] + edges[:-1]) / 2
-        nominal = pinion_length + tooth * line.pitch + middle * slope
+        start = pinion_length + tooth * line.pitch
+        nominal = start + middle * slope
+        if not _overlap(line, nominal).usable.any():
+            continue
         usable, (one, other, aside, gap, distance) = _facing(line, nominal)
         here = usable & (gap < farthest_gap)
         if not here.any():
             continue
+        _, (at_ends, *_) = _facing(line, start + edges * slope)
+        ends = flank.points((at_ends, edges + pinion_start))
         places = PerGear((one[here], middle[here] + pinion_start), (other[here], middle[here] + wheel_start))
         lengths = np.linalg.norm(np.diff(ends, axis=0), axis=1)[here]
         found.append(
@@ -116,21 +118,39 @@ def contact_lines(
     return tuple(found)
 
 
-def _facing(line: LineOfAction, nominal: Floats) -> tuple[Bools, tuple[Floats, Floats, Floats, Floats, Floats]]:
-    """Where flanks are usable, and their roll lengths where they are nearest, how far aside that is, and the gap (mm).
-
-    Last, how far inside the ends of both flanks that is.
+class _Overlap(NamedTuple):
+    """Roll lengths (n,) of both flanks that touch, between which places (n,) along the tangent they face each other (mm), and
+    whether they do.
     """
+
+    touching: PerGear[Floats]
+    low: Floats
+    high: Floats
+    usable: Bools
+
+
+def _overlap(line: LineOfAction, nominal: Floats) -> _Overlap:
+    """That of flanks that touch at places (n,) of the line of action (mm from T1)."""
     one, other = line.flanks
     bent, touching = _bent(line), PerGear(nominal, line.whole - nominal)
     usable = (nominal > bent.pinion[0]) & (touching.wheel > bent.wheel[0])
     first, second = (np.clip(lengths, *within) for lengths, within in zip(touching, bent, strict=True))
     high = np.minimum(one.along_tangent(first, one.last), -other.along_tangent(second, other.first))
     low = np.maximum(one.along_tangent(first, one.first), -other.along_tangent(second, other.last))
+    return _Overlap(PerGear(first, second), low, high, usable & (low < high))
+
+
+def _facing(line: LineOfAction, nominal: Floats) -> tuple[Bools, tuple[Floats, Floats, Floats, Floats, Floats]]:
+    """Where flanks are usable, and their roll lengths where they are nearest, how far aside that is, and the gap (mm).
+
+    Last, how far inside the ends of both flanks that is.
+    """
+    one, other = line.flanks
+    (first, second), low, high, usable = _overlap(line, nominal)
     aside = np.clip(0.0, low, high)
     lengths, behind = one.facing(first, aside)
     wheel_lengths, wheel_behind = other.facing(second, -aside)
-    return usable & (low < high), (lengths, wheel_lengths, aside, behind + wheel_behind, np.minimum(high, -low))
+    return usable, (lengths, wheel_lengths, aside, behind + wheel_behind, np.minimum(high, -low))
 
 
 def _bent(line: LineOfAction) -> PerGear[tuple[float, float]]:

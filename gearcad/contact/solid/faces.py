@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
+from typing import Any
 
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.meshing.section.swept import SweptMesh
 
-__all__ = ["Faces", "boundary_faces"]
+__all__ = ["Faces", "boundary_faces", "summing"]
 
 
 _FAR = 3
@@ -62,14 +63,24 @@ class Faces:
         first, second = (slope @ self.points[faces] for slope in slopes)
         return points, np.cross(first, second) * weights[:, None]
 
-    def forces(self, mesh: SweptMesh, traction: Callable[[Floats, Floats], Floats], singular_at: Floats, near: int) -> Floats:
-        """Nodal forces (n, 3) of a traction field that is singular at one point; `near` Gauss points each way around it."""
+    @property
+    def used(self) -> Wholes:
+        """Nodes (n,) of the faces, sorted."""
+        return self._sums[0]
+
+    @cached_property
+    def _sums(self) -> tuple[Wholes, Any]:
+        return summing(self.nodes)
+
+    def forces(self, traction: Callable[[Floats, Floats], Floats], singular_at: Floats, near: int) -> Floats:
+        """Forces (n, 3) on the nodes that are `used` of a traction field that is singular at one point; `near` Gauss points
+        each way around it.
+        """
         distance = np.linalg.norm(self._centres - singular_at, axis=-1)
         close = np.flatnonzero(distance < (1 + _CLOSE) * self._sizes)
-        nodal = np.einsum("qa,mqc->mac", _rule(_FAR)[0], traction(*self._far))
-        nodal[close] = np.einsum("qa,mqc->mac", _rule(near)[0], traction(*self._gauss(close, near)))
-        result = np.zeros((mesh.nodes, 3))
-        np.add.at(result, self.nodes, nodal)
+        nodal = _rule(_FAR)[0].T @ traction(*self._far)
+        nodal[close] = _rule(near)[0].T @ traction(*self._gauss(close, near))
+        result: Floats = self._sums[1] @ nodal.reshape(-1, 3)
         return result
 
     def among(self, nodes: Wholes) -> Faces:
@@ -80,9 +91,19 @@ class Faces:
     def smooth_forces(self, mesh: SweptMesh, traction: Callable[[Floats, Floats], Floats]) -> Floats:
         """Nodal forces (n, 3, ...) of a smooth traction field."""
         nodal = np.einsum("qa,mqc...->mac...", _rule(_FAR)[0], traction(*self._far))
+        used, sums = self._sums
         result = np.zeros((mesh.nodes, *nodal.shape[2:]))
-        np.add.at(result, self.nodes, nodal)
+        result[used] = (sums @ nodal.reshape(self.nodes.size, -1)).reshape(-1, *nodal.shape[2:])
         return result
+
+
+def summing(nodes: Wholes) -> tuple[Wholes, Any]:
+    """The nodes (n,) that elements use, sorted, and the matrix (scipy CSR, n x elements' nodes) that sums values at them."""
+    import scipy.sparse
+
+    used, index = np.unique(nodes, return_inverse=True)
+    entries = (np.ones(nodes.size), (index.ravel(), np.arange(nodes.size)))
+    return used, scipy.sparse.csr_matrix(entries, shape=(len(used), nodes.size))
 
 
 def boundary_faces(mesh: SweptMesh, quads: Wholes) -> Faces:

@@ -6,7 +6,7 @@ The load's field in a half-space is taken off the elements of the loaded tooth, 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,9 +15,9 @@ from gearcad.arrays import Floats, Wholes
 from gearcad.contact.shared.engaged import FlankCompliance
 from gearcad.contact.solid.body import SolidBody
 from gearcad.contact.solid.boussinesq import surface_displacement
-from gearcad.contact.solid.faces import boundary_faces
 from gearcad.contact.solid.images import Images, TakenOff
 from gearcad.contact.solid.places import Grid, GridSpline, Places, SolidFlank
+from gearcad.contact.solid.remaining import remaining
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
 from gearcad.material import Material
@@ -129,28 +129,18 @@ def solid_compliance(gear: Gear, body: SolidBody, material: Material, start: flo
     nodes, grid = _flank_grid(flank, mesh)
     loads = _load_grid(grid, gear, start)
     places = loads.places
-    at, inward = flank.points(places), flank.inward(places)
-    near = _near_quads(gear, mesh)
-    touched = np.unique(mesh.over(np.unique(mesh.section.quads[near])))
-    singular = np.zeros((mesh.nodes, 3, len(at)))
-    forces = np.zeros_like(singular)
-    faces, field = boundary_faces(mesh, near), TakenOff(flank, material)
     points = _NEAR_OF_RINGS if gear.internal else _NEAR
-    for column, (where, direction) in enumerate(zip(at, inward, strict=True)):
-        singular[touched, :, column] = field.displacement(mesh.points[touched], where, direction)
-        forces[:, :, column] = -faces.forces(mesh, partial(field.traction, at=where, inward=direction), where, points)
-        tell((column + 1) / len(at))
-    taken_off = mesh.to_turning(singular).reshape(sector.dofs, -1)
-    right = sector.stiffness(near) @ taken_off + mesh.to_turning(forces).reshape(sector.dofs, -1)
-    moved = body.solve(right)
+    rest = remaining(flank, mesh, material, _near_quads(gear, mesh), places, points, tell)
+    moved = body.solve(rest.everywhere(rest.forces, mesh.nodes))
     normal = flank.inward(grid.places)
     found = {
         tooth: _normal(mesh, moved.displacements[body.neighbours + tooth], nodes, normal)
         for tooth in range(-body.neighbours, body.neighbours + 1)
     }
-    distance = np.linalg.norm(flank.points(grid.places)[:, None] - at, axis=-1)
+    distance = np.linalg.norm(flank.points(grid.places)[:, None] - flank.points(places), axis=-1)
     found[0] = found[0] - np.where(distance > 1e-9, surface_displacement(np.maximum(distance, 1e-9), material), 0.0)
     found[0] -= Images(flank, material).normal(grid.places, places)
+    taken_off = rest.everywhere(rest.taken_off, mesh.nodes)
     moved.displacements[body.neighbours] -= taken_off
     return SolidCompliance(flank, body, material, loads, grid, found, moved.displacements, taken_off, moved.torques)
 

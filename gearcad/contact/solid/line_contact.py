@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -65,11 +66,18 @@ class Responses:
 
     def half_space(self, half_widths: Floats) -> Floats:
         """Displacements (n, n) in mm/N of both half-spaces, for ellipses as wide as that (mm) on each side."""
-        own, half = OWN_DISTANCE * half_widths, self.lengths / 2
-        finite = np.where(np.isfinite(self.apart), self.apart, 0.0)
-        kernel = (np.arcsinh((finite + half) / own) - np.arcsinh((finite - half) / own)) / self.lengths
-        result: Floats = np.where(np.isfinite(self.apart), kernel, 0.0) / (math.pi * self.modulus)
+        result = np.zeros_like(self.apart)
+        for here in self._own_cells:
+            apart, own, half = self.apart[here, here], OWN_DISTANCE * half_widths[here], self.lengths[here] / 2
+            kernel = (np.arcsinh((apart + half) / own) - np.arcsinh((apart - half) / own)) / self.lengths[here]
+            result[here, here] = kernel / (math.pi * self.modulus)
         return result
+
+    @property
+    def _own_cells(self) -> list[slice]:
+        """The cells of each line."""
+        ends = np.cumsum([0, *(len(line.across) for line in self.lines)]).tolist()
+        return [slice(first, last) for first, last in pairwise(ends)]
 
 
 def responses(lines: tuple[ContactLine, ...], bodies: PerGear[SolidCompliance], modulus: float) -> Responses:
@@ -136,13 +144,13 @@ def solve_lines(given: Responses, gap: Gaps, force: float) -> LineSolution:
     """Press the gears together with the normal force `force` (N). Raises SolverError."""
     even = force * given.lengths / given.lengths.sum()
     smooth, forces, ones = given.both, even, np.ones(given.cells)
-    widths = half_widths(given, gap.radii, even)
+    widths, pressed = half_widths(given, gap.radii, even), np.ones(given.cells, bool)
     spread = _spread(given, widths)
     for count in range(_ROUNDS):
         kernel = given.half_space(widths)
-        found, approach = complementary(smooth + kernel, gap.normal, ones, force)
+        found, approach = complementary(smooth + kernel, gap.normal, ones, force, pressed)
         change = np.abs(found - forces).max() / found.max()
-        forces = found
+        forces, pressed = found, found > 0
         if change < _SETTLED:
             break
         # Later half the step: a cell at the end of a contact could come and go for ever.

@@ -133,13 +133,13 @@ class SweptMesh:
         """Places (n, 2) of all nodes in the turning axes (mm)."""
         return self.section.points[self._section_node]
 
-    def to_space(self, vectors: Floats) -> Floats:
-        """Vectors (n, 3, ...) at the nodes, from the turning axes to fixed ones."""
-        return _turned_vectors(vectors, self.rate * self.heights)
+    def to_space(self, vectors: Floats, nodes: Wholes | slice = slice(None)) -> Floats:
+        """Vectors (n, 3, ...) at the nodes, or some of them, from the turning axes to fixed ones."""
+        return _turned_vectors(vectors, self.rate * self.heights[nodes])
 
-    def to_turning(self, vectors: Floats) -> Floats:
-        """Vectors (n, 3, ...) at the nodes, from fixed axes to the turning ones."""
-        return _turned_vectors(vectors, -self.rate * self.heights)
+    def to_turning(self, vectors: Floats, nodes: Wholes | slice = slice(None)) -> Floats:
+        """Vectors (n, 3, ...) at the nodes, or some of them, from fixed axes to the turning ones."""
+        return _turned_vectors(vectors, -self.rate * self.heights[nodes])
 
     def side(self, side: Side) -> Wholes:
         """Section nodes of a side of the outline."""
