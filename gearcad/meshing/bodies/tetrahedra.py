@@ -19,7 +19,8 @@ from gearcad.meshing.bodies.exact_tetrahedra import quadratic
 from gearcad.meshing.bodies.gear_faces import ROOT, GearFace, GearFaces
 from gearcad.meshing.bodies.mesh import Cells, ElementMesh, Faces
 from gearcad.meshing.bodies.tetrahedron_sizes import TetrahedronGrading, edge_lengths, expected_tetrahedra
-from gearcad.solids.exact.solid import gear_solid
+from gearcad.solids.exact.kernel import kernel_solid
+from gearcad.solids.exact.solid import gear_boundary
 
 __all__ = ["mesh_tetrahedra"]
 
@@ -56,7 +57,7 @@ def mesh_tetrahedra(
     for tooth in refined_teeth:
         require_whole("refined_teeth", tooth, at_least=1 - gear.tooth_count, at_most=gear.tooth_count - 1)
     refined = {tooth % gear.tooth_count for tooth in refined_teeth}
-    part = _Part(gear, gear_solid(gear).wrapped, refined, grading, stage)
+    part = _Part(gear, kernel_solid(gear_boundary(gear)), refined, grading, stage)
     if size is not None and elements is None:
         require_number("size", size, above=0)
         return part.mesh(lambda _expected: size)

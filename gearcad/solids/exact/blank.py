@@ -5,35 +5,36 @@ from __future__ import annotations
 import math
 
 from gearcad.geometry.gear import Gear
-from gearcad.solids.exact.kernel import Edges, Kernel
+from gearcad.solids.exact.boundary import Chain, Recorder
+from gearcad.solids.exact.forms import LineOnSurface, cylinder_along_z, level_circle, level_plane, straight_line, upright_plane
 from gearcad.solids.exact.tubes import Contour, add_tube, circle, tube
 from gearcad.solids.keyway import keyway_half_angle
 
 __all__ = ["add_blank"]
 
 
-def add_blank(gear: Gear, kernel: Kernel, lower: Edges, upper: Edges) -> None:
-    """Add end faces, hubs and bore to the kernel's shell; `lower` and `upper` are the outer loops of the toothed part.
+def add_blank(gear: Gear, recorder: Recorder, lower: Chain, upper: Chain) -> None:
+    """Add end faces, hubs and bore; `lower` and `upper` are the outer loops of the toothed part.
 
     Loops run counter-clockwise seen from +z.
     """
     body = gear.body
     back, front = body.hub_ends
     heights = (-back, gear.face_width + front)
-    opening = [_opening(gear, kernel, z) for z in heights] if body.bore else None
+    opening = [_opening(gear, recorder, z) for z in heights] if body.bore else None
     if opening:
-        _add_opening(gear, kernel, opening[0], opening[1], heights)
+        _add_opening(gear, recorder, opening[0], opening[1], heights)
     for which, (loop, hub) in enumerate(((lower, back), (upper, front))):
         face_z = gear.face_width * which
         hole = opening[which].loop(along=False) if opening else None
         if hub:
             low, high = sorted((face_z, heights[which]))
-            rings = tube(kernel, body.hub_diameter / 2, (low, high), outward=True)
+            rings = tube(recorder, body.hub_diameter / 2, (low, high), outward=True)
             inner, outer = (rings[1], rings[0]) if which == 0 else (rings[0], rings[1])
-            kernel.face(kernel.plane(face_z), [loop, inner.loop(along=False)], outward=which == 1)
+            recorder.face(level_plane(face_z), [loop, inner.loop(along=False)], outward=which == 1)
             loop = outer.loop(along=True)
         loops = [loop, hole] if hole else [loop]
-        kernel.face(kernel.plane(heights[which]), loops, outward=which == 1)
+        recorder.face(level_plane(heights[which]), loops, outward=which == 1)
 
 
 def _keyway_corners(gear: Gear) -> list[tuple[float, float]]:
@@ -44,40 +45,40 @@ def _keyway_corners(gear: Gear) -> list[tuple[float, float]]:
     return [(wall, half), (wall, -half), (floor, -half), (floor, half)]
 
 
-def _opening(gear: Gear, kernel: Kernel, z: float) -> Contour:
+def _opening(gear: Gear, recorder: Recorder, z: float) -> Contour:
     """Contour of bore and keyway at height z: the arc of the bore, lower wall, floor, upper wall."""
     radius = gear.body.bore / 2
     if not gear.body.keyway_width:
-        return circle(kernel, radius, z)
+        return circle(recorder, radius, z)
     corners = _keyway_corners(gear)
-    starts = [kernel.vertex((x, y, z)) for x, y in corners]
+    starts = [recorder.vertex((x, y, z)) for x, y in corners]
     angle = keyway_half_angle(gear.body)
-    edges = [kernel.edge(kernel.circle(radius, z), starts[0], starts[1], angle, 2 * math.pi - angle)]
+    edges = [recorder.edge(level_circle(radius, z), starts[0], starts[1], angle, 2 * math.pi - angle)]
     for k in (1, 2, 3):
         after = (k + 1) % 4
-        line, length = kernel.line((*corners[k], z), (*corners[after], z))
-        edges.append(kernel.edge(line, starts[k], starts[after], 0.0, length))
+        line, length = straight_line((*corners[k], z), (*corners[after], z))
+        edges.append(recorder.edge(line, starts[k], starts[after], 0.0, length))
     return Contour(edges, starts)
 
 
-def _add_opening(gear: Gear, kernel: Kernel, low: Contour, high: Contour, heights: tuple[float, float]) -> None:
+def _add_opening(gear: Gear, recorder: Recorder, low: Contour, high: Contour, heights: tuple[float, float]) -> None:
     """The wall of bore and keyway."""
     radius = gear.body.bore / 2
     if not gear.body.keyway_width:
-        add_tube(kernel, radius, low, high, heights, outward=False)
+        add_tube(recorder, radius, low, high, heights, outward=False)
         return
     corners = _keyway_corners(gear)
     angle = keyway_half_angle(gear.body)
-    lines = [kernel.line((*corner, heights[0]), (*corner, heights[1])) for corner in corners]
-    uprights = [kernel.edge(line, low.starts[k], high.starts[k], 0.0, length) for k, (line, length) in enumerate(lines)]
-    cylinder = kernel.cylinder(radius)
-    kernel.lay(uprights[0], cylinder, kernel.line_2d(angle, heights[0], 0, 1))
-    kernel.lay(uprights[1], cylinder, kernel.line_2d(2 * math.pi - angle, heights[0], 0, 1))
+    lines = [straight_line((*corner, heights[0]), (*corner, heights[1])) for corner in corners]
+    uprights = [recorder.edge(line, low.starts[k], high.starts[k], 0.0, length) for k, (line, length) in enumerate(lines)]
+    cylinder = cylinder_along_z(radius)
+    recorder.lay(uprights[0], cylinder, LineOnSurface(angle, heights[0], 0, 1))
+    recorder.lay(uprights[1], cylinder, LineOnSurface(2 * math.pi - angle, heights[0], 0, 1))
     for ring, z in zip((low, high), heights, strict=True):
-        kernel.lay(ring.edges[0], cylinder, kernel.line_2d(0, z, 1, 0))
+        recorder.lay(ring.edges[0], cylinder, LineOnSurface(0, z, 1, 0))
     for k in range(4):
         after = (k + 1) % 4
         loop = [(low.edges[k], True), (uprights[after], True), (high.edges[k], False), (uprights[k], False)]
         (x0, y0), (x1, y1) = corners[k], corners[after]
-        surface = kernel.upright_plane((x0, y0, heights[0]), (x1 - x0, y1 - y0)) if k else cylinder
-        kernel.face(surface, [loop], outward=False)
+        surface = upright_plane((x0, y0, heights[0]), (x1 - x0, y1 - y0)) if k else cylinder
+        recorder.face(surface, [loop], outward=False)

@@ -1,33 +1,207 @@
-"""A thin, quick way to make OpenCASCADE topology by hand: shared vertices and edges, no sewing, no booleans."""
+"""A boundary as a solid of the OpenCASCADE kernel: topology by hand, no sewing, no booleans."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Sequence
-from copy import copy
-from functools import cache
 from typing import Any
 
-import numpy as np
+from gearcad.solids.exact.boundary import PRECISION, Boundary, Chain, Turn
+from gearcad.solids.exact.forms import (
+    BezierCurve,
+    BezierOnSurface,
+    BezierSurface,
+    CircleCurve,
+    ConeSurface,
+    CurveForm,
+    CylinderSurface,
+    EllipseCurve,
+    Frame,
+    LineOnSurface,
+    OnSurface,
+    PlaneSurface,
+    StraightLine,
+    SurfaceForm,
+)
 
-from gearcad.arrays import Floats
-
-__all__ = ["ORIGIN", "Edges", "Kernel", "Point", "backward", "bezier_curve", "bezier_curve_2d", "bezier_surface"]
+__all__ = ["kernel_solid"]
 
 
-Edges = list[tuple[Any, bool]]
-"""Edges of a chain in order, each with True if it is run along its own direction."""
-
-Point = tuple[float, float]
-
-ORIGIN: Point = (0.0, 0.0)
-
-PRECISION = 1e-7
-"""OpenCASCADE's own smallest distance (mm)."""
+def kernel_solid(boundary: Boundary) -> Any:
+    """TopoDS_Solid of a boundary. Forms that are used at several places are made once."""
+    return _Maker(boundary).solid()
 
 
-@cache
+class _Maker:
+    """Makes vertices, edges and faces of one solid."""
+
+    def __init__(self, boundary: Boundary) -> None:
+        from OCP.BRep import BRep_Builder
+
+        self.boundary, self.builder = boundary, BRep_Builder()
+        self.places = [_location(place) for place in boundary.places]
+        self.forms: dict[CurveForm | SurfaceForm | OnSurface, Any] = {}
+        self.vertices = self._vertices()
+        self.edges = self._edges()
+        for laid in boundary.laid:
+            curves, surface = [self._form(curve) for curve in laid.curves], self._form(laid.surface)
+            edge = self.edges[laid.edge][True]
+            self.builder.UpdateEdge(edge, *curves, surface, self.places[laid.place], boundary.tolerance)
+
+    def solid(self) -> Any:
+        """The closed solid."""
+        from OCP.TopoDS import TopoDS_Face, TopoDS_Shell, TopoDS_Solid
+
+        builder, shell, solid = self.builder, TopoDS_Shell(), TopoDS_Solid()
+        builder.MakeShell(shell)
+        for surface, place, loops, outward in self.boundary.faces:
+            face = TopoDS_Face()
+            builder.MakeFace(face, self._form(surface), self.places[place], PRECISION)
+            for loop in loops:
+                builder.Add(face, self._wire(loop))
+            builder.Add(shell, face if outward else face.Reversed())
+        shell.Closed(True)
+        builder.MakeSolid(solid)
+        builder.Add(solid, shell)
+        return solid
+
+    def _form(self, form: CurveForm | SurfaceForm | OnSurface) -> Any:
+        """A curve or surface of the kernel, the same one whenever it is asked for."""
+        made = self.forms.get(form)
+        if made is None:
+            made = self.forms[form] = _made(form)
+        return made
+
+    def _vertices(self) -> list[tuple[Any, Any]]:
+        """Every vertex as the start and as the end of an edge."""
+        from OCP.gp import gp_Pnt
+        from OCP.TopoDS import TopoDS_Vertex
+
+        made = []
+        for point in self.boundary.vertices:
+            vertex = TopoDS_Vertex()
+            self.builder.MakeVertex(vertex, gp_Pnt(*point), self.boundary.tolerance)
+            made.append((vertex, vertex.Reversed()))
+        return made
+
+    def _edges(self) -> list[tuple[Any, Any]]:
+        """Every edge, run backward and along its own direction."""
+        from OCP.TopoDS import TopoDS_Edge
+
+        builder, made = self.builder, []
+        for curve, place, start, end, first, last in self.boundary.edges:
+            edge = TopoDS_Edge()
+            builder.MakeEdge(edge, self._form(curve), self.places[place], self.boundary.tolerance)
+            builder.Add(edge, self.vertices[start][0])
+            builder.Add(edge, self.vertices[end][1])
+            builder.Range(edge, first, last)
+            made.append((edge.Reversed(), edge))
+        return made
+
+    def _wire(self, loop: Chain) -> Any:
+        from OCP.TopoDS import TopoDS_Wire
+
+        wire = TopoDS_Wire()
+        self.builder.MakeWire(wire)
+        for edge, along in loop:
+            self.builder.Add(wire, self.edges[edge][along])
+        wire.Closed(True)
+        return wire
+
+
+def _location(place: Turn) -> Any:
+    from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
+    from OCP.TopLoc import TopLoc_Location
+
+    if place == (0.0, 0.0):
+        return TopLoc_Location()
+    lift, turn = gp_Trsf(), gp_Trsf()
+    lift.SetTranslation(gp_Vec(0, 0, place.z))
+    turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), place.angle)
+    lift.Multiply(turn)
+    return TopLoc_Location(lift)
+
+
+def _made(form: CurveForm | SurfaceForm | OnSurface) -> Any:
+    """The kernel's curve or surface."""
+    from OCP.Geom import (
+        Geom_Circle,
+        Geom_ConicalSurface,
+        Geom_CylindricalSurface,
+        Geom_Ellipse,
+        Geom_Line,
+        Geom_Plane,
+    )
+    from OCP.Geom2d import Geom2d_Line
+    from OCP.gp import gp_Dir, gp_Dir2d, gp_Pnt, gp_Pnt2d
+
+    match form:
+        case StraightLine(start, direction):
+            return Geom_Line(gp_Pnt(*start), gp_Dir(*direction))
+        case CircleCurve(frame, radius):
+            return Geom_Circle(_axes(frame).Ax2(), radius)
+        case EllipseCurve(frame, major, minor):
+            return Geom_Ellipse(_axes(frame).Ax2(), major, minor)
+        case PlaneSurface(frame):
+            return Geom_Plane(_axes(frame))
+        case CylinderSurface(frame, radius):
+            return Geom_CylindricalSurface(_axes(frame), radius)
+        case ConeSurface(frame, radius, half_angle):
+            return Geom_ConicalSurface(_axes(frame), half_angle, radius)
+        case LineOnSurface(u, v, du, dv):
+            return Geom2d_Line(gp_Pnt2d(u, v), gp_Dir2d(du, dv))
+        case BezierOnSurface():
+            return _bezier_2d(form)
+        case BezierCurve():
+            return _bezier_curve(form)
+        case BezierSurface():
+            return _bezier_surface(form)
+
+
+def _axes(frame: Frame) -> Any:
+    from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt
+
+    return gp_Ax3(gp_Pnt(*frame.origin), gp_Dir(*frame.axis), gp_Dir(*frame.along))
+
+
+def _bezier_curve(curve: BezierCurve) -> Any:
+    from OCP.Geom import Geom_BSplineCurve
+    from OCP.gp import gp_Pnt
+    from OCP.TColgp import TColgp_Array1OfPnt
+
+    poles, degree = curve.poles, len(curve.poles) - 1
+    array = TColgp_Array1OfPnt(1, len(poles))
+    for i, point in enumerate(poles.tolist(), 1):
+        array.SetValue(i, gp_Pnt(*point))
+    return Geom_BSplineCurve(array, *_knots(degree, curve.first, curve.last), degree)
+
+
+def _bezier_2d(curve: BezierOnSurface) -> Any:
+    from OCP.Geom2d import Geom2d_BSplineCurve
+    from OCP.gp import gp_Pnt2d
+    from OCP.TColgp import TColgp_Array1OfPnt2d
+
+    poles, degree = curve.poles, len(curve.poles) - 1
+    array = TColgp_Array1OfPnt2d(1, len(poles))
+    for i, point in enumerate(poles.tolist(), 1):
+        array.SetValue(i, gp_Pnt2d(*point))
+    return Geom2d_BSplineCurve(array, *_knots(degree, curve.first, curve.last), degree)
+
+
+def _bezier_surface(surface: BezierSurface) -> Any:
+    from OCP.Geom import Geom_BSplineSurface
+    from OCP.gp import gp_Pnt
+    from OCP.TColgp import TColgp_Array2OfPnt
+
+    rows, columns = surface.poles.shape[:2]
+    array = TColgp_Array2OfPnt(1, rows, 1, columns)
+    for i, row in enumerate(surface.poles.tolist(), 1):
+        for j, point in enumerate(row, 1):
+            array.SetValue(i, j, gp_Pnt(*point))
+    along, across = _knots(rows - 1, 0.0, 1.0), _knots(columns - 1, surface.low, surface.high)
+    return Geom_BSplineSurface(array, along[0], across[0], along[1], across[1], rows - 1, columns - 1)
+
+
 def _knots(degree: int, first: float, last: float) -> tuple[Any, Any]:
+    """Knots of one span, and how often each is there."""
     from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
 
     knots, counts = TColStd_Array1OfReal(1, 2), TColStd_Array1OfInteger(1, 2)
@@ -36,199 +210,3 @@ def _knots(degree: int, first: float, last: float) -> tuple[Any, Any]:
     counts.SetValue(1, degree + 1)
     counts.SetValue(2, degree + 1)
     return knots, counts
-
-
-def bezier_curve(poles: Floats, first: float = 0.0, last: float = 1.0) -> Any:
-    """Geom_BSplineCurve of one span with poles (n + 1, 3), parameter first ... last."""
-    from OCP.Geom import Geom_BSplineCurve
-    from OCP.gp import gp_Pnt
-    from OCP.TColgp import TColgp_Array1OfPnt
-
-    array = TColgp_Array1OfPnt(1, len(poles))
-    for i, point in enumerate(poles.tolist(), 1):
-        array.SetValue(i, gp_Pnt(*point))
-    return Geom_BSplineCurve(array, *_knots(len(poles) - 1, first, last), len(poles) - 1)
-
-
-def bezier_curve_2d(poles: Floats, first: float = 0.0, last: float = 1.0) -> Any:
-    """Geom2d_BSplineCurve of one span with poles (n + 1, 2), parameter first ... last."""
-    from OCP.Geom2d import Geom2d_BSplineCurve
-    from OCP.gp import gp_Pnt2d
-    from OCP.TColgp import TColgp_Array1OfPnt2d
-
-    array = TColgp_Array1OfPnt2d(1, len(poles))
-    for i, point in enumerate(poles.tolist(), 1):
-        array.SetValue(i, gp_Pnt2d(*point))
-    return Geom2d_BSplineCurve(array, *_knots(len(poles) - 1, first, last), len(poles) - 1)
-
-
-def bezier_surface(poles: Floats, low: float, high: float) -> Any:
-    """Geom_BSplineSurface of one span with poles (n + 1, m + 1, 3), parameters u in 0 ... 1 and v in low ... high."""
-    from OCP.Geom import Geom_BSplineSurface
-    from OCP.gp import gp_Pnt
-    from OCP.TColgp import TColgp_Array2OfPnt
-
-    rows, columns = poles.shape[:2]
-    array = TColgp_Array2OfPnt(1, rows, 1, columns)
-    for i, row in enumerate(poles.tolist(), 1):
-        for j, point in enumerate(row, 1):
-            array.SetValue(i, j, gp_Pnt(*point))
-    along, across = _knots(rows - 1, 0.0, 1.0), _knots(columns - 1, low, high)
-    return Geom_BSplineSurface(array, along[0], across[0], along[1], across[1], rows - 1, columns - 1)
-
-
-def backward(chain: Edges) -> Edges:
-    """A chain of edges run the other way."""
-    return [(edge, not along) for edge, along in reversed(chain)]
-
-
-class Kernel:
-    """Makes vertices, edges and faces of one solid (lengths in mm).
-
-    Vertices and edges get twice the `tolerance` to which their curves are fitted: a curve and its surface may differ by
-    as much from the exact shape, to opposite sides.
-    """
-
-    def __init__(self, tolerance: float) -> None:
-        from OCP.BRep import BRep_Builder
-        from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt
-        from OCP.TopLoc import TopLoc_Location
-        from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shell, TopoDS_Vertex, TopoDS_Wire
-
-        self.tolerance = max(2 * tolerance, PRECISION)
-        self.here = TopLoc_Location()
-        self._point, self._vertex, self._edge, self._wire, self._face = (
-            gp_Pnt,
-            TopoDS_Vertex,
-            TopoDS_Edge,
-            TopoDS_Wire,
-            TopoDS_Face,
-        )
-        self._builder = BRep_Builder()
-        self._shell = TopoDS_Shell()
-        self._builder.MakeShell(self._shell)
-        self._axis = gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))
-
-    def moved(self, z: float, angle: float) -> Kernel:
-        """The same kernel, but what is made by it stands higher by `z` (mm) and turned by `angle` (rad) in the same solid."""
-        from OCP.gp import gp_Trsf, gp_Vec
-        from OCP.TopLoc import TopLoc_Location
-
-        moved, place, rotation = copy(self), gp_Trsf(), gp_Trsf()
-        place.SetTranslation(gp_Vec(0, 0, z))
-        rotation.SetRotation(self._axis, angle)
-        place.Multiply(rotation)
-        moved.here = TopLoc_Location(place)
-        return moved
-
-    # ------------------------------------------------------------------ geometry about the z axis, or a parallel one
-
-    def turned(self, angle: float) -> Any:
-        """The place of a thing turned about z (rad)."""
-        from OCP.gp import gp_Trsf
-        from OCP.TopLoc import TopLoc_Location
-
-        rotation = gp_Trsf()
-        rotation.SetRotation(self._axis, angle)
-        return self.here * TopLoc_Location(rotation)
-
-    def frame(self, z: float, *, up: bool = True, axis: Point = ORIGIN) -> Any:
-        """Right-handed frame at height z on an axis through the point (x, y), its X along +x and its Z along +z or -z."""
-        from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt
-
-        return gp_Ax3(gp_Pnt(*axis, z), gp_Dir(0, 0, 1 if up else -1), gp_Dir(1, 0, 0))
-
-    def circle(self, radius: float, z: float, axis: Point = ORIGIN) -> Any:
-        from OCP.Geom import Geom_Circle
-
-        return Geom_Circle(self.frame(z, axis=axis).Ax2(), radius)
-
-    def line(self, start: Sequence[float], end: Sequence[float]) -> tuple[Any, float]:
-        """Geom_Line through two points, and the parameter (distance) of the second."""
-        from OCP.Geom import Geom_Line
-        from OCP.gp import gp_Dir, gp_Pnt
-
-        step = np.subtract(end, start)
-        length = float(np.linalg.norm(step))
-        return Geom_Line(gp_Pnt(*start), gp_Dir(*(step / length))), length
-
-    def cylinder(self, radius: float, axis: Point = ORIGIN) -> Any:
-        from OCP.Geom import Geom_CylindricalSurface
-
-        return Geom_CylindricalSurface(self.frame(0.0, axis=axis), radius)
-
-    def cone(self, radius: float, sine: float, z: float, *, up: bool) -> Any:
-        """Cone of `radius` at height z that widens upwards (or downwards); `sine` of its half angle. Slant is its v."""
-        from OCP.Geom import Geom_ConicalSurface
-
-        return Geom_ConicalSurface(self.frame(z, up=up), math.asin(sine), radius)
-
-    def plane(self, z: float) -> Any:
-        from OCP.Geom import Geom_Plane
-
-        return Geom_Plane(self.frame(z))
-
-    def upright_plane(self, start: Sequence[float], along: Sequence[float]) -> Any:
-        """Plane through a point, containing the horizontal direction `along` (x, y) and z; normal along x z."""
-        from OCP.Geom import Geom_Plane
-        from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt
-
-        return Geom_Plane(gp_Ax3(gp_Pnt(*start), gp_Dir(along[1], -along[0], 0), gp_Dir(along[0], along[1], 0)))
-
-    def line_2d(self, u: float, v: float, du: float, dv: float) -> Any:
-        from OCP.Geom2d import Geom2d_Line
-        from OCP.gp import gp_Dir2d, gp_Pnt2d
-
-        return Geom2d_Line(gp_Pnt2d(u, v), gp_Dir2d(du, dv))
-
-    # ------------------------------------------------------------------ topology
-
-    def vertex(self, point: Sequence[float]) -> tuple[Any, Any]:
-        """A vertex as (forward, reversed)."""
-        vertex = self._vertex()
-        place = self._point(*point)
-        if not self.here.IsIdentity():
-            place.Transform(self.here.Transformation())
-        self._builder.MakeVertex(vertex, place, self.tolerance)
-        return vertex, vertex.Reversed()
-
-    def edge(
-        self, curve: Any, start: tuple[Any, Any], end: tuple[Any, Any], first: float, last: float, place: Any = None
-    ) -> Any:
-        """An edge on a curve (moved to `place`) from `start` at parameter `first` to `end` at `last`."""
-        edge = self._edge()
-        self._builder.MakeEdge(edge, curve, place or self.here, self.tolerance)
-        self._builder.Add(edge, start[0])
-        self._builder.Add(edge, end[1])
-        self._builder.Range(edge, first, last)
-        return edge
-
-    def lay(self, edge: Any, surface: Any, *curves: Any, place: Any = None) -> None:
-        """Give an edge its curve in the parameters of a surface; two curves make it the seam of a closed one."""
-        self._builder.UpdateEdge(edge, *curves, surface, place or self.here, self.tolerance)
-
-    def wire(self, loop: Edges) -> Any:
-        wire = self._wire()
-        self._builder.MakeWire(wire)
-        for edge, along in loop:
-            self._builder.Add(wire, edge if along else edge.Reversed())
-        wire.Closed(True)
-        return wire
-
-    def face(self, surface: Any, loops: Iterable[Edges], *, outward: bool = True, place: Any = None) -> None:
-        """Add a face to the shell; its loops run counter-clockwise (holes clockwise) about the surface's own normal."""
-        face = self._face()
-        self._builder.MakeFace(face, surface, place or self.here, PRECISION)
-        for loop in loops:
-            self._builder.Add(face, self.wire(loop))
-        self._builder.Add(self._shell, face if outward else face.Reversed())
-
-    def solid(self) -> Any:
-        """Close the shell into a TopoDS_Solid."""
-        from OCP.TopoDS import TopoDS_Solid
-
-        self._shell.Closed(True)
-        solid = TopoDS_Solid()
-        self._builder.MakeSolid(solid)
-        self._builder.Add(solid, self._shell)
-        return solid

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
@@ -16,7 +15,15 @@ from gearcad.arrays import Floats
 from gearcad.geometry.gear import Gear
 from gearcad.solids.exact import bezier
 from gearcad.solids.exact.ends import End, gear_ends
-from gearcad.solids.exact.kernel import Kernel, bezier_curve, bezier_curve_2d
+from gearcad.solids.exact.forms import (
+    BezierCurve,
+    BezierOnSurface,
+    CurveForm,
+    LineOnSurface,
+    OnSurface,
+    StraightLine,
+    level_circle,
+)
 from gearcad.solids.exact.mirrored import whole_sweep
 from gearcad.solids.exact.outline import FlankSpan, LandArc, Piece, accuracy_for, parameter_at_radius, tooth_outline
 from gearcad.solids.exact.sweep import required
@@ -47,11 +54,11 @@ class Segment:
 class Drawn:
     """Curves of a segment, for tooth 0: in space from `first` to `last`, on its own face, and on the cone (if it is there)."""
 
-    curve: Any
+    curve: CurveForm
     first: float
     last: float
-    on_face: Any
-    on_cone: Any = None
+    on_face: OnSurface
+    on_cone: OnSurface | None = None
 
 
 @dataclass(frozen=True)
@@ -61,18 +68,17 @@ class SideEdge:
     Its curve, the poles of its polar angle (rad) and the ends of the stretch (mm).
     """
 
-    kernel: Kernel
-    curve: Any
+    curve: CurveForm
     angles: Floats
     low: float
     high: float
 
-    def on_cylinder(self, turn: float) -> Any:
+    def on_cylinder(self, turn: float) -> OnSurface:
         """Its curve on the cylinder of a land, turned by `turn` (rad)."""
         if np.all(self.angles == self.angles[0]):
-            return self.kernel.line_2d(float(self.angles[0]) + turn, 0, 0, 1)
+            return LineOnSurface(float(self.angles[0]) + turn, 0, 0, 1)
         poles = np.stack([self.angles + turn, np.linspace(self.low, self.high, len(self.angles))], -1)
-        return bezier_curve_2d(poles, self.low, self.high)
+        return BezierOnSurface(poles, self.low, self.high)
 
 
 @dataclass(frozen=True)
@@ -87,8 +93,8 @@ class Rise:
 class ToothLayout:
     """Tooth 0: pieces, sweep, and for each end the stations and segments of the outline."""
 
-    def __init__(self, gear: Gear, kernel: Kernel) -> None:
-        self.gear, self.kernel = gear, kernel
+    def __init__(self, gear: Gear) -> None:
+        self.gear = gear
         self.tolerance = accuracy_for(gear)
         self._shape(tooth_outline(gear))
         self.ends = gear_ends(gear, self.junctions[:, 0].tolist())
@@ -166,17 +172,18 @@ class ToothLayout:
 
     def draw(self, end: End, segment: Segment) -> Drawn:
         """The curves of one segment."""
-        piece, line = self.pieces[segment.piece], self.kernel.line_2d
+        piece = self.pieces[segment.piece]
         if isinstance(piece, LandArc):
             z = float(end.height(piece.radius))
             first, last = (float(self.turn(k, np.array(z))) for k in (segment.start, segment.end))
-            circle, on_face = self.kernel.circle(piece.radius, z), line(0, z, 1, 0)
-            slant = (piece.radius - end.cone.face_radius) / end.cone.sine if segment.on_cone else 0.0
-            return Drawn(circle, segment.first + first, segment.last + last, on_face, line(0, slant, end.widens, 0))
+            circle, on_face = level_circle(piece.radius, z), LineOnSurface(0, z, 1, 0)
+            slant = (piece.radius - end.cone.face_radius) / end.cone.sine
+            on_cone = LineOnSurface(0, slant, end.widens, 0) if segment.on_cone else None
+            return Drawn(circle, segment.first + first, segment.last + last, on_face, on_cone)
         if segment.on_cone:
             return self._draw_on_cone(end, segment, piece)
         poles = self.sweep.section(piece, 0 if end.inward > 0 else 1)
-        return Drawn(bezier_curve(poles), segment.first, segment.last, line(0, end.z, 1, 0))
+        return Drawn(BezierCurve(poles), segment.first, segment.last, LineOnSurface(0, end.z, 1, 0))
 
     def _draw_on_cone(self, end: End, segment: Segment, piece: FlankSpan) -> Drawn:
         """Where a flank meets the cone: z follows from the radius, so the curve is explicit in the flank's own u."""
@@ -197,9 +204,9 @@ class ToothLayout:
 
         poles = required(bezier.fit(curve, error, 0.25 * self.tolerance, least=3), "the edge of the end chamfer")
         along = np.linspace(first, segment.last, len(poles))
-        on_face = bezier_curve_2d(np.stack([along, poles[:, 2]], -1), first, segment.last)
-        on_cone = bezier_curve_2d(poles[:, 3:], first, segment.last)
-        return Drawn(bezier_curve(poles[:, :3], first, segment.last), first, segment.last, on_face, on_cone)
+        on_face = BezierOnSurface(np.stack([along, poles[:, 2]], -1), first, segment.last)
+        on_cone = BezierOnSurface(poles[:, 3:], first, segment.last)
+        return Drawn(BezierCurve(poles[:, :3], first, segment.last), first, segment.last, on_face, on_cone)
 
     def sides(self, k: int) -> list[SideEdge]:
         """SideEdge edges at junction k, upwards."""
@@ -211,8 +218,8 @@ class ToothLayout:
             poles, angles = self.sweep.side(piece, u, (radius, angle), rise.stretch)
             if len(poles) == 2 and poles[0, 0] == poles[1, 0] and poles[0, 1] == poles[1, 1]:
                 x, y, _ = poles[0].tolist()
-                curve = self.kernel.line((x, y, 0.0), (x, y, 1.0))[0]
+                curve: CurveForm = StraightLine((x, y, 0.0), (0.0, 0.0, 1.0))
             else:
-                curve = bezier_curve(poles, low, high)
-            found.append(SideEdge(self.kernel, curve, angles, low, high))
+                curve = BezierCurve(poles, low, high)
+            found.append(SideEdge(curve, angles, low, high))
         return found

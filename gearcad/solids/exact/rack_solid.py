@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.geometry.rack import Rack
-from gearcad.solids.exact.kernel import Edges, Kernel, backward
+from gearcad.solids.exact.boundary import Boundary, Chain, Recorder, backward
+from gearcad.solids.exact.cad import cad_solid
+from gearcad.solids.exact.forms import CylinderSurface, Frame, PlaneSurface, Vector, straight_line, vector
 from gearcad.solids.exact.rack_surfaces import FilletSurface, flat_surface
 from gearcad.solids.rack_plan import Edge, Piece, RackPlan, RackSide, Strip, outline_pieces
 
 if TYPE_CHECKING:
     import cadquery
 
-__all__ = ["rack_solid"]
+__all__ = ["rack_boundary", "rack_solid"]
 
 _TOLERANCE = 1e-6
 """Of edges and vertices (mm): planes, cylinders and ellipses are exact, lines through corners may miss by so much."""
@@ -33,36 +34,39 @@ _ENDS = {
 """The corners of the plan between which a side runs, along +x or +z."""
 
 
-def rack_solid(rack: Rack) -> cadquery.Solid:
-    """The rack as a closed boundary representation: flanks and lands are planes, fillets cylinders of their true radius.
+def rack_boundary(rack: Rack) -> Boundary:
+    """The rack as a closed boundary: flanks and lands are planes, fillets cylinders of their true radius.
 
     As a `Rack` lies: along x, teeth up (+y), z = 0 ... face width.
     """
-    import cadquery
+    return _Builder(rack).boundary()
 
-    return cadquery.Solid(_Builder(rack).solid())
+
+def rack_solid(rack: Rack) -> cadquery.Solid:
+    """The same as a solid to go on with in CadQuery: see `rack_boundary`."""
+    return cad_solid(rack_boundary(rack))
 
 
 class _Builder:
     """Vertices and edges of one rack, and the faces between them."""
 
     def __init__(self, rack: Rack) -> None:
-        self.rack, self.kernel = rack, Kernel(_TOLERANCE / 2)
+        self.rack, self.recorder = rack, Recorder(_TOLERANCE / 2)
         self.pieces = outline_pieces(rack)
         lines = np.array([piece.start[0] for piece in self.pieces])
         self.plan = RackPlan(lines, rack.drift, rack.length, rack.face_width)
         self.points = self._points()
-        self.vertices = [self.kernel.vertex(point) for point in self.points.tolist()]
-        self.edges: dict[tuple[int, int], Any] = {}
+        self.vertices = [self.recorder.vertex(point) for point in self.points.tolist()]
+        self.edges: dict[tuple[int, int], int] = {}
 
-    def solid(self) -> Any:
-        """The closed solid."""
+    def boundary(self) -> Boundary:
+        """All of it."""
         for strip in self.plan.strips:
             self._strip(strip)
         for side in RackSide:
             self._side(side)
         self._back()
-        return self.kernel.solid()
+        return self.recorder.boundary()
 
     def _points(self) -> Floats:
         """Vertices of the plan at their heights, then the back's corners."""
@@ -83,15 +87,15 @@ class _Builder:
 
     # ------------------------------------------------------------------ edges
 
-    def _straight(self, start: int, end: int) -> tuple[Any, bool]:
+    def _straight(self, start: int, end: int) -> tuple[int, bool]:
         """The straight edge between two vertices, and whether it runs this way: upwards, or from the lesser number."""
         low, high = sorted((start, end), key=lambda number: (self.points[number, 2], number))
         if (low, high) not in self.edges:
-            line, length = self.kernel.line(self.points[low].tolist(), self.points[high].tolist())
-            self.edges[low, high] = self.kernel.edge(line, self.vertices[low], self.vertices[high], 0.0, length)
+            line, length = straight_line(self.points[low].tolist(), self.points[high].tolist())
+            self.edges[low, high] = self.recorder.edge(line, self.vertices[low], self.vertices[high], 0.0, length)
         return self.edges[low, high], start == low
 
-    def _on_rim(self, edge: Edge, piece: Piece) -> tuple[Any, bool]:
+    def _on_rim(self, edge: Edge, piece: Piece) -> tuple[int, bool]:
         """The edge between the toothed side and an end face, and whether it runs in the order of c."""
         if piece.fillet is None or (self.rack.drift == 0 and edge.side in (RackSide.START, RackSide.END)):
             return self._straight(edge.start, edge.end)
@@ -100,28 +104,28 @@ class _Builder:
             self.edges[key] = self._arc(edge, FilletSurface(piece, self.rack.drift))
         return self.edges[key], True
 
-    def _arc(self, edge: Edge, fillet: FilletSurface) -> Any:
+    def _arc(self, edge: Edge, fillet: FilletSurface) -> int:
         """An ellipse between two vertices; c rises with its parameter."""
         ends = edge.start, edge.end
         first, last = (fillet.u(float(self.plan.along[number])) - math.pi / 2 for number in ends)
         x, _, z = self.points[edge.start].tolist()
         curve = fillet.level(z) if edge.side in (RackSide.BOTTOM, RackSide.TOP) else fillet.upright(x)
-        return self.kernel.edge(curve, self.vertices[edge.start], self.vertices[edge.end], first, last)
+        return self.recorder.edge(curve, self.vertices[edge.start], self.vertices[edge.end], first, last)
 
     # ------------------------------------------------------------------ faces
 
     def _strip(self, strip: Strip) -> None:
         """The face of a strip: one way along the rim and back the other is counter-clockwise seen from above."""
-        piece, kernel = self.pieces[strip.piece], self.kernel
+        piece, recorder = self.pieces[strip.piece], self.recorder
         one, other = ([(edge, *self._on_rim(edge, piece)) for edge in way] for way in strip.ways)
-        loop: Edges = [(made, along) for _, made, along in one]
+        loop: Chain = [(made, along) for _, made, along in one]
         if strip.ends[0] != strip.ends[1]:
             loop.append(self._straight(*strip.ends))
         loop += [(made, not along) for _, made, along in reversed(other)]
         if strip.starts[0] != strip.starts[1]:
             loop.append(self._straight(*reversed(strip.starts)))
         if piece.fillet is None:
-            kernel.face(flat_surface(piece, self.rack.drift), [loop])
+            recorder.face(flat_surface(piece, self.rack.drift), [loop])
             return
         fillet = FilletSurface(piece, self.rack.drift)
         surface = fillet.surface()
@@ -131,27 +135,27 @@ class _Builder:
             if line[0] != line[1]:
                 low = min(line, key=lambda number: self.points[number, 2])
                 made, _ = self._straight(*line)
-                kernel.lay(made, surface, fillet.along_teeth(kernel, self._c(low), self.points[low, 2]))
-        kernel.face(surface, [backward(loop)], outward=False)
+                recorder.lay(made, surface, fillet.along_teeth(self._c(low), self.points[low, 2]))
+        recorder.face(surface, [backward(loop)], outward=False)
 
     def _c(self, number: int) -> float:
         return float(self.plan.along[number])
 
-    def _lay_on_rim(self, edge: Edge, made: Any, fillet: FilletSurface, surface: Any) -> None:
+    def _lay_on_rim(self, edge: Edge, made: int, fillet: FilletSurface, surface: CylinderSurface) -> None:
         """The curve of an edge of the rim in the parameters of a fillet."""
-        kernel, (x, _, z) = self.kernel, self.points[edge.start].tolist()
+        recorder, (x, _, z) = self.recorder, self.points[edge.start].tolist()
         first, last = (fillet.u(self._c(number)) - math.pi / 2 for number in (edge.start, edge.end))
         if edge.side in (RackSide.BOTTOM, RackSide.TOP):
-            kernel.lay(made, surface, fillet.on_level(kernel, z, first, last))
+            recorder.lay(made, surface, fillet.on_level(z, first, last))
         elif self.rack.drift == 0:
-            kernel.lay(made, surface, fillet.along_teeth(kernel, self._c(edge.start), 0.0))
+            recorder.lay(made, surface, fillet.along_teeth(self._c(edge.start), 0.0))
         else:
-            kernel.lay(made, surface, fillet.on_upright(x, first, last))
+            recorder.lay(made, surface, fillet.on_upright(x, first, last))
 
     def _side(self, side: RackSide) -> None:
         """An end face: the outline's section, and three straight edges; seen along +z and -x they run clockwise."""
         piece_of = {edge: strip.piece for strip in self.plan.strips for way in strip.ways for edge in way}
-        loop: Edges = []
+        loop: Chain = []
         for edge in self.plan.rim(side):
             as_made = edge if edge in piece_of else Edge(edge.end, edge.start, side)
             made, along = self._on_rim(as_made, self.pieces[piece_of[as_made]])
@@ -161,17 +165,15 @@ class _Builder:
         loop += [self._straight(start, end) for start, end in pairwise(below)]
         if side in (RackSide.TOP, RackSide.START):
             loop = backward(loop)
-        self.kernel.face(self._plane(below[0], _NORMALS[side]), [loop])
+        self.recorder.face(self._plane(below[0], _NORMALS[side]), [loop])
 
     def _back(self) -> None:
         """The face opposite the teeth."""
         around = [self.back[corner] for corner in (*_ENDS[RackSide.BOTTOM], *reversed(_ENDS[RackSide.TOP]))]
         loop = [self._straight(start, end) for start, end in pairwise([*around, around[0]])]
-        self.kernel.face(self._plane(around[0], (0, -1, 0)), [loop])
+        self.recorder.face(self._plane(around[0], (0, -1, 0)), [loop])
 
-    def _plane(self, number: int, normal: Sequence[float]) -> Any:
+    def _plane(self, number: int, normal: Vector) -> PlaneSurface:
         """The plane through a vertex."""
-        from OCP.Geom import Geom_Plane
-        from OCP.gp import gp_Dir, gp_Pnt
-
-        return Geom_Plane(gp_Pnt(*self.points[number].tolist()), gp_Dir(*normal))
+        along = (0.0, 0.0, 1.0) if normal[0] else (1.0, 0.0, 0.0)
+        return PlaneSurface(Frame(vector(self.points[number]), normal, along))

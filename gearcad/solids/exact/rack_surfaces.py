@@ -8,13 +8,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.solids.exact import bezier
-from gearcad.solids.exact.kernel import Kernel, bezier_curve_2d
+from gearcad.solids.exact.forms import (
+    BezierOnSurface,
+    CircleCurve,
+    CylinderSurface,
+    EllipseCurve,
+    Frame,
+    LineOnSurface,
+    OnSurface,
+    PlaneSurface,
+    unit,
+)
 from gearcad.solids.rack_plan import Piece
 
 __all__ = ["FilletSurface", "flat_surface"]
@@ -24,13 +33,11 @@ _CLOSE = 1e-10
 """Largest error (mm) of an edge's curve in the cylinder's parameters."""
 
 
-def flat_surface(piece: Piece, drift: float) -> Any:
+def flat_surface(piece: Piece, drift: float) -> PlaneSurface:
     """The plane of a straight piece, its normal up."""
-    from OCP.Geom import Geom_Plane
-    from OCP.gp import gp_Dir, gp_Pnt
-
     (c, y), (to_c, to_y) = piece.start, piece.end
-    return Geom_Plane(gp_Pnt(c, y, 0.0), gp_Dir(y - to_y, to_c - c, drift * (to_y - y)))
+    normal, along = (y - to_y, to_c - c, drift * (to_y - y)), (drift, 0.0, 1.0)
+    return PlaneSurface(Frame((c, y, 0.0), unit(normal), unit(along)))
 
 
 @dataclass(frozen=True)
@@ -57,13 +64,10 @@ class FilletSurface:
     def _stretch(self) -> float:
         return math.hypot(1.0, self.drift)
 
-    def surface(self) -> Any:
+    def surface(self) -> CylinderSurface:
         """The cylinder."""
-        from OCP.Geom import Geom_CylindricalSurface
-        from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt
-
         c, y = self._axis
-        return Geom_CylindricalSurface(gp_Ax3(gp_Pnt(c, y, 0.0), gp_Dir(self.drift, 0, 1), gp_Dir(0, 1, 0)), self._radius)
+        return CylinderSurface(Frame((c, y, 0.0), unit((self.drift, 0.0, 1.0)), (0.0, 1.0, 0.0)), self._radius)
 
     def u(self, c: float) -> float:
         """u (rad) of the line of constant c on it: pi at the lowest, more towards +x's left."""
@@ -74,42 +78,36 @@ class FilletSurface:
         """v (mm) of a place on it."""
         return self._stretch * z - self.drift * self._radius * math.sin(self.u(c))
 
-    def along_teeth(self, kernel: Kernel, c: float, z: float) -> Any:
+    def along_teeth(self, c: float, z: float) -> OnSurface:
         """In its parameters: the line of constant c from height z on."""
-        return kernel.line_2d(self.u(c), self.v(c, z), 0, 1)
+        return LineOnSurface(self.u(c), self.v(c, z), 0, 1)
 
-    def level(self, z: float) -> Any:
+    def level(self, z: float) -> CircleCurve | EllipseCurve:
         """The ellipse at height z, with the parameter u - pi/2."""
-        from OCP.Geom import Geom_Circle, Geom_Ellipse
-        from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
-
         c, y = self._axis
-        frame = gp_Ax2(gp_Pnt(c + self.drift * z, y, z), gp_Dir(0, 0, 1), gp_Dir(-1, 0, 0))
+        frame = Frame((c + self.drift * z, y, z), (0.0, 0.0, 1.0), (-1.0, 0.0, 0.0))
         if self.drift == 0:
-            return Geom_Circle(frame, self._radius)
-        return Geom_Ellipse(frame, self._radius * self._stretch, self._radius)
+            return CircleCurve(frame, self._radius)
+        return EllipseCurve(frame, self._radius * self._stretch, self._radius)
 
-    def on_level(self, kernel: Kernel, z: float, first: float, last: float) -> Any:
+    def on_level(self, z: float, first: float, last: float) -> OnSurface:
         """The same in its parameters, between two parameters of the ellipse."""
         if self.drift == 0:
-            return kernel.line_2d(_QUARTER, z, 1, 0)
+            return LineOnSurface(_QUARTER, z, 1, 0)
         return self._sine(self._stretch * z, -self.drift * self._radius, first, last)
 
-    def upright(self, x: float) -> Any:
+    def upright(self, x: float) -> EllipseCurve:
         """The ellipse in the plane of constant x, with the parameter u - pi/2."""
-        from OCP.Geom import Geom_Ellipse
-        from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
-
         c, y = self._axis
         side = math.copysign(1.0, self.drift)
-        frame = gp_Ax2(gp_Pnt(x, y, (x - c) / self.drift), gp_Dir(side, 0, 0), gp_Dir(0, 0, side))
-        return Geom_Ellipse(frame, self._radius * self._stretch / abs(self.drift), self._radius)
+        frame = Frame((x, y, (x - c) / self.drift), (side, 0.0, 0.0), (0.0, 0.0, side))
+        return EllipseCurve(frame, self._radius * self._stretch / abs(self.drift), self._radius)
 
-    def on_upright(self, x: float, first: float, last: float) -> Any:
+    def on_upright(self, x: float, first: float, last: float) -> OnSurface:
         """The same in its parameters, between two parameters of the ellipse."""
         return self._sine(self._stretch * (x - self._axis[0]) / self.drift, self._radius / self.drift, first, last)
 
-    def _sine(self, middle: float, amplitude: float, first: float, last: float) -> Any:
+    def _sine(self, middle: float, amplitude: float, first: float, last: float) -> OnSurface:
         """u = t + pi/2, v = middle + amplitude sin u for t from `first` to `last`."""
 
         def curve(share: Floats) -> Floats:
@@ -122,4 +120,4 @@ class FilletSurface:
         close = max(_CLOSE, 1e-15 * (abs(middle) + abs(amplitude)))
         poles = bezier.fit(curve, error, close)
         assert poles is not None  # a sine over less than half a turn
-        return bezier_curve_2d(poles, first, last)
+        return BezierOnSurface(poles, first, last)

@@ -5,24 +5,25 @@ from __future__ import annotations
 import math
 
 from gearcad.geometry.gear import Gear
-from gearcad.solids.exact.kernel import Edges, Kernel, Point, backward
+from gearcad.solids.exact.boundary import Chain, Recorder, backward
+from gearcad.solids.exact.forms import Point, level_plane
 from gearcad.solids.exact.tubes import tube
 from gearcad.solids.rim import require_rim
 
 __all__ = ["add_ring_blank"]
 
 
-def add_ring_blank(gear: Gear, kernel: Kernel, lower: Edges, upper: Edges) -> None:
-    """Add end faces, rim and bolt holes to the kernel's shell; `lower` and `upper` are the loops of the toothed opening.
+def add_ring_blank(gear: Gear, recorder: Recorder, lower: Chain, upper: Chain) -> None:
+    """Add end faces, rim and bolt holes; `lower` and `upper` are the loops of the toothed opening.
 
     Loops run counter-clockwise seen from +z. Raises GeometryError for a ring without a rim diameter.
     """
     heights = (0.0, gear.face_width)
-    rim = tube(kernel, require_rim(gear) / 2, heights, outward=True)
-    holes = [tube(kernel, gear.body.bolt_diameter / 2, heights, axis, outward=False) for axis in _bolts(gear)]
+    rim = tube(recorder, require_rim(gear) / 2, heights, outward=True)
+    holes = [tube(recorder, gear.body.bolt_diameter / 2, heights, axis, outward=False) for axis in _bolts(gear)]
     for which, opening in enumerate((lower, upper)):
         loops = [rim[which].loop(along=True), backward(opening), *(hole[which].loop(along=False) for hole in holes)]
-        kernel.face(kernel.plane(heights[which]), loops, outward=which == 1)
+        recorder.face(level_plane(heights[which]), loops, outward=which == 1)
 
 
 def _bolts(gear: Gear) -> list[Point]:

@@ -4,27 +4,36 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.geometry.gear import Gear
+from gearcad.solids.exact.boundary import Chain, Recorder, backward
 from gearcad.solids.exact.ends import End
-from gearcad.solids.exact.kernel import Edges, Kernel, backward, bezier_curve, bezier_surface
+from gearcad.solids.exact.forms import (
+    BezierCurve,
+    BezierSurface,
+    ConeSurface,
+    LineOnSurface,
+    SurfaceForm,
+    cone_about_z,
+    cylinder_along_z,
+    level_circle,
+    straight_line,
+)
 from gearcad.solids.exact.layout import ToothLayout
 from gearcad.solids.exact.outline import FlankSpan, LandArc
 
 __all__ = ["add_teeth"]
 
 
-def add_teeth(gear: Gear, kernel: Kernel) -> tuple[Edges, Edges]:
-    """Add all faces of the toothed side to the kernel's shell; returns its loops on the lower and the upper end face.
+def add_teeth(gear: Gear, recorder: Recorder) -> tuple[Chain, Chain]:
+    """Take down all faces of the toothed side of a gear; returns its loops on the lower and the upper end face.
 
     The loops run counter-clockwise seen from +z: about the end faces of an external gear, about the opening of a ring.
     """
-    layout = ToothLayout(gear, kernel)
-    ring = _ToothRing(layout)
+    ring = _ToothRing(ToothLayout(gear), recorder)
     ring.add_sides()
     return ring.close_end(0), ring.close_end(1)
 
@@ -35,12 +44,12 @@ class _ToothRing:
     Curves and surfaces are tooth 0's own, used again at the place of every tooth.
     """
 
-    def __init__(self, layout: ToothLayout) -> None:
-        self.layout, self.kernel = layout, layout.kernel
+    def __init__(self, layout: ToothLayout, recorder: Recorder) -> None:
+        self.layout, self.recorder = layout, recorder
         self.teeth = layout.gear.tooth_count
         self.outward = not layout.gear.internal  # surfaces have their normals away from the axis
         self.pitch = 2 * math.pi / self.teeth
-        self.places = [self.kernel.turned(i * self.pitch) for i in range(self.teeth)]
+        self.places = [self.recorder.turned(i * self.pitch) for i in range(self.teeth)]
         self.vertices = [self._vertices(which) for which in (0, 1)]
         self.drawn = [[layout.draw(end, s) for s in layout.segments[e][0]] for e, end in enumerate(layout.ends)]
         self.edges = [self._end_edges(which) for which in (0, 1)]
@@ -56,21 +65,21 @@ class _ToothRing:
         cosine, sine = np.cos(angle), np.sin(angle)
         return np.stack([cosine * x - sine * y, sine * x + cosine * y, np.broadcast_to(z, (self.teeth, len(z)))], -1)
 
-    def _vertices(self, which: int) -> list[list[Any]]:
+    def _vertices(self, which: int) -> list[list[int]]:
         """Vertices of an end by tooth and station; the station after the last junction belongs to the next tooth."""
         layout, count = self.layout, len(self.layout.pieces)
         places = self._around(layout.place(layout.ends[which], layout.segments[which][1])).tolist()
-        made = [[None if k == count else self.kernel.vertex(p) for k, p in enumerate(tooth)] for tooth in places]
+        made = [[self.recorder.vertex(p) for p in tooth[:count] + tooth[count + 1 :]] for tooth in places]
         for i, tooth in enumerate(made):
-            tooth[count] = made[(i + 1) % self.teeth][0]
+            tooth.insert(count, made[(i + 1) % self.teeth][0])
         return made
 
-    def _end_edges(self, which: int) -> list[list[Any]]:
-        """Edges of an end by tooth and segment."""
+    def _end_edges(self, which: int) -> list[list[int]]:
+        """Chain of an end by tooth and segment."""
         segments, drawn = self.layout.segments[which][0], self.drawn[which]
         return [
             [
-                self.kernel.edge(d.curve, vertices[s.start], vertices[s.end], d.first, d.last, place)
+                self.recorder.edge(d.curve, vertices[s.start], vertices[s.end], d.first, d.last, place)
                 for s, d in zip(segments, drawn, strict=True)
             ]
             for place, vertices in zip(self.places, self.vertices[which], strict=True)
@@ -81,7 +90,7 @@ class _ToothRing:
         segments = self.layout.segments[which][0]
         return [[j for j, segment in enumerate(segments) if segment.piece == k] for k in range(len(self.layout.pieces))]
 
-    def _columns(self) -> list[list[list[Any]]]:
+    def _columns(self) -> list[list[list[int]]]:
         """Vertices along the teeth, upwards, by tooth and junction."""
         layout = self.layout
         columns = []
@@ -90,16 +99,16 @@ class _ToothRing:
             z = np.array([rise.high for rise in rises[:-1]])
             angle = angle + layout.turn(k, z)
             inner = self._around(np.stack([radius * np.cos(angle), radius * np.sin(angle), z], -1)).tolist()
-            columns.append([[self.kernel.vertex(point) for point in tooth] for tooth in inner])
+            columns.append([[self.recorder.vertex(point) for point in tooth] for tooth in inner])
         lower, upper = self.vertices
         return [[[lower[i][k], *inner[i], upper[i][k]] for k, inner in enumerate(columns)] for i in range(self.teeth)]
 
-    def _side_edges(self) -> list[list[list[Any]]]:
-        """Edges along the teeth, upwards, by tooth and junction."""
+    def _side_edges(self) -> list[list[list[int]]]:
+        """Chain along the teeth, upwards, by tooth and junction."""
         return [
             [
                 [
-                    self.kernel.edge(side.curve, *ends, rise.low, rise.high, place)
+                    self.recorder.edge(side.curve, *ends, rise.low, rise.high, place)
                     for side, rise, ends in zip(sides, rises, pairwise(column), strict=True)
                 ]
                 for sides, rises, column in zip(self.side_curves, self.layout.rises, columns, strict=True)
@@ -117,91 +126,91 @@ class _ToothRing:
 
     def _add_land(self, k: int, piece: LandArc) -> None:
         """One face per tooth, over the whole width."""
-        kernel, surface = self.kernel, self.kernel.cylinder(piece.radius)
+        recorder, surface = self.recorder, cylinder_along_z(piece.radius)
         wraps, after = divmod(k + 1, len(self.layout.pieces))
         left_curves = [side.on_cylinder(0.0) for side in self.side_curves[k]]
         right_curves = [side.on_cylinder(wraps * self.pitch) for side in self.side_curves[after]]
         for i, place in enumerate(self.places):
             left, right = self.side_edges[i][k], self.side_edges[(i + wraps) % self.teeth][after]
             for edge, curve in zip([*left, *right], [*left_curves, *right_curves], strict=True):
-                kernel.lay(edge, surface, curve, place=place)
+                recorder.lay(edge, surface, curve, place=place)
             lower, upper = (self._lay_end(which, i, k, surface) for which in (0, 1))
             up, down = [(edge, True) for edge in right], [(edge, True) for edge in left]
             self._face(surface, [*lower, *up, *backward(upper), *backward(down)], place)
 
     def _add_flank(self, k: int, piece: FlankSpan) -> None:
         """One face per tooth and stretch of the face width."""
-        kernel, heights, stretches = self.kernel, self.layout.sweep.heights, self.layout.stretches(k)
+        recorder, heights, stretches = self.recorder, self.layout.sweep.heights, self.layout.stretches(k)
         patches = self.layout.sweep.patches(piece)
         wraps, after = divmod(k + 1, len(self.layout.pieces))
-        surfaces = {n: bezier_surface(patches[n], *heights[n : n + 2]) for n in stretches}
-        crossings = {n: bezier_curve(patches[n][:, 0]) for n in stretches[1:]}
-        on_left, on_right = kernel.line_2d(0, 0, 0, 1), kernel.line_2d(1, 0, 0, 1)
+        surfaces = {n: BezierSurface(patches[n], *heights[n : n + 2]) for n in stretches}
+        crossings = {n: BezierCurve(patches[n][:, 0]) for n in stretches[1:]}
+        on_left, on_right = LineOnSurface(0, 0, 0, 1), LineOnSurface(1, 0, 0, 1)
         for i, place in enumerate(self.places):
             follows = (i + wraps) % self.teeth
-            below: Edges = []
+            below: Chain = []
             for n in stretches:
-                surface, above = surfaces[n], list[tuple[Any, bool]]()
+                surface, above = surfaces[n], list[tuple[int, bool]]()
                 left, right = self._rise(i, k, n), self._rise(follows, after, n)
                 for edges, curve in ((left, on_left), (right, on_right)):
                     for edge, _ in edges:
-                        kernel.lay(edge, surface, curve, place=place)
+                        recorder.lay(edge, surface, curve, place=place)
                 if n == stretches[0]:
                     below = self._lay_end(0, i, k, surface)
                 else:
-                    kernel.lay(below[0][0], surface, kernel.line_2d(0, heights[n], 1, 0), place=place)
+                    recorder.lay(below[0][0], surface, LineOnSurface(0, heights[n], 1, 0), place=place)
                 if n == stretches[-1]:
                     above = self._lay_end(1, i, k, surface)
                 else:
                     ends = self._vertex(i, k, n + 1), self._vertex(follows, after, n + 1)
-                    above = [(kernel.edge(crossings[n + 1], *ends, 0.0, 1.0, place), True)]
-                    kernel.lay(above[0][0], surface, kernel.line_2d(0, heights[n + 1], 1, 0), place=place)
+                    above = [(recorder.edge(crossings[n + 1], *ends, 0.0, 1.0, place), True)]
+                    recorder.lay(above[0][0], surface, LineOnSurface(0, heights[n + 1], 1, 0), place=place)
                 self._face(surface, [*below, *right, *backward(above), *backward(left)], place)
                 below = above
 
-    def _face(self, surface: Any, loop: Edges, place: Any) -> None:
+    def _face(self, surface: SurfaceForm, loop: Chain, place: int) -> None:
         """A face of the toothed side at the place of a tooth; its loop runs counter-clockwise about the surface's normal."""
-        self.kernel.face(surface, [loop], outward=self.outward, place=place)
+        self.recorder.face(surface, [loop], outward=self.outward, place=place)
 
-    def _lay_end(self, which: int, i: int, k: int, surface: Any) -> Edges:
+    def _lay_end(self, which: int, i: int, k: int, surface: SurfaceForm) -> Chain:
         """The edges of an end on a piece of a tooth, laid on its surface."""
         chain = self.chains[which][k]
         for j in chain:
-            self.kernel.lay(self.edges[which][i][j], surface, self.drawn[which][j].on_face, place=self.places[i])
+            self.recorder.lay(self.edges[which][i][j], surface, self.drawn[which][j].on_face, place=self.places[i])
         return [(self.edges[which][i][j], True) for j in chain]
 
-    def _rise(self, i: int, k: int, stretch: int) -> Edges:
+    def _rise(self, i: int, k: int, stretch: int) -> Chain:
         """The edge at a junction of a tooth on a stretch of the face width; none where an end chamfer has taken it."""
         edges, place = self.side_edges[i][k], stretch - self.layout.rises[k][0].stretch
         return [(edges[place], True)] if 0 <= place < len(edges) else []
 
-    def _vertex(self, i: int, k: int, height: int) -> Any:
+    def _vertex(self, i: int, k: int, height: int) -> int:
         """The vertex at a junction of a tooth where a stretch begins or the one before ends."""
         return self.columns[i][k][height - self.layout.rises[k][0].stretch]
 
     # -------------------------------------------------------------- ends
 
-    def close_end(self, which: int) -> Edges:
+    def close_end(self, which: int) -> Chain:
         """Add the cone faces of an end and return the loop of its plane."""
         end, segments = self.layout.ends[which], self.layout.segments[which][0]
         if not end.cone.present:
             return [(edge, True) for tooth in self.edges[which] for edge in tooth]
-        cone = self.kernel.cone(end.cone.face_radius, end.cone.sine, end.z, up=end.widens > 0)
+        cone = cone_about_z(end.cone.face_radius, end.cone.sine, end.z, up=end.widens > 0)
         for place, edges in zip(self.places, self.edges[which], strict=True):
-            for edge, drawn, segment in zip(edges, self.drawn[which], segments, strict=True):
-                if segment.on_cone:
-                    self.kernel.lay(edge, cone, drawn.on_cone, place=place)
+            for edge, drawn in zip(edges, self.drawn[which], strict=True):
+                if drawn.on_cone is not None:
+                    self.recorder.lay(edge, cone, drawn.on_cone, place=place)
         if all(segment.on_cone for segment in segments):
             return self._cone_below_root(which, end, cone)
         return self._cone_on_teeth(which, end, cone)
 
-    def _cone_on_teeth(self, which: int, end: End, cone: Any) -> Edges:
+    def _cone_on_teeth(self, which: int, end: End, cone: ConeSurface) -> Chain:
         """One piece of cone per tooth; the plane's loop crosses each tooth on the arc where the cone begins."""
         segments, stations = self.layout.segments[which]
         conic = [j for j, segment in enumerate(segments) if segment.on_cone]
         start, stop = segments[conic[0]].start, segments[conic[-1]].end
         first, last = stations[[start, stop], 1]
-        loop: Edges = []
+        loop: Chain = []
         for i, edges in enumerate(self.edges[which]):
             vertices = self.vertices[which][i]
             arc = self._foot(end, i, cone, vertices[start], vertices[stop], first, last)
@@ -209,35 +218,35 @@ class _ToothRing:
             loop += [(edge, True) for edge in [*edges[: conic[0]], arc, *edges[conic[-1] + 1 :]]]
         return loop
 
-    def _cone_below_root(self, which: int, end: End, cone: Any) -> Edges:
+    def _cone_below_root(self, which: int, end: End, cone: ConeSurface) -> Chain:
         """One piece of cone per pitch, parted by generators from the start of each right flank; the plane has a circle."""
         angle = self.layout.segments[which][1][0, 1]
         foot = [end.cone.face_radius * math.cos(angle), end.cone.face_radius * math.sin(angle), end.z]
-        feet = [self.kernel.vertex(tooth[0]) for tooth in self._around(np.array([foot])).tolist()]
-        line, length = self.kernel.line(foot, self.layout.place(end, self.layout.segments[which][1][:1])[0])
+        feet = [self.recorder.vertex(tooth[0]) for tooth in self._around(np.array([foot])).tolist()]
+        line, length = straight_line(foot, self.layout.place(end, self.layout.segments[which][1][:1])[0])
         generators = [
-            self.kernel.edge(line, feet[i], self.vertices[which][i][0], 0.0, length, place)
+            self.recorder.edge(line, feet[i], self.vertices[which][i][0], 0.0, length, place)
             for i, place in enumerate(self.places)
         ]
-        before, after = (self.kernel.line_2d(end.widens * at, 0, 0, end.cone.side) for at in (angle, angle + self.pitch))
-        loop: Edges = []
+        before, after = (LineOnSurface(end.widens * at, 0, 0, end.cone.side) for at in (angle, angle + self.pitch))
+        loop: Chain = []
         for i, place in enumerate(self.places):
             follows = (i + 1) % self.teeth
             arc = self._foot(end, i, cone, feet[i], feet[follows], angle, angle + self.pitch)
-            self.kernel.lay(generators[i], cone, before, place=place)
-            self.kernel.lay(generators[follows], cone, after, place=place)
+            self.recorder.lay(generators[i], cone, before, place=place)
+            self.recorder.lay(generators[follows], cone, after, place=place)
             rim = [(edge, True) for edge in self.edges[which][i]]
             self._add_cone_face(end, i, cone, rim, arc, (generators[i], generators[follows]))
             loop.append((arc, True))
         return loop
 
-    def _foot(self, end: End, i: int, cone: Any, start: Any, stop: Any, first: float, last: float) -> Any:
+    def _foot(self, end: End, i: int, cone: ConeSurface, start: int, stop: int, first: float, last: float) -> int:
         """The arc on an end's plane where the cone of tooth i begins."""
-        arc = self.kernel.edge(self.kernel.circle(end.cone.face_radius, end.z), start, stop, first, last, self.places[i])
-        self.kernel.lay(arc, cone, self.kernel.line_2d(0, 0, end.widens, 0), place=self.places[i])
+        arc = self.recorder.edge(level_circle(end.cone.face_radius, end.z), start, stop, first, last, self.places[i])
+        self.recorder.lay(arc, cone, LineOnSurface(0, 0, end.widens, 0), place=self.places[i])
         return arc
 
-    def _add_cone_face(self, end: End, i: int, cone: Any, rim: Edges, foot: Any, sides: tuple[Any, ...] = ()) -> None:
+    def _add_cone_face(self, end: End, i: int, cone: ConeSurface, rim: Chain, foot: int, sides: tuple[int, ...] = ()) -> None:
         """A piece of cone between `foot` (on the plane) and `rim` (on the teeth), both counter-clockwise seen from +z.
 
         `sides`: generators at the start and the end of the rim, pointing to it, where it does not close on the foot.

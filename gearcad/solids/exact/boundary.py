@@ -1,0 +1,140 @@
+"""The boundary of a solid as plain data: shared vertices and edges, faces, and the places at which forms are used again.
+
+A `Recorder` takes it down while it is made; what reads it makes a solid of the CAD kernel, or the text of a file.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from copy import copy
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from gearcad.solids.exact.forms import CurveForm, OnSurface, SurfaceForm, Vector, vector
+
+__all__ = ["Boundary", "BoundaryEdge", "BoundaryFace", "Chain", "LaidCurve", "Recorder", "Turn", "backward"]
+
+Chain = list[tuple[int, bool]]
+"""Edges in order, each with True if it is run along its own direction."""
+
+PRECISION = 1e-7
+"""OpenCASCADE's own smallest distance (mm)."""
+
+
+class Turn(NamedTuple):
+    """A place: lifted by `z` (mm) and turned about the z axis by `angle` (rad)."""
+
+    z: float
+    angle: float
+
+
+class BoundaryEdge(NamedTuple):
+    """On a curve in a place (its number), from the vertex `start` at the parameter `first` to `end` at `last`."""
+
+    curve: CurveForm
+    place: int
+    start: int
+    end: int
+    first: float
+    last: float
+
+
+class BoundaryFace(NamedTuple):
+    """On a surface in a place; its loops run counter-clockwise (holes clockwise) about the surface's own normal.
+
+    That normal points out of the solid if `outward`.
+    """
+
+    surface: SurfaceForm
+    place: int
+    loops: tuple[Chain, ...]
+    outward: bool
+
+
+class LaidCurve(NamedTuple):
+    """What an edge is in the parameters of a surface in a place; two curves where it is the seam of a closed one."""
+
+    edge: int
+    surface: SurfaceForm
+    place: int
+    curves: tuple[OnSurface, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Boundary:
+    """One closed shell. `vertices` are points (mm); everything else names vertices, edges and places by their numbers.
+
+    Curves, surfaces and vertices may differ by the `tolerance` (mm). The first place is that where nothing is moved.
+    """
+
+    tolerance: float
+    places: Sequence[Turn]
+    vertices: Sequence[Vector]
+    edges: Sequence[BoundaryEdge]
+    laid: Sequence[LaidCurve]
+    faces: Sequence[BoundaryFace]
+
+
+def backward(chain: Chain) -> Chain:
+    """A chain of edges run the other way."""
+    return [(edge, not along) for edge, along in reversed(chain)]
+
+
+class Recorder:
+    """Takes down vertices, edges and faces of one solid (lengths in mm).
+
+    Vertices and edges get twice the `tolerance` to which their curves are fitted: a curve and its surface may differ by
+    as much from the exact shape, to opposite sides.
+    """
+
+    def __init__(self, tolerance: float) -> None:
+        self.tolerance = max(2 * tolerance, PRECISION)
+        self.here = 0
+        self._places = [Turn(0.0, 0.0)]
+        self._vertices: list[Vector] = []
+        self._edges: list[BoundaryEdge] = []
+        self._laid: list[LaidCurve] = []
+        self._faces: list[BoundaryFace] = []
+
+    def boundary(self) -> Boundary:
+        """What was taken down."""
+        return Boundary(self.tolerance, self._places, self._vertices, self._edges, self._laid, self._faces)
+
+    def moved(self, z: float, angle: float) -> Recorder:
+        """The same recorder, but what is taken down by it stands higher by `z` (mm) and turned by `angle` (rad)."""
+        moved = copy(self)
+        moved.here = self._place(z, angle)
+        return moved
+
+    def turned(self, angle: float) -> int:
+        """The place of a thing turned about z (rad)."""
+        return self._place(0.0, angle)
+
+    def _place(self, z: float, angle: float) -> int:
+        here = self._places[self.here]
+        self._places.append(Turn(here.z + z, here.angle + angle))
+        return len(self._places) - 1
+
+    def vertex(self, point: Sequence[float]) -> int:
+        """A vertex at a point."""
+        x, y, z = vector(point)
+        if self.here:
+            place = self._places[self.here]
+            cosine, sine = math.cos(place.angle), math.sin(place.angle)
+            x, y, z = cosine * x - sine * y, sine * x + cosine * y, z + place.z
+        self._vertices.append((x, y, z))
+        return len(self._vertices) - 1
+
+    def edge(self, curve: CurveForm, start: int, end: int, first: float, last: float, place: int | None = None) -> int:
+        """An edge on a curve (in a place) from the vertex `start` at the parameter `first` to `end` at `last`."""
+        self._edges.append(BoundaryEdge(curve, self.here if place is None else place, start, end, first, last))
+        return len(self._edges) - 1
+
+    def lay(self, edge: int, surface: SurfaceForm, *curves: OnSurface, place: int | None = None) -> None:
+        """Give an edge its curve in the parameters of a surface; two curves make it the seam of a closed one."""
+        self._laid.append(LaidCurve(edge, surface, self.here if place is None else place, curves))
+
+    def face(self, surface: SurfaceForm, loops: Iterable[Chain], *, outward: bool = True, place: int | None = None) -> None:
+        """A face; its loops run counter-clockwise (holes clockwise) about the surface's own normal."""
+        self._faces.append(BoundaryFace(surface, self.here if place is None else place, tuple(loops), outward))
