@@ -1,6 +1,6 @@
 """Solids and files: exact boundary representations (CadQuery), structured meshes, contours and points.
 
-Everything starts from the ToothProfile; CadQuery, trimesh and ezdxf are imported when a function needs them.
+Everything starts from the ToothProfile; CadQuery and ezdxf are imported when a function needs them.
 """
 
 from __future__ import annotations

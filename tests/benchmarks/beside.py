@@ -67,6 +67,7 @@ def run(command: list[str], checkout: Path, inputs: Path, limit: float, of_outpu
     with tempfile.TemporaryDirectory() as name, tempfile.TemporaryFile() as said, tempfile.TemporaryFile() as told:
         folder = shutil.copytree(inputs, name, dirs_exist_ok=True)
         environment = os.environ | {"PYTHONPATH": str(checkout.resolve())}
+        environment.pop("PYTHONDONTWRITEBYTECODE", None)  # as installed packages are: compiled once
         process = subprocess.Popen(
             command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=said, stderr=told, start_new_session=True
         )

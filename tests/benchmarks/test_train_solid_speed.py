@@ -19,7 +19,7 @@ _CODE = """
 import json, resource, sys, tempfile, time
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
-import cadquery, trimesh, trimesh.exchange.gltf
+import cadquery
 from support.train_solids import alm_train
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.files.train_products import TrainProduct

@@ -128,10 +128,10 @@ def test_another_reader_plays_the_animation_alike(tmp_path: Path) -> None:
 @pytest.mark.parametrize("turns", [1.0, -8.9444, 60.0])
 def test_keyframes_are_so_dense_that_nothing_takes_the_short_way(turns: float) -> None:
     """Interpolated on the sphere or along the chord, as some viewers do, a wheel is never 0.01 degrees off."""
-    from gearcad.solids.files.turning import Turning, _quaternions
+    from gearcad.solids.files.turning import Turning, quaternions
 
     shares = Turning(duration=10.0, turns={"wheel": turns}).keyframes()
-    keys = _quaternions(2 * math.pi * turns * shares)
+    keys = quaternions(2 * math.pi * turns * shares)
     for between in (0.2, 0.5, 0.8):
         chord = (1 - between) * keys[:-1] + between * keys[1:]
         seen = 2 * np.arctan2(chord[:, 2], chord[:, 3])

@@ -1,4 +1,4 @@
-"""The system libraries of the README's command are enough for every library the project builds on."""
+"""The system libraries of the README's command are enough for every library the project and its tests build on."""
 
 from __future__ import annotations
 

@@ -48,8 +48,7 @@ _FIRST_OBJECT = 2
 def write_3mf(parts: Sequence[Part], path: Path | str) -> None:
     """Write every part as a named, coloured body in its place; the file states the millimetre.
 
-    Parts that are one product are components that hold its mesh, which is written once. Written here, as the exporter of
-    trimesh leaves out colours and makes up new identifiers and dates every time.
+    Parts that are one product are components that hold its mesh, which is written once.
     """
     uses = Counter(id(part.facets) for part in parts)
     objects: list[str] = []
