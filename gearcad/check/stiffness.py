@@ -10,6 +10,7 @@ from gearcad.check.task import CheckTask
 from gearcad.errors import GearcadError
 from gearcad.mounting import Mounting
 from gearcad.stiffness import CLOSED_FORMS, StiffnessComparison, StiffnessMethod, compare_methods
+from gearcad.threads import one_thread
 
 __all__ = ["StiffnessMethods", "stiffness_methods"]
 
@@ -32,13 +33,11 @@ class StiffnessMethods(NamedTuple):
 
 def stiffness_methods(task: CheckTask, own: Callable[[Mounting], StiffnessMethod], positions: int) -> StiffnessMethods:
     """The check's `own` model, at its own even positions, beside the closed forms."""
-    from threadpoolctl import threadpool_limits
-
     mounting = replace(task.mounting, centre_distance_change=0.0)  # the pair is as mounted already
     try:
         closed = compare_methods(task.pair, task.material, task.load, CLOSED_FORMS, body=task.options.body, mounting=mounting)
         # Positions and torque of the check itself: solid bodies know what they answer there.
-        with threadpool_limits(1):
+        with one_thread():
             cycle = own(mounting)(task.load, positions)
     except GearcadError as error:
         return StiffnessMethods(None, str(error))

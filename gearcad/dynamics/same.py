@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.maxima import outstanding
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.train import Train
@@ -41,11 +42,8 @@ def envelope(study: TrainStudy) -> Floats:
 
 def peaks_of(study: TrainStudy, mesh: int, prominence: float = _PROMINENCE) -> list[Peak]:
     """Maxima of K_v of a mesh, running up or down, by speed, that stand out from both sides by so much."""
-    from scipy.signal import find_peaks
-
     factors, speeds = envelope(study)[:, mesh], study.speeds
-    found, _ = find_peaks(factors, prominence=prominence)
-    return [Peak(float(speeds[row]), float(factors[row])) for row in found]
+    return [Peak(float(speeds[row]), float(factors[row])) for row in outstanding(factors, prominence)]
 
 
 def joined_peaks(listed: Sequence[Sequence[Peak]], first: int) -> list[tuple[Peak | None, ...]]:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from collections.abc import Callable, Collection, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, fields
 from enum import Enum
 from functools import partial
@@ -15,6 +15,7 @@ from gearcad.designs.design import Design
 from gearcad.notice import Notice
 from gearcad.output import json_text, staged_files
 from gearcad.progress import Agenda, Expected, Progress
+from gearcad.threads import one_thread
 
 __all__ = ["Job", "Writer"]
 
@@ -49,7 +50,7 @@ class Job(ABC, Generic[Accepted, Result]):
 
     def run(self, design: Design, progress: Progress | None = None) -> Result:
         """The result for a design. Raises ParameterError for a kind that it does not take, and what its solvers raise."""
-        with _one_thread() if self.solves else nullcontext():
+        with one_thread() if self.solves else nullcontext():
             return self._run(self._accepted(design), progress)
 
     @abstractmethod
@@ -119,11 +120,3 @@ class Job(ABC, Generic[Accepted, Result]):
 def _plain(value: Any) -> Any:
     """As JSON gives it back."""
     return list(value) if isinstance(value, tuple) else value.value if isinstance(value, Enum) else value
-
-
-@contextmanager
-def _one_thread() -> Iterator[None]:
-    from threadpoolctl import threadpool_limits
-
-    with threadpool_limits(1):
-        yield

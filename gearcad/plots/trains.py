@@ -13,6 +13,7 @@ from gearcad.arrays import Floats
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.members import GROUND, Shaft
 from gearcad.dynamics.trains.train import Train
+from gearcad.geometry.spline import SPLINE_PLACES, Spline
 from gearcad.plots.labels import plain
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, SERIES, new_figure, prepared, short
 
@@ -117,11 +118,11 @@ def _finely(modes: NaturalModes, mode: int) -> tuple[Floats, Floats]:
 
     Half waves have few places where they are many: lines between these would cut their tops.
     """
-    from scipy.interpolate import CubicSpline
-
+    if len(modes.places) < SPLINE_PLACES:
+        return modes.places, modes.shaft_shape[mode]
     parts = np.arange(_BETWEEN * (len(modes.places) - 1) + 1) / _BETWEEN
     along = np.interp(parts, np.arange(len(modes.places)), modes.places)
-    return along, np.asarray(CubicSpline(modes.places, modes.shaft_shape[mode], axis=1)(along), float)
+    return along, Spline(modes.places, modes.shaft_shape[mode].T)(along).T
 
 
 def _title(modes: NaturalModes, mode: int) -> str:

@@ -11,13 +11,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
 from gearcad.geometry import GearPair
+from gearcad.geometry.spline import Spline
 
 __all__ = ["MeshCurves", "SinglePair", "Slices"]
 
@@ -141,22 +142,15 @@ class Slices:
 
     def _over_width(self, values: Floats, at: Floats) -> Floats:
         """The integral over the width of what has `values` at `lengths`, for lines with their middle `at` (nan: none)."""
-        spline = _spline(self.lengths, values)
+        spline = Spline(self.lengths, values)
         first, last = self.path
         touching = np.isfinite(at)
         place = np.where(touching, at, first)
         if self.reach == 0:
             found = spline(np.clip(place, first, last)) * self.width
         else:
-            sums = spline.antiderivative()
             ends = (np.clip(place + side * self.reach / 2, first, last) for side in (1, -1))
-            upper, lower = (sums(end) for end in ends)
+            upper, lower = (spline.integral(end) for end in ends)
             found = (upper - lower) * self.width / self.reach
         result: Floats = np.where(touching, found, 0.0)
         return result
-
-
-def _spline(x: Floats, y: Floats) -> Any:
-    from scipy.interpolate import CubicSpline
-
-    return CubicSpline(x, y)

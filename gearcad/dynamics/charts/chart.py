@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gearcad.arrays import Floats
 from gearcad.dynamics.charts.displacements import BearingLoads, Displacements
 from gearcad.dynamics.charts.transmission import TransmissionErrors
+from gearcad.dynamics.maxima import outstanding
 from gearcad.notice import Notice, texts
 
 __all__ = ["FactorPeak", "ForceDefinition", "KvChart"]
@@ -72,9 +73,7 @@ class KvChart:
 
     def peaks(self, mesh: int = 0) -> list[FactorPeak]:
         """Resonances of a mesh, in order of frequency: maxima of K_v that stand out from both sides."""
-        from scipy.signal import find_peaks
-
-        found, _ = find_peaks(self.factors[:, mesh], prominence=_PROMINENCE)
+        found = outstanding(self.factors[:, mesh], _PROMINENCE)
         return [FactorPeak(float(self.frequencies[i]), float(self.factors[i, mesh])) for i in found]
 
     @property

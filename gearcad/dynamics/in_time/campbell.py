@@ -13,13 +13,13 @@ from gearcad.dynamics.in_time.mesh_campbell import MeshCampbell
 from gearcad.dynamics.in_time.motion import Motion, MovingSystem
 from gearcad.dynamics.in_time.speed_course import Course
 from gearcad.dynamics.in_time.steps import settling_time, step_for
-from gearcad.dynamics.threads import on_all_cores
 from gearcad.dynamics.tooth_springs.history import CHAOTIC_DIGITS, SETTLED
 from gearcad.dynamics.tooth_springs.spectra import amplitude_spectrum
 from gearcad.dynamics.tooth_springs.speed_spectra import SpeedRow
 from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import ParameterError, SolverError
+from gearcad.threads import on_all_cores
 
 __all__ = ["mesh_campbell"]
 

@@ -16,11 +16,11 @@ import numpy as np
 from gearcad.arrays import Bools, Floats
 from gearcad.dynamics.excitation.meshes import Excitation
 from gearcad.dynamics.response.flexibility import StaticState, senses, static_state
-from gearcad.dynamics.threads import cores
 from gearcad.dynamics.tooth_errors.patterns import repeated_teeth, single_pattern, smooth_pattern
 from gearcad.dynamics.tooth_errors.result import ToothLaw
 from gearcad.dynamics.tooth_errors.teeth import Draw, MeshTeeth
 from gearcad.dynamics.trains.system import System
+from gearcad.threads import cores
 
 if TYPE_CHECKING:
     from gearcad.dynamics.tooth_errors.kernel import Pattern, Samples, Steps

@@ -7,13 +7,13 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gearcad.dynamics.threads import on_all_cores
 from gearcad.dynamics.tooth_springs.campbell_study import CampbellStudy
 from gearcad.dynamics.tooth_springs.contact_model import ContactModel
 from gearcad.dynamics.tooth_springs.history import Start
 from gearcad.dynamics.tooth_springs.motion import checked_samples, time_history
 from gearcad.dynamics.tooth_springs.speed_spectra import SpeedRow
 from gearcad.errors import ParameterError, require_number
+from gearcad.threads import on_all_cores
 
 __all__ = ["campbell"]
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
+from gearcad.dynamics.maxima import apart
 from gearcad.errors import ParameterError, require_number, require_whole
 
 __all__ = ["SpectralPeak", "Spectrum", "amplitude_spectrum"]
@@ -30,12 +31,9 @@ class Spectrum:
 
     def peaks(self, count: int = 6, *, distance: float = 20.0, above: float = 5.0) -> tuple[SpectralPeak, ...]:
         """The highest local maxima, highest first, at least `distance` Hz apart and above a frequency (Hz)."""
-        from scipy.signal import find_peaks
-
         require_whole("count", count, at_least=1, at_most=1000)
         bins = max(1, round(distance / float(self.frequency[1])))
-        places, _ = find_peaks(self.amplitude, distance=bins)
-        places = [place for place in places if self.frequency[place] > above]
+        places = [place for place in apart(self.amplitude, bins).tolist() if self.frequency[place] > above]
         highest = sorted(places, key=lambda place: (-self.amplitude[place], place))[:count]
         return tuple(SpectralPeak(float(self.frequency[place]), float(self.amplitude[place])) for place in highest)
 

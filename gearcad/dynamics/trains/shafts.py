@@ -30,10 +30,11 @@ def twist_shapes(order: int, places: ArrayLike) -> Floats:
 
     Those vanish at both ends: N_j = (P_j - P_{j-2}) / sqrt(4 j - 2) (Szabo and Babuska, Finite Element Analysis, 3.1.1).
     """
-    from scipy.special import eval_legendre
-
     x = 2 * np.asarray(places, dtype=float) - 1
-    bubbles = [(eval_legendre(j, x) - eval_legendre(j - 2, x)) / math.sqrt(4 * j - 2) for j in range(2, order + 1)]
+    p = [np.ones_like(x), x]
+    for j in range(2, order + 1):  # Bonnet's recursion
+        p.append(((2 * j - 1) * x * p[-1] - (j - 1) * p[-2]) / j)
+    bubbles = [(p[j] - p[j - 2]) / math.sqrt(4 * j - 2) for j in range(2, order + 1)]
     return np.array([(1 - x) / 2, (1 + x) / 2, *bubbles])
 
 
