@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearcad.arrays import Floats
+from gearcad.arrays import Bools, Floats
 from gearcad.contact.plane.flank import PlaneCompliance
 from gearcad.contact.shared.complementarity import complementary
 from gearcad.contact.shared.engaged import TOOTH_ORDER
@@ -70,15 +70,35 @@ class ContactSolution:
         return np.array([pressure.sum() * pair.cells.width for pair, pressure in zip(self.pairs, self.pressures, strict=True)])
 
 
-def solve_contact(pairs: tuple[ContactPair, ...], bodies: PerGear[PlaneCompliance], force: float) -> ContactSolution:
-    """Press the gears together with the normal force `force` (N per mm of width)."""
+def solve_contact(
+    pairs: tuple[ContactPair, ...], bodies: PerGear[PlaneCompliance], force: float, like: ContactSolution | None = None
+) -> ContactSolution:
+    """Press the gears together with the normal force `force` (N per mm of width).
+
+    What touches is sought from where it does in a solution `like` this one, if there is one.
+    """
     sizes = [len(pair.cells.place) for pair in pairs]
     width = np.concatenate([np.full(size, pair.cells.width) for size, pair in zip(sizes, pairs, strict=True)])
     gap = np.concatenate([pair.cells.gap for pair in pairs])
     matrices = PerGear.each(lambda role: compliance_matrix(pairs, bodies.pick(role), role))
-    pressure, approach = complementary(matrices.pinion + matrices.wheel, gap * width, width, force)
+    touching = _middles(pairs) if like is None else _touching(pairs, like)
+    pressure, approach = complementary(matrices.pinion + matrices.wheel, gap * width, width, force, touching)
     parts = matrices.map(lambda matrix: float(pressure @ matrix @ pressure) / force)
     return ContactSolution(pairs, tuple(np.split(pressure, np.cumsum(sizes)[:-1])), approach, parts)
+
+
+def _middles(pairs: tuple[ContactPair, ...]) -> Bools:
+    """Cells (n,) in the middle third of what is around the least gap of each pair: half widths of windows of three."""
+    places = [pair.cells.place for pair in pairs]
+    away = [np.abs(place - place[pair.cells.gap.argmin()]) for place, pair in zip(places, pairs, strict=True)]
+    return np.concatenate([each <= each.max() / 3 for each in away])
+
+
+def _touching(pairs: tuple[ContactPair, ...], like: ContactSolution) -> Bools:
+    """Cells (n,) that lie where another solution presses."""
+    pressed = {pair.tooth: (pair.cells.place, pressure) for pair, pressure in zip(like.pairs, like.pressures, strict=True)}
+    nowhere = np.zeros(1), np.zeros(1)
+    return np.concatenate([np.interp(pair.cells.place, *pressed.get(pair.tooth, nowhere)) > 0 for pair in pairs])
 
 
 def compliance_matrix(pairs: tuple[ContactPair, ...], body: PlaneCompliance, role: Role) -> Floats:
@@ -104,8 +124,11 @@ def _edge_block(cells: ContactCells, body: PlaneCompliance) -> Floats:
     """The straight edge's part: k(d) integrated over both cells in closed form."""
     log = -2 / (np.pi * body.elasticity.modulus)
     constant = -(1 + body.elasticity.ratio) / (np.pi * body.elasticity.modulus)
-    apart, h = cells.place[:, None] - cells.place, cells.width
-    result: Floats = log * (_second(apart + h) - 2 * _second(apart) + _second(apart - h)) + constant * h * h
+    count, h = len(cells.place), cells.width
+    steps = np.arange(count)
+    second = _second(np.arange(-1.0, count + 1) * h)
+    by_step = log * (second[2:] - 2 * second[1:-1] + second[:-2]) + constant * h * h  # cells are evenly apart
+    result: Floats = by_step[np.abs(steps[:, None] - steps)]
     return result
 
 

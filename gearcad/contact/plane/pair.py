@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -48,9 +48,15 @@ _SINGLE = 25
 """Positions of one pair of teeth along its path of contact, among which it is stiffest."""
 
 
+class KnownContacts(dict[tuple[float, float, bool], ContactSolution]):
+    """Contacts by roll angle (deg), torque (N·m) and whether the middle pair is alone; grows as positions are solved."""
+
+
 @dataclass(frozen=True)
 class PlanePair(FlexiblePair[PlaneCompliance]):
     """Both bodies in the transverse section through the middle of the common face width."""
+
+    known: KnownContacts = field(default_factory=KnownContacts, repr=False)
 
     @property
     def repeats(self) -> bool:
@@ -62,7 +68,7 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         """Stresses of the roots of both gears, as responses to loads on their flanks."""
         return self.bodies.map(Fillets)
 
-    @property
+    @cached_property
     def modulus(self) -> float:
         """Reduced modulus of the contact (MPa): 1/E* = 1/E'_1 + 1/E'_2."""
         return 1 / (1 / self.pinion.elasticity.modulus + 1 / self.wheel.elasticity.modulus)
@@ -76,17 +82,33 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
 
         Raises SolverError, and GeometryError where nothing can touch.
         """
-        self.require_narrow_contact(torque, self.modulus)
-        force = self.force(torque)
-        # The first solution tells what each pair carries, and so how wide its contact is.
-        carried = self._solve(roll_angle, force, lambda _tooth: force, single, _FIRST_CELLS)
-        shares = {pair.tooth: share for pair, share in zip(carried.pairs, carried.forces, strict=True)}
-        return self._solve(roll_angle, force, lambda tooth: max(shares.get(tooth, 0.0), _LEAST_SHARE * force), single, _CELLS)
+        asked = roll_angle, abs(torque), single
+        if (found := self.known.get(asked)) is None:
+            self.require_narrow_contact(torque, self.modulus)
+            found = self.known[asked] = self._solved(roll_angle, self.force(torque), single)
+        return found
 
-    def _solve(
-        self, roll_angle: float, force: float, carried: Callable[[int], float], single: bool, cells: int
+    def _solved(self, roll_angle: float, force: float, single: bool) -> ContactSolution:
+        """The contact at a roll angle (deg) and a normal force (N per mm)."""
+        # The first solution tells what each pair carries, and so how wide its contact is.
+        carried = self._pressed(roll_angle, force, lambda _tooth: force, single, _FIRST_CELLS)
+        shares = dict(zip((pair.tooth for pair in carried.pairs), carried.forces.tolist(), strict=True))
+
+        def thought(tooth: int) -> float:
+            return float(max(shares.get(tooth, 0.0), _LEAST_SHARE * force))
+
+        return self._pressed(roll_angle, force, thought, single, _CELLS, carried)
+
+    def _pressed(
+        self,
+        roll_angle: float,
+        force: float,
+        carried: Callable[[int], float],
+        single: bool,
+        cells: int,
+        like: ContactSolution | None = None,
     ) -> ContactSolution:
-        """The contact, with windows for what each pair of teeth is thought to carry (N per mm)."""
+        """The contact, with windows for what each pair of teeth is thought to carry (N per mm); about `like` another one."""
 
         def span(tooth: int, radius: float) -> float:
             return _WINDOW * float(half_width(carried(tooth), radius, self.modulus))
@@ -98,7 +120,7 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
             pairs = tuple(pair for pair in pairs if pair.tooth == 0)
         if not pairs:
             raise GeometryError("roll_angle", roll_angle, "must be one at which teeth can touch", "deg")
-        return solve_contact(pairs, self.bodies, force)
+        return solve_contact(pairs, self.bodies, force, like)
 
     def single_stiffness(self, torque: float, count: int = _SINGLE) -> float:
         """Greatest stiffness (N/(mm·µm)) of one pair of teeth alone, at `count` places of its path of contact."""

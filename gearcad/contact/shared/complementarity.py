@@ -23,7 +23,7 @@ def complementary(matrix: Floats, gap: Floats, width: Floats, force: float, star
 
     The set is sought from the cells that press at the `start`, else from all: what is found is the same.
     """
-    active = np.ones(len(width), bool) if start is None else start
+    active = np.ones(len(width), bool) if start is None or not start.any() else start
     for count in range(_ROUNDS):
         pressure, approach = _equations(matrix, gap, width, force, active)
         opening = (matrix @ pressure + gap) / width - approach

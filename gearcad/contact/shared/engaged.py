@@ -146,9 +146,12 @@ class EngagedPair:
         return result
 
     def roll_angles(self, count: int) -> Floats:
-        """Roll angles (deg) over one base pitch, as many before the pitch point as after it."""
+        """Roll angles (deg) over one base pitch, as many before the pitch point as after it.
+
+        Those that fewer positions have in common with more are the same to the last digit.
+        """
         pitch = 360 / self.pair.pinion.teeth
-        return (np.arange(count) + 0.5) / count * pitch - pitch / 2
+        return (2 * np.arange(count) + 1 - count) / (2 * count) * pitch
 
 
 Body = TypeVar("Body", bound=FlankCompliance, covariant=True)

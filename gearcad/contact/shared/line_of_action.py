@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -34,6 +34,10 @@ __all__ = [
 
 LEAST_LENGTH = 0.01
 """Least roll length (mm per mm of normal module) at which a flank still has a curvature to speak of."""
+
+_ROUNDS = 6
+_SETTLED = 1e-9
+"""Newton steps for the turn (rad) of flanks that face each other, and the last one: the next would be its square."""
 
 _POSITIONS = 13
 """Of one base pitch, at which pairs that come near are counted."""
@@ -92,9 +96,12 @@ class TransverseFlank:
         """Roll lengths at places along the tangent (towards the tip), and how far the flank lies behind the tangent (mm)."""
         base = self.base_radius
         turn = (np.copysign(np.sqrt(np.maximum(contact**2 + 2 * base * place, 1e-12)), base) - contact) / base
-        for _ in range(6):
-            length = contact + base * turn
-            turn = turn - (base * np.cos(turn) + length * np.sin(turn) - base - place) / (length * np.cos(turn))
+        for _ in range(_ROUNDS):
+            cosine, length = np.cos(turn), contact + base * turn
+            step = (base * cosine + length * np.sin(turn) - base - place) / (length * cosine)
+            turn = turn - step
+            if np.abs(step).max() < _SETTLED:
+                break
         length = contact + base * turn
         return length, contact - (length * np.cos(turn) - base * np.sin(turn))
 
@@ -112,7 +119,7 @@ class LineOfAction:
     module: float
     proud: float = 0.0
 
-    @property
+    @cached_property
     def exact(self) -> bool:
         """True if all flanks are exact involutes in their places."""
         return not (self.proud or any(flank.form.modification.present for flank in self.flanks))
@@ -123,6 +130,8 @@ class LineOfAction:
 
     def taken_back(self, tooth: int, lengths: PerGear[Floats]) -> Floats:
         """What modifications and pitch errors add to the gap (mm) between the flanks of a pair of teeth at roll lengths."""
+        if self.exact:
+            return np.zeros_like(lengths.pinion)
         pinion, wheel = (flank.depth(each) for flank, each in zip(self.flanks, lengths, strict=True))
         depth = pinion + wheel
         return depth - self.proud if tooth == 0 else depth
