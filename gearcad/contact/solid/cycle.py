@@ -12,10 +12,10 @@ from gearcad.arrays import Floats
 from gearcad.contact.shared.engaged import TOOTH_ORDER
 from gearcad.contact.shared.loaded import FAIR, INTERIOR, LoadedCycle, LoadedPosition, RootStress
 from gearcad.contact.solid.contact import SolidPairContact
-from gearcad.contact.solid.flank import SolidCompliance
+from gearcad.contact.solid.flank import SolidCompliance, ToothForces
 from gearcad.contact.solid.line_contact import LineSolution
 from gearcad.contact.solid.pair import SolidPair
-from gearcad.contact.solid.root import FilletState, SolidFillet, ToothForces
+from gearcad.contact.solid.root import FilletState, SolidFillet
 from gearcad.per_gear import PerGear, Role
 
 __all__ = ["SolidCycle", "SolidPosition", "SolidRootStress", "tooth_loads"]

@@ -114,14 +114,7 @@ def solid_field(cycle: SolidCycle, position: SolidPosition, role: Role, tooth: i
     """
     body = cycle.model.bodies.pick(role)
     mesh = body.body.sector.mesh
-    moved = np.zeros(body.body.sector.dofs)
-    for loaded, force in tooth_loads(cycle.model, position.contacts, role):
-        # A load on another tooth is seen from this one as this one sees a load on tooth 0.
-        if abs(tooth - loaded) <= body.neighbours:
-            moved += body.displacements[body.neighbours + tooth - loaded] @ force
-        if tooth == loaded:
-            moved += body.taken_off @ force
-    displacement = mesh.to_space(moved.reshape(-1, 3))
+    displacement = body.tooth_displacements(tooth, tooth_loads(cycle.model, position.contacts, role))
     hexahedra = np.concatenate([mesh.elements(mesh.section.quads, layer) for layer in range(mesh.layers)])
     stress = nodal_stress(mesh.points, hexahedra, displacement, body.material)
     found = SolidField(mesh.points, hexahedra, displacement, stress)

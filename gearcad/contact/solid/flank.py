@@ -5,6 +5,7 @@ The load's field in a half-space is taken off the elements of the loaded tooth, 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -17,7 +18,7 @@ from gearcad.contact.solid.body import SolidBody
 from gearcad.contact.solid.boussinesq import surface_displacement
 from gearcad.contact.solid.images import Images, TakenOff
 from gearcad.contact.solid.places import Grid, GridSpline, Places, SolidFlank
-from gearcad.contact.solid.remaining import remaining
+from gearcad.contact.solid.remaining import NodalForces, remaining
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
 from gearcad.material import Material
@@ -25,8 +26,11 @@ from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.swept import SweptMesh, turned
 from gearcad.progress import Share, unheard
 
-__all__ = ["SolidCompliance", "solid_compliance"]
+__all__ = ["SolidCompliance", "ToothForces", "solid_compliance"]
 
+
+ToothForces = tuple[int, Floats]
+"""Tooth, and the force (N) at each unit load's place (see SolidCompliance.load_weights)."""
 
 _ROWS, _FEWEST_ROWS = 8, 2
 """Unit loads up the flank, and the least between which a spline can run."""
@@ -40,8 +44,9 @@ class SolidCompliance(FlankCompliance):
     """Responses of a body to 1 N normal to the flank of tooth 0 at each place of `loads`.
 
     `moved[k]` (places of `grid`, loads) are normal displacements (mm) of the flank of tooth k; of tooth 0 they lack those of
-    a half-space and of the load's images (see `Images`). `torques` (loads,) act on the hub (N mm); `displacements` (teeth,
-    dofs, loads) are in turning axes, those of tooth 0 without `taken_off` (dofs, loads), the fields that were taken off.
+    a half-space and of the load's images (see `Images`). `torques` (loads,) act on the hub (N mm). At the nodes
+    `surface` (n,) of the loaded flank, the fillets and a free bore `displacements` (teeth, n, 3, loads) are in turning axes: on
+    tooth 0, but for its bore, without the fields that were taken off. `forces` are those that elements carry of each load.
     """
 
     flank: SolidFlank
@@ -50,8 +55,9 @@ class SolidCompliance(FlankCompliance):
     loads: Grid
     grid: Grid
     moved: dict[int, Floats]
+    surface: Wholes
     displacements: Floats
-    taken_off: Floats
+    forces: NodalForces
     torques: Floats
 
     @property
@@ -114,6 +120,25 @@ class SolidCompliance(FlankCompliance):
         loads = zip(self.flank.points(places), self.flank.inward(places), strict=True)
         return np.stack([field.traction(points, normals, at, inward) for at, inward in loads], -1)
 
+    def surface_displacements(self, tooth: int) -> Floats:
+        """Displacements (n, 3, loads) in mm of the nodes `surface` of tooth k, in fixed axes."""
+        return self.body.sector.mesh.to_space(self.displacements[self.neighbours + tooth], self.surface)
+
+    def tooth_displacements(self, tooth: int, loads: Sequence[ToothForces]) -> Floats:
+        """Displacements (nodes, 3) in mm of all nodes of a tooth, in fixed axes, by loads on it and its neighbours.
+
+        Loads on teeth further away than those whose responses are known are left out.
+        """
+        mesh = self.body.sector.mesh
+        # A load on another tooth is seen from this one as this one sees a load on tooth 0.
+        near = [(tooth - loaded, force) for loaded, force in loads if abs(tooth - loaded) <= self.neighbours]
+        moved = self.body.solve(self.forces.together(np.stack([force for _, force in near], -1)).everywhere(mesh.nodes))
+        found = sum(
+            (moved.displacements[self.neighbours + apart][:, column] for column, (apart, _) in enumerate(near)),
+            start=np.zeros(3 * mesh.nodes),
+        )
+        return mesh.to_space(found.reshape(-1, 3))
+
     def torque(self, places: Places) -> Floats:
         """Torque on the hub (N mm) by 1 N at each place."""
         return -(self.load_weights(places) @ self.torques)
@@ -126,28 +151,36 @@ def solid_compliance(gear: Gear, body: SolidBody, material: Material, start: flo
     """
     sector = body.sector
     mesh, flank = sector.mesh, SolidFlank(gear, sector.mesh.rate)
-    nodes, grid = _flank_grid(flank, mesh)
+    on_flank, grid = _flank_grid(flank, mesh)
     loads = _load_grid(grid, gear, start)
     places = loads.places
     points = _NEAR_OF_RINGS if gear.internal else _NEAR
     rest = remaining(flank, mesh, material, _near_quads(gear, mesh), places, points, tell)
-    moved = body.solve(rest.everywhere(rest.forces, mesh.nodes))
-    normal = flank.inward(grid.places)
+    surface = _surface(mesh, free=sector.free)
+    moved = body.solve(rest.forces.everywhere(mesh.nodes))
+    displacements = moved.displacements.reshape(-1, mesh.nodes, 3, len(places[0]))[:, surface]
+    place, normal = np.searchsorted(surface, on_flank), flank.inward(grid.places)
     found = {
-        tooth: _normal(mesh, moved.displacements[body.neighbours + tooth], nodes, normal)
+        tooth: _normal(mesh, displacements[body.neighbours + tooth][place], on_flank, normal)
         for tooth in range(-body.neighbours, body.neighbours + 1)
     }
     distance = np.linalg.norm(flank.points(grid.places)[:, None] - flank.points(places), axis=-1)
     found[0] = found[0] - np.where(distance > 1e-9, surface_displacement(np.maximum(distance, 1e-9), material), 0.0)
     found[0] -= Images(flank, material).normal(grid.places, places)
-    taken_off = rest.everywhere(rest.taken_off, mesh.nodes)
-    moved.displacements[body.neighbours] -= taken_off
-    return SolidCompliance(flank, body, material, loads, grid, found, moved.displacements, taken_off, moved.torques)
+    # The elements of a bore have all of what is far from the load.
+    on_tooth = np.flatnonzero(~np.isin(surface, mesh.over(mesh.side(Side.HELD))))
+    displacements[body.neighbours][on_tooth] -= rest.taken_off_at(surface[on_tooth])
+    return SolidCompliance(flank, body, material, loads, grid, found, surface, displacements, rest.forces, moved.torques)
 
 
-def _normal(mesh: SweptMesh, displacements: Floats, nodes: Wholes, inward: Floats) -> Floats:
-    """Normal displacements (nodes, m) from those of all dofs in turning axes."""
-    vectors = displacements.reshape(mesh.nodes, 3, -1)[nodes]
+def _surface(mesh: SweptMesh, *, free: bool) -> Wholes:
+    """Nodes (n,), sorted, of the loaded flank, of the fillets, and of the bore if it is free."""
+    sides = (Side.LEFT_FLANK, Side.LEFT_FILLET, Side.RIGHT_FILLET, *([Side.HELD] if free else []))
+    return np.unique(mesh.over(np.unique(np.concatenate([mesh.side(side) for side in sides]))))
+
+
+def _normal(mesh: SweptMesh, vectors: Floats, nodes: Wholes, inward: Floats) -> Floats:
+    """Normal displacements (n, m) from vectors (n, 3, m) at nodes in turning axes."""
     flat = turned(inward[:, :2], -mesh.rate * mesh.heights[nodes])
     result: Floats = np.einsum("ncm,nc->nm", vectors, np.c_[flat, inward[:, 2]])
     return result

@@ -16,23 +16,39 @@ from gearcad.material import Material
 from gearcad.meshing.section.swept import SweptMesh
 from gearcad.progress import Share
 
-__all__ = ["Remaining", "remaining"]
+__all__ = ["NodalForces", "Remaining", "remaining"]
+
+
+class NodalForces(NamedTuple):
+    """Forces (n, 3, loads) in N, in turning axes, at `nodes` (n,): none at others."""
+
+    nodes: Wholes
+    values: Floats
+
+    def everywhere(self, count: int) -> Floats:
+        """As dofs (3 count, loads) of all nodes."""
+        result = np.zeros((count, *self.values.shape[1:]))
+        result[self.nodes] = self.values
+        return result.reshape(3 * count, -1)
+
+    def together(self, shares: Floats) -> NodalForces:
+        """Of some loads together, by shares (loads, m)."""
+        return NodalForces(self.nodes, self.values @ shares)
 
 
 class Remaining(NamedTuple):
-    """Of unit loads: displacements (n, 3, loads) in mm at `nodes` (n,) by the fields that are taken off, and nodal forces
-    (n, 3, loads) in N that leave the rest; both in turning axes. Nothing of them is at other nodes.
+    """Of unit loads: the `forces` that leave a smooth rest, and displacements (n, 3, loads) in mm, in turning axes, at the same
+    nodes by the fields that are `taken_off`.
     """
 
-    nodes: Wholes
+    forces: NodalForces
     taken_off: Floats
-    forces: Floats
 
-    def everywhere(self, values: Floats, count: int) -> Floats:
-        """Values (n, 3, loads) as dofs (3 count, loads) of all nodes, 0 at the others."""
-        result = np.zeros((count, *values.shape[1:]))
-        result[self.nodes] = values
-        return result.reshape(3 * count, -1)
+    def taken_off_at(self, nodes: Wholes) -> Floats:
+        """What is taken off (n, 3, loads) at some nodes: nothing at those that are not near."""
+        place = np.searchsorted(self.forces.nodes, nodes) % len(self.forces.nodes)
+        result: Floats = np.where((self.forces.nodes[place] == nodes)[:, None, None], self.taken_off[place], 0.0)
+        return result
 
 
 def remaining(
@@ -53,7 +69,7 @@ def remaining(
         tell((column + 1) / len(at))
     taken_off, forces = (mesh.to_turning(each, nodes) for each in (taken_off, forces))
     _add_elastic(forces, mesh, material, near, nodes, taken_off)
-    return Remaining(nodes, taken_off, forces)
+    return Remaining(NodalForces(nodes, forces), taken_off)
 
 
 def _add_elastic(

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE
-from gearcad.contact.solid.flank import SolidCompliance
+from gearcad.contact.solid.flank import SolidCompliance, ToothForces
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.shapes import GAUSS, edges_of
 
-__all__ = ["FilletState", "SolidFillet", "SolidFillets", "ToothForces", "solid_fillets"]
+__all__ = ["FilletState", "SolidFillet", "SolidFillets", "solid_fillets"]
 
 
 _GAUSS = GAUSS / 2
@@ -23,10 +23,6 @@ _GAUSS = GAUSS / 2
 
 _STEPS = 4
 """Steps from one point to the next in which the greatest stress is looked for."""
-
-
-ToothForces = tuple[int, Floats]
-"""Tooth, and the force (N) at each unit load's place (see SolidCompliance.load_weights)."""
 
 
 class FilletState(NamedTuple):
@@ -138,13 +134,9 @@ class SolidFillet:
         """Stresses (3, heights, along, loads) of tooth k by the unit loads: along the profile, across it, and shear."""
         neighbours = self.body.neighbours
         teeth = range(-neighbours, neighbours + 1)
-        moved = {tooth: self.body.displacements[neighbours + tooth] for tooth in teeth}
-        if self.side is Side.HELD:
-            # The fields are taken off the tooth; the elements of the bore have all of what is far from the load.
-            moved[0] = moved[0] + self.body.taken_off
-            return {tooth: self._stresses(each) for tooth, each in moved.items()}
-        found = {tooth: self._stresses(each) for tooth, each in moved.items()}
-        found[0] += self._taken_off
+        found = {tooth: self._stresses(self.body.surface_displacements(tooth)) for tooth in teeth}
+        if self.side is not Side.HELD:
+            found[0] += self._taken_off
         return found
 
     @cached_property
@@ -168,10 +160,9 @@ class SolidFillet:
         return np.stack([self._at_points(stress) for stress in (along, axial, shear)])
 
     def _stresses(self, displacements: Floats) -> Floats:
-        mesh, faces = self.body.body.sector.mesh, self._faces
         _, slopes = self._shape
         bases, first, second = self._bases
-        vectors = mesh.to_space(displacements.reshape(mesh.nodes, 3, -1))[faces]  # (layers, edges, 8, 3, loads)
+        vectors = displacements[np.searchsorted(self.body.surface, self._faces)]  # (layers, edges, 8, 3, loads)
         moved = [np.einsum("qa,leacm->leqcm", slope, vectors) for slope in slopes]
         lean, height = ((bases[1] * unit).sum(-1) for unit in (first, second))
         by_first = moved[0] / np.linalg.norm(bases[0], axis=-1)[..., None, None]
