@@ -165,6 +165,25 @@ def test_condensed_body_is_that_in_full(mesh: SweptMesh, sector: SolidSector, lo
     assert np.abs(moved - reference).max() < EXACT * np.abs(reference).max()
 
 
+@pytest.mark.parametrize(
+    ("layers", "finer", "teeth", "neighbours"),
+    [(1, 1.0, 4, 1), (1, 0.8, 7, 3), (2, 0.8, 6, 2), (3, 0.8, 4, 1), (5, 0.8, 3, 1), (5, 0.5, 8, 2), (4, 0.5, 9, 3)],
+)
+def test_halves_tell_of_all(layers: int, finer: float, teeth: int, neighbours: int) -> None:
+    """Of layers or of the section, with hexahedra in the middle or without, rings odd and even, up to the opposite cut."""
+    mesh = sweep(GEAR, mesh_quads(GEAR, INNER, SIZES.scaled(finer)), layers)
+    sector = SolidSector(mesh, STEEL)
+    nodes = np.random.default_rng(layers).choice(mesh.over(mesh.side(Side.LEFT_FLANK)), 3, replace=False)
+    forces = np.random.default_rng(teeth).normal(size=(9, 2))
+    everywhere = np.zeros((mesh.nodes, 3, 2))
+    everywhere[nodes] = forces.reshape(3, 3, 2)
+    reference = explicit(sector, teeth, None, everywhere.reshape(-1, 2)).reshape(3, mesh.nodes, 3, 2)
+    wanted = np.random.default_rng(0).permutation(mesh.nodes)[: mesh.nodes // 2]
+    body = assemble_body(mesh, teeth, neighbours, STEEL, None, Cuts.FIXED)
+    moved = body.solve(forces, wanted, at=nodes).displacements[neighbours - 1 : neighbours + 2]
+    assert np.abs(moved.reshape(3, -1, 3, 2) - reference[:, wanted]).max() < EXACT * np.abs(reference).max()
+
+
 @pytest.mark.parametrize("held", [None, 3])
 def test_torque_on_the_hub_is_that_of_the_loads(mesh: SweptMesh, loads: Any, held: int | None) -> None:
     body: SolidBody = assemble_body(mesh, GEAR.teeth, 1, STEEL, held, Cuts.FIXED)

@@ -1,7 +1,7 @@
 """Matrices of parts added to that of the whole, three dofs a node: only its lower triangle, in its three blocks.
 
 Compiled by numba: import this room inside functions only. Places are those of nodes in the order of the whole, its own first; a
-node at a negative place is left out.
+node at a negative place is left out. Two nodes may have the same place.
 """
 
 from __future__ import annotations
@@ -31,6 +31,8 @@ def add_block(block: Floats, places: Wholes, own: Floats, across: Floats, rest: 
                 for a in range(b if first == second else 0, 3):
                     value = block[3 * first + a, 3 * second + b]
                     low, high = 3 * row + a, 3 * column + b
+                    if low == high and first != second:
+                        value *= 2  # here the upper triangle comes to the diagonal too
                     if low < high:
                         low, high = high, low
                     if low < 3 * count:

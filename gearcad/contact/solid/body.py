@@ -6,14 +6,19 @@ that is free has a hub that follows it (see `hub`), whose six dofs are the force
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.arrays import Floats
-from gearcad.contact.shared.chain import Cuts, cut_held
+from gearcad.arrays import Floats, Wholes
+from gearcad.contact.shared.chain import Cuts
+from gearcad.contact.solid.around import Around, RingAround, SidesAround
+from gearcad.contact.solid.condensation import Forward
+from gearcad.contact.solid.fronts import node_dofs
+from gearcad.contact.solid.half_turn import PARITIES
 from gearcad.contact.solid.hub import rigid_motions
 from gearcad.contact.solid.sector import SolidSector
 from gearcad.material import Material
@@ -23,11 +28,22 @@ from gearcad.progress import Share, unheard
 __all__ = ["Moved", "SolidBody", "SolidSector", "assemble_body"]
 
 
+_AT_ONCE = 64
+"""Loads for which the body is solved at once: more take more memory."""
+
+
 class Moved(NamedTuple):
-    """Displacements of teeth -k ... k (2 k + 1, dofs, m) in mm, in each tooth's turning axes, and torques on the hub (N mm)."""
+    """Displacements (2 k + 1, 3 n, m) of teeth -k ... k in mm, in each one's turning axes; torques on the hub (N mm)."""
 
     displacements: Floats
     torques: Floats
+
+
+class _Joints(NamedTuple):
+    """Displacements of the cut behind tooth 0, and the hub's dofs (hub, m) as it sees them, even and odd."""
+
+    cuts: tuple[Floats, Floats]
+    hub: tuple[Floats, Floats]
 
 
 @dataclass(frozen=True)
@@ -44,96 +60,93 @@ class SolidBody:
     neighbours: int
 
     @cached_property
-    def _around(self) -> Floats:
-        """What stands beside tooth 0: matrix on [its cut behind, its cut ahead, hub]."""
-        n, hub = self.sector.chain.cut, len(self.sector.chain.onward)
-        if not self.held:
-            swap = np.r_[n : 2 * n, 0:n, 2 * n : 2 * n + hub]
-            result: Floats = self.sector.chain.repeated(self.rest).seen(self.sector.seen_by(1))[np.ix_(swap, swap)]
-            return result
-        side = self.sector.chain.repeated(self.rest // 2)
-        both = np.zeros((2 * n + 1, 2 * n + 1))
-        for dofs, ahead in ((np.r_[n : 2 * n], True), (np.r_[0:n], False)):
-            place = np.r_[dofs, 2 * n]
-            both[np.ix_(place, place)] += side.ended(self.cuts, self.sector.cut_radii, ahead=ahead)
-        return both
+    def _around(self) -> Around:
+        span = self.sector.span
+        if self.held:
+            return SidesAround(span, self.rest // 2, self.neighbours, self.cuts, self.sector.cut_radii)
+        return RingAround(span, self.rest, self.neighbours)
 
-    def solve(self, loads: Floats) -> Moved:
-        """Displacements and torques by loads (dofs, m) in N on tooth 0, in its turning axes."""
-        sector, condensed = self.sector, self.sector.condensed
-        n = sector.chain.cut
-        solved, arriving = condensed.forward(sector.cut_turn.T @ loads)
-        cuts, hub = self._joints(solved, arriving)
-        found = {0: condensed.backward(self._with_hub(solved, hub), self._placed(cuts))}
-        for sense in (1, -1):
-            near, far = (cuts[n:], cuts[:n]) if sense > 0 else (cuts[:n], cuts[n:])
-            for k in range(1, self.neighbours + 1):
-                beyond = self._next_cut(near, far, hub, k, sense)
-                both = np.concatenate([near, beyond] if sense > 0 else [beyond, near])
-                own = None if hub is None else self._with_hub(None, sector.seen_by(sense * k) @ hub)
-                found[sense * k] = condensed.backward(own, self._placed(both))
-                near = beyond
-        ordered = [sector.cut_turn @ found[tooth] for tooth in range(-self.neighbours, self.neighbours + 1)]
-        if hub is None:
-            torques = -(sector.hub_forces[:, 0] @ found[0] + self._around[-1, :-1] @ cuts)
-        else:
+    @cached_property
+    def _matrices(self) -> tuple[Floats, Floats]:
+        """Of tooth 0 and what stands beside it, on the cut behind and the hub."""
+        even, odd = (self.sector.span.matrices[parity] + self._around.matrix(parity) for parity in (0, 1))
+        return even, odd
+
+    def solve(self, loads: Floats, wanted: Wholes | None = None, *, at: Wholes | None = None) -> Moved:
+        """Displacements of the nodes `wanted` (n,) of each tooth, and torques, by loads (3 k, m) in N at nodes (k,) of tooth 0.
+
+        None are all nodes. Loads and displacements are in the turning axes.
+        """
+        sector, every = self.sector, np.arange(self.sector.mesh.nodes)
+        wanted, at = every if wanted is None else wanted, node_dofs(every if at is None else at)
+        found = np.empty((2 * self.neighbours + 1, 3 * len(wanted), loads.shape[1]))
+        torques = np.empty(loads.shape[1])
+        for first in range(0, loads.shape[1], _AT_ONCE):
+            these = slice(first, first + _AT_ONCE)
+            these_loads = np.zeros((sector.dofs, len(torques[these])))
+            these_loads[at] = loads[:, these]
+            solved, arriving = sector.condensed.forward(sector.cut_turn.T @ these_loads)
+            joints = self._joints(solved, arriving)
+            torques[these] = self._torques(solved, joints)
+            for tooth, moved in self._teeth(solved, joints, wanted):
+                found[self.neighbours + tooth, :, these] = moved
+        turn = sector.cut_turn[node_dofs(wanted)][:, node_dofs(wanted)]
+        for each in found:
+            each[:] = turn @ each
+        return Moved(found, torques)
+
+    def _joints(self, solved: Forward, arriving: tuple[Floats, Floats]) -> _Joints:
+        import scipy.linalg
+
+        span = self.sector.span
+        cuts, hubs = [], []
+        given = self.sector.hub_forward[0].dot(solved)
+        for parity in (0, 1):
+            matrix, right = self._matrices[parity], arriving[parity]
+            hub = np.zeros((len(span.hub_parities), right.shape[1]))
+            if not self.sector.free:
+                cuts.append(scipy.linalg.solve(matrix[: span.cut, : span.cut], right, assume_a="pos", check_finite=False))
+            else:
+                ours = np.flatnonzero(span.hub_parities == PARITIES[parity])
+                every = np.r_[np.arange(span.cut), span.cut + ours]
+                both = np.linalg.solve(matrix[np.ix_(every, every)], np.concatenate([right, -given[parity][ours]]))
+                cuts.append(both[: span.cut])
+                hub[ours] = both[span.cut :]
+            hubs.append(hub)
+        return _Joints((cuts[0], cuts[1]), (hubs[0], hubs[1]))
+
+    def _torques(self, solved: Forward, joints: _Joints) -> Floats:
+        sector, n = self.sector, self.sector.span.cut
+        if sector.free:
             turn = rigid_motions(sector.mesh.points, 0.0)[..., :1]
             per_sector = (sector.cut_turn.T @ sector.mesh.to_turning(turn).ravel()) @ sector.hub_forces
-            torques = (self.rest + 1) * per_sector[0] * hub[0]
-        return Moved(np.stack(ordered), torques)
+            result: Floats = (self.rest + 1) * per_sector[0] * joints.hub[1][0]
+            return result
+        own = sector.hub_forward[0].dot(solved)[1][0]
+        reaction: Floats = -2 * (own + self._matrices[1][n, :n] @ joints.cuts[1])
+        return reaction
 
-    def _joints(self, solved: list[Floats], arriving: Floats) -> tuple[Floats, Floats | None]:
-        """Displacements of the cuts of tooth 0, and the dofs of a hub that follows the bore."""
-        count = len(arriving)
-        if not self.sector.free:
-            stiffness = self.sector.condensed.matrix + self._around[:count, :count]
-            return np.asarray(np.linalg.solve(stiffness, arriving), float), None
-        moved = sum((hub.T @ load for hub, load in zip(self.sector.hub_solved, solved, strict=True)), start=np.zeros(1))
-        both = np.asarray(np.linalg.solve(self.sector.chain.matrix + self._around, np.r_[arriving, -moved]), float)
-        return both[:count], both[count:]
+    def _teeth(self, solved: Forward, joints: _Joints, nodes: Wholes) -> Iterator[tuple[int, Floats]]:
+        """Every tooth, and the displacements (3 n, m) of nodes of it, in polar axes at the cuts."""
+        sector, reversal = self.sector, self.sector.span.reversal
+        even, odd = (self._around.cuts(joints.cuts[p], joints.hub[p], p) for p in (0, 1))
+        ahead = [one + two for one, two in zip(even, odd, strict=True)]
+        behind = [reversal.rows(one - two) for one, two in zip(even, odd, strict=True)]
+        hub = joints.hub[0] + joints.hub[1]
+        yield 0, sector.condensed.backward(self._with_hub(solved, hub), joints.cuts, nodes)
+        for k in range(1, self.neighbours + 1):
+            for tooth, near, far in ((k, ahead[k - 1], ahead[k]), (-k, behind[k], behind[k - 1])):
+                turned = reversal.rows(far)
+                own = self._with_hub(None, sector.seen_by(tooth) @ hub)
+                yield tooth, sector.condensed.backward(own, ((near + turned) / 2, (near - turned) / 2), nodes)
 
-    def _with_hub(self, solved: list[Floats] | None, hub: Floats | None) -> list[Floats] | None:
+    def _with_hub(self, solved: Forward | None, hub: Floats) -> Forward | None:
         """What `backward` needs of loads, and of the forces of the hub as the sector sees them."""
-        if hub is None:
+        if not self.sector.free:
             return solved
-        ours = [-each @ hub for each in self.sector.hub_solved]
-        return ours if solved is None else [load + own for load, own in zip(solved, ours, strict=True)]
-
-    def _placed(self, cuts: Floats) -> Floats:
-        """Displacements (dofs, m) of nothing but the cuts."""
-        moved = np.zeros((self.sector.dofs, cuts.shape[1]))
-        moved[self.sector.condensed.kept] = cuts
-        return moved
-
-    def _next_cut(self, near: Floats, far: Floats, hub: Floats | None, k: int, sense: int) -> Floats:
-        """Displacements of the far cut of the k-th tooth ahead (or behind), from those of its near cut and the hub's dofs.
-
-        `far` is the other cut of tooth 0, at which a full ring ends.
-        """
-        chain, seen_by = self.sector.chain, self.sector.seen_by
-        n = chain.cut
-        before, after, own = slice(0, n), slice(n, 2 * n), slice(2 * n, None)
-        if sense < 0:
-            before, after = after, before
-        stiffness, force = chain.matrix[after, after].copy(), -chain.matrix[after, before] @ near
-        left = self.rest - k if not self.held else self.rest // 2 - k
-        free = np.ones(n, bool)
-        if left and not self.held:
-            onward = chain.repeated(left).matrix
-            stiffness += onward[before, before]
-            force -= onward[before, after] @ far
-            if hub is not None:
-                first = k + 1 if sense > 0 else -k - left
-                force -= chain.matrix[after, own] @ seen_by(sense * k) @ hub + onward[before, own] @ seen_by(first) @ hub
-        elif left:
-            stiffness += chain.repeated(left).ended(self.cuts, self.sector.cut_radii, ahead=sense > 0)[:-1, :-1]
-        elif not self.held:
-            return far
-        else:
-            free = ~cut_held(self.cuts, n, 3)
-        moved = np.zeros_like(near)
-        moved[free] = np.linalg.solve(stiffness[np.ix_(free, free)], force[free])
-        return moved
+        even = (self.sector.hub_parities == PARITIES[0])[:, None]
+        ours = self.sector.hub_forward[0].times(-hub * even, -hub * ~even)
+        return ours if solved is None else solved.plus(ours)
 
 
 def assemble_body(

@@ -1,144 +1,232 @@
-"""A sector condensed to its cuts (static condensation): part by part, nodes go and leave their load to those around them.
+"""A sector condensed to its cuts (static condensation), for even and odd motions each (see `half_turn`).
 
-Fronts are dense (multifrontal Cholesky), and BLAS works in place: matrices lie column by column, loads row by row.
+Half the sector goes part by part, once for both; then the nodes between the halves go, for each parity. Of two nodes that
+change places one stands for both; of the cuts that is the one behind.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.arrays import Floats, Wholes
-from gearcad.contact.solid.dissection import SolidPart
-from gearcad.errors import SolverError
-from gearcad.progress import Share, unheard
+from gearcad.arrays import Bools, Floats, Wholes
+from gearcad.contact.solid.dissection import Box, Halves, front_flops
+from gearcad.contact.solid.fronts import Blocks, Elimination, Front, node_dofs
+from gearcad.contact.solid.half_turn import PARITIES, TURNED, HalfTurn
+from gearcad.progress import Share
 
-__all__ = ["Condensed", "condense", "node_dofs"]
+__all__ = ["Condensed", "Forward", "condense"]
 
 
-def node_dofs(nodes: Wholes) -> Wholes:
-    """Dofs (..., 3 n) of nodes (..., n)."""
-    return (3 * nodes[..., None] + np.arange(3)).reshape(*nodes.shape[:-1], -1)
+class Forward(NamedTuple):
+    """What `Condensed.backward` needs of loads: fronts of the half (None: no load gets there), and both on top of it."""
+
+    half: list[Floats | None]
+    top: tuple[Floats, Floats]
+
+    def dot(self, other: Forward) -> tuple[Floats, Floats]:
+        """Sums over all fronts of products, even and odd (n, m): of loads (n) with displacements by the others (m)."""
+        result = []
+        for parity in (0, 1):
+            total = self.top[parity].T @ other.top[parity]
+            for one, two in zip(self.half, other.half, strict=True):
+                if one is not None and two is not None:
+                    total += _of(one, parity).T @ _of(two, parity)
+            result.append(total)
+        return result[0], result[1]
+
+    def times(self, even: Floats, odd: Floats) -> Forward:
+        """By factors (n, m) for the even and the odd ones of n loads."""
+        both = (even, odd)
+        half = [None if one is None else np.hstack([_of(one, p) @ both[p] for p in (0, 1)]) for one in self.half]
+        return Forward(half, (self.top[0] @ even, self.top[1] @ odd))
+
+    def plus(self, other: Forward) -> Forward:
+        """The sum."""
+        half = [_sum(one, two) for one, two in zip(self.half, other.half, strict=True)]
+        return Forward(half, (self.top[0] + other.top[0], self.top[1] + other.top[1]))
+
+
+def _sum(one: Floats | None, two: Floats | None) -> Floats | None:
+    if one is None or two is None:
+        return two if one is None else one
+    return one + two
+
+
+def _of(both: Floats, parity: int) -> Floats:
+    count = both.shape[1] // 2
+    return both[:, parity * count : (parity + 1) * count]
 
 
 @dataclass(frozen=True)
-class _Front:
-    """One step: dofs that go, those that take over their load, L with L L.T the matrix of the first, L^-1 times that across."""
+class _Orbits:
+    """Nodes on top of the half, `between` both and at the `cut` behind, and those for which they stand as well: `moved`."""
 
-    own: Wholes
-    aside: Wholes
-    lower: Floats
-    across: Floats
+    turn: HalfTurn
+    between: Wholes
+    cut: Wholes
+    moved: Wholes
 
-    def solved(self, loads: Floats) -> Floats:
-        """L^-1 loads (n, m)."""
-        return self._divided(loads, transposed=1)
+    @cached_property
+    def standing(self) -> Wholes:
+        """The nodes (n,) that stand for `moved`."""
+        result: Wholes = self.turn.nodes[self.moved]
+        return result
 
-    def moved(self, solved: Floats) -> Floats:
-        """L^-T solved (n, m)."""
-        return self._divided(solved, transposed=0)
+    @cached_property
+    def places(self) -> Wholes:
+        """Where the node that stands for each one of the mesh comes among those on top; -1 for all others."""
+        places, every = np.full(len(self.turn.nodes), -1), np.r_[self.between, self.cut]
+        places[every] = np.arange(len(every))
+        places[self.moved] = places[self.standing]
+        return places
 
-    def _divided(self, right: Floats, transposed: int) -> Floats:
-        from scipy.linalg.blas import dtrsm
+    def signs(self, parity: int) -> Floats:
+        """What all dofs (dofs,) of the mesh are of those that stand for them."""
+        signs = np.ones((len(self.turn.nodes), 3))
+        signs[self.moved] = PARITIES[parity] * TURNED
+        return signs.ravel()
 
-        # From the right: rows of C are columns of Fortran.
-        turned: Floats = dtrsm(1.0, self.lower, right.T, side=1, lower=1, trans_a=transposed, overwrite_b=1)
-        return turned.T
+    def still(self, parity: int) -> Wholes:
+        """Dofs of nodes on the axis that do not move."""
+        alone = self.between[self.turn.on_axis[self.between]]
+        return node_dofs(alone).reshape(-1, 3)[:, PARITIES[parity] * TURNED < 0].ravel()
 
 
 @dataclass(frozen=True)
 class Condensed:
-    """The elimination, front by front, and what it leaves: the symmetric `matrix` on the dofs `kept`."""
+    """The elimination, and what it leaves: `matrices` for even and odd motions on the dofs of the cut behind.
 
-    fronts: tuple[_Front, ...]
-    kept: Wholes
-    matrix: Floats
-
-    def forward(self, loads: Floats) -> tuple[list[Floats], Floats]:
-        """What `backward` needs of loads (dofs, m), and the loads (kept, m) that arrive at the dofs that are kept."""
-        left, found = loads.copy(), []
-        for front in self.fronts:
-            solved = front.solved(left[front.own])
-            left[front.aside] -= front.across.T @ solved
-            found.append(solved)
-        return found, left[self.kept]
-
-    def backward(self, found: list[Floats] | None, moved: Floats) -> Floats:
-        """Displacements (dofs, m); `moved` holds those of the kept dofs and is 0 elsewhere, `found` None stands for no load."""
-        moved = moved.copy()
-        for place in range(len(self.fronts) - 1, -1, -1):
-            front = self.fronts[place]
-            right = -(front.across @ moved[front.aside])
-            if found is not None:
-                right += found[place]
-            moved[front.own] = front.moved(right)
-        return moved
-
-
-def condense(
-    whole: SolidPart,
-    nodes: int,
-    hexahedra_of: Callable[[SolidPart], tuple[Wholes, Floats]],
-    kept: Wholes,
-    tell: Share = unheard,
-) -> Condensed:
-    """Eliminate all nodes but those of the dofs `kept`.
-
-    `hexahedra_of` gives the nodes (m, 20) of the hexahedra of a part, of `nodes` in all, and their matrices (m, 60, 60); nodes
-    that no part has are held. Raises SolverError for a matrix that is not positive definite.
+    Those of the cut ahead are these after the turn, or their opposites. The energy of a motion is the sum over both of u.T F u.
     """
-    elimination = _Elimination(np.full(nodes, -1), hexahedra_of, [], sum(part.flops for part in whole.every()), tell)
-    matrix = elimination.eliminated(whole)
-    place = np.searchsorted(node_dofs(whole.aside), kept)
-    matrix += np.tril(matrix, -1).T
-    return Condensed(tuple(elimination.fronts), kept, matrix[np.ix_(place, place)])
+
+    orbits: _Orbits
+    half: tuple[Front, ...]
+    top: tuple[Front, Front]
+    matrices: tuple[Floats, Floats]
+
+    @property
+    def cut(self) -> Wholes:
+        """Dofs of the cut behind."""
+        return node_dofs(self.orbits.cut)
+
+    def forward(self, loads: Floats) -> tuple[Forward, tuple[Floats, Floats]]:
+        """What `backward` needs of loads (dofs, m), and the loads (n, m) of both parities that arrive at the cut."""
+        orbits, count = self.orbits, loads.shape[1]
+        turned = orbits.turn.turned(loads)
+        left = np.hstack([loads + turned, loads - turned]) / 2
+        left[node_dofs(np.flatnonzero(orbits.turn.on_axis))] /= 2
+        left[node_dofs(orbits.moved)] = 0.0
+        loaded: Bools = np.asarray(left.any(axis=1))
+        found: list[Floats | None] = []
+        for front in self.half:
+            if not loaded[front.own].any():
+                found.append(None)
+                continue
+            found.append(front.forward(left))
+            loaded[front.aside] = True
+        moved, standing, top, arrived = node_dofs(orbits.moved), node_dofs(orbits.standing), [], []
+        for parity in (0, 1):
+            own = left[:, parity * count : (parity + 1) * count]
+            own[standing] += orbits.signs(parity)[moved, None] * own[moved]
+            own[orbits.still(parity)] = 0.0
+            top.append(self.top[parity].forward(own))
+            arrived.append(own[self.cut])
+        return Forward(found, (top[0], top[1])), (arrived[0], arrived[1])
+
+    def backward(self, found: Forward | None, cuts: tuple[Floats, Floats], nodes: Wholes) -> Floats:
+        """Displacements (3 n, m) of nodes by those of the cut behind of both parities; `found` None stands for no load."""
+        orbits, count = self.orbits, cuts[0].shape[1]
+        every = np.zeros((3 * len(orbits.turn.nodes), 2 * count))
+        moved, standing = node_dofs(orbits.moved), node_dofs(orbits.standing)
+        for parity in (0, 1):
+            own = every[:, parity * count : (parity + 1) * count]
+            own[self.cut] = cuts[parity]
+            self.top[parity].backward(None if found is None else found.top[parity], own)
+            own[moved] = orbits.signs(parity)[moved, None] * own[standing]
+        here = self._known[nodes]
+        for place in self._needed(np.where(here, nodes, orbits.turn.nodes[nodes])):
+            self.half[place].backward(None if found is None else found.half[place], every)
+        result = np.empty((len(nodes), 3, count))
+        vectors = every.reshape(-1, 3, 2, count)
+        result[here] = vectors[nodes[here]].sum(axis=2)
+        there = orbits.turn.nodes[nodes[~here]]
+        result[~here] = TURNED[:, None] * (vectors[there, :, 0] - vectors[there, :, 1])
+        return result.reshape(-1, count)
+
+    @cached_property
+    def _known(self) -> Bools:
+        """Which nodes of the mesh are of the half, or stand for others."""
+        known = np.zeros(len(self.orbits.turn.nodes), bool)
+        for front in self.half:
+            known[front.own // 3] = True
+        for nodes in (self.orbits.moved, self.orbits.between, self.orbits.cut):
+            known[nodes] = True
+        return known
+
+    def _needed(self, nodes: Wholes) -> list[int]:
+        """Fronts of the half, those first that went last, without which displacements of some nodes cannot be told."""
+        wanted, found = np.zeros(3 * len(self._known), bool), []
+        wanted[node_dofs(nodes)] = True
+        for place, front in enumerate(self.half):
+            if wanted[front.own].any():
+                wanted[front.aside] = True
+                found.append(place)
+        return found[::-1]
 
 
-@dataclass
-class _Elimination:
-    """`places` are -1 for all nodes but while a part's are looked up, `done` of the operations `flops` are."""
+def condense(turn: HalfTurn, halves: Halves, cut: Wholes, matrices_of: Callable[[Box], Floats], tell: Share) -> Condensed:
+    """Eliminate all nodes but those of the cut behind, `cut` (n,), and what the turn makes of them.
 
-    places: Wholes
-    hexahedra_of: Callable[[SolidPart], tuple[Wholes, Floats]]
-    fronts: list[_Front]
-    flops: float
-    tell: Share
-    done: float = 0.0
+    `matrices_of` gives the matrices (m, 60, 60) of the hexahedra of a box; nodes that no part has are held. Raises SolverError
+    for a matrix that is not positive definite.
+    """
+    from gearcad.contact.solid.assembling import add_block, add_hexahedra
 
-    def eliminated(self, part: SolidPart) -> Floats:
-        """The matrix, its lower triangle only, on the dofs of the nodes that a part leaves."""
-        from scipy.linalg.blas import dsyrk, dtrsm
-        from scipy.linalg.lapack import dpotrf
+    over = 0.0
 
-        own, across, rest = self._assembled(part)
-        if len(own):
-            lower, failed = dpotrf(own, lower=1, clean=0, overwrite_a=1)
-            if failed:
-                raise SolverError(f"the stiffness matrix of a gear body could not be factorised (its minor {failed})")
-            across = dtrsm(1.0, lower, across, lower=1, overwrite_b=1)
-            if len(rest):
-                rest = dsyrk(-1.0, across, beta=1.0, c=rest, trans=1, lower=1, overwrite_c=1)
-            self.fronts.append(_Front(node_dofs(part.own), node_dofs(part.aside), lower, across))
-        self.done += part.flops
-        self.tell(self.done / self.flops)
-        return rest
+    def done(flops: float) -> None:
+        nonlocal over
+        over += flops
+        tell(min(over / halves.flops, 1.0))
 
-    def _assembled(self, part: SolidPart) -> tuple[Floats, ...]:
-        """The matrix of a part: that of its own dofs, that across and that of the others."""
-        from gearcad.contact.solid.assembling import add_block, add_hexahedra
+    def nodes_of(box: Box) -> Wholes:
+        return box.nodes(turn.mesh)
 
-        given = [(half, self.eliminated(half)) for half in part.parts]
-        count, others = 3 * len(part.own), 3 * len(part.aside)
-        whole = tuple(np.zeros(shape, order="F") for shape in ((count, count), (count, others), (others, others)))
-        every = np.r_[part.own, part.aside]
-        self.places[every] = np.arange(len(every))
-        while given:
-            half, matrix = given.pop()
-            add_block(matrix, self.places[half.aside], *whole)
-        if not part.parts:
-            nodes, matrices = self.hexahedra_of(part)
-            add_hexahedra(matrices, self.places[nodes], *whole)
-        self.places[every] = -1
-        return whole
+    elimination = Elimination(turn.mesh.nodes, nodes_of, matrices_of, done)
+    matrix, orbits, applied = elimination.eliminated(halves.half), _orbits(turn, halves, cut), np.ones(1)
+    top, matrices = [], []
+    for parity in (0, 1):
+        blocks, signs = Blocks.zeros(3 * len(halves.between), 3 * len(cut)), orbits.signs(parity)
+        here = signs[node_dofs(halves.half.aside)]
+        matrix *= (here * applied)[:, None]
+        matrix *= here * applied
+        applied = here
+        add_block(matrix, orbits.places[halves.half.aside], *blocks)
+        if halves.middle is not None:
+            nodes = nodes_of(halves.middle)
+            turned = signs[node_dofs(nodes)]
+            add_hexahedra(turned[:, :, None] * matrices_of(halves.middle) * turned[:, None] / 2, orbits.places[nodes], *blocks)
+        _hold(blocks, np.flatnonzero(np.isin(node_dofs(halves.between), orbits.still(parity))))
+        blocks = blocks.eliminated()
+        top.append(Front(node_dofs(halves.between), node_dofs(cut), blocks.own, blocks.across))
+        matrices.append(np.tril(blocks.rest) + np.tril(blocks.rest, -1).T)
+        done(front_flops(len(halves.between), len(cut)))
+    return Condensed(orbits, tuple(elimination.fronts), (top[0], top[1]), (matrices[0], matrices[1]))
+
+
+def _orbits(turn: HalfTurn, halves: Halves, cut: Wholes) -> _Orbits:
+    every = halves.half.aside if halves.middle is None else np.union1d(halves.half.aside, halves.middle.nodes(turn.mesh))
+    standing = np.isin(every, np.r_[halves.between, cut])
+    return _Orbits(turn, halves.between, cut, every[~standing & np.isin(turn.nodes[every], np.r_[halves.between, cut])])
+
+
+def _hold(blocks: Blocks, dofs: Wholes) -> None:
+    """Let nothing move dofs (n,) of their own."""
+    blocks.own[dofs] = blocks.across[dofs] = 0.0
+    blocks.own[:, dofs] = 0.0
+    blocks.own[dofs, dofs] = 1.0

@@ -1,7 +1,8 @@
-"""A swept sector divided in two, and again, until few hexahedra are left: the order in which its nodes go (nested dissection).
+"""A swept sector divided in two, and again, until few hexahedra are left: the order in which nodes go (nested dissection).
 
-A part is some quadrangles of the section over some of the layers. It is divided where fewest nodes stand: along a line through
-the section, or at a plane between layers. Nodes go with the part that needs them last.
+First it is divided into halves that the turn about the middle of the tooth makes of each other (see `half_turn`), and one of
+them is enough. A box is some quadrangles of the section over some of the layers. It is divided where fewest nodes stand: along
+a line through the section, or at a plane between layers. Nodes go with the part that needs them last.
 """
 
 from __future__ import annotations
@@ -14,48 +15,87 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.arrays import Bools, Floats, Wholes
+from gearcad.contact.solid.half_turn import HalfTurn
 from gearcad.meshing.section.swept import SweptMesh
 
-__all__ = ["SolidPart", "dissected"]
+__all__ = ["Box", "Halves", "SolidPart", "dissected", "front_flops"]
 
 
 _QUADS, _LAYERS = 6, 2
 """Quadrangles and layers of a part that is not divided further."""
 
+_ON_AXIS = 1e-6
+"""Heights of quadrangles, over the greatest, that are in the middle of the tooth."""
+
 _DIRECTIONS, _SHARES = 16, (0.42, 0.46, 0.5, 0.54, 0.58)
 """Lines along which a division is tried: directions, and parts of the quadrangles on one side."""
 
 
-@dataclass(frozen=True)
-class SolidPart:
-    """Hexahedra over some quadrangles of the section, from layer `first` to before `last`, in `parts` or not divided.
-
-    `own` (n,) are the nodes that nothing else needs, `aside` (m,) those that something does; both go up.
-    """
+class Box(NamedTuple):
+    """Hexahedra over some quadrangles of the section, from layer `first` to before `last`."""
 
     quads: Wholes
     first: int
     last: int
+
+    def nodes(self, mesh: SweptMesh) -> Wholes:
+        """Nodes (m, 20) of the hexahedra, layer by layer."""
+        chosen = mesh.section.quads[self.quads]
+        return np.concatenate([mesh.elements(chosen, layer) for layer in range(self.first, self.last)])
+
+
+@dataclass(frozen=True)
+class SolidPart:
+    """Other parts, or the hexahedra of a `box`: the nodes that nothing else needs, `own` (n,), and those that do, `aside` (m,).
+
+    Their numbers go up.
+    """
+
     own: Wholes
     aside: Wholes
-    parts: tuple[SolidPart, ...]
+    parts: tuple[SolidPart, ...] = ()
+    box: Box | None = None
 
     @property
     def flops(self) -> float:
         """Operations of eliminating its own nodes."""
-        own, aside = 3 * len(self.own), 3 * len(self.aside)
-        return own**3 / 3 + own**2 * aside + own * aside**2
-
-    @property
-    def kept(self) -> int:
-        """Numbers that are kept of that."""
-        return 9 * len(self.own) * (len(self.own) + len(self.aside))
+        return front_flops(len(self.own), len(self.aside))
 
     def every(self) -> Iterator[SolidPart]:
         """All parts of it in the order in which they go, itself last."""
         for part in self.parts:
             yield from part.every()
         yield self
+
+
+@dataclass(frozen=True)
+class Halves:
+    """One half of a sector, and a box of hexahedra that the turn leaves where they are, if there are any.
+
+    `between` (n,) are the nodes that both halves share, of two that change places only one.
+    """
+
+    half: SolidPart
+    middle: Box | None
+    between: Wholes
+    cut: int
+
+    @property
+    def flops(self) -> float:
+        """Operations of eliminating all: the half once, the nodes between for even and for odd motions."""
+        return sum(part.flops for part in self.half.every()) + 2 * front_flops(len(self.between), self.cut)
+
+    @property
+    def factors(self) -> int:
+        """Numbers that are kept of that."""
+        fronts = [(len(part.own), len(part.aside)) for part in self.half.every()]
+        return sum(9 * own * (own + aside) for own, aside in [*fronts, *2 * [(len(self.between), self.cut)]])
+
+
+def front_flops(own: int, aside: int) -> float:
+    """Operations of eliminating so many nodes beside so many others."""
+    first, second = 3 * own, 3 * aside
+    return first**3 / 3 + first**2 * second + first * second**2
 
 
 class _Line(NamedTuple):
@@ -73,9 +113,26 @@ class _Counted(NamedTuple):
     times: Wholes
 
 
-def dissected(mesh: SweptMesh, kept: Wholes, held: Wholes) -> SolidPart:
-    """All of a mesh; nodes above the section's nodes `kept` are not to go, those above `held` are nobody's."""
-    return _Dissection(mesh, kept, held).whole
+def dissected(turn: HalfTurn, kept: Wholes, held: Wholes) -> Halves:
+    """The halves of a sector that are least work: of its layers, or of its section.
+
+    Nodes above the section's nodes `kept`, those of the cuts, are not to go, those above `held` are nobody's.
+    """
+    dissection = _Dissection(turn.mesh, kept, held)
+    return min((dissection.halves(turn, boxes, middle) for boxes, middle in _ways(turn)), key=lambda each: each.flops)
+
+
+def _ways(turn: HalfTurn) -> list[tuple[list[Box], Box | None]]:
+    """Boxes of one half, and what is in the middle: of the section, and of the layers, the one half-way up by its section."""
+    section, layers = turn.mesh.section, turn.mesh.layers
+    height = section.points[section.quads[:, :4], 1].mean(axis=1)
+    every, alone = np.arange(len(section.quads)), np.abs(height) < _ON_AXIS * np.abs(height).max()
+    left, middle, lower = np.flatnonzero(~alone & (height > 0)), np.flatnonzero(alone), layers // 2
+    ways = [([Box(left, 0, layers)], Box(middle, 0, layers))]
+    if lower:
+        rest = [] if lower * 2 == layers else [Box(left, lower, lower + 1)]
+        ways.append(([Box(every, 0, lower), *rest], Box(middle, lower, layers - lower)))
+    return [(boxes, box if len(box.quads) and box.last > box.first else None) for boxes, box in ways]
 
 
 @dataclass(frozen=True)
@@ -85,9 +142,16 @@ class _Dissection:
     held: Wholes
     lines: dict[bytes, _Line] = field(default_factory=dict)
 
-    @property
-    def whole(self) -> SolidPart:
-        return self._divided(np.arange(len(self.mesh.section.quads)), 0, self.mesh.layers).part
+    def halves(self, turn: HalfTurn, boxes: list[Box], middle: Box | None) -> Halves:
+        """Of boxes, which are one half."""
+        given = [self._divided(box) for box in boxes]
+        half = given[0] if len(given) == 1 else self._joined(given)
+        nodes = half.part.aside
+        if middle is not None:
+            nodes = np.union1d(nodes, middle.nodes(self.mesh))
+        nodes = nodes[~self._nobodys[nodes] & ~self._kept[nodes]]
+        cut = int((~self._nobodys[self.mesh.over(self.kept)]).sum()) // 2
+        return Halves(half.part, middle, np.unique(np.minimum(nodes, turn.nodes[nodes])), cut)
 
     @cached_property
     def _free(self) -> Bools:
@@ -95,6 +159,13 @@ class _Dissection:
         free = np.ones(len(self.mesh.section.points), bool)
         free[self.kept] = free[self.held] = False
         return free
+
+    @cached_property
+    def _kept(self) -> Bools:
+        """Which nodes of the mesh are not to go."""
+        kept = np.zeros(self.mesh.nodes, bool)
+        kept[self.mesh.over(self.kept)] = True
+        return kept
 
     @cached_property
     def _nobodys(self) -> Bools:
@@ -112,34 +183,33 @@ class _Dissection:
         uses[self.mesh.over(self.kept)] += 1
         return uses
 
-    def _divided(self, quads: Wholes, first: int, last: int) -> _Counted:
-        """What the parts leave, each divided further; or what the hexahedra have, where they are few."""
-        boxes = self._parts(quads, first, last)
-        if boxes:
-            given = [self._divided(*box) for box in boxes]
-            every = np.concatenate([each.part.aside for each in given])
-            nodes, place = np.unique(every, return_inverse=True)
-            times = np.bincount(place, np.concatenate([each.times for each in given])).astype(int)
-        else:
-            given = []
-            layers = range(first, last)
-            every = np.concatenate([self.mesh.elements(self.mesh.section.quads[quads], layer).ravel() for layer in layers])
-            nodes, times = np.unique(every[~self._nobodys[every]], return_counts=True)
+    def _divided(self, box: Box) -> _Counted:
+        """What the parts of a box leave, each divided further, or what its hexahedra have, where they are few."""
+        if boxes := self._parts(box):
+            return self._joined([self._divided(each) for each in boxes])
+        every = box.nodes(self.mesh).ravel()
+        nodes, times = np.unique(every[~self._nobodys[every]], return_counts=True)
         own = times == self._uses[nodes]
-        part = SolidPart(quads, first, last, nodes[own], nodes[~own], tuple(each.part for each in given))
-        return _Counted(part, times[~own])
+        return _Counted(SolidPart(nodes[own], nodes[~own], box=box), times[~own])
 
-    def _parts(self, quads: Wholes, first: int, last: int) -> list[tuple[Wholes, int, int]]:
-        """Quadrangles and layers on both sides of where fewest nodes stand; none if they are few."""
+    def _joined(self, given: list[_Counted]) -> _Counted:
+        nodes, place = np.unique(np.concatenate([each.part.aside for each in given]), return_inverse=True)
+        times = np.bincount(place, np.concatenate([each.times for each in given])).astype(int)
+        own = times == self._uses[nodes]
+        return _Counted(SolidPart(nodes[own], nodes[~own], tuple(each.part for each in given)), times[~own])
+
+    def _parts(self, box: Box) -> list[Box]:
+        """The boxes on both sides of where fewest nodes stand; none if hexahedra are few."""
+        quads, first, last = box
         layers, found = last - first, []
         if len(quads) > _QUADS:
             line = self._line(quads)
             standing = line.nodes * (layers + 1) + line.vertices * layers
-            found.append((standing, [(side, first, last) for side in line.sides]))
+            found.append((standing, [Box(side, first, last) for side in line.sides]))
         if layers > _LAYERS:
             standing = int(self._free[np.unique(self.mesh.section.quads[quads])].sum())
             middle = (first + last) // 2
-            found.append((standing, [(quads, first, middle), (quads, middle, last)]))
+            found.append((standing, [Box(quads, first, middle), Box(quads, middle, last)]))
         return min(found, key=lambda each: each[0])[1] if found else []
 
     def _line(self, quads: Wholes) -> _Line:

@@ -15,7 +15,11 @@ from gearcad.contact.solid.faces import boundary_faces
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.swept import SweptMesh
 
-__all__ = ["bore_forces", "rigid_motions", "seen_at"]
+__all__ = ["HUB_PARITIES", "bore_forces", "rigid_motions", "seen_at"]
+
+
+HUB_PARITIES = np.array([-1.0, 1.0, -1.0, -1.0, 1.0, -1.0])
+"""Of the dofs of a hub those that a half turn about the middle of a tooth leaves as they are, and those it makes opposite."""
 
 
 def rigid_motions(points: Floats, middle: float) -> Floats:

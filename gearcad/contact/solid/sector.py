@@ -9,11 +9,14 @@ from typing import Any
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.contact.shared.chain import Chain, polar_turn
-from gearcad.contact.solid.condensation import Condensed, condense, node_dofs
-from gearcad.contact.solid.dissection import SolidPart, dissected
+from gearcad.contact.shared.chain import polar_turn
+from gearcad.contact.solid.condensation import Condensed, Forward, condense
+from gearcad.contact.solid.dissection import Box, dissected
+from gearcad.contact.solid.fronts import node_dofs
+from gearcad.contact.solid.half_turn import PARITIES, TURNED, HalfTurn
 from gearcad.contact.solid.hexahedra import layer_matrices
-from gearcad.contact.solid.hub import bore_forces, seen_at
+from gearcad.contact.solid.hub import HUB_PARITIES, bore_forces, seen_at
+from gearcad.contact.solid.spans import Reversal, Span
 from gearcad.material import Material
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.swept import SweptMesh
@@ -104,19 +107,22 @@ class SolidSector:
             yield layer, known[key]
 
     @cached_property
+    def half_turn(self) -> HalfTurn:
+        """The turn that leaves the sector as it is."""
+        return HalfTurn(self.mesh)
+
+    @cached_property
     def condensed(self) -> Condensed:
         """The sector with its hub held, condensed to its cuts."""
         section, layers = self.mesh.section, [matrices for _, matrices in self._layers(self.mesh.section.quads)]
         held = np.empty(0, int) if self.free else self.mesh.side(Side.HELD)
 
-        def hexahedra_of(part: SolidPart) -> tuple[Wholes, Floats]:
-            chosen, every = section.quads[part.quads], range(part.first, part.last)
-            nodes = np.concatenate([self.mesh.elements(chosen, layer) for layer in every])
-            return nodes, self._with_polar_cuts(nodes, np.concatenate([layers[layer][part.quads] for layer in every]))
+        def matrices_of(box: Box) -> Floats:
+            matrices = np.concatenate([layers[layer][box.quads] for layer in range(box.first, box.last)])
+            return self._with_polar_cuts(box.nodes(self.mesh), matrices)
 
-        kept = np.r_[self.behind, self.ahead]
-        whole = dissected(self.mesh, np.r_[section.behind, section.ahead], held)
-        return condense(whole, self.mesh.nodes, hexahedra_of, kept, self.tell)
+        halves = dissected(self.half_turn, np.r_[section.behind, section.ahead], held)
+        return condense(self.half_turn, halves, self.behind[::3] // 3, matrices_of, self.tell)
 
     def _with_polar_cuts(self, nodes: Wholes, matrices: Floats) -> Floats:
         """Matrices (m, 60, 60) of hexahedra with nodes (m, 20), in dofs that are radial and tangential at the cuts."""
@@ -131,34 +137,44 @@ class SolidSector:
         return matrices
 
     @cached_property
-    def chain(self) -> Chain:
-        """The sector alone as a chain: on its cuts and its hub."""
-        condensed = self.condensed
-        solved, arriving = self._hub_forward
-        count, hub = len(condensed.kept), self.hub_forces.shape[1]
-        matrix = np.zeros((count + hub, count + hub))
-        matrix[:count, :count] = condensed.matrix
-        matrix[:count, count:] = arriving
-        matrix[count:, :count] = arriving.T
-        own = np.zeros((hub, hub)) if self.free else self.hub_turn[None] @ self.hub_forces
-        matrix[count:, count:] = own - sum(each.T @ each for each in solved)
-        return Chain(matrix, self.seen_by(1))
+    def span(self) -> Span:
+        """The sector alone as a row of sectors: on its cuts and its hub."""
+        solved, arriving = self.hub_forward
+        own = np.zeros((1, 1)) if self.free else self.hub_turn[None] @ self.hub_forces / 2
+        inner = solved.dot(solved)
+        matrices = []
+        for parity in (0, 1):
+            across = arriving[parity]
+            others = self.hub_parities != PARITIES[parity]
+            hub = own - inner[parity]
+            across[:, others] = hub[others] = hub[:, others] = 0.0
+            matrices.append(np.block([[self.condensed.matrices[parity], across], [across.T, hub]]))
+        return Span((matrices[0], matrices[1]), 1, self._reversal, self.seen_by, self.hub_parities)
 
-    def seen_by(self, tooth: int) -> Floats:
-        """Dofs of the hub as a tooth's sector sees them, from those that the loaded one sees."""
+    @cached_property
+    def _reversal(self) -> Reversal:
+        nodes = self.half_turn.nodes[self.ahead[::3] // 3]  # of the cut behind, at whose places the nodes ahead come
+        behind = self.behind[::3] // 3
+        place = np.argsort(behind)
+        image = place[np.searchsorted(behind, nodes, sorter=place)]
+        return Reversal(node_dofs(image), np.tile(TURNED, len(image)))
+
+    @property
+    def hub_parities(self) -> Floats:
+        """Which dofs of the hub move it evenly (1), and which oddly (-1)."""
+        return HUB_PARITIES if self.free else HUB_PARITIES[:1]
+
+    def seen_by(self, teeth: float) -> Floats:
+        """Dofs of the hub as a sector so many teeth ahead sees them, from those that the loaded one sees."""
         if not self.free:
             return np.eye(1)
         nodes = self.mesh.section.points[[self.mesh.section.ahead[0], self.mesh.section.behind[0]]]
         ahead, behind = np.arctan2(nodes[:, 1], nodes[:, 0])
-        return seen_at(float(ahead - behind) * tooth)
-
-    @property
-    def hub_solved(self) -> list[Floats]:
-        """What `backward` needs of the hub's forces."""
-        return self._hub_forward[0]
+        return seen_at(float(ahead - behind) * teeth)
 
     @cached_property
-    def _hub_forward(self) -> tuple[list[Floats], Floats]:
+    def hub_forward(self) -> tuple[Forward, tuple[Floats, Floats]]:
+        """What `backward` needs of the hub's forces, and those that arrive at the cuts."""
         return self.condensed.forward(self.hub_forces)
 
     @cached_property
