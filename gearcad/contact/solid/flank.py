@@ -132,7 +132,8 @@ class SolidCompliance(FlankCompliance):
         mesh = self.body.sector.mesh
         # A load on another tooth is seen from this one as this one sees a load on tooth 0.
         near = [(tooth - loaded, force) for loaded, force in loads if abs(tooth - loaded) <= self.neighbours]
-        moved = self.body.solve(self.forces.together(np.stack([force for _, force in near], -1)).everywhere(mesh.nodes))
+        together = self.forces.together(np.stack([force for _, force in near], -1))
+        moved = self.body.solve(together.dofs, at=together.nodes)
         found = sum(
             (moved.displacements[self.neighbours + apart][:, column] for column, (apart, _) in enumerate(near)),
             start=np.zeros(3 * mesh.nodes),
@@ -157,8 +158,8 @@ def solid_compliance(gear: Gear, body: SolidBody, material: Material, start: flo
     points = _NEAR_OF_RINGS if gear.internal else _NEAR
     rest = remaining(flank, mesh, material, _near_quads(gear, mesh), places, points, tell)
     surface = _surface(mesh, free=sector.free)
-    moved = body.solve(rest.forces.everywhere(mesh.nodes))
-    displacements = moved.displacements.reshape(-1, mesh.nodes, 3, len(places[0]))[:, surface]
+    moved = body.solve(rest.forces.dofs, surface, at=rest.forces.nodes)
+    displacements = moved.displacements.reshape(-1, len(surface), 3, len(places[0]))
     place, normal = np.searchsorted(surface, on_flank), flank.inward(grid.places)
     found = {
         tooth: _normal(mesh, displacements[body.neighbours + tooth][place], on_flank, normal)

@@ -25,11 +25,10 @@ class NodalForces(NamedTuple):
     nodes: Wholes
     values: Floats
 
-    def everywhere(self, count: int) -> Floats:
-        """As dofs (3 count, loads) of all nodes."""
-        result = np.zeros((count, *self.values.shape[1:]))
-        result[self.nodes] = self.values
-        return result.reshape(3 * count, -1)
+    @property
+    def dofs(self) -> Floats:
+        """As dofs (3 n, loads)."""
+        return self.values.reshape(-1, self.values.shape[-1])
 
     def together(self, shares: Floats) -> NodalForces:
         """Of some loads together, by shares (loads, m)."""
