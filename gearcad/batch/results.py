@@ -43,7 +43,8 @@ def write_results(journal: Results, folder: Path, workspace: Path, decimal: Deci
     Texts that a spreadsheet would run as a formula get an apostrophe in front. Raises OutputError.
     """
     columns = _columns(journal)
-    lines = ([cell_text(_cells(*pair).get(heading), decimal) for heading in columns] for pair in journal.results())
+    found = (_cells(row, record) for row, record in journal.results())
+    lines = ([cell_text(cells.get(heading), decimal) for heading in columns] for cells in found)
     with staged_files(folder, workspace) as staging:
         write_csv(lines, columns, staging / RESULTS, decimal)
         of_trains = any(heading.startswith("planetary.") for heading in columns)
