@@ -10,8 +10,12 @@ import re
 from collections.abc import Collection
 from dataclasses import fields
 from enum import Enum
+from functools import cache
 from numbers import Integral, Real
-from typing import Any, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 __all__ = [
     "GearcadError",
@@ -133,14 +137,23 @@ def plain_numbers(instance: Any) -> None:
 
     So numpy's numbers are accepted, and equal inputs print, compare and save as equal.
     """
-    for each in fields(instance):
-        value = getattr(instance, each.name)
-        if isinstance(value, bool) or not isinstance(value, Real) or getattr(value, "derived", False):
+    for name, whole in _fields_of(instance.__class__):
+        value = getattr(instance, name)
+        if isinstance(value, _NO_CHANGE) or not isinstance(value, Real) or getattr(value, "derived", False):
             continue
-        if isinstance(value, Integral) and (_WHOLE.match(str(each.type)) or abs(int(value)) > _MOST_EXACT):
-            object.__setattr__(instance, each.name, int(value))
-        elif not isinstance(value, float):
-            object.__setattr__(instance, each.name, float(value))
+        if isinstance(value, Integral) and (whole or abs(int(value)) > _MOST_EXACT):
+            object.__setattr__(instance, name, int(value))
+        else:
+            object.__setattr__(instance, name, float(value))
+
+
+_NO_CHANGE = (float, str, bool, tuple, type(None))
+
+
+@cache
+def _fields_of(kind: type[DataclassInstance]) -> tuple[tuple[str, bool], ...]:
+    """The fields of a dataclass, and whether each is a whole number."""
+    return tuple((each.name, _WHOLE.match(str(each.type)) is not None) for each in fields(kind))
 
 
 def require_number(
@@ -154,22 +167,23 @@ def require_number(
     at_most: float | None = None,
 ) -> None:
     """Raise ParameterError unless `value` is a finite number inside the stated bounds (in `unit`)."""
+    finite = is_finite_number(value)
+    inside = (
+        finite
+        and (above is None or value > above)
+        and (at_least is None or value >= at_least)
+        and (below is None or value < below)
+        and (at_most is None or value <= at_most)
+    )
+    if inside:
+        return
     bounds = [
         f"{words} {format_number(bound)}{' ' if unit else ''}{unit}"
         for words, bound in (("above", above), ("at least", at_least), ("below", below), ("at most", at_most))
         if bound is not None
     ]
     permitted = "must be a number" + (" " + " and ".join(bounds) if bounds else f" in {unit}" if unit else "")
-    if not is_finite_number(value):
-        raise ParameterError(parameter, value, permitted, unit if isinstance(value, float) else "")
-    inside = (
-        (above is None or value > above)
-        and (at_least is None or value >= at_least)
-        and (below is None or value < below)
-        and (at_most is None or value <= at_most)
-    )
-    if not inside:
-        raise ParameterError(parameter, value, permitted, unit)
+    raise ParameterError(parameter, value, permitted, unit if finite or isinstance(value, float) else "")
 
 
 def is_finite_number(value: Any) -> bool:

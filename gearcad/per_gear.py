@@ -13,6 +13,7 @@ __all__ = ["PerGear", "Role", "naming"]
 
 T = TypeVar("T", covariant=True)
 U = TypeVar("U")
+V = TypeVar("V")
 
 
 class Role(Enum):
@@ -50,16 +51,20 @@ class PerGear(NamedTuple, Generic[T]):
 
     def map(self, function: Callable[[T], U]) -> PerGear[U]:
         """What a function makes of each; errors about a value say whose it is."""
-        return PerGear.each(lambda role: function(self.pick(role)))
+        return PerGear(_named(Role.PINION, function, self.pinion), _named(Role.WHEEL, function, self.wheel))
 
     @classmethod
     def each(cls, function: Callable[[Role], U]) -> PerGear[U]:
         """What a function makes for each Role; errors about a value say whose it is."""
-        made = []
-        for role in Role:
-            with naming(role):
-                made.append(function(role))
-        return PerGear(*made)
+        return PerGear(_named(Role.PINION, function, Role.PINION), _named(Role.WHEEL, function, Role.WHEEL))
+
+
+def _named(role: Role, function: Callable[[V], U], argument: V) -> U:
+    """What a function makes; an error about a value says whose it is."""
+    try:
+        return function(argument)
+    except InputError as error:
+        raise error.within(role.value) from None
 
 
 @contextmanager

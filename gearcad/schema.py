@@ -7,7 +7,6 @@ what it can be (its type, and a Range, a Whole or a Choice), and how it is writt
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from enum import Enum
 from functools import cache, cached_property
@@ -112,15 +111,21 @@ class FieldSchema:
             return None
         return next((member for member in self.members if isinstance(member, type) and is_dataclass(member)), None)
 
+    @cached_property
+    def stand_in(self) -> InPlaceOf | None:
+        """The field that may be given in its place."""
+        return next((mark for mark in self.marks if isinstance(mark, InPlaceOf)), None)
+
     def needed(self, given: Collection[str]) -> bool:
         """Whether it must be given and is not, where these fields are."""
-        stands_in = any(isinstance(mark, InPlaceOf) and mark.other not in given for mark in self.marks)
+        stands_in = self.stand_in is not None and self.stand_in.other not in given
         return self.name not in given and (self.required or stands_in)
 
     def require(self, instance: DataclassInstance, owner: str) -> None:
         """Check the value that a frozen instance has, and turn the name of an enum's member into it. Raises ParameterError."""
         value, parameter = getattr(instance, self.name), f"{owner}.{self.name}" if owner else self.name
-        self._require_either(instance, parameter)
+        if self.stand_in is not None:
+            self._require_either(instance, parameter, self.stand_in)
         if (value is None and self.optional) or getattr(value, "derived", False) or _stands_in(value, self.words):
             return
         if self.members == (bool,) and not isinstance(value, bool):
@@ -130,34 +135,31 @@ class FieldSchema:
         if self.permitted is None:
             return
         if not self.several:
-            with self._naming_words(value):
-                self.permitted.require(parameter, value)
+            self._require_permitted(self.permitted, parameter, value)
         elif isinstance(value, list | tuple):
             for each in value:
                 self.permitted.require(parameter, each)
         elif float in self.members:  # what else is no list, its type explains
             self.permitted.require(parameter, value)
 
-    @contextmanager
-    def _naming_words(self, value: Any) -> Iterator[None]:
+    def _require_permitted(self, permitted: Permitted, parameter: str, value: Any) -> None:
         """Let an error about a text name the words that may stand for a number."""
         try:
-            yield
+            permitted.require(parameter, value)
         except ParameterError as error:
             if not (self.words and isinstance(value, str)):
                 raise
             words = " or ".join(f'"{word}"' for word in self.words)
             raise ParameterError(error.parameter, value, f"{error.permitted}, or {words}") from None
 
-    def _require_either(self, instance: DataclassInstance, parameter: str) -> None:
+    def _require_either(self, instance: DataclassInstance, parameter: str, mark: InPlaceOf) -> None:
         """Raise ParameterError if neither this field nor the one in its place is given."""
-        for mark in self.marks:
-            if isinstance(mark, InPlaceOf) and not any(_given(getattr(instance, each)) for each in (self.name, mark.other)):
-                try:
-                    if self.permitted is not None:
-                        self.permitted.require(parameter, None)
-                except ParameterError as error:
-                    raise ParameterError(parameter, None, f"{error.permitted}, or give {mark.other} instead") from None
+        if not any(_given(getattr(instance, each)) for each in (self.name, mark.other)):
+            try:
+                if self.permitted is not None:
+                    self.permitted.require(parameter, None)
+            except ParameterError as error:
+                raise ParameterError(parameter, None, f"{error.permitted}, or give {mark.other} instead") from None
 
 
 def _given(value: Any) -> bool:

@@ -9,6 +9,7 @@ from typing import Any
 from gearcad.errors import GeometryError, InputError, ParameterError, format_number
 from gearcad.geometry import Gear, GearPair, ShiftSplit, profile_shift_sum, split_profile_shift, zero_backlash_centre_distance
 from gearcad.geometry.diametral import module_of_pitch
+from gearcad.geometry.feasibility import check_given
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.internal_mating import tip_on_form_circle
 from gearcad.per_gear import PerGear, Role, naming
@@ -183,7 +184,7 @@ def require_sound_numbers(gear: GearInputs, owner: str) -> None:
         if trial.get(automatic) in (AUTO, CLEAR):
             del trial[automatic]
     try:
-        Gear(**trial)
+        check_given(GearData(**trial))
     except ParameterError as error:
         raise error.within(owner) from error
     except GeometryError:

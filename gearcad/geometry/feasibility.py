@@ -12,16 +12,17 @@ from gearcad.geometry.basic_rack import BasicRack
 from gearcad.geometry.body import Body
 from gearcad.geometry.cutter import ShaperCutter
 from gearcad.geometry.derived import is_given
+from gearcad.geometry.diametral import derive_module
 from gearcad.geometry.double_helix import DoubleHelix
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.geometry.modification import FlankModification
 from gearcad.geometry.shaping import check_shaper, tip_words
 from gearcad.geometry.tooling import shaped
-from gearcad.geometry.tooth_allowance import require_allowance
+from gearcad.geometry.tooth_allowance import derive_thinning, require_allowance
 from gearcad.schema import require_fields
 
-__all__ = ["check_fields", "check_numbers", "check_tool"]
+__all__ = ["check_given", "check_tool"]
 
 LEAST_HELIX = 1e-6
 """Smallest helix angle (degrees) of a helical gear; less moves a tooth by less than 2e-8 of the face width."""
@@ -30,7 +31,15 @@ MOST_TWIST = 720.0
 """Largest twist of a tooth over the face width (degrees) that one screw surface spans to the accuracy promised."""
 
 
-def check_fields(gear: GearData) -> None:
+def check_given(gear: GearData) -> None:
+    """What can be said of it before its teeth: each field, the module and the thinning that follow, and the other numbers."""
+    _check_fields(gear)
+    derive_module(gear)
+    derive_thinning(gear)
+    _check_numbers(gear)
+
+
+def _check_fields(gear: GearData) -> None:
     """Each field by itself."""
     require_name("name", gear.name)
     require_fields(gear)
@@ -50,7 +59,7 @@ def check_fields(gear: GearData) -> None:
             raise ParameterError(part, getattr(gear, part), f"must be a {kind.__name__}")
 
 
-def check_numbers(gear: GearData) -> None:
+def _check_numbers(gear: GearData) -> None:
     """Circles that are given have the sign of the teeth; the width against module and lead."""
     for name in ("tip_diameter", "root_diameter"):
         if is_given(given := getattr(gear, name)) and given * gear.teeth <= 0:

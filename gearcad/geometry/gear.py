@@ -10,8 +10,7 @@ from typing import Any
 
 from gearcad.errors import InputError
 from gearcad.geometry.derived import derive
-from gearcad.geometry.diametral import derive_module
-from gearcad.geometry.feasibility import check_fields, check_numbers, check_tool
+from gearcad.geometry.feasibility import check_given, check_tool
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.inspection import Inspection
 from gearcad.geometry.internal_inspection import InternalInspection
@@ -21,7 +20,6 @@ from gearcad.geometry.picture import gear_html
 from gearcad.geometry.profile import ToothProfile, base_half_angle
 from gearcad.geometry.thickness_limits import ThicknessLimits
 from gearcad.geometry.tooling import corner_notices, fillet_tool, shaper_tip
-from gearcad.geometry.tooth_allowance import derive_thinning
 from gearcad.geometry.trimming import trimming_notices
 from gearcad.geometry.walls import check_body
 from gearcad.notice import Notice, texts
@@ -64,10 +62,7 @@ class Gear(GearData):
     __repr__ = concise
 
     def __post_init__(self) -> None:
-        check_fields(self)
-        derive_module(self)
-        derive_thinning(self)
-        check_numbers(self)
+        check_given(self)
         derive(self, "tip_diameter", self.standard_tip_diameter)
         derive(self, "root_diameter", self.standard_root_diameter)
         check_tool(self)

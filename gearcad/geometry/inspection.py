@@ -115,15 +115,16 @@ class Inspection:
         """
         touching = self._touching(math.acos(min(self.base_diameter / self.middle_diameter, 1.0)))
         space = self._space_at_base + math.tan(touching) - touching
-        base_helix = math.radians(self.base_helix_angle)
+        base_helix, tangent = math.radians(self.base_helix_angle), math.tan(touching)
+        lean = math.tan(base_helix) ** 2
         low, high = self._centres(touching, space)
         for _ in range(60):  # the left side less the right grows steadily with alpha_K
             centre = (low + high) / 2
-            if centre - touching - space + math.tan(base_helix) ** 2 * (math.tan(centre) - math.tan(touching)) < 0:
+            if centre - touching - space + lean * (math.tan(centre) - tangent) < 0:
                 low = centre
             else:
                 high = centre
-        ideal = self.base_diameter * (math.tan(centre) - math.tan(touching)) / math.cos(base_helix)
+        ideal = self.base_diameter * (math.tan(centre) - tangent) / math.cos(base_helix)
         step = 10.0 ** (math.floor(math.log10(ideal)) - 1)
         return round(self._whole(ideal / step) * step, 9)
 

@@ -53,7 +53,7 @@ class InternalProfile(ToothProfile):
         if self.tip_chamfer >= deepest:
             permitted = f"must be below {at_most(deepest)} mm: no involute is left between it and the root form circle"
             raise GeometryError("tip_chamfer", self.tip_chamfer, permitted, "mm")
-        if self.tip_diameter * self._land_half_angle < LEAST_LAND:
+        if self.tip_diameter * self.land_half_angle < LEAST_LAND:
             permitted = f"must be at most {self._widest_chamfer(deepest)} mm: no tip land is left"
             raise GeometryError("tip_chamfer", self.tip_chamfer, permitted, "mm")
 

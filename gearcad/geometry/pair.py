@@ -124,7 +124,7 @@ class GearPair(PairData):
         """F_a/F_t of the tangential force on the reference circle: tan |beta|; 0 of two halves, which balance each other."""
         return 0.0 if self.double_helical else math.tan(math.radians(abs(self.pinion.helix_angle)))
 
-    @property
+    @cached_property
     def active_root_diameters(self) -> PerGear[float]:
         """Start-of-active-profile diameters d_Nf that the mate's tip form circle reaches (mm)."""
         return self.base_tangent.active_root_diameters(self.path_of_contact)

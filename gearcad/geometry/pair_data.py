@@ -143,12 +143,16 @@ class PairData:
     @property
     def circumferential_backlash(self) -> float:
         """j_wt: working pitch less both tooth thicknesses on the working pitch circles (transverse)."""
-        return self._backlash().circumferential
+        return self._nominal_backlash.circumferential
 
     @property
     def normal_backlash(self) -> float:
         """j_bn along the base normal: j_wt cos alpha_wt cos beta_b."""
-        return self._backlash().normal
+        return self._nominal_backlash.normal
+
+    @cached_property
+    def _nominal_backlash(self) -> Backlash:
+        return self._backlash()
 
     def _backlash(self, thicker: float = 0.0, farther: float = 0.0) -> Backlash:
         """That of teeth `thicker` by a share of half their tolerances, with axes `farther` apart (mm)."""

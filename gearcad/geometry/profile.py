@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
 from gearcad.errors import GeometryError, ParameterError, require_number
+from gearcad.geometry.bracketed import root_between
 from gearcad.geometry.curves import Chamfer, Curve, CurveKind, Fillet, Involute, Land, parameters_within
 from gearcad.geometry.involute import inverse_involute, involute, involute_at_roll
 from gearcad.geometry.limits import at_least, at_most
@@ -86,14 +87,14 @@ class ToothProfile:
                 f"must be below {at_most(deepest)} mm: no involute is left above the root form circle",
                 "mm",
             )
-        if self._land_half_angle >= self._tip_half_angle:
+        if self.land_half_angle >= self._tip_half_angle:
             raise GeometryError(
                 "tip_chamfer",
                 self.tip_chamfer,
                 "must be 0 mm: at this tip circle the flank leans in by more than the chamfer's 45 deg",
                 "mm",
             )
-        if self.tip_diameter * self._land_half_angle < LEAST_LAND:
+        if self.tip_diameter * self.land_half_angle < LEAST_LAND:
             raise GeometryError(
                 "tip_chamfer",
                 self.tip_chamfer,
@@ -103,14 +104,13 @@ class ToothProfile:
 
     def _widest_chamfer(self, deepest: float) -> str:
         """The largest tip chamfer (mm, as text) that leaves a land on the tip."""
-        from scipy.optimize import brentq
 
         def land(chamfer: float) -> float:
             return self.tip_diameter * float(self._chamfer_of(chamfer).polar(1.0)[1]) - 2 * LEAST_LAND
 
         if land(0.0) <= 0:
             return "0"
-        return at_most(float(brentq(land, 0.0, min(self.tip_chamfer, deepest))))
+        return at_most(root_between(land, 0.0, min(self.tip_chamfer, deepest)))
 
     # ------------------------------------------------------------------ characteristic circles
 
@@ -157,7 +157,6 @@ class ToothProfile:
         end = self.tool.last_angle
         if not self.undercut:
             return end
-        from scipy.optimize import brentq
 
         base_radius = self.base_diameter / 2
         start = float(self.tool.theta_at(base_radius, end)[0])
@@ -172,7 +171,7 @@ class ToothProfile:
             return start
         if excess(end) <= 0:
             return end
-        return float(brentq(excess, start, end, xtol=1e-15, rtol=8.9e-16))
+        return root_between(excess, start, end, xtol=1e-15, rtol=8.9e-16)
 
     @cached_property
     def _pointed_diameter(self) -> float:
@@ -185,7 +184,7 @@ class ToothProfile:
         """Least tooth thickness along the trochoid (mm); negative where undercut cuts the tooth off."""
         s = np.linspace(0.0, 1.0, 65)
         for _ in range(3):
-            radius, angle = self._fillet.polar(s)
+            radius, angle = self.fillet.polar(s)
             thickness = 2 * radius * angle
             least = int(np.argmin(thickness))
             s = np.linspace(s[max(least - 1, 0)], s[min(least + 1, 64)], 65)
@@ -198,7 +197,8 @@ class ToothProfile:
         return math.pi / self.teeth
 
     @cached_property
-    def _fillet(self) -> Fillet:
+    def fillet(self) -> Fillet:
+        """What the tool's tip leaves between root circle and involute."""
         return Fillet(self.tool, self._last_theta, self._half_pitch)
 
     @cached_property
@@ -220,7 +220,7 @@ class ToothProfile:
         return Chamfer(radius, float(self._involute_half_angle(radius)), run)
 
     @cached_property
-    def _land_half_angle(self) -> float:
+    def land_half_angle(self) -> float:
         """Half angle (rad) of the tip land that the chamfers leave."""
         if self.tip_chamfer:
             return float(self._chamfer.polar(1.0)[1])
@@ -233,13 +233,13 @@ class ToothProfile:
         The root land is absent where the tool has a full radius, the chamfer where there is none.
         """
         root, tip = self.root_diameter / 2, self.tip_diameter / 2
-        start = float(self._fillet.polar(0.0)[1])
-        curves: list[Curve] = [self._fillet, self._flank]
+        start = float(self.fillet.polar(0.0)[1])
+        curves: list[Curve] = [self.fillet, self._flank]
         if 2 * root * (self._half_pitch - start) >= LEAST_LAND:
             curves.insert(0, Land(CurveKind.ROOT, root, self._half_pitch, start))
         if self.tip_chamfer:
             curves.append(self._chamfer)
-        return (*curves, Land(CurveKind.TIP, tip, self._land_half_angle, 0.0))
+        return (*curves, Land(CurveKind.TIP, tip, self.land_half_angle, 0.0))
 
     def half_angle(self, radius: ArrayLike) -> Any:
         """Transverse half tooth angle in degrees at `radius` (mm), on trochoid, involute and tip chamfer alike.

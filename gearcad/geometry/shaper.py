@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.arrays import Floats
-from gearcad.geometry.bracketed import where_root_is
+from gearcad.geometry.bracketed import root_between, where_root_is
 
 __all__ = ["ShaperTip"]
 
@@ -102,12 +102,18 @@ class ShaperTip:
 
         The point's place along the normal, from the foot of the cutter's axis, is r_M cos delta + rho/D, and at theta = 0 r_a0.
         """
+        moment, delta, stretch = self._moment(theta)
+        excess, sine = (1 - self._c) * (1 + self._c), np.sin(theta)
+        wide = self.radius * excess * sine**2 / (stretch * (1 + stretch))
+        return _Normal(delta, stretch, moment, 2 * self._middle_radius * np.sin(delta / 2) ** 2 - wide)
+
+    def _moment(self, theta: Any) -> tuple[Any, Any, Any]:
+        """h, and delta and D on which it depends."""
         sine, cosine, excess = np.sin(theta), np.cos(theta), (1 - self._c) * (1 + self._c)
         stretch = np.sqrt(1 - excess * sine**2)
         delta = np.arctan2(self._c * sine, cosine)
         moment = self._middle_radius * np.sin(delta) - self.radius * excess / (self._c * stretch) * sine * cosine
-        wide = self.radius * excess * sine**2 / (stretch * (1 + stretch))
-        return _Normal(delta, stretch, moment, 2 * self._middle_radius * np.sin(delta / 2) ** 2 - wide)
+        return moment, delta, stretch
 
     @cached_property
     def last_angle(self) -> float:
@@ -115,12 +121,11 @@ class ShaperTip:
         if self.radius == 0:
             # A sharp edge turns from the tip circle's normal to the involute's: sin delta = r_b0/r_a0.
             return math.atan2(self.base_radius, self._c * self._root_of(self.tip_radius))
-        from scipy.optimize import brentq
 
         def excess(theta: float) -> float:
-            return float(self._normal(np.array(theta)).moment) - self.base_radius
+            return float(self._moment(theta)[0]) - self.base_radius
 
-        return float(brentq(excess, 0.0, math.pi / 2, xtol=1e-15, rtol=8.9e-16))
+        return root_between(excess, 0.0, math.pi / 2, xtol=1e-15, rtol=8.9e-16)
 
     def _root_of(self, radius: float) -> float:
         """Roll length of the cutter's involute at a radius (mm)."""
@@ -129,7 +134,7 @@ class ShaperTip:
     @property
     def feasible(self) -> bool:
         """Whether the corner reaches the cutter's involute: the middle of the corner lies beyond the base circle, nearly."""
-        return float(self._normal(np.array(math.pi / 2)).moment) > self.base_radius
+        return float(self._moment(math.pi / 2)[0]) > self.base_radius
 
     @cached_property
     def _join(self) -> tuple[float, float]:

@@ -9,6 +9,7 @@ import math
 from enum import Enum
 
 from gearcad.errors import GeometryError, as_choice
+from gearcad.geometry.bracketed import root_between
 from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.geometry.limits import at_least, at_most
 from gearcad.per_gear import PerGear, Role
@@ -126,7 +127,6 @@ def split_profile_shift(
         return PerGear(total / 2, total / 2)
     if split is ShiftSplit.PINION:
         return PerGear(total, 0.0)
-    from scipy.optimize import brentq
 
     references, bases, _ = zip(*(_transverse(normal_module, z, helix_angle, pressure_angle) for z in teeth), strict=True)
 
@@ -141,5 +141,5 @@ def split_profile_shift(
     low, high = total / 2 - 2.5, total / 2 + 2.5
     if imbalance(low) >= 0 or imbalance(high) <= 0:
         raise GeometryError("profile_shift", "auto", "no split gives equal specific sliding: choose the shifts yourself")
-    first = float(brentq(imbalance, low, high, xtol=1e-14))
+    first = root_between(imbalance, low, high, xtol=1e-14)
     return PerGear(first, total - first)

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import lru_cache
 
+from gearcad.geometry.bracketed import root_between
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.geometry.shaper import ShaperTip
@@ -93,6 +95,7 @@ def _centre_distance(gear: GearData, teeth: int) -> float:
     return abs(gear.teeth + teeth) * gear.transverse_module / 2 * math.cos(angle) / math.cos(working)
 
 
+@lru_cache(maxsize=4)
 def full_corner_radius(gear: GearData) -> float:
     """Largest radius of the corner (in normal modules), where both corners of the cutter's tip meet: psi_M = 0.
 
@@ -108,9 +111,8 @@ def full_corner_radius(gear: GearData) -> float:
 
     if room(most) >= 0:  # the corner then reaches down to the cutter's base circle
         return most
-    from scipy.optimize import brentq
 
-    return float(brentq(room, 0.0, most, xtol=1e-15, rtol=8.9e-16)) * (1 - _ROUNDING)
+    return root_between(room, 0.0, most, xtol=1e-15, rtol=8.9e-16) * (1 - _ROUNDING)
 
 
 def corner_radius(gear: GearData) -> float:
