@@ -1,8 +1,10 @@
 """Puts `tests/support` within reach of every test, as `support`, and makes random tests repeatable."""
 
+import gc
 import os
 import shutil
 import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,6 +13,10 @@ from hypothesis import HealthCheck, settings
 
 # Several test processes share the cores, and numpy is not imported yet: one thread each, or they fight.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+# Tests start hundreds of Python processes: what one compiles is kept for all, whatever is set outside.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 # Files that hold a date are compared byte by byte, over midnight too.
 os.environ["SOURCE_DATE_EPOCH"] = "1700000000"
@@ -22,6 +28,11 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("repeatable")
+
+
+def pytest_collection_finish() -> None:
+    """What is collected lives until the end: the garbage collector need not look at it each time."""
+    gc.freeze()
 
 
 @pytest.fixture
