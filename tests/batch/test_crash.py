@@ -96,7 +96,10 @@ def kill_often(variants: list[Variant], kills: int, folder: Path, seed: int) -> 
 
 def test_tree_after_six_kills_is_that_of_an_undisturbed_run(tmp_path: Path) -> None:
     """Two tables with other gears and other formats take turns: files are replaced and removed too."""
-    variants = [Variant(tmp_path, rows=6, width=2.0, formats="stl,csv"), Variant(tmp_path, rows=6, width=3.0, formats="csv,dxf")]
+    variants = [
+        Variant(tmp_path, rows=6, width=2.0, formats="stl,csv"),
+        Variant(tmp_path, rows=6, width=3.0, formats="csv,dxf"),
+    ]
     kill_often(variants, 6, tmp_path / "out", seed=1)
 
 

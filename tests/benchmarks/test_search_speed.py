@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.coarse import PAIRS, TORQUES, coarse_model
 from threadpoolctl import threadpool_limits
 
 from gearcad.contact.optimum.start import start_search
 from gearcad.geometry import ReliefShape
-from tests.support.coarse import PAIRS, TORQUES, coarse_model
 
 pytestmark = pytest.mark.benchmark_suite
 

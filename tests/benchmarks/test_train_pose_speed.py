@@ -6,10 +6,10 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from support.planetary import thesis_train
 
 from gearcad.planetary import PlanetaryTrain
 from gearcad.planetary.harmonics import train_harmonics
-from tests.support.planetary import thesis_train
 
 pytestmark = pytest.mark.benchmark_suite
 

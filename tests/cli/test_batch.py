@@ -67,7 +67,7 @@ def test_quiet_prints_the_results_only() -> None:
 
 def test_json_is_one_document() -> None:
     write_table(Path("table.csv"), BAD)
-    result = batch("table.csv", "--do", "data", "--json", "--keep-going", status=1)
+    result = batch("table.csv", "--do", "data", "-j", "1", "--json", "--keep-going", status=1)
     assert json.loads(result.stdout) == {
         "kind": "batch",
         "gearcad": gearcad.__version__,
@@ -89,13 +89,13 @@ def test_faults_are_all_told_before_anything_is_made() -> None:
 
 def test_keep_going_makes_the_good_rows_and_ends_with_1() -> None:
     write_table(Path("table.csv"), BAD)
-    result = batch("table.csv", "--do", "data", "--keep-going", status=1)
+    result = batch("table.csv", "--do", "data", "-j", "1", "--keep-going", status=1)
     *_, first, second, count = result.stderr.splitlines()
     assert [first, second] == [f"Error: {line}" for line in BAD_LINES]
     assert count.startswith("1 rows ok, 2 failed in ")
     assert [line["status"] for line in read_results(Path("output/table"))] == ["ok", "failed", "failed"]
     assert (
-        batch("table.csv", "--do", "data", "--keep-going", "--quiet", status=1).stderr
+        batch("table.csv", "--do", "data", "-j", "1", "--keep-going", "--quiet", status=1).stderr
         == f"Error: {BAD_LINES[0]}\nError: {BAD_LINES[1]}\n"
     )
 
@@ -160,7 +160,7 @@ def test_what_cannot_be_run_is_one_line_with_status_2_and_leaves_nothing(argumen
 
 @pytest.mark.parametrize("kind", ["pairs", "gears"])
 def test_templates_are_made_without_a_fault(kind: str) -> None:
-    result = batch(str(TEMPLATES / f"{kind}.csv"), "--do", "data", "--json")
+    result = batch(str(TEMPLATES / f"{kind}.csv"), "--do", "data", "-j", "1", "--json")
     document = json.loads(result.stdout)
     assert document["ok"] >= 5 and (document["failed"], document["errors"]) == (0, [])
     assert Path(document["results"][0]) == Path(f"output/{kind}/results.csv")
@@ -172,7 +172,7 @@ def test_templates_are_made_without_a_fault(kind: str) -> None:
 def test_status_of_the_process() -> None:
     for lines, options, status in ((GEARS, (), 0), (BAD, ("--keep-going",), 1), (BAD, (), 2)):
         write_table(Path("table.csv"), lines)
-        assert run_batch("table.csv", "--do", "data", "--quiet", *options).returncode == status
+        assert run_batch("table.csv", "--do", "data", "-j", "1", "--quiet", *options).returncode == status
 
 
 def test_progress_is_a_line_now_and_then_without_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -236,8 +236,8 @@ def test_workbook_gives_what_the_csv_gives() -> None:
     for row in csv.reader(GEARS):
         book.active.append([float(cell) if re.fullmatch(r"-?[\d.]+", cell) else cell or None for cell in row])
     book.save("table.xlsx")
-    batch("table.csv", "--format", "csv", "--quiet", "-o", "one")
-    batch("table.xlsx", "--format", "csv", "--quiet", "-o", "other")
+    batch("table.csv", "--format", "csv", "-j", "1", "--quiet", "-o", "one")
+    batch("table.xlsx", "--format", "csv", "-j", "1", "--quiet", "-o", "other")
     assert [line | {"seconds": ""} for line in read_results(Path("one"))] == [
         line | {"seconds": ""} for line in read_results(Path("other"))
     ]

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+from functools import partial
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
 
 from gearcad.cli import main
+from gearcad.jobs.check import Check
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 
@@ -35,6 +38,10 @@ _EXTREME, _FEW = 0.002, 0.01
 """What a search between the positions may miss of an extreme; what 12 positions miss of a mean (a quarter of an extreme's)."""
 
 
+QUICK = SPUR.replace("torques = [25.0, 50.0]", 'convergence = "off"')
+"""One torque, one mesh, for what does not ask for more."""
+
+
 def run(*arguments: str) -> Result:
     return CliRunner().invoke(main, list(arguments))
 
@@ -43,6 +50,12 @@ def run(*arguments: str) -> Result:
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     return tmp_path
+
+
+@pytest.fixture
+def no_report(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is solved and drawn for it, which takes longer than all that is asked here; tests of reports have it."""
+    monkeypatch.setattr(import_module("gearcad.jobs.check"), "Check", partial(Check, report=False))
 
 
 def spec(text: str) -> str:
@@ -81,9 +94,10 @@ def test_check_prints_the_verdict_and_writes_both_files(here: Path) -> None:
     assert reactions["torque reaction of the wheel"] == pytest.approx(75, rel=0.005)
 
 
+@pytest.mark.usefixtures("no_report")
 def test_limits_that_are_passed_over_are_exit_status_1_and_json_is_one_document(here: Path) -> None:
     limits = "[material]\nname = 'tin'\ncontact_limit = [500, 900]\nroot_limit = 900\nyield_strength = 2000\n"
-    result = run("check", spec(SPUR + limits), "--quiet", "--json")
+    result = run("check", spec(QUICK + limits), "--quiet", "--json")
     assert (result.exit_code, result.stderr) == (1, "")
     document = json.loads(result.stdout)
     assert (document["passed"], document["numerics"], document["strength"]) == (False, "passed", "failed")
@@ -156,23 +170,24 @@ def test_what_cannot_be_checked_is_one_line(here: Path, text: str, message: str)
     assert not Path("output").exists()
 
 
+@pytest.mark.usefixtures("no_report")
 def test_absurd_load_and_thin_rim_are_warnings_with_their_numbers(here: Path) -> None:
-    result = run("check", spec(SPUR.replace("torque = 50.0", "torque = 50000.0")), "--quiet")
+    result = run("check", spec(QUICK.replace("torque = 50.0", "torque = 50000.0")), "--quiet")
     assert "of the modulus: linear elasticity means little there" in result.stdout
-    thin = SPUR.replace("bore = 12.0", "bore = 32.0")
+    thin = QUICK.replace("bore = 12.0", "bore = 32.0")
     result = run("check", spec(thin), "--quiet")
     assert "the pinion's rim (1.5 mm, 0.333 tooth depths) bends: its bore is free, but for shear, on 32 mm;" in result.stdout
-    held = SPUR.replace("positions = 12", "positions = 12\npinion_inner_diameter = 32")
+    held = QUICK.replace("positions = 12", "positions = 12\npinion_inner_diameter = 32")
     result = run("check", spec(held), "--quiet")
     assert result.exit_code == 0
     assert "the pinion's rim (1.5 mm, 0.333 tooth depths) is held rigidly" in result.stdout
 
 
-def test_modified_and_misaligned_gears_are_checked_as_far_as_a_plane_goes(here: Path) -> None:
+def test_modified_and_misaligned_gears_are_checked_as_far_as_a_plane_goes(here: Path, request: pytest.FixtureRequest) -> None:
     """Reliefs and pitch errors count; what depends on z is named and left out; the report lists all of it."""
     changes = "pinion_pitch_error = 4\ncentre_distance_change = 0.05\nmisalignment = 10\n"
     crowned = "modification.tip_relief = 15\nmodification.tip_relief_length = 1\nmodification.lead_crowning = 5\n[wheel]"
-    text = SPUR.replace("[wheel]", crowned) + f"[mounting]\n{changes}"
+    text = QUICK.replace("[wheel]", crowned) + f"[mounting]\n{changes}"
     result = run("check", spec(text), "--quiet")
     assert result.exit_code == 0, result.output
     left_out = "the plane model leaves out the pinion's modifications along the face width and the misalignment"
@@ -181,7 +196,8 @@ def test_modified_and_misaligned_gears_are_checked_as_far_as_a_plane_goes(here: 
     report = (here / "output/pair/report.html").read_text(encoding="utf-8")
     assert document["mounting"]["pinion_pitch_error"] == 4.0
     # The middle pair stands proud: unloaded it would be 4 µm ahead, and loaded it is still less behind than without.
-    plain = run("check", spec(SPUR), "--quiet", "--json")
+    request.getfixturevalue("no_report")
+    plain = run("check", spec(QUICK), "--quiet", "--json")
     errors = [max(each["mesh_cycle"]["transmission_error"]) for each in (document, json.loads(plain.stdout))]
     assert errors[0] < errors[1]
     for shown in ("tip relief, length of roll", "lead crowning", "change of the centre distance", "50.05"):

@@ -107,6 +107,7 @@ def test_one_word_changes_the_model(here: Path) -> None:
     assert found["elements"][:5] == pytest.approx(found["exact"][:5], rel=1e-9)
 
 
+@pytest.mark.usefixtures("no_report")
 def test_a_pair_without_further_data(here: Path) -> None:
     """Inertias of its own solids, FE contact, K_v of ISO 6336 beside its own; at rest the load is the static one."""
     result = run("dynamics", spec(PAIR.partition("[dynamics]")[0]), "--quiet")
@@ -155,7 +156,7 @@ def test_a_train_without_teeth(here: Path) -> None:
     assert "Natural modes" in page and "Without teeth in mesh nothing shakes the train" in page
 
 
-def test_a_pair_on_bearings(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_pair_on_bearings(here: Path, request: pytest.FixtureRequest) -> None:
     """Stiff bearings leave the torsional pair; soft ones bring frequencies of their own."""
     found = {}
     for stiffness in ("100.0", "1e7"):
@@ -164,8 +165,7 @@ def test_a_pair_on_bearings(here: Path, monkeypatch: pytest.MonkeyPatch) -> None
         result = run("dynamics", spec(PAIR.replace("speeds = 40", bearings)), "--quiet", "--json")
         assert result.exit_code == 0, result.output
         found[stiffness] = json.loads(result.stdout)
-        # One report is enough.
-        monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, path: path.touch())
+        request.getfixturevalue("no_report")  # one is enough
     stiff, soft = found["1e7"], found["100.0"]
     assert stiff["frequencies_on_bearings"][1] == pytest.approx(stiff["modes"]["frequency"][1], rel=1e-4)
     assert soft["frequencies_on_bearings"][1] < 0.7 * soft["modes"]["frequency"][1]
@@ -234,9 +234,9 @@ def test_the_contact_model_of_the_thesis(here: Path) -> None:
     assert re.search(r"Warning: .*1\.6 mm at rest", result.stdout)
 
 
-def test_the_simple_model_of_the_thesis(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.usefixtures("no_report")
+def test_the_simple_model_of_the_thesis(here: Path) -> None:
     """One spring that does not vary: a vibration that dies away, in closed form, in the angles of both gears."""
-    monkeypatch.setattr("gearcad.jobs.dynamics._write_report", lambda _study, path: path.touch())
     assert run("new", "uhlir-19-23-simple").exit_code == 0
     text = Path("uhlir-19-23-simple.toml").read_text(encoding="utf-8")
     short = text.replace("speeds = 41", "speeds = 2").replace("duration = 1.0", "duration = 0.2")

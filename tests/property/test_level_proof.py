@@ -8,6 +8,7 @@ from random import Random
 
 import numpy as np
 import pytest
+from support.dense_trains import DenseTrain, dense_train, isolated_rpm, random_drive
 
 from gearcad.arrays import Floats
 from gearcad.dynamics.levels.agreement import SHIFT, Difference
@@ -20,7 +21,6 @@ from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.members import Shaft
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.errors import GeometryError
-from tests.support.dense_trains import DenseTrain, dense_train, isolated_rpm, random_drive
 
 TOLERANCE = 0.05
 

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
+from support.stiffness import THESIS_LOAD, thesis_pair
+from support.strategies import build_pair, pair_inputs
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
 from gearcad.contact.shared.bodies import BodyModel
@@ -19,8 +21,6 @@ from gearcad.geometry import ShaperCutter
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.per_gear import PerGear
 from gearcad.stiffness import CLOSED_FORMS, METHODS, PlaneStrainContact, PotentialEnergy, StrainEnergy, WeberBanaschek
-from tests.support.stiffness import THESIS_LOAD, thesis_pair
-from tests.support.strategies import build_pair, pair_inputs
 
 SMALL = BodyModel(teeth=3, cuts=Cuts.FIXED)
 BEAMS = (PotentialEnergy, WeberBanaschek)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
+from support.trains import one_stage, random_trains, two_stages
 
 from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
@@ -19,7 +20,6 @@ from gearcad.dynamics.trains.shafts import dynamic_inertia, dynamic_stiffness, e
 from gearcad.dynamics.trains.train import Train
 from gearcad.errors import InputError
 from gearcad.per_gear import PerGear
-from tests.support.trains import one_stage, random_trains, two_stages
 
 QUICK = settings(max_examples=30, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from support.trains import SHORT, one_stage
 
 from gearcad.designs import TrainDesign, read_spec
 from gearcad.dynamics.levels.result import LevelStudy
@@ -13,7 +14,6 @@ from gearcad.dynamics.levels.study import study_levels
 from gearcad.dynamics.levels.verdict import LevelStatus
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.trains.train import Train, TrainModel
-from tests.support.trains import SHORT, one_stage
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.hand_drive import ByHand, Drive
 
 from gearcad import Gear, GearPair
 from gearcad.arrays import Floats
@@ -21,7 +22,6 @@ from gearcad.dynamics.response.periodic import PeriodicResponse
 from gearcad.dynamics.trains.lines import system
 from gearcad.dynamics.trains.modes import natural_modes
 from gearcad.errors import GeometryError
-from tests.support.hand_drive import ByHand, Drive
 
 SAME = 1e-4
 """Of amplitudes, and of forces at rest: some ten times what harmonics and steps leave."""

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.stiffness import THESIS_LOAD, stiffness_case, thesis_pair
 
 from gearcad import BasicRack, Gear, GearPair, Load, Material
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.iso6336_1 import mesh_stiffness_alpha, mesh_stiffness_beta
 from gearcad.stiffness import MethodB, PotentialEnergy, WeberBanaschek
-from tests.support.stiffness import THESIS_LOAD, stiffness_case, thesis_pair
 
 COMPONENT, MEAN = 1e-7, 1e-4
 """Relative, as the reference states them: compliances at a position, mean, greatest and least of the mesh."""

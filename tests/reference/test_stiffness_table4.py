@@ -29,6 +29,7 @@ from functools import cache, cached_property
 
 import numpy as np
 import pytest
+from support.stiffness import THESIS_LOAD, thesis_pair
 
 from gearcad import Load, Material
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
@@ -43,7 +44,6 @@ from gearcad.stiffness import METHODS, PlaneStrainContact, PlaneStressContact, S
 from gearcad.stiffness.contact import PlaneContact
 from gearcad.stiffness.slices import SinglePair
 from gearcad.stiffness.strain_energy import WeightedBody
-from tests.support.stiffness import THESIS_LOAD, thesis_pair
 
 ROW = 0.011
 """Relative, mean, greatest and smallest: the conditions above meet the rows within 1.0 %."""

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from support.trains import SHORT, one_stage, two_stages
 
 from gearcad.dynamics.trains.lines import lines_of, system
 from gearcad.dynamics.trains.members import GROUND, Inertia, Mesh, Shaft
@@ -15,7 +16,6 @@ from gearcad.dynamics.trains.modes import count_below, natural_modes
 from gearcad.dynamics.trains.parts import static_forces
 from gearcad.dynamics.trains.shafts import twist_shapes
 from gearcad.dynamics.trains.train import Train
-from tests.support.trains import SHORT, one_stage, two_stages
 
 CONTINUOUS = (1641.12352431, 10077.48060731, 12708.28743912, 19523.94715846, 20154.95062324, 28022.64288784)
 """Roots (1/s) of the frequency equation of two clamped shafts and their mesh, bracketed on a fine scan: eight decimals."""

@@ -61,14 +61,17 @@ def write_all(folder: str) -> None:
 
 def test_equal_bytes_from_processes_that_hash_differently(tmp_path: Path) -> None:
     made = []
-    for seed in ("1", "2", "3"):
+    for seed in ("1", "here"):
         folder = tmp_path / seed
         folder.mkdir()
-        command = [sys.executable, "-c", WRITE_ALL, str(folder), str(Path(__file__).parent)]
-        subprocess.run(command, check=True, env={**os.environ, "PYTHONHASHSEED": seed})
+        if seed == "here":
+            write_all(str(folder))
+        else:
+            command = [sys.executable, "-c", WRITE_ALL, str(folder), str(Path(__file__).parent)]
+            subprocess.run(command, check=True, env={**os.environ, "PYTHONHASHSEED": seed})
         made.append({path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in folder.iterdir()})
     assert len(made[0]) == 7
-    assert made[0] == made[1] == made[2]
+    assert made[0] == made[1]
 
 
 # How names stand in the file by ISO 10303-21, with | for the backslash.

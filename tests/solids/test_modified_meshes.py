@@ -22,6 +22,7 @@ from gearcad.solids.files.contour import gear_contour
 from gearcad.solids.files.points import gear_points
 
 CHORD_ERROR = 0.001  # mm
+LEAST = CHORD_ERROR / 3  # mm: what triangles leave that are not finer than they need be
 ON_SURFACE = 1e-9  # mm: corners of the triangles lie on the surface but for rounding
 STEEP = 0.6  # z of the normals: flanks of 28 degrees have less, cones of 45 degrees and end planes more
 CASES = [*AMOUNTS, "all"]
@@ -60,12 +61,15 @@ def _samples(facets: Facets, most: int = 1500) -> np.ndarray:
 def _off_side(gear: Gear, points: np.ndarray) -> np.ndarray:
     """Distance (mm) of points from the modified side: from the unmodified one when they are turned back.
 
-    In the section, and for a helical gear the least over sections nearby. To turn points back changes distances by the
-    slope of the depth, a part in a hundred.
+    In the section, and for points of a helical gear that are far from it the least over sections nearby. To turn points back
+    changes distances by the slope of the depth, a part in a hundred.
     """
-    shifts = np.linspace(-CHORD_ERROR, CHORD_ERROR, 7) if gear.helix_angle else [0.0]
     back = unturned(gear, points)
-    return np.min([np.hypot(d, distance_to_section(gear, back + np.array([0, 0, d]))) for d in shifts], axis=0)
+    off = distance_to_section(gear, back)
+    far = off > LEAST if gear.helix_angle else np.zeros(len(off), bool)
+    near_by = [np.array([0, 0, share * CHORD_ERROR]) for share in (-1, -2 / 3, -1 / 3, 1 / 3, 2 / 3, 1)]
+    off[far] = np.min([off[far], *(np.hypot(d[2], distance_to_section(gear, back[far] + d)) for d in near_by)], axis=0)
+    return off
 
 
 @pytest.mark.parametrize(("name", "amount"), crossed(CASES))
@@ -90,7 +94,7 @@ def test_no_triangle_leaves_the_modified_teeth_by_more_than_the_chord_error(name
     points = points[_on_teeth(gear, points)]
     assert len(points) > 1000
     worst = _off_side(gear, points).max()
-    assert CHORD_ERROR / 3 < worst <= CHORD_ERROR
+    assert LEAST < worst <= CHORD_ERROR
 
 
 @pytest.mark.parametrize("share", [0.3, 1.0, 1.7])
@@ -100,7 +104,7 @@ def test_an_end_relief_that_begins_inside_on_or_beyond_the_cone(name: str, share
     gear = modified(plain, end_relief_length=min(share * plain.body.end_chamfer, plain.face_width / 2))
     facets = tessellate(gear, CHORD_ERROR)
     _closed(facets)
-    points = _samples(facets, 4000)
+    points = _samples(facets)
     assert _off_side(gear, points[_on_teeth(gear, points)]).max() <= CHORD_ERROR
 
 
@@ -152,7 +156,8 @@ def test_random_modifications_long(seed: int) -> None:
 # ---------------------------------------------------------------------- contour and points
 
 
-SECTIONS = {**{name: GEARS[name] for name in ("spur", "undercut", "left hand")}, "tip chamfer": GEARS["chamfered"]}
+SECTIONS = {**{name: GEARS[name] for name in ("spur", "undercut")}, "tip chamfer": GEARS["chamfered"]}
+SECTIONS["left hand"] = replace(GEARS["left hand"], teeth=44)
 SECTIONS["full radius"] = replace(GEARS["spur"], rack=BasicRack(root_radius="full"))
 
 

@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 from matplotlib.path import Path as Outline
+from support.sets import alm_train
+from support.written_sheet import read_sheet
 
 from gearcad import Body, Gear, GearPair, Rack, RackPair
 from gearcad.designs import read_spec
@@ -30,8 +32,6 @@ from gearcad.drawing.words import Draughting, Language, Words
 from gearcad.errors import ParameterError
 from gearcad.planetary import Central, PlanetaryTrain, Rim
 from gearcad.shipped import templates
-from tests.support.sets import alm_train
-from tests.support.written_sheet import read_sheet
 
 EXACT = 1e-9
 """mm: what follows by a formula of two terms."""

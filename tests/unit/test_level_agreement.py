@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.trains import one_stage
 
 from gearcad.arrays import Bools, Floats
 from gearcad.dynamics.levels.agreement import SHIFT, Agreement, Reason, agreement
@@ -18,7 +19,6 @@ from gearcad.dynamics.train_result import TrainStudy
 from gearcad.dynamics.trains.train import TrainModel
 from gearcad.errors import GeometryError
 from gearcad.notice import Notice
-from tests.support.trains import one_stage
 
 SPEEDS = np.linspace(1000.0, 9000.0, 401)
 WHOLE = OperatingRange(2000.0, 8000.0, RangeSource.GIVEN)

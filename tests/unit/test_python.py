@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.coarse import coarse_pair
 
 import gearcad
 from gearcad import (
@@ -40,7 +41,6 @@ from gearcad.jobs.modify import Modify
 from gearcad.jobs.rate import Rate
 from gearcad.jobs.subject import as_design
 from gearcad.solids import Format
-from tests.support.coarse import coarse_pair
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.coarse import PAIRS, TORQUES, coarse_model
 
 from gearcad import FlankModification, Mounting
 from gearcad.contact.optimum.variants import Condition, Variants, with_amounts
@@ -14,7 +15,6 @@ from gearcad.contact.solid.contact_lines import gaps
 from gearcad.contact.solid.line_contact import LineSolution, solve_lines
 from gearcad.contact.solid.pair import KnownResponses
 from gearcad.geometry import ReliefShape
-from tests.support.coarse import PAIRS, TORQUES, coarse_model
 
 HIGH = np.array([60.0, 6.0, 60.0, 6.0, 15.0, 12.0])
 LOW = np.array([0.0, 1.5, 0.0, 1.5, 0.0, -12.0])
