@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from inspect import Signature
     from typing import Any
 
-__all__ = ["Entrance", "lazily"]
+__all__ = ["Entrance", "NamesFirst", "lazily"]
 
 
 def lazily(
@@ -41,6 +41,14 @@ def lazily(
         raise AttributeError(f"module {package!r} has no attribute {name!r}")
 
     return found
+
+
+class NamesFirst(ModuleType):
+    """A package of which a name is also that of the module where it stands: it is the function that one means by it."""
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if not (isinstance(value, ModuleType) and name in self.__all__):
+            super().__setattr__(name, value)
 
 
 class Entrance(ModuleType):

@@ -26,7 +26,7 @@ from gearcad.material import Materials, by_gear
 from gearcad.mounting import Mounting
 from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
-from gearcad.rating import Rating
+from gearcad.rating.rate import Rating
 from gearcad.rating.strength import Part
 from gearcad.stiffness import StiffnessMethod
 from gearcad.verdict import Verdict

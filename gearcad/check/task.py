@@ -13,8 +13,9 @@ from gearcad.load import Load
 from gearcad.material import Material, Materials, of_both
 from gearcad.mounting import Mounting
 from gearcad.per_gear import PerGear
-from gearcad.rating import Rating, RatingOptions, rate
 from gearcad.rating.load_factors import BodyLoad
+from gearcad.rating.options import RatingOptions
+from gearcad.rating.rate import Rating, rate
 from gearcad.rating.strength import StrengthRating, rate_strength
 
 __all__ = ["CheckTask", "check_task"]

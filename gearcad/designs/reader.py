@@ -18,7 +18,6 @@ from gearcad.designs.files import Where, read_tables
 from gearcad.designs.keys import LISTS, MAIN_TABLES, NESTED, OF_SETS, SWITCHES, TEXT_LISTS, Cell
 from gearcad.designs.kinds import type_of
 from gearcad.designs.kinds.toothed import ToothedDesign
-from gearcad.designs.kinds.train import TrainDesign
 from gearcad.designs.named_files import names_file
 from gearcad.designs.spec import Given, Spec
 from gearcad.designs.train_keys import general_key
@@ -48,6 +47,8 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
 def design_from_values(values: Mapping[str, Any], kind: DesignKind, *, where: Where, default_name: str) -> Design:
     """The design that values under the keys of a design table describe. Raises SpecError."""
     if kind is DesignKind.TRAIN:
+        from gearcad.designs.kinds.train import TrainDesign
+
         tables, names = tables_of(values, where)
         return TrainDesign.read(tables, where, default_name, names)
     return design_from_tables(nested(values, kind), where=where, default_name=default_name)

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
-from gearcad.designs import Design, GearDesign, Inputs, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, TrainDesign
-from gearcad.dynamics.trains.train import Train
+from gearcad.designs.design import Design
 from gearcad.jobs.job import Job
 from gearcad.jobs.subject import Subject, as_design
-from gearcad.load import Load
 from gearcad.notice import Notice
 from gearcad.progress import Progress
+
+if TYPE_CHECKING:
+    from gearcad.designs import Inputs
+    from gearcad.dynamics.trains.train import Train
+    from gearcad.load import Load
 
 __all__ = ["Data", "data"]
 
@@ -22,7 +25,7 @@ class Data(Job[Design, Design]):
     """The data sheet. Its result is the design itself, whose gears, pair or train know their derived properties."""
 
     verb = "data"
-    accepts = (GearDesign, PairDesign, RackDesign, RackPairDesign, TrainDesign, PlanetaryDesign)
+    accepts = (Design,)
     why = "every kind has derived quantities"
     solves = False
 
@@ -44,5 +47,8 @@ def data(subject: Subject | Train, load: Load | None = None, **inputs: Unpack[In
     >>> data(Gear(teeth=20, normal_module=2, face_width=20))["gear"]["reference_diameter"]
     40.0
     """
+    from gearcad.designs import TrainDesign
+    from gearcad.dynamics.trains.train import Train
+
     job, design = Data(), TrainDesign(name=subject.name, train=subject) if isinstance(subject, Train) else subject
     return job.document(job.run(as_design(design, load, **inputs)))

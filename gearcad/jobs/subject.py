@@ -4,25 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, Unpack
+from typing import TYPE_CHECKING, Any, TypeAlias, Unpack
 
-from gearcad.designs import Design, GearDesign, Inputs, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign
-from gearcad.designs.keys import BESIDE
 from gearcad.errors import ParameterError
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
-from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.per_gear import PerGear
-from gearcad.planetary import PlanetaryTrain, TrainLoad
+
+if TYPE_CHECKING:
+    from gearcad.designs import Design, Inputs
+    from gearcad.load import Load
+    from gearcad.planetary import PlanetaryTrain, TrainLoad
 
 __all__ = ["Subject", "as_design"]
 
-Subject = Design | GearPair | Gear | RackPair | Rack | PlanetaryTrain
+Subject: TypeAlias = "Design | GearPair | Gear | RackPair | Rack | PlanetaryTrain"
 """What Python may give to a job."""
 
 
 def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: Unpack[Inputs]) -> Design:
-    """A design as it is, or that of what else may be given, with `inputs` in place of its own. Raises ParameterError."""
+    """A design as it is, or that of what else may be given, with `inputs` in place of its own. Raises ParameterError.
+
+    All kinds of designs are imported here: a command reads its own from a spec.
+    """
+    from gearcad.designs import Design, GearDesign, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign
+    from gearcad.designs.keys import BESIDE
+    from gearcad.planetary import PlanetaryTrain, TrainLoad
+
     if isinstance(subject, Gear):
         subject = GearDesign(name=subject.name, gear=subject)
     elif isinstance(subject, GearPair):

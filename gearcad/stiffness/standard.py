@@ -10,7 +10,7 @@ import numpy as np
 from gearcad.load import Load
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.notice import Notice
-from gearcad.rating import rate
+from gearcad.rating.rate import rate
 from gearcad.stiffness.method import StiffnessMethod
 
 __all__ = ["MethodB"]

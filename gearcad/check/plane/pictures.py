@@ -15,7 +15,7 @@ from gearcad.contact.plane.field import ToothField, contact_frame, tooth_field
 from gearcad.contact.plane.subsurface import strip_stresses
 from gearcad.meshing.section.outline import Side
 from gearcad.per_gear import PerGear, Role
-from gearcad.rating import LineContact, Stresses
+from gearcad.rating.hertz import LineContact, Stresses
 
 __all__ = [
     "DepthProfile",

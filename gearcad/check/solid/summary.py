@@ -15,7 +15,7 @@ from gearcad.contact.shared.loaded import INTERIOR
 from gearcad.contact.solid.contact import SolidPairContact
 from gearcad.contact.solid.cycle import SolidCycle, SolidPosition
 from gearcad.per_gear import PerGear
-from gearcad.rating import LineContact
+from gearcad.rating.hertz import LineContact
 
 __all__ = ["SolidSummary", "WorstPlace", "summarise_solid", "worst_place"]
 
