@@ -27,7 +27,7 @@ def lazily(
     """
 
     def found(name: str) -> object:
-        if name in (*homes, *rooms):
+        if name in rooms or (name in homes and name not in names):
             return import_module(f"{package}.{name}")
         if functions and name in functions:
             home, _, function = functions[name].rpartition(".")

@@ -74,6 +74,11 @@ class FieldSchema:
         return int in self.members
 
     @cached_property
+    def switch(self) -> bool:
+        """Whether it is true or false."""
+        return self.members == (bool,)
+
+    @cached_property
     def several(self) -> bool:
         """Whether it can be several numbers."""
         return any(map(_is_list, self.members)) and not (self.nested or self.texts)
@@ -128,7 +133,7 @@ class FieldSchema:
             self._require_either(instance, parameter, self.stand_in)
         if (value is None and self.optional) or getattr(value, "derived", False) or _stands_in(value, self.words):
             return
-        if self.members == (bool,) and not isinstance(value, bool):
+        if self.switch and not isinstance(value, bool):
             raise ParameterError(parameter, value, "must be true or false")
         if self.choices is not None:
             object.__setattr__(instance, self.name, as_choice(parameter, value, self.choices))

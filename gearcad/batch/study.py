@@ -19,7 +19,7 @@ from gearcad.designs.cells import guarded_text, list_text
 from gearcad.designs.design import LONGEST_NAME, LONGEST_NAME_IN_BYTES, DesignKind
 from gearcad.designs.keys import Cell
 from gearcad.designs.named_files import names_file
-from gearcad.designs.reader import spec_values
+from gearcad.designs.spec_values import spec_values
 from gearcad.designs.table import open_table
 from gearcad.designs.variations import MOST_ROWS, Choices, Span, read_variations, without_varied
 from gearcad.errors import ParameterError, require_whole

@@ -65,7 +65,7 @@ _OPTIONS = (
 @click.option("--quiet", is_flag=True, help="No progress and no warnings on the screen.")
 @debug_option
 def build(spec: Path, output: Path | None, formats: str, options: FileOptions, as_json: bool, quiet: bool) -> None:
-    from gearcad.designs import read_spec
+    from gearcad.designs.reader import read_spec
     from gearcad.jobs.build import Build
     from gearcad.output import json_text
 

@@ -46,7 +46,7 @@ def perform(
     job: Job[Any, Result], spec: Path, output: Path | None, show: Callable[[str, Result], None], *, as_json: bool, quiet: bool
 ) -> Result:
     """Do a job on the design of a spec as `perform_on` does."""
-    from gearcad.designs import read_spec
+    from gearcad.designs.reader import read_spec
 
     return perform_on(job, read_spec(spec), output, show, as_json=as_json, quiet=quiet)
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import click
+
+from gearcad.cli.screen import shows_styles
 
 if TYPE_CHECKING:
     from gearcad.progress import Expected, Progress
@@ -31,14 +34,14 @@ def file_progress(*, shown: bool) -> Iterator[Progress | None]:
     if not shown:
         yield None
         return
+    if not shows_styles(sys.stderr):
+        yield lambda file, done, total: click.echo(f"[{done + 1:.0f}/{total:.0f}] {file}", err=True)
+        return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
     from rich.progress import Progress as Bar
 
     console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda file, done, total: click.echo(f"[{done + 1:.0f}/{total:.0f}] {file}", err=True)
-        return
     columns = (TextColumn("{task.description:<15}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Bar(*columns, console=console, transient=True) as bar:
         task = bar.add_task("", total=None)
@@ -51,17 +54,17 @@ def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[P
     if not shown:
         yield None
         return
+    if expected is not None and (told := _told(expected)):
+        click.echo(told, err=True)
+    clock = _Clock(expected)
+    if not shows_styles(sys.stderr):
+        yield _JobLines(clock)
+        return
     from rich.console import Console
     from rich.progress import BarColumn, TaskProgressColumn, TextColumn
     from rich.progress import Progress as Bar
 
-    if expected is not None and (told := _told(expected)):
-        click.echo(told, err=True)
-    clock = _Clock(expected)
     console = Console(stderr=True)
-    if not console.is_terminal:
-        yield _JobLines(clock)
-        return
     columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TextColumn("{task.fields[left]}"))
     with Bar(*columns, console=console, transient=True) as bar:
         task = bar.add_task("", total=None, left="")
@@ -127,15 +130,14 @@ def row_progress(*, shown: bool) -> Iterator[Progress | None]:
     if not shown:
         yield None
         return
-    from rich.console import Console
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
+    if not shows_styles(sys.stderr):
         yield _RowLines()
         return
+    from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
     from rich.progress import Progress as Bar
 
+    console = Console(stderr=True)
     columns = (
         TextColumn("{task.description:<9}"),
         BarColumn(),

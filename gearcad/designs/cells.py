@@ -9,7 +9,8 @@ from datetime import date
 from enum import Enum
 from typing import Any, NamedTuple
 
-from gearcad.designs.keys import COUNTS, LISTS, TEXTS, Cell
+from gearcad.designs.column_keys import COUNTS, LISTS, TEXTS
+from gearcad.designs.keys import Cell
 from gearcad.designs.train_keys import general_key
 from gearcad.errors import ParameterError
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from gearcad import symbols
-from gearcad.designs.keys import FIELDS, PLANETARY, Fields
+from gearcad.designs.keys import FIELDS, Fields
+from gearcad.designs.planetary_keys import PLANETARY
 from gearcad.designs.train_keys import ALL, PARTS, TrainKey
 from gearcad.drawing.options import PartDrawing
 from gearcad.material import Material

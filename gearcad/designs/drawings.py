@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gearcad.designs.spec import Spec
-from gearcad.drawing.options import DrawingOptions, PartDrawing
+
+if TYPE_CHECKING:
+    from gearcad.drawing.options import DrawingOptions, PartDrawing
 
 __all__ = ["drawing_documents", "drawings_of"]
 
@@ -18,6 +20,10 @@ _TABLE = ".drawing."
 def drawings_of(spec: Spec) -> dict[str, PartDrawing]:
     """What gears have of their own, by their tables. Raises SpecError."""
     owners = dict.fromkeys(key.partition(_TABLE)[0] for key in spec.values if _TABLE in key)
+    if not owners:
+        return {}
+    from gearcad.drawing.options import PartDrawing
+
     return {owner: spec.simple(f"{owner}.drawing", PartDrawing) for owner in owners}
 
 

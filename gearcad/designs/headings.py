@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from gearcad.designs.cells import RawCell, plain_text
+from gearcad.designs.column_keys import COLUMNS, explain_unknown_column, nearest_table
 from gearcad.designs.design import DesignKind
-from gearcad.designs.keys import COLUMNS, MAIN_TABLES, OF_SETS, PLANETARY, SPEEDS, explain_unknown_column, nearest_table
+from gearcad.designs.keys import MAIN_TABLES, OF_SETS, SPEEDS
+from gearcad.designs.planetary_keys import PLANETARY
 from gearcad.designs.train_keys import TrainKey
 from gearcad.errors import SpecError, shown
 

@@ -6,17 +6,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from gearcad.designs.train_keys import ALL, general_key
-
 __all__ = ["find_named_files", "names_file", "with_files_found"]
 
-_KEYS = (f"mesh.{ALL}.pair", "drawing.template")
-"""Keys whose texts are files: the pair of a mesh, and what changes the title block of drawings."""
+_TEMPLATE = "drawing.template"
+"""What changes the title block of drawings."""
 
 
 def names_file(key: str) -> bool:
-    """Whether a text under a key is a file."""
-    return general_key(key) in _KEYS
+    """Whether a text under a key is a file: a template, or the pair of a mesh, `mesh.NAME.pair`."""
+    table, _, rest = key.partition(".")
+    name, _, field = rest.rpartition(".")
+    return key == _TEMPLATE or (table == "mesh" and bool(name) and field == "pair")
 
 
 def with_files_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:

@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 
 from gearcad.designs.design import DesignKind
 from gearcad.designs.files import Where, require_sane_tables
-from gearcad.designs.keys import OF_SETS, PLANETARY, PRE_STAGE, SPEEDS, explain_unknown_table, nearest_key
+from gearcad.designs.keys import OF_SETS, SPEEDS, explain_unknown_table, nearest_key
+from gearcad.designs.planetary_keys import PLANETARY, PRE_STAGE, SET_FIELDS
 from gearcad.designs.spec import Given
 from gearcad.errors import SpecError, format_number, shown
 from gearcad.schema import FieldSchema
@@ -59,7 +60,7 @@ def place_tables(tables: Mapping[str, Any], where: Where) -> Tables:
     for table, written in names.items():
         values |= {
             f"{table}.{key[len(written) + 1 :]}": given
-            for key, given in _values(written, _content(listed, written), where, fields=OF_SETS[table])
+            for key, given in _values(written, _content(listed, written), where, fields=SET_FIELDS[table])
             if key != f"{written}.meshes"
         }
     return Tables(values, names, meshes, stages)

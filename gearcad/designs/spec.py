@@ -14,7 +14,7 @@ from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 from gearcad.designs.auto import AUTO, CLEAR
 from gearcad.designs.design import require_plain_name
 from gearcad.designs.files import Where, require_sane_tables
-from gearcad.designs.keys import ALTERNATIVES, COUNTS, FIELDS, KEYS, PARTS, PARTS_BESIDE, SHARED, SWITCHES, explain_unknown_key
+from gearcad.designs.keys import ALTERNATIVES, FIELDS, PARTS, PARTS_BESIDE, SHARED, explain_unknown_key
 from gearcad.errors import GeometryError, InputError, ParameterError, SpecError, format_number, shown
 from gearcad.geometry import NAMED_RACKS, BasicRack
 from gearcad.per_gear import Role
@@ -78,13 +78,14 @@ class Spec:
         for table, content in tables.items():
             for field, value in _entries(content, PARTS_BESIDE.get(table, _TABLES_OF_GEAR)):
                 key = f"{table}.{field}"
-                if field not in KEYS[table]:
+                said = FIELDS[table].get(field)
+                if said is None:
                     raise SpecError(f"{where(key)}: {shown(key)}: {explain_unknown_key(table, field)}")
                 require_sane_tables(value, where, key)
-                if key in SWITCHES and isinstance(value, str):
+                if said.switch and isinstance(value, str):
                     value = _SWITCH.get(value, value)
                 if isinstance(value, int) and not isinstance(value, bool):
-                    value = value if key in COUNTS else float(value)
+                    value = value if said.whole else float(value)
                 # The sum makes -0.0 a plain zero, so that equal inputs give equal files.
                 values[key] = Given(value + 0.0 if isinstance(value, float) else value, key)
         return cls(values, where)

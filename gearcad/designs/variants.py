@@ -11,7 +11,8 @@ from pathlib import Path
 from gearcad.designs.columns import column_symbol
 from gearcad.designs.design import Design, DesignKind
 from gearcad.designs.keys import Cell
-from gearcad.designs.reader import SpecValues, design_from_values, read_values
+from gearcad.designs.reader import design_from_values
+from gearcad.designs.spec_values import SpecValues, read_values
 from gearcad.designs.train_keys import ALL, general_key
 from gearcad.designs.variations import Choices, read_variations, without_varied
 from gearcad.errors import ParameterError, format_number

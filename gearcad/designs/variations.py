@@ -11,9 +11,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from gearcad.designs.cells import CellReader, Layout
+from gearcad.designs.column_keys import COUNTS, TEXTS, explain_unknown_column
 from gearcad.designs.design import DesignKind
-from gearcad.designs.keys import COUNTS, KEYS, MAIN_TABLES, PLANETARY, SPEEDS, TEXTS, Cell, explain_unknown_column
+from gearcad.designs.keys import KEYS, MAIN_TABLES, SPEEDS, Cell
 from gearcad.designs.named_files import with_files_found
+from gearcad.designs.planetary_keys import PLANETARY
 from gearcad.designs.train_keys import ALL, MAIN, PARTS, TORQUES, TrainKey, explain_unknown_key_of_train, general_key
 from gearcad.designs.train_values import names_of
 from gearcad.errors import ParameterError, format_number

@@ -44,7 +44,7 @@ def as_design(subject: Subject, load: Load | TrainLoad | None = None, **inputs: 
     if not isinstance(subject, Design):
         permitted = "must be a GearPair, a Gear, a RackPair, a Rack, a PlanetaryTrain, or a design such as gearcad.read gives"
         raise ParameterError("subject", subject, permitted)
-    kinds = BESIDE | ({"load": TrainLoad} if isinstance(subject, PlanetaryDesign) else {})
+    kinds = {**BESIDE, **({"load": TrainLoad} if isinstance(subject, PlanetaryDesign) else {})}
     given: dict[str, Any] = {**inputs, "load": load} if load is not None else {**inputs}
     for name, value in given.items():
         if not hasattr(subject, name):

@@ -7,8 +7,8 @@ import pytest
 from rich.console import Console
 
 from gearcad import Body, Gear, Rack, symbols
-from gearcad.cli import datasheet
-from gearcad.cli.datasheet import print_datasheet
+from gearcad.cli import datasheet, sheet_lines
+from gearcad.cli.datasheet import plain_datasheet, print_datasheet
 from gearcad.designs import GearDesign, read_spec
 from gearcad.designs.design import Design
 from gearcad.geometry import ShaperCutter
@@ -25,12 +25,19 @@ def sheet(design: Design, width: int = 80) -> str:
 
 def test_every_quantity_has_its_place() -> None:
     gear = {key for keys in datasheet._GEAR_BLOCKS.values() for key in keys.split()}
-    pair = {key for keys in datasheet._PAIR_BLOCKS.values() for key in keys.split()} | set(symbols.PER_GEAR)
+    pair = {key for keys in sheet_lines._PAIR_BLOCKS.values() for key in keys.split()} | set(symbols.PER_GEAR)
     assert gear == {*symbols_of(Gear), *symbols.GEAR} - {"name"}
     of_racks = {"mounting_distance", "tip_clearances.pinion", *symbols.RACK_PAIR, *symbols.DRIVE}
     assert pair == {"centre_distance", "centre_distance_tolerance", "axial_offset", *symbols.PAIR, *of_racks}
     rack = {key for keys in datasheet._RACK_BLOCKS.values() for key in keys.split()}
     assert rack == {*symbols_of(Rack), *symbols.RACK} - {"name"}
+
+
+@pytest.mark.parametrize("width", [80, 120])
+@pytest.mark.parametrize("spec", ["spur", "planetary-24-21-66", "train-pairs"])
+def test_what_knows_no_styles_has_the_same_text(spec: str, width: int) -> None:
+    design = read_spec(TEMPLATES / f"{spec}.toml")
+    assert plain_datasheet(design, width) == sheet(design, width)
 
 
 def test_pair_shows_both_gears_side_by_side_then_the_pair() -> None:

@@ -8,8 +8,8 @@ from scipy.optimize import brentq
 
 from gearcad.designs import DesignKind, PlanetaryDesign, Row, open_table, read_spec
 from gearcad.designs.columns import column_of_train
-from gearcad.designs.keys import PLANETARY
-from gearcad.designs.reader import spec_values
+from gearcad.designs.planetary_keys import PLANETARY
+from gearcad.designs.spec_values import spec_values
 from gearcad.designs.variations import read_variation
 from gearcad.errors import ParameterError, SpecError
 

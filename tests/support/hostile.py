@@ -15,7 +15,8 @@ from click.testing import CliRunner, Result
 from hypothesis import strategies as st
 
 from gearcad.cli import main
-from gearcad.designs.keys import KEYS, PLANETARY
+from gearcad.designs.keys import KEYS
+from gearcad.designs.planetary_keys import PLANETARY
 from gearcad.designs.starters import starter_text
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
 

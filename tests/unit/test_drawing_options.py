@@ -14,7 +14,8 @@ from gearcad.designs import read_spec
 from gearcad.designs.kinds.pair import PairDesign
 from gearcad.designs.kinds.toothed import ToothedDesign
 from gearcad.designs.pair_text import pair_text
-from gearcad.designs.reader import design_from_tables, design_from_values, spec_values
+from gearcad.designs.reader import design_from_tables, design_from_values
+from gearcad.designs.spec_values import spec_values
 from gearcad.designs.starters import starter_text
 from gearcad.designs.table import open_table
 from gearcad.drawing.options import DrawingOptions, PartDrawing, Projection, Revision, SheetSize

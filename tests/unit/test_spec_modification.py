@@ -17,7 +17,7 @@ from gearcad.batch.study import plan_study, write_study
 from gearcad.cli.datasheet import print_datasheet
 from gearcad.designs import design_from_tables, open_table, read_spec
 from gearcad.designs.design import Design
-from gearcad.designs.reader import spec_values
+from gearcad.designs.spec_values import spec_values
 from gearcad.designs.starters import starter_text
 
 SPEC = """\

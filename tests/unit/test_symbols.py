@@ -9,8 +9,8 @@ from gearcad import Gear, GearPair, Load, Material, Mounting, symbols
 from gearcad.check.options import CheckOptions
 from gearcad.check.plane.summary import PlaneSummary
 from gearcad.check.solid.summary import SolidSummary
+from gearcad.designs.column_keys import COLUMNS
 from gearcad.designs.columns import column_symbol
-from gearcad.designs.keys import COLUMNS
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.trains.members import Inertia, Mesh, Shaft
 from gearcad.meshing.options import MeshOptions

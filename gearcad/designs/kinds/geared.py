@@ -4,23 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, TypedDict
+from typing import TYPE_CHECKING, Any, TypedDict
 
-from gearcad.check.options import CheckOptions
 from gearcad.designs.design import DesignKind
 from gearcad.designs.files import Where
 from gearcad.designs.keys import MAIN_TABLES
 from gearcad.designs.kinds.toothed import ToothedDesign, require_known_tables
 from gearcad.designs.spec import Spec
-from gearcad.drawing.options import DrawingOptions
-from gearcad.dynamics.options import DynamicsOptions
 from gearcad.errors import SpecError
 from gearcad.geometry import GearPair
-from gearcad.load import Load
-from gearcad.material import Materials
-from gearcad.meshing.options import MeshOptions
-from gearcad.mounting import Mounting
-from gearcad.rating.options import RatingOptions
+
+if TYPE_CHECKING:
+    from gearcad.check.options import CheckOptions
+    from gearcad.drawing.options import DrawingOptions
+    from gearcad.dynamics.options import DynamicsOptions
+    from gearcad.load import Load
+    from gearcad.material import Materials
+    from gearcad.meshing.options import MeshOptions
+    from gearcad.mounting import Mounting
+    from gearcad.rating.options import RatingOptions
 
 __all__ = ["GearedDesign", "Inputs", "require_tables"]
 

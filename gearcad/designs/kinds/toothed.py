@@ -13,7 +13,6 @@ from gearcad.designs.files import Where
 from gearcad.designs.keys import BESIDE, KEYS, explain_unknown_table
 from gearcad.designs.materials import materials_of
 from gearcad.designs.spec import Spec
-from gearcad.drawing.options import DrawingOptions, PartDrawing
 from gearcad.errors import SpecError, format_number, shown
 from gearcad.geometry import GearPair, RackPair
 from gearcad.material import Material
@@ -22,6 +21,8 @@ from gearcad.schema import parts_of
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
+
+    from gearcad.drawing.options import DrawingOptions, PartDrawing
 
 __all__ = ["ToothedDesign", "beside_teeth", "require_known_tables"]
 
@@ -84,7 +85,7 @@ def beside_teeth(spec: Spec, tables: Mapping[str, Any], gears: tuple[str, ...] =
     Those of `gears` may have materials of their own: "material" is then PerGear of two, else that of all.
     """
     made: dict[str, Any] = {
-        table: spec.simple(table, kind) for table, kind in BESIDE.items() if table in tables and table != "material"
+        table: spec.simple(table, BESIDE[table]) for table in BESIDE if table in tables and table != "material"
     }
     if own := drawings_of(spec):
         made["drawings"] = own
