@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gearcad.arrays import Wholes
+from gearcad.arrays import Floats, Wholes
 from gearcad.material import Material
 from gearcad.meshing.section import SectorMesh
 
@@ -52,36 +52,45 @@ def stiffness_matrix(mesh: SectorMesh, elasticity: PlaneElasticity, elements: Wh
 
     Dof 2 n is node n in x, 2 n + 1 in y.
     """
-    from skfem.models.elasticity import linear_elasticity
+    from skfem import ElementTriP2
 
-    return _assembled(linear_elasticity(*elasticity.lame), mesh, elements)
+    triangles, basis = _basis(mesh, elements, ElementTriP2())
+    slopes = np.stack([shape[0].grad for shape in basis.basis])  # (6 nodes, 2 directions, elements, points)
+    slopes = np.moveaxis(slopes, 2, 0).reshape(len(triangles), 12, -1)
+    products = ((slopes * basis.dx[:, None]) @ slopes.swapaxes(1, 2)).reshape(-1, 6, 2, 6, 2)
+    lame, shear = elasticity.lame
+    # Integrals of lambda div u div v + mu (grad u + grad u^T) : grad v.
+    local = lame * products + shear * products.swapaxes(2, 4)
+    along = products[:, :, 0, :, 0] + products[:, :, 1, :, 1]
+    for direction in (0, 1):
+        local[:, :, direction, :, direction] += shear * along
+    dofs = 2 * triangles[..., None] + np.arange(2)
+    return _summed(local.reshape(-1, 12, 12), dofs.reshape(-1, 12), 2 * len(mesh.points))
 
 
 def mass_matrix(mesh: SectorMesh, elements: Wholes | None = None) -> Any:
     """Integral of N^T N (scipy CSR, mm²) over the mesh or some of its elements, dofs as those of the stiffness."""
-    from skfem import BilinearForm
-    from skfem.helpers import dot
+    from skfem import ElementTriP2
 
-    return _assembled(BilinearForm(lambda u, v, _: dot(u, v)), mesh, elements)
+    triangles, basis = _basis(mesh, elements, ElementTriP2())
+    shapes = np.stack([np.broadcast_to(shape[0].value, basis.dx.shape) for shape in basis.basis], 1)  # (elements, 6, points)
+    local = (shapes * basis.dx[:, None]) @ shapes.swapaxes(1, 2)
+    size, parts = 2 * len(mesh.points), 2 * triangles
+    return _summed(local, parts, size) + _summed(local, parts + 1, size)
 
 
-def _assembled(form: Any, mesh: SectorMesh, elements: Wholes | None) -> Any:
-    import scipy.sparse
-    from skfem import Basis, ElementTriP2, ElementVector, MeshTri2
+def _basis(mesh: SectorMesh, elements: Wholes | None, element: Any) -> tuple[Wholes, Any]:
+    """Elements by their nodes (n, 6), and scikit-fem's shape functions of each at the points where it integrates."""
+    from skfem import Basis, MeshTri2
 
     triangles = mesh.triangles if elements is None else mesh.triangles[elements]
     used, local = np.unique(triangles, return_inverse=True)
-    local = local.reshape(triangles.shape)
-    basis = Basis(MeshTri2(mesh.points[used].T, local.T), ElementVector(ElementTriP2()), intorder=4)
-    matrix = form.assemble(basis).tocoo()
-    dofs = _our_dofs(basis, local, used)
-    size = 2 * len(mesh.points)
-    return scipy.sparse.csr_matrix((matrix.data, (dofs[matrix.row], dofs[matrix.col])), shape=(size, size))
+    return triangles, Basis(MeshTri2(mesh.points[used].T, local.reshape(triangles.shape).T), element, intorder=4)
 
 
-def _our_dofs(basis: Any, triangles: Wholes, used: Wholes) -> Wholes:
-    """Our number of each dof of scikit-fem, element by element."""
-    ours = 2 * used[triangles].T[:, None, :] + np.arange(2)[:, None]  # (6 nodes, 2 directions, elements)
-    dofs = np.empty(basis.N, int)
-    dofs[basis.element_dofs] = ours.reshape(12, -1)
-    return dofs
+def _summed(local: Floats, dofs: Wholes, size: int) -> Any:
+    """Matrices of elements (n, k, k) with their dofs (n, k), summed up (scipy CSR, (size, size))."""
+    import scipy.sparse
+
+    rows, columns = np.broadcast_arrays(dofs[:, :, None], dofs[:, None])
+    return scipy.sparse.csr_matrix((local.ravel(), (rows.ravel(), columns.ravel())), shape=(size, size))
