@@ -1,11 +1,14 @@
 """What parts look like: red, green and blue as seen on a screen (sRGB), 0 ... 1."""
 
-__all__ = ["PART_COLOURS", "STAGE_COLOURS", "STEEL", "TRAIN_COLOURS", "Colour"]
+__all__ = ["BRIGHT_STEEL", "PART_COLOURS", "STAGE_COLOURS", "STEEL", "TRAIN_COLOURS", "Colour"]
 
 Colour = tuple[float, float, float]
 
 STEEL: Colour = (0.62, 0.66, 0.72)
 """Of a part by itself."""
+
+BRIGHT_STEEL: Colour = (0.809468152636, 0.832283570587, 0.865042042985)
+"""Of a part by itself in STEP: the shares of STEEL as shares of light."""
 
 PART_COLOURS: dict[str, Colour] = {
     "pinion": (0.80, 0.55, 0.20),

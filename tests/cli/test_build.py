@@ -51,7 +51,7 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         return make
 
     for home in (
-        "step.write_step",
+        "step.write_product",
         "stl.write_stl",
         "three_mf.write_3mf",
         "glb.write_glb",
@@ -60,7 +60,7 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         "points.write_points",
     ):
         monkeypatch.setattr(f"gearcad.solids.files.{home}", writer(home, 1))
-    for name in ("gear_solid", "pair_assembly", "tessellate"):
+    for name in ("gear_boundary", "pair_product", "tessellate"):
         monkeypatch.setattr(products, name, maker(name))
     return calls
 
@@ -92,7 +92,7 @@ def test_facets_of_a_gear_are_made_once_for_all_formats(pair: Design, stand_ins:
 
 def test_bracket_reaches_the_assembly(pair: Design, stand_ins: list[str], tmp_path: Path) -> None:
     build(pair, tmp_path, [Format.STEP], bracket=True)
-    assert "pair_assembly {'bracket': True}" in stand_ins
+    assert "pair_product {'bracket': True}" in stand_ins
 
 
 def test_progress_counts_up_to_the_last_file(pair: Design, stand_ins: list[str], tmp_path: Path) -> None:
@@ -109,7 +109,7 @@ def test_failure_at_the_last_file_leaves_no_file_at_all(
     def fail(*_arguments: Any, **_options: Any) -> None:
         raise error
 
-    monkeypatch.setattr(products, "pair_assembly", fail)
+    monkeypatch.setattr(products, "pair_product", fail)
     with pytest.raises(type(error)):
         build(pair, tmp_path / "output" / "x")
     assert list(tmp_path.iterdir()) == []
@@ -146,7 +146,7 @@ def test_kernel_failure_is_status_1(stand_ins: list[str], tmp_path: Path, monkey
         raise SolverError("the CAD kernel could not write it")
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(products, "gear_solid", fail)
+    monkeypatch.setattr(products, "gear_boundary", fail)
     result = CliRunner().invoke(main, ["build", str(TEMPLATES / "spur.toml"), "--quiet"])
     assert (result.exit_code, result.stderr) == (1, "Error: the CAD kernel could not write it\n")
     assert list(tmp_path.iterdir()) == []
@@ -207,7 +207,7 @@ def test_parts_are_the_same_products_alone_and_in_the_assembly(built: Path) -> N
 
 
 def _products(path: Path) -> set[str]:
-    return set(re.findall(r"= PRODUCT\('([^']*)'", path.read_text("ascii")))
+    return set(re.findall(r"=PRODUCT\('([^']*)'", path.read_text("ascii")))
 
 
 def test_contours_open_in_ezdxf(built: Path) -> None:

@@ -54,8 +54,8 @@ def test_parts_that_are_alike_are_one_product(step: Path) -> None:
     """N planets do not cost N times: seven bodies are in the file, each once, and fourteen places."""
     text = step.read_text()
     assert text.count("MANIFOLD_SOLID_BREP(") == 7
-    assert text.count("= NEXT_ASSEMBLY_USAGE_OCCURRENCE(") == 14
-    products = re.findall(r"= PRODUCT\('([^']*)'", text)
+    assert text.count("=NEXT_ASSEMBLY_USAGE_OCCURRENCE(") == 14
+    products = re.findall(r"=PRODUCT\('([^']*)'", text)
     made = ["a", "b", "rim_a", "rim_b", "pre-pinion", "pre-wheel", "carrier"]
     assert sorted(products) == sorted(["small", *(f"small {each}" for each in (*made, "planet_1", "planet_2", "planet_3"))])
 

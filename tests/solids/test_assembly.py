@@ -17,7 +17,6 @@ from gearcad.geometry import ShaperCutter
 from gearcad.per_gear import PerGear
 from gearcad.solids import pair_assembly, write_step
 from gearcad.solids.exact.assembly import PartNames, part_names
-from gearcad.solids.files.step import _reproducible
 
 TIP_ALTERATION = -0.007246444637613869  # (80 - a_d)/2.5 - (0.107 - 0.378)
 
@@ -152,10 +151,3 @@ def test_bracket_needs_bores() -> None:
     gear = Gear(teeth=20, normal_module=2, face_width=10)
     with pytest.raises(GeometryError, match=r"pinion\.body\.bore"):
         pair_assembly(GearPair(pinion=gear, wheel=gear), bracket=True)
-
-
-def test_a_files_bytes_do_not_depend_on_what_the_session_wrote_before() -> None:
-    """The kernel breaks lines at 72 characters, those of its running number included."""
-    first = b"#12477 = NEXT_ASSEMBLY_USAGE_OCCURRENCE('1','gearcad-name-1','',#5,#5406\n  ,$);\n"
-    later = b"#12477 = NEXT_ASSEMBLY_USAGE_OCCURRENCE('12','gearcad-name-1','',#5,\n  #5406,$);\n"
-    assert _reproducible(later) == first == _reproducible(first)

@@ -5,19 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from gearcad.errors import GeometryError
-from gearcad.geometry.gear import Gear
 from gearcad.geometry.pair import GearPair
 from gearcad.per_gear import PerGear, Role
 from gearcad.solids.colours import PART_COLOURS
-from gearcad.solids.exact.solid import gear_solid
+from gearcad.solids.exact.bracket import bracket_boundary
+from gearcad.solids.exact.cad import cad_assembly
+from gearcad.solids.exact.products import AssembledProduct, Occurrence, SolidProduct, placed
+from gearcad.solids.exact.solid import gear_boundary
 
 if TYPE_CHECKING:
     import cadquery
 
-__all__ = ["UNNAMED", "PartNames", "pair_assembly", "part_names"]
-
-_ARM = 0.6
-"""Width of the bracket's arm as a share of the thicker shaft's diameter."""
+__all__ = ["UNNAMED", "PartNames", "pair_assembly", "pair_product", "part_names"]
 
 UNNAMED = ("gear", "pinion", "wheel")
 """Names that a gear has where nobody named it."""
@@ -46,50 +45,30 @@ def part_names(pair: GearPair) -> PartNames:
     return PartNames(own if len({pair.name, bracket, *own}) == 4 else ours, bracket)
 
 
-def pair_assembly(pair: GearPair, *, bracket: bool = False) -> cadquery.Assembly:
+def pair_product(pair: GearPair, *, bracket: bool = False) -> AssembledProduct:
     """Pinion at the origin and wheel at (centre distance, 0), a tooth in a space, the backlash split evenly.
 
     The parts are called as `part_names` has it. The centre distance of a ring is negative. `bracket` adds two shafts that fill
     the bores, joined by an arm below the gears. Raises GeometryError for a bracket without bores, for a ring without a rim.
     """
-    import cadquery
-
     if bracket and pair.internal:
         raise GeometryError("bracket", True, "must be left out with a ring: it has no bore for a shaft")
 
-    names, pose, assembly = part_names(pair), pair.wheel_pose(), cadquery.Assembly(name=pair.name)
-    wheel_at = cadquery.Location(cadquery.Vector(pose.x, 0, pose.z), cadquery.Vector(0, 0, 1), pose.rotation)
-    places = PerGear(None, wheel_at)
-    for role, solid in pair.gears.map(gear_solid).items():
-        colour = cadquery.Color(*PART_COLOURS[role.value], 1.0)
-        assembly.add(solid, name=names.gears.pick(role), loc=places.pick(role), color=colour)
+    names, pose = part_names(pair), pair.wheel_pose()
+    frames = PerGear(placed(), placed((pose.x, 0.0, pose.z), pose.rotation))
+    boundaries = pair.gears.map(gear_boundary)
+
+    def part(role: Role) -> Occurrence:
+        name = names.gears.pick(role)
+        return Occurrence(name, SolidProduct(name, boundaries.pick(role), PART_COLOURS[role.value]), frames.pick(role))
+
+    parts = [*PerGear.each(part)]
     if bracket:
-        assembly.add(_bracket(pair), name=names.bracket, color=cadquery.Color(*PART_COLOURS["bracket"], 1.0))
-    return assembly
+        product = SolidProduct(names.bracket, bracket_boundary(pair), PART_COLOURS["bracket"])
+        parts.append(Occurrence(names.bracket, product, placed()))
+    return AssembledProduct(pair.name, tuple(parts))
 
 
-def _bracket(pair: GearPair) -> cadquery.Solid:
-    """Two shafts through the bores, standing on one arm."""
-    import cadquery
-
-    gears = pair.gears
-    bores, pose = gears.map(_bore), pair.wheel_pose()
-    axes, heights = PerGear(0.0, pose.x), PerGear(0.0, pose.z)
-    low = min(z - gear.body.hub_ends[0] for z, gear in zip(heights, gears, strict=True))
-    high = max(z + gear.face_width + gear.body.hub_ends[1] for z, gear in zip(heights, gears, strict=True))
-    thickest = max(bores)
-    gap, thickness, half = 0.1 * thickest, 0.5 * thickest, _ARM * thickest
-    bottom = low - gap - thickness
-    arm = cadquery.Workplane("XY", origin=(0, 0, bottom)).moveTo(pose.x / 2, 0).slot2D(pose.x + 2 * half, 2 * half)
-    body = arm.extrude(thickness)
-    for x, bore in zip(axes, bores, strict=True):
-        body = body.union(cadquery.Workplane("XY", origin=(x, 0, bottom)).circle(bore / 2).extrude(high + gap - bottom))
-    solid = body.val()
-    assert isinstance(solid, cadquery.Shape)
-    return solid.Solids()[0]
-
-
-def _bore(gear: Gear) -> float:
-    if not gear.body.bore:
-        raise GeometryError("body.bore", gear.body.bore, "must be above 0 mm for a shaft with a bracket", "mm")
-    return gear.body.bore
+def pair_assembly(pair: GearPair, *, bracket: bool = False) -> cadquery.Assembly:
+    """The same as an assembly to go on with in CadQuery: see `pair_product`."""
+    return cad_assembly(pair_product(pair, bracket=bracket))

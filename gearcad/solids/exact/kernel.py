@@ -22,7 +22,7 @@ from gearcad.solids.exact.forms import (
     SurfaceForm,
 )
 
-__all__ = ["kernel_solid"]
+__all__ = ["kernel_solid", "local_axes"]
 
 
 def kernel_solid(boundary: Boundary) -> Any:
@@ -137,15 +137,15 @@ def _made(form: CurveForm | SurfaceForm | OnSurface) -> Any:
         case StraightLine(start, direction):
             return Geom_Line(gp_Pnt(*start), gp_Dir(*direction))
         case CircleCurve(frame, radius):
-            return Geom_Circle(_axes(frame).Ax2(), radius)
+            return Geom_Circle(local_axes(frame).Ax2(), radius)
         case EllipseCurve(frame, major, minor):
-            return Geom_Ellipse(_axes(frame).Ax2(), major, minor)
+            return Geom_Ellipse(local_axes(frame).Ax2(), major, minor)
         case PlaneSurface(frame):
-            return Geom_Plane(_axes(frame))
+            return Geom_Plane(local_axes(frame))
         case CylinderSurface(frame, radius):
-            return Geom_CylindricalSurface(_axes(frame), radius)
+            return Geom_CylindricalSurface(local_axes(frame), radius)
         case ConeSurface(frame, radius, half_angle):
-            return Geom_ConicalSurface(_axes(frame), half_angle, radius)
+            return Geom_ConicalSurface(local_axes(frame), half_angle, radius)
         case LineOnSurface(u, v, du, dv):
             return Geom2d_Line(gp_Pnt2d(u, v), gp_Dir2d(du, dv))
         case BezierOnSurface():
@@ -156,7 +156,7 @@ def _made(form: CurveForm | SurfaceForm | OnSurface) -> Any:
             return _bezier_surface(form)
 
 
-def _axes(frame: Frame) -> Any:
+def local_axes(frame: Frame) -> Any:
     from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt
 
     return gp_Ax3(gp_Pnt(*frame.origin), gp_Dir(*frame.axis), gp_Dir(*frame.along))

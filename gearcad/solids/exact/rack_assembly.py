@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING
 from gearcad.geometry.rack_pair import RackPair
 from gearcad.solids.colours import PART_COLOURS
 from gearcad.solids.exact.assembly import UNNAMED
-from gearcad.solids.exact.rack_solid import rack_solid
-from gearcad.solids.exact.solid import gear_solid
+from gearcad.solids.exact.cad import cad_assembly
+from gearcad.solids.exact.products import AssembledProduct, Occurrence, SolidProduct, placed
+from gearcad.solids.exact.rack_solid import rack_boundary
+from gearcad.solids.exact.solid import gear_boundary
 
 if TYPE_CHECKING:
     import cadquery
 
-__all__ = ["rack_assembly", "rack_part_names"]
+__all__ = ["rack_assembly", "rack_part_names", "rack_product"]
 
 
 def rack_part_names(pair: RackPair) -> tuple[str, str]:
@@ -24,12 +26,18 @@ def rack_part_names(pair: RackPair) -> tuple[str, str]:
     return (pinion, rack) if len({pair.name, pinion, rack}) == 3 else ours
 
 
-def rack_assembly(pair: RackPair) -> cadquery.Assembly:
+def rack_product(pair: RackPair) -> AssembledProduct:
     """Pinion at the origin, and the rack beyond x = 0, along y, its tips towards the axis, the backlash split evenly."""
-    import cadquery
+    (pinion, rack), pose = rack_part_names(pair), pair.rack_pose()
+    parts = (
+        SolidProduct(pinion, gear_boundary(pair.pinion), PART_COLOURS["pinion"]),
+        SolidProduct(rack, rack_boundary(pair.rack), PART_COLOURS["rack"]),
+    )
+    frames = placed(), placed((pose.x, pose.y, pose.z), pose.rotation)
+    occurrences = (Occurrence(part.name, part, frame) for part, frame in zip(parts, frames, strict=True))
+    return AssembledProduct(pair.name, tuple(occurrences))
 
-    (pinion, rack), pose, assembly = rack_part_names(pair), pair.rack_pose(), cadquery.Assembly(name=pair.name)
-    place = cadquery.Location(cadquery.Vector(pose.x, pose.y, pose.z), cadquery.Vector(0, 0, 1), pose.rotation)
-    assembly.add(gear_solid(pair.pinion), name=pinion, color=cadquery.Color(*PART_COLOURS["pinion"], 1.0))
-    assembly.add(rack_solid(pair.rack), name=rack, loc=place, color=cadquery.Color(*PART_COLOURS["rack"], 1.0))
-    return assembly
+
+def rack_assembly(pair: RackPair) -> cadquery.Assembly:
+    """The same as an assembly to go on with in CadQuery: see `rack_product`."""
+    return cad_assembly(rack_product(pair))

@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING
 
 from gearcad.planetary import PlanetaryTrain
 from gearcad.solids.colours import TRAIN_COLOURS
-from gearcad.solids.exact.carrier import carrier_solid
-from gearcad.solids.exact.solid import gear_solid
-from gearcad.solids.train_layout import Standing
+from gearcad.solids.exact.cad import cad_assembly
+from gearcad.solids.exact.carrier import carrier_boundary
+from gearcad.solids.exact.forms import ORIGIN, Point
+from gearcad.solids.exact.products import AssembledProduct, Occurrence, SolidProduct, placed
+from gearcad.solids.exact.solid import gear_boundary
+from gearcad.solids.train_layout import Standing, TrainLayout
 from gearcad.solids.train_plan import TrainPlan
 
 if TYPE_CHECKING:
     import cadquery
 
-__all__ = ["PRODUCT", "assembly_of", "train_assembly"]
-
-PRODUCT = "product"
-"""In the metadata of a part of an assembly: what it is called as a product, where its own name is that of one of many."""
+__all__ = ["train_assembly", "train_product"]
 
 
 def train_assembly(
@@ -29,49 +29,37 @@ def train_assembly(
     `carrier` adds pins and plates; `exploded` moves members apart along the axis. Raises GeometryError for rings without a
     rim, bodies that stand in each other, and a carrier for planets without bores.
     """
-    return assembly_of(TrainPlan.of(train, carrier_angle=carrier_angle, carrier=carrier, exploded=exploded))
+    return cad_assembly(train_product(TrainPlan.of(train, carrier_angle=carrier_angle, carrier=carrier, exploded=exploded)))
 
 
-def assembly_of(plan: TrainPlan) -> cadquery.Assembly:
-    """The assembly of a plan."""
-    import cadquery
-
+def train_product(plan: TrainPlan) -> AssembledProduct:
+    """The assembly of a plan; bodies that are alike are one product."""
     layout = plan.layout
-    solids = {key: gear_solid(body.gear) for key, body in layout.bodies.items()}
-    assembly = cadquery.Assembly(name=layout.train.name)
-    for standing in layout.centrals:
-        _add(assembly, standing, solids)
+    train, parts = layout.train, _parts(layout)
+    found = [_occurrence(standing, parts) for standing in layout.centrals]
     for planet in layout.planets:
-        if layout.train.stepped:
+        if train.stepped:
             axle = planet[0].axle
-            body = cadquery.Assembly(name=axle.name, metadata={PRODUCT: f"{layout.train.name} {axle.name}"})
-            for standing in planet:
-                _add(body, standing, solids, origin=(axle.x, axle.y))
-            assembly.add(body, loc=cadquery.Location(cadquery.Vector(axle.x, axle.y, 0)))
+            rims = tuple(_occurrence(standing, parts, origin=(axle.x, axle.y)) for standing in planet)
+            body = AssembledProduct(f"{train.name} {axle.name}", rims)
+            found.append(Occurrence(axle.name, body, placed((axle.x, axle.y, 0.0))))
         else:
-            _add(assembly, planet[0], solids)
-    for standing in layout.stages:
-        _add(assembly, standing, solids)
+            found.append(_occurrence(planet[0], parts))
+    found += [_occurrence(standing, parts) for standing in layout.stages]
     if plan.carrier is not None:
         name = layout.carrier.name
-        colour = cadquery.Color(*TRAIN_COLOURS["carrier"][0], 1.0)
-        product = {PRODUCT: f"{layout.train.name} {name}"}
-        assembly.add(carrier_solid(plan.carrier), name=name, color=colour, metadata=product)
-    return assembly
+        product = SolidProduct(f"{train.name} {name}", carrier_boundary(plan.carrier), TRAIN_COLOURS["carrier"][0])
+        found.append(Occurrence(name, product, placed()))
+    return AssembledProduct(train.name, tuple(found))
 
 
-def _add(
-    assembly: cadquery.Assembly,
-    standing: Standing,
-    solids: dict[str, cadquery.Solid],
-    origin: tuple[float, float] = (0.0, 0.0),
-) -> None:
-    """Add a body in its place, seen from an axis through `origin` (x, y)."""
-    import cadquery
+def _parts(layout: TrainLayout) -> dict[str, SolidProduct]:
+    """The bodies of a train by their keys."""
+    return {key: SolidProduct(body.name, gear_boundary(body.gear), body.colour) for key, body in layout.bodies.items()}
 
+
+def _occurrence(standing: Standing, parts: dict[str, SolidProduct], origin: Point = ORIGIN) -> Occurrence:
+    """A body in its place, seen from an axis through `origin` (x, y)."""
     x, y, z = standing.offset
-    offset = cadquery.Vector(x - origin[0], y - origin[1], z)
-    place = cadquery.Location(offset, cadquery.Vector(0, 0, 1), standing.rotation)
-    colour = cadquery.Color(*standing.body.colour, 1.0)
-    product = {PRODUCT: standing.body.name}
-    assembly.add(solids[standing.body.key], name=standing.name, loc=place, color=colour, metadata=product)
+    frame = placed((x - origin[0], y - origin[1], z), standing.rotation)
+    return Occurrence(standing.name, parts[standing.body.key], frame)

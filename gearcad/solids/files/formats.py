@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
     from gearcad.solids.files.options import FileOptions
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from gearcad.solids.files.train_products import CarrierProduct, TrainProduct
 
     PartProduct = GearProduct | RackProduct
-    AssemblyProduct = PairProduct | RackPairProduct | TrainProduct
+    AssemblyProduct: TypeAlias = PairProduct | RackPairProduct | TrainProduct
 
 __all__ = ["Format", "formats_minding"]
 
@@ -63,9 +63,9 @@ def formats_minding(option: str) -> list[Format]:
 
 
 def _step(product: PartProduct | CarrierProduct | AssemblyProduct, path: Path) -> None:
-    from gearcad.solids.files.step import write_step
+    from gearcad.solids.files.step import write_product
 
-    write_step(product.solid(), path, name=product.name)
+    write_product(product.solid(), path)
 
 
 def _stl(product: PartProduct | CarrierProduct, path: Path) -> None:

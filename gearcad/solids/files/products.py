@@ -5,21 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from gearcad.geometry import Gear, GearPair
 from gearcad.per_gear import PerGear, Role
-from gearcad.solids.colours import PART_COLOURS, STEEL, Colour
-from gearcad.solids.exact.assembly import pair_assembly, part_names
-from gearcad.solids.exact.solid import gear_solid
+from gearcad.solids.colours import BRIGHT_STEEL, PART_COLOURS, STEEL, Colour
+from gearcad.solids.exact.assembly import pair_product, part_names
+from gearcad.solids.exact.products import AssembledProduct, SolidProduct
+from gearcad.solids.exact.solid import gear_boundary
 from gearcad.solids.facets.tessellation import Facets, tessellate
 from gearcad.solids.files.dxf import write_dxf
 from gearcad.solids.files.options import FileOptions
 from gearcad.solids.files.part import Part
 from gearcad.solids.files.points import write_points
-
-if TYPE_CHECKING:
-    import cadquery
 
 __all__ = ["GearProduct", "PairProduct"]
 
@@ -37,9 +34,9 @@ class GearProduct:
     def facets(self) -> Facets:
         return tessellate(self.gear, self.options.chord_error)
 
-    def solid(self) -> cadquery.Solid:
-        """The gear as a boundary representation: see `gear_solid`."""
-        return gear_solid(self.gear)
+    def solid(self) -> SolidProduct:
+        """The gear as an exact solid: see `gear_boundary`."""
+        return SolidProduct(self.name, gear_boundary(self.gear), BRIGHT_STEEL)
 
     def scene(self, rotation: float = 0.0) -> list[Part]:
         """The gear alone at the origin, turned by so much (degrees)."""
@@ -81,9 +78,9 @@ class PairProduct:
         """The gears by the names of their files."""
         return {role.value: product for role, product in self.gears.items()}
 
-    def solid(self) -> cadquery.Assembly:
-        """Both exact solids posed in mesh: see `pair_assembly`."""
-        return pair_assembly(self.pair, bracket=self.options.bracket)
+    def solid(self) -> AssembledProduct:
+        """Both exact solids posed in mesh: see `pair_product`."""
+        return pair_product(self.pair, bracket=self.options.bracket)
 
     def scene(self, pinion_rotation: float = 0.0) -> list[Part]:
         """Both gears posed in mesh, the pinion turned by so much (degrees)."""

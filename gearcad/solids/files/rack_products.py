@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from gearcad.geometry.rack import Rack
 from gearcad.geometry.rack_pair import RackPair
-from gearcad.solids.colours import PART_COLOURS, STEEL, Colour
-from gearcad.solids.exact.rack_assembly import rack_assembly, rack_part_names
-from gearcad.solids.exact.rack_solid import rack_solid
+from gearcad.solids.colours import BRIGHT_STEEL, PART_COLOURS, STEEL, Colour
+from gearcad.solids.exact.products import AssembledProduct, SolidProduct
+from gearcad.solids.exact.rack_assembly import rack_part_names, rack_product
+from gearcad.solids.exact.rack_solid import rack_boundary
 from gearcad.solids.facets.rack_facets import tessellate_rack
 from gearcad.solids.facets.tessellation import Facets
 from gearcad.solids.files.options import FileOptions
@@ -19,9 +19,6 @@ from gearcad.solids.files.part import Part
 from gearcad.solids.files.products import GearProduct
 from gearcad.solids.files.rack_dxf import write_rack_dxf
 from gearcad.solids.files.rack_points import write_rack_points
-
-if TYPE_CHECKING:
-    import cadquery
 
 __all__ = ["RackPairProduct", "RackProduct"]
 
@@ -39,9 +36,9 @@ class RackProduct:
     def facets(self) -> Facets:
         return tessellate_rack(self.rack, self.options.chord_error)
 
-    def solid(self) -> cadquery.Solid:
-        """The rack as a boundary representation: see `rack_solid`."""
-        return rack_solid(self.rack)
+    def solid(self) -> SolidProduct:
+        """The rack as an exact solid: see `rack_boundary`."""
+        return SolidProduct(self.name, rack_boundary(self.rack), BRIGHT_STEEL)
 
     def scene(self) -> list[Part]:
         """The rack alone, as it lies."""
@@ -84,9 +81,9 @@ class RackPairProduct:
         """Both by the names of their files."""
         return {"pinion": self.pinion, "rack": self.rack}
 
-    def solid(self) -> cadquery.Assembly:
-        """Both exact solids posed in mesh: see `rack_assembly`."""
-        return rack_assembly(self.pair)
+    def solid(self) -> AssembledProduct:
+        """Both exact solids posed in mesh: see `rack_product`."""
+        return rack_product(self.pair)
 
     def scene(self, pinion_rotation: float = 0.0) -> list[Part]:
         """Both posed in mesh, the pinion turned by so much (degrees)."""

@@ -1,167 +1,151 @@
-"""STEP files (AP214, mm): named and coloured parts, no curves in parameter space, and equal bytes for equal input."""
+"""STEP files (AP214, mm): named and coloured parts, each there once however often it occurs; equal bytes for equal input."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
-from contextlib import contextmanager
-from io import BytesIO
 from itertools import count
 from pathlib import Path
-from threading import RLock
 from typing import TYPE_CHECKING
 
-from gearcad.errors import SolverError
+from gearcad.solids.colours import BRIGHT_STEEL, Colour
+from gearcad.solids.exact.forms import Frame
+from gearcad.solids.exact.products import AssembledProduct, Occurrence, Product, SolidProduct
 from gearcad.solids.files import part21
-from gearcad.solids.files.xcaf import assembly_document, part_document
+from gearcad.solids.files.part21 import DataSection, listed, real
+from gearcad.solids.files.step_solid import frame_entity, solid_entity
 
 if TYPE_CHECKING:
     import cadquery
 
-__all__ = ["write_step"]
+__all__ = ["write_product", "write_step"]
 
-_HEADER = re.compile(rb"HEADER;.*?ENDSEC;\n", re.DOTALL)
-_PREPROCESSOR = re.compile(rb"'(Open CASCADE STEP processor [^']*)'")
-_SCHEMA = re.compile(rb"FILE_SCHEMA\(\('([^']*)'\)\)")
-_TOKEN = re.compile(rb"'gearcad-name-(\d+)'")
-_OCCURRENCE = re.compile(rb"^(#\d+ = NEXT_ASSEMBLY_USAGE_OCCURRENCE\()'\d+'([^;]*)\);", re.MULTILINE)
-_LINE_BREAK = re.compile(rb"\n *")
-_PIECE = re.compile(rb",|[^,]+")
-_LONGEST_LINE = 72
-"""Of the kernel, where it begins a new one between parameters and commas."""
+_SCHEMA = "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }"
+_ASSEMBLED = 1e-6
+"""How far (mm) places of an assembly may differ."""
 
-_COLOUR_BLOCK = re.compile(
-    rb"^#(\d+) = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION\([^;]*;"
-    rb"\s*#\d+ = STYLED_ITEM\('color',\([^)]*\),#(\d+)\);"
-    rb".*?(?=^#\d+ = MECHANICAL_DESIGN|^ENDSEC)",
-    re.DOTALL | re.MULTILINE,
-)
-_REFERENCE = re.compile(rb"#(\d+)")
-_ENTITY = re.compile(rb"^#\d+ = ", re.MULTILINE)
-
-_kernel = RLock()
-"""Held while the kernel's global settings are changed."""
+_WORLD = Frame((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 
 
 def write_step(model: cadquery.Assembly | cadquery.Solid, path: Path | str, *, name: str) -> None:
     """Write a solid, as one part called `name`, or an assembly, which has names of its own, to `path` (STEP AP214, mm).
 
-    Curves in the parameters of surfaces are left out (write.surfacecurve.mode 0): readers rebuild them, and the file is a
-    third to a half smaller. Names may hold any character. Running numbers are fixed, and the time stamp (see `header`).
-    Raises SolverError if the kernel cannot write, ParameterError for a date that is none, and OSError if the file cannot
-    be written.
+    What was made here is written as `write_product` has it. What was gone on with in CadQuery is written by CadQuery itself.
+    Raises ParameterError for a date that is none (see `part21.header`), and OSError if the file cannot be written.
     """
     import cadquery
-    from OCP.IFSelect import IFSelect_RetDone
-    from OCP.STEPCAFControl import STEPCAFControl_Writer
-    from OCP.STEPControl import STEPControl_StepModelType
 
-    path = Path(path)
-    names = _Names()
-    with _settings():
-        writer = STEPCAFControl_Writer()
-        writer.SetColorMode(True)
-        writer.SetNameMode(True)
-        assembled = isinstance(model, cadquery.Assembly)
-        document = assembly_document(model, names.token) if assembled else part_document(model, names.token(name))
-        transferred = writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs)
-        stream = BytesIO()  # the kernel is silent about a disk that is full, Python is not
-        written = transferred and writer.WriteStream(stream) == IFSelect_RetDone
-    if not written:
-        raise SolverError(f"the CAD kernel could not write {path}")
-    content = _with_header(_reproducible(stream.getvalue()), model.name if assembled else name)
-    path.write_bytes(names.put_into(content))
+    from gearcad.solids.exact.cad import cad_product
+
+    product = cad_product(model, name, BRIGHT_STEEL)
+    if product is not None:
+        write_product(product, path)
+        return
+    assembly = model if isinstance(model, cadquery.Assembly) else cadquery.Assembly(model, name=name)
+    assembly.export(str(path), exportType="STEP")
 
 
-class _Names:
-    """Short tokens that stand for names while the kernel writes: it takes no care of characters when it breaks lines."""
+def write_product(product: Product, path: Path | str) -> None:
+    """Write a part or an assembly to `path`. Names may hold any character; the time stamp is that of `part21.header`.
+
+    Numbers read back to the last bit. Curves in the parameters of surfaces are left out: readers make them again.
+    """
+    writer = _StepWriter()
+    writer.product(product)
+    text = f"ISO-10303-21;\n{part21.header(product.name, _SCHEMA)}{writer.data.text()}END-ISO-10303-21;\n"
+    Path(path).write_bytes(text.encode("ascii"))
+
+
+class _StepWriter:
+    """Writes products, and what all products of a file share."""
 
     def __init__(self) -> None:
-        self._names: list[str] = []
+        self.data, self.number = DataSection(), count(1)
+        self.made: dict[Product, tuple[int, int]] = {}
+        add = self.data.add
+        self.application = add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')")
+        add(f"APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,#{self.application})")
+        self.discipline = add(f"PRODUCT_CONTEXT('',#{self.application},'mechanical')")
+        self.stage = add(f"PRODUCT_DEFINITION_CONTEXT('part definition',#{self.application},'design')")
+        self.units = (
+            add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))"),
+            add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))"),
+            add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())"),
+        )
 
-    def token(self, name: str) -> str:
-        self._names.append(name)
-        return f"gearcad-name-{len(self._names) - 1}"
+    def product(self, product: Product) -> tuple[int, int]:
+        """Write a product, once; the numbers of its definition and of its shape representation."""
+        if product not in self.made:
+            definition = self._definition(product.name)
+            if isinstance(product, SolidProduct):
+                self.made[product] = definition, self._solid(product, definition)
+            else:
+                self.made[product] = definition, self._assembly(product, definition)
+        return self.made[product]
 
-    def put_into(self, content: bytes) -> bytes:
-        """The content with names for tokens."""
-        return _TOKEN.sub(lambda match: part21.string(self._names[int(match[1])]).encode("ascii"), content)
+    def _definition(self, name: str) -> int:
+        add, called = self.data.add, part21.string(name)
+        product = add(f"PRODUCT({called},{called},'',(#{self.discipline}))")
+        add(f"PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(#{product}))")
+        formation = add(f"PRODUCT_DEFINITION_FORMATION('','',#{product})")
+        return add(f"PRODUCT_DEFINITION('design','',#{formation},#{self.stage})")
 
+    def _context(self, tolerance: float) -> int:
+        """Space in mm and rad, in which lengths (mm) may differ by the tolerance."""
+        measure = f"LENGTH_MEASURE({real(tolerance)}),#{self.units[0]},'distance_accuracy_value','confusion accuracy'"
+        uncertainty = self.data.shared(f"UNCERTAINTY_MEASURE_WITH_UNIT({measure})")
+        return self.data.shared(
+            f"(GEOMETRIC_REPRESENTATION_CONTEXT(3)\nGLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#{uncertainty}))\n"
+            f"GLOBAL_UNIT_ASSIGNED_CONTEXT(({listed(self.units)}))\n"
+            "REPRESENTATION_CONTEXT('Context #1','3D Context with UNIT and UNCERTAINTY'))"
+        )
 
-@contextmanager
-def _settings() -> Iterator[None]:
-    """The kernel's global settings of this module while it writes; afterwards the user's are back."""
-    from OCP.Interface import Interface_Static
+    def _shape(self, definition: int, representation: int) -> None:
+        """That a representation is the shape of a product."""
+        shape = self.data.add(f"PRODUCT_DEFINITION_SHAPE('','',#{definition})")
+        self.data.add(f"SHAPE_DEFINITION_REPRESENTATION(#{shape},#{representation})")
 
-    numbers = {"write.surfacecurve.mode": 0, "write.precision.mode": 0}
-    texts = {"write.step.schema": "AP214IS", "xstep.cascade.unit": "MM", "write.step.unit": "MM"}
-    with _kernel:
-        _initialise()
-        before = {name: Interface_Static.IVal_s(name) for name in numbers}
-        before_texts = {name: Interface_Static.CVal_s(name) for name in texts}
-        try:
-            _set(numbers, texts)
-            yield
-        finally:
-            _set(before, before_texts)
+    def _solid(self, product: SolidProduct, definition: int) -> int:
+        context = self._context(product.boundary.tolerance)
+        solid, world = solid_entity(self.data, product.boundary), frame_entity(self.data, _WORLD)
+        representation = self.data.add(f"ADVANCED_BREP_SHAPE_REPRESENTATION('',(#{world},#{solid}),#{context})")
+        self._shape(definition, representation)
+        if product.colour is not None:
+            self._paint(solid, product.colour, context)
+        return representation
 
+    def _paint(self, solid: int, colour: Colour, context: int) -> None:
+        """The colour of a solid, on both sides of its faces."""
+        add = self.data.add
+        shade = self.data.shared(f"COLOUR_RGB('',{','.join(real(share) for share in colour)})")
+        filling = add(f"FILL_AREA_STYLE_COLOUR('',#{shade})")
+        fill = add(f"FILL_AREA_STYLE('',(#{filling}))")
+        area = add(f"SURFACE_STYLE_FILL_AREA(#{fill})")
+        side = add(f"SURFACE_SIDE_STYLE('',(#{area}))")
+        usage = add(f"SURFACE_STYLE_USAGE(.BOTH.,#{side})")
+        style = add(f"PRESENTATION_STYLE_ASSIGNMENT((#{usage}))")
+        styled = add(f"STYLED_ITEM('color',(#{style}),#{solid})")
+        add(f"MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(#{styled}),#{context})")
 
-def _initialise() -> None:
-    """Without a controller the settings do not exist yet."""
-    from OCP.STEPCAFControl import STEPCAFControl_Controller
+    def _assembly(self, product: AssembledProduct, definition: int) -> int:
+        parts = [self.product(occurrence.product) for occurrence in product.occurrences]
+        world = frame_entity(self.data, _WORLD)
+        frames = [frame_entity(self.data, occurrence.frame) for occurrence in product.occurrences]
+        context = self._context(_ASSEMBLED)
+        items = listed(list(dict.fromkeys([world, *frames])))
+        representation = self.data.add(f"SHAPE_REPRESENTATION('',({items}),#{context})")
+        self._shape(definition, representation)
+        for occurrence, part, frame in zip(product.occurrences, parts, frames, strict=True):
+            self._occur(occurrence, part, (definition, representation), (world, frame))
+        return representation
 
-    STEPCAFControl_Controller.Init_s()
-
-
-def _set(numbers: dict[str, int], texts: dict[str, str]) -> None:
-    from OCP.Interface import Interface_Static
-
-    for setting, value in numbers.items():
-        Interface_Static.SetIVal_s(setting, value)
-    for setting, text in texts.items():
-        Interface_Static.SetCVal_s(setting, text)
-
-
-def _with_header(content: bytes, name: str) -> bytes:
-    """With a header of our own: the kernel's calls the file a Shape Model of Author's, and stamps the time."""
-    preprocessor, schema = (found[1].decode("ascii") for kind in (_PREPROCESSOR, _SCHEMA) if (found := kind.search(content)))
-    ours = part21.header(name, preprocessor, schema).encode("ascii")
-    return _HEADER.sub(lambda _: ours, content, count=1)
-
-
-def _reproducible(content: bytes) -> bytes:
-    """The kernel numbers occurrences through the whole session: count them by file."""
-    number = count(1)
-    return _sort_colours(_OCCURRENCE.sub(lambda match: _numbered(match, next(number)), content))
-
-
-def _numbered(occurrence: re.Match[bytes], number: int) -> bytes:
-    """An occurrence with a number of its own, its lines broken where the kernel breaks them with that."""
-    text, line = b"", occurrence[1] + b"'%d'" % number
-    for piece in (*_PIECE.findall(_LINE_BREAK.sub(b"", occurrence[2])), b");"):
-        if len(line) + len(piece) > _LONGEST_LINE:
-            text, line = text + line + b"\n", b"  "
-        line += piece
-    return text + line
-
-
-def _sort_colours(content: bytes) -> bytes:
-    """Order the colours at the end of the data by the entity they colour: the kernel's order is that of addresses in memory.
-
-    Each block of entities is renumbered to its new place; a block refers to itself and to geometry before all blocks, as
-    long as no two parts share a colour.
-    """
-    blocks = list(_COLOUR_BLOCK.finditer(content))
-    if len(blocks) < 2:
-        return content
-    first = number = int(blocks[0][1])
-    ordered = b""
-    for block in sorted(blocks, key=lambda block: int(block[2])):
-        ordered += _renumber(block[0], first, number - int(block[1]))
-        number += len(_ENTITY.findall(block[0]))
-    return content[: blocks[0].start()] + ordered + content[blocks[-1].end() :]
-
-
-def _renumber(block: bytes, first: int, shift: int) -> bytes:
-    """Shift every entity number from `first` on."""
-    return _REFERENCE.sub(lambda match: b"#%d" % (int(match[1]) + (shift if int(match[1]) >= first else 0)), block)
+    def _occur(self, occurrence: Occurrence, part: tuple[int, int], whole: tuple[int, int], frames: tuple[int, int]) -> None:
+        """That a product occurs in an assembly: where its origin is, and what it is called there."""
+        add = self.data.add
+        move = add(f"ITEM_DEFINED_TRANSFORMATION('','',#{frames[0]},#{frames[1]})")
+        relation = add(
+            f"(REPRESENTATION_RELATIONSHIP('','',#{part[1]},#{whole[1]})\n"
+            f"REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#{move})\nSHAPE_REPRESENTATION_RELATIONSHIP())"
+        )
+        called = part21.string(occurrence.name)
+        usage = add(f"NEXT_ASSEMBLY_USAGE_OCCURRENCE('{next(self.number)}',{called},'',#{whole[0]},#{part[0]},$)")
+        shape = add(f"PRODUCT_DEFINITION_SHAPE('Placement','Placement of an item',#{usage})")
+        add(f"CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#{relation},#{shape})")

@@ -6,13 +6,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from gearcad.planetary import PlanetaryTrain
 from gearcad.solids.carrier_plan import CarrierPlan
-from gearcad.solids.colours import TRAIN_COLOURS
-from gearcad.solids.exact.carrier import carrier_solid
-from gearcad.solids.exact.train_assembly import assembly_of
+from gearcad.solids.colours import BRIGHT_STEEL, TRAIN_COLOURS
+from gearcad.solids.exact.carrier import carrier_boundary
+from gearcad.solids.exact.products import AssembledProduct, SolidProduct
+from gearcad.solids.exact.train_assembly import train_product
 from gearcad.solids.facets.tessellation import Facets
 from gearcad.solids.files.carrier_facets import carrier_facets
 from gearcad.solids.files.options import FileOptions
@@ -23,9 +23,6 @@ from gearcad.solids.files.train_turning import turning_of
 from gearcad.solids.files.turning import Turning
 from gearcad.solids.train_layout import TrainLayout
 from gearcad.solids.train_plan import TrainPlan
-
-if TYPE_CHECKING:
-    import cadquery
 
 __all__ = ["CarrierProduct", "TrainProduct"]
 
@@ -42,9 +39,9 @@ class CarrierProduct:
     def facets(self) -> Facets:
         return carrier_facets(self.plan, self.options.chord_error)
 
-    def solid(self) -> cadquery.Solid:
-        """Pins and plates: see `carrier_solid`."""
-        return carrier_solid(self.plan)
+    def solid(self) -> SolidProduct:
+        """Pins and plates: see `carrier_boundary`."""
+        return SolidProduct(self.name, carrier_boundary(self.plan), BRIGHT_STEEL)
 
     def scene(self) -> list[Part]:
         """The carrier alone, in the middle."""
@@ -83,9 +80,9 @@ class TrainProduct:
             for key, body in TrainLayout(self.train, self.train.pose()).bodies.items()
         }
 
-    def solid(self) -> cadquery.Assembly:
-        """All exact solids in their places: see `train_assembly`."""
-        return assembly_of(self.plan)
+    def solid(self) -> AssembledProduct:
+        """All exact solids in their places: see `train_product`."""
+        return train_product(self.plan)
 
     def scene(self, carrier_angle: float = 0.0, central_turn: float = 0.0) -> list[Part]:
         """All bodies in their places, what is alike with the same facets; turned as by `PlanetaryTrain.pose` (degrees)."""

@@ -1,0 +1,234 @@
+"""STEP as we write it: well formed text, and for the CAD kernel the same solids, products and places as its own file has."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import cadquery
+import pytest
+from hypothesis import HealthCheck, given, settings
+from support.kernel_step import write_by_kernel
+from support.part21_text import checked_text
+from support.step_witness import assert_same_solids, product_tree
+from support.strategies import build_gear, gear_inputs
+from support.train_solids import simple_set, small_train
+
+from gearcad import Body, Gear, GearPair, Rack
+from gearcad.designs import read_spec
+from gearcad.errors import InputError
+from gearcad.geometry import DoubleHelix, RackPair
+from gearcad.jobs.products import products_of
+from gearcad.solids import FileOptions, gear_solid, rack_solid, write_step
+from gearcad.solids.carrier_plan import CarrierPlan
+from gearcad.solids.colours import BRIGHT_STEEL
+from gearcad.solids.exact.assembly import pair_product
+from gearcad.solids.exact.cad import cad_assembly, cad_solid
+from gearcad.solids.exact.carrier import carrier_boundary, carrier_solid
+from gearcad.solids.exact.products import AssembledProduct, Product, SolidProduct
+from gearcad.solids.exact.rack_assembly import rack_product
+from gearcad.solids.exact.rack_solid import rack_boundary
+from gearcad.solids.exact.solid import gear_boundary
+from gearcad.solids.exact.train_assembly import train_product
+from gearcad.solids.files.part21 import real
+from gearcad.solids.files.step import write_product
+from gearcad.solids.train_plan import TrainPlan
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+SAME = 1e-9
+"""Relative: booleans of planes and round walls are exact."""
+
+
+def _bodied(teeth: int = 8, **given: object) -> Gear:
+    body = Body(bore=5, keyway_width=2, keyway_depth=1, hub_diameter=9, hub_length=2, end_chamfer=0.4)
+    return Gear(teeth=teeth, normal_module=2, face_width=6, **{"body": body, **given})
+
+
+def _ring(**given: object) -> Gear:
+    body = Body(rim_diameter=90, bolt_circle=82, bolt_holes=3, bolt_diameter=4, end_chamfer=0.3)
+    return Gear(teeth=-30, normal_module=2, face_width=6, body=body, **given)
+
+
+PARTS = {
+    "bodied": lambda: gear_boundary(_bodied(helix_angle=15)),
+    "rack": lambda: rack_boundary(Rack(teeth=2, normal_module=2, face_width=8, height=6, helix_angle=17)),
+    "spur": lambda: gear_boundary(_bodied(20)),
+    "chamfers below the root": lambda: gear_boundary(_bodied(12, body=Body(bore=5, end_chamfer=5.2))),
+    "ring": lambda: gear_boundary(_ring(helix_angle=-18)),
+    "gap": lambda: gear_boundary(_bodied(helix_angle=25, double_helix=DoubleHelix(gap_width=2, offset=0.3))),
+    "apex": lambda: gear_boundary(_bodied(helix_angle=25, double_helix=DoubleHelix(gap_width=0))),
+    "straight rack": lambda: rack_boundary(Rack(teeth=3, normal_module=2, face_width=8, height=6)),
+}
+
+
+def _compare(product: Product, folder: Path) -> None:
+    ours, witness = folder / "ours.step", folder / "witness.step"
+    write_product(product, ours)
+    checked_text(ours.read_text("ascii"))
+    solid = isinstance(product, SolidProduct)
+    write_by_kernel(cad_solid(product.boundary) if solid else cad_assembly(product), witness, product.name)
+    assert_same_solids(ours, witness)
+    assert product_tree(ours) == product_tree(witness)
+
+
+def _long_but(kept: set[str], names: object) -> list[object]:
+    return [name if name in kept else pytest.param(name, marks=pytest.mark.long) for name in names]
+
+
+@pytest.mark.parametrize("name", _long_but({"bodied", "rack"}, PARTS))
+def test_parts_are_those_of_the_kernels_writer(name: str, tmp_path: Path) -> None:
+    _compare(SolidProduct(name, PARTS[name](), BRIGHT_STEEL), tmp_path)
+
+
+def _rack_pair() -> RackPair:
+    rack = Rack(teeth=3, normal_module=2, face_width=8, height=6, helix_angle=-10)
+    return RackPair(pinion=_bodied(20, helix_angle=10, body=Body()), rack=rack)
+
+
+ASSEMBLIES = {
+    "pair": lambda: pair_product(GearPair(pinion=_bodied(), wheel=_bodied(9)), bracket=True),
+    "rack": lambda: rack_product(_rack_pair()),
+    "simple train": lambda: train_product(TrainPlan.of(simple_set(24, 21, -66, 3), carrier=True)),
+    "train": lambda: train_product(TrainPlan.of(small_train(), carrier=True, carrier_angle=13.0)),
+    "exploded train": lambda: train_product(TrainPlan.of(small_train(), carrier=True, exploded=True)),
+}
+
+
+@pytest.mark.parametrize("name", _long_but({"pair"}, ASSEMBLIES))
+def test_assemblies_are_those_of_the_kernels_writer(name: str, tmp_path: Path) -> None:
+    _compare(ASSEMBLIES[name](), tmp_path)
+
+
+SPECS = [path.name for path in sorted(TEMPLATES.glob("*.toml")) if not path.name.startswith(("drawing", "train"))]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("spec", SPECS)
+def test_starters_are_those_of_the_kernels_writer(spec: str, tmp_path: Path) -> None:
+    parts, assembly = products_of(read_spec(TEMPLATES / spec), FileOptions())
+    for product in (*parts.values(), *([assembly] if assembly else [])):
+        _compare(product.solid(), tmp_path)
+
+
+@pytest.mark.long
+@settings(max_examples=50, suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture], deadline=None)
+@given(inputs=gear_inputs())
+def test_any_gear_is_that_of_the_kernels_writer(tmp_path: Path, inputs: dict[str, object]) -> None:
+    try:
+        gear = build_gear(inputs)
+    except InputError:
+        return
+    _compare(SolidProduct("gear", gear_boundary(gear), BRIGHT_STEEL), tmp_path)
+
+
+# ---------------------------------------------------------------------- text
+
+
+def test_a_file_has_what_teeth_share_once(tmp_path: Path) -> None:
+    path = tmp_path / "gear.step"
+    write_product(SolidProduct("gear", gear_boundary(_bodied(9, body=Body())), None), path)
+    text = path.read_text("ascii")
+    found = checked_text(text)
+    assert found.kinds["ADVANCED_FACE"] == 9 * 6 + 2
+    assert found.kinds["EDGE_CURVE"] == 9 * 18
+    points = re.findall(r"CARTESIAN_POINT\('',\(([^)]*)\)\)", text)
+    assert {point for point in points if points.count(point) > 1} <= {"0.0,0.0,0.0"}  # the origin of the whole, and of solids
+    assert found.longest < 256
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(1.0, "1.0"), (-0.1, "-0.1"), (1e-5, "1.E-05"), (-2.5e-17, "-2.5E-17"), (1e22, "1.E+22"), (1 / 3, "0.3333333333333333")],
+)
+def test_numbers_have_a_point_and_read_back(value: float, text: str) -> None:
+    assert real(value) == text
+    assert float(text) == value
+
+
+@pytest.mark.parametrize(
+    ("ours", "theirs", "words"),
+    [
+        ("#7=", "#8=", "twice"),
+        (",.T.);\n", ",.T.,$);\n", "EDGE_CURVE|FACE"),
+        ("DIRECTION(", "DIRECTIONS(", "DIRECTIONS"),
+        ("'confusion accuracy'", "'confusion ' accuracy'", "accuracy"),
+        ("1.0", "1", ""),
+    ],
+)
+def test_the_checker_finds_what_is_wrong(ours: str, theirs: str, words: str, tmp_path: Path) -> None:
+    path = tmp_path / "rack.step"
+    write_product(SolidProduct("rack", PARTS["rack"](), BRIGHT_STEEL), path)
+    text = path.read_text("ascii")
+    if not words:
+        checked_text(text)
+        return
+    with pytest.raises(AssertionError, match=words):
+        checked_text(text.replace(ours, theirs, 1))
+
+
+# ---------------------------------------------------------------------- CadQuery
+
+
+def test_what_python_writes_is_what_commands_write(tmp_path: Path) -> None:
+    """By way of CadQuery's objects, as long as nothing was done to them."""
+    rack, pair = Rack(teeth=2, normal_module=2, face_width=8, height=6), ASSEMBLIES["pair"]()
+    write_step(rack_solid(rack), tmp_path / "part.step", name="part")
+    write_product(SolidProduct("part", rack_boundary(rack), BRIGHT_STEEL), tmp_path / "same.step")
+    assert (tmp_path / "part.step").read_bytes() == (tmp_path / "same.step").read_bytes()
+    write_step(cad_assembly(pair), tmp_path / "pair.step", name="any")
+    write_product(pair, tmp_path / "same.step")
+    assert (tmp_path / "pair.step").read_bytes() == (tmp_path / "same.step").read_bytes()
+
+
+def test_what_was_gone_on_with_is_written_by_cadquery(tmp_path: Path) -> None:
+    solid, path = gear_solid(_bodied(body=Body())), tmp_path / "drilled.step"
+    volume = solid.Volume()
+    drilled = cadquery.Workplane(obj=solid).faces(">Z").workplane(origin=(0, 0, 0)).hole(4).val()
+    write_step(drilled, path, name="drilled")
+    (again,) = cadquery.importers.importStep(str(path)).solids().vals()
+    assert again.Volume() == pytest.approx(drilled.Volume(), rel=SAME)
+    solid.move(cadquery.Location(cadquery.Vector(0, 0, 5)))
+    write_step(solid, path, name="moved")
+    (again,) = cadquery.importers.importStep(str(path)).solids().vals()
+    assert (again.Volume(), again.Center().z) == pytest.approx((volume, 8.0), rel=SAME)
+
+
+# ---------------------------------------------------------------------- by hand, and by booleans
+
+
+def test_a_bracket_is_the_union_of_its_arm_and_shafts() -> None:
+    pair = GearPair(pinion=_bodied(), wheel=_bodied(12, body=Body(bore=8)), axial_offset=1.5)
+    product = pair_product(pair, bracket=True)
+    assert isinstance(product, AssembledProduct)
+    part = product.occurrences[-1].product
+    assert isinstance(part, SolidProduct)
+    distance, bottom, top = pair.centre_distance, -0.8 - 4, 8 + 0.8
+    arm = cadquery.Workplane("XY", origin=(distance / 2, 0, bottom)).slot2D(distance + 9.6, 9.6).extrude(4)
+    for x, bore in ((0.0, 5.0), (distance, 8.0)):
+        arm = arm.union(cadquery.Workplane("XY", origin=(x, 0, bottom)).circle(bore / 2).extrude(top - bottom))
+    _same_as_union(cad_solid(part.boundary), arm)
+
+
+@pytest.mark.parametrize("plates", [((-2.0, 0.0), (9.0, 11.0)), ((-2.0, 0.0),), ((9.0, 11.0),)])
+@pytest.mark.parametrize("inner", [0.0, 12.0])
+def test_a_carrier_is_the_union_of_its_plates_and_pins(plates: tuple[tuple[float, float], ...], inner: float) -> None:
+    pins = ((20.0, 0.0), (-10.0, 17.0), (-10.0, -17.0))
+    reach = min(0.5, plates[0][0]), max(8.5, plates[-1][1])
+    plan = CarrierPlan(pins, 6.0, inner, 28.0, reach, plates)
+    union = cadquery.Workplane("XY")
+    for bottom, top in plates:
+        plate = cadquery.Workplane("XY", origin=(0, 0, bottom)).circle(28.0)
+        union = union.add((plate.circle(inner) if inner else plate).extrude(top - bottom))
+    low, high = reach
+    bars = cadquery.Workplane("XY", origin=(0, 0, low)).pushPoints(pins).circle(3.0).extrude(high - low)
+    assert carrier_boundary(plan).tolerance == 1e-7
+    _same_as_union(carrier_solid(plan), union.union(bars))
+
+
+def _same_as_union(solid: cadquery.Solid, union: cadquery.Workplane) -> None:
+    (other,) = union.val().Solids()
+    assert solid.isValid()
+    assert [len(solid.Faces()), len(solid.Edges())] == [len(other.Faces()), len(other.Edges())]
+    assert solid.Volume() == pytest.approx(other.Volume(), rel=SAME)
+    assert solid.Area() == pytest.approx(other.Area(), rel=SAME)
+    assert (solid.Center() - other.Center()).Length < 1e-9
