@@ -22,10 +22,10 @@ def apart(values: Floats, distance: int) -> Places:
     """Maxima at least so many places from each other: a lower one gives way, of two that are alike the one before."""
     found = _summits(values)
     kept = np.ones(len(found), bool)
+    first, last = (np.searchsorted(found, found + reach) for reach in (1 - distance, distance))
     for peak in np.argsort(values[found], kind="stable")[::-1].tolist():
         if kept[peak]:
-            first, last = np.searchsorted(found, (found[peak] - distance + 1, found[peak] + distance))
-            kept[first:last] = False
+            kept[first[peak] : last[peak]] = False
             kept[peak] = True
     return found[kept]
 

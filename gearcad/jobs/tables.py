@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -28,9 +29,12 @@ def file_name(verb: str, table: str) -> str:
 
 
 def _write_table(columns: Mapping[str, NDArray[Any] | Sequence[Any]], path: Path) -> None:
-    cells = (map(_cell, values.tolist() if isinstance(values, np.ndarray) else values) for values in columns.values())
-    write_csv(zip(*cells, strict=True), map(guarded_text, columns), path)
+    write_csv(zip(*map(_cells, columns.values()), strict=True), map(guarded_text, columns), path)
 
 
-def _cell(value: Any) -> str:
-    return "" if isinstance(value, float) and np.isnan(value) else cell_text(value)
+def _cells(values: NDArray[Any] | Sequence[Any]) -> list[str]:
+    """Of a column; nan is a cell without a value."""
+    if isinstance(values, np.ndarray) and values.dtype == float:
+        return [repr(value) if value == value else "" for value in values.tolist()]
+    listed = values.tolist() if isinstance(values, np.ndarray) else values
+    return ["" if isinstance(value, float) and math.isnan(value) else cell_text(value) for value in listed]

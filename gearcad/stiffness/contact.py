@@ -64,11 +64,12 @@ class ContactMethod(StiffnessMethod):
     def _cycle(self, load: Load, count: int) -> MeshCycle:
         torque, force = math.copysign(self.torque(load), load.torque), self.force(load)
         angles = EngagedPair(self.mounted).roll_angles(count)
-        found = [self._position(angle, torque) for angle in angles.tolist()]
-        softer, harder = (
-            np.array([self._position(angle, torque * (1 + sign * _STEP)).approach for angle in angles.tolist()])
-            for sign in (-1, 1)
+        # All torques at one position after another: what a model knows of flanks there serves all of them.
+        loads = [torque * (1 + sign * _STEP) for sign in (0, -1, 1)]
+        found, softer, harder = zip(
+            *([self._position(angle, each) for each in loads] for angle in angles.tolist()), strict=True
         )
+        further = np.array([more.approach - less.approach for more, less in zip(harder, softer, strict=True)])
         approach, rigid = (np.array([getattr(each, name) for each in found]) for name in ("approach", "rigid"))
         parts = np.array([each.parts for each in found])
         pairs = tuple(sorted(set().union(*(each.forces for each in found))))
@@ -79,7 +80,7 @@ class ContactMethod(StiffnessMethod):
             **self.inputs(load),
             roll_angle=np.r_[angles, angles[0] + 360 / self.mounted.pinion.teeth],
             mesh_stiffness=_closed(1 / (um * (approach - rigid))),
-            tangent_stiffness=_closed(2 * _STEP / (um * (harder - softer))),
+            tangent_stiffness=_closed(2 * _STEP / (um * further)),
             transmission_error=_closed(1000 * approach),
             pairs=pairs,
             load_share=_closed(shares / shares.sum(1, keepdims=True)),
