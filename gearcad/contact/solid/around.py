@@ -14,7 +14,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.contact.shared.chain import Chain, Cuts, cut_held
 from gearcad.contact.solid.half_turn import PARITIES
-from gearcad.contact.solid.spans import Joined, Span, eliminated, joined
+from gearcad.contact.solid.spans import Inside, Span, eliminated, joined
 
 __all__ = ["Around", "RingAround", "SidesAround"]
 
@@ -40,25 +40,15 @@ class RingAround:
     neighbours: int
 
     @cached_property
-    def _rows(self) -> list[Joined]:
-        """From the cuts of tooth 0 inwards."""
-        middle, found = self._opposite, []
-        for _ in range(self.neighbours):
-            found.append(joined(self.sector, middle))
-            middle = found[-1].whole
-        return found[::-1]
-
-    @cached_property
-    def _opposite(self) -> Span | None:
-        """Beyond the neighbours."""
+    def _row(self) -> tuple[Span, list[Inside]]:
+        """All of it, and how the cuts inside follow each other, from tooth 0 on."""
         left = self.rest - 2 * self.neighbours
-        return self.sector.repeated(left) if left else None
-
-    @property
-    def _whole(self) -> Span:
-        found = self._rows[0].whole if self._rows else self._opposite
-        assert found is not None  # there is a rest
-        return found
+        row, inside = self.sector.repeated(left) if left else None, []
+        for _ in range(self.neighbours):
+            row, each = joined(self.sector, row)
+            inside.append(each)
+        assert row is not None  # there is a rest
+        return row, inside[::-1]
 
     @property
     def _seen(self) -> Floats:
@@ -66,14 +56,14 @@ class RingAround:
         return self.sector.seen((self.rest + 1) / 2)
 
     def matrix(self, parity: int) -> Floats:
-        n, given, seen = self.sector.cut, self._whole.matrices[parity], self._seen
+        n, given, seen = self.sector.cut, self._row[0].matrices[parity], self._seen
         across = PARITIES[parity] * self.sector.reversal.rows(given[:n, n:]) @ seen
         return np.block([[self.sector.reversal.both(given[:n, :n]), across], [across.T, seen.T @ given[n:, n:] @ seen]])
 
     def cuts(self, behind: Floats, hub: Floats, parity: int) -> list[Floats]:
         found = [PARITIES[parity] * self.sector.reversal.rows(behind)]
-        for row in self._rows:
-            found.append(row.moved(np.concatenate([found[-1], self._seen @ hub]), parity))
+        for inside in self._row[1]:
+            found.append(inside.moved(np.concatenate([found[-1], self._seen @ hub]), parity))
         return found
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from gearcad.arrays import Floats, Wholes
 from gearcad.compiled import compiled
 
-__all__ = ["add_block", "add_hexahedra"]
+__all__ = ["add_block", "add_hexahedra", "fill_upper"]
 
 
 @compiled
@@ -27,20 +27,54 @@ def add_block(block: Floats, places: Wholes, own: Floats, across: Floats, rest: 
             row = places[first]
             if row < 0:
                 continue
-            for b in range(3):
-                for a in range(b if first == second else 0, 3):
-                    value = block[3 * first + a, 3 * second + b]
-                    low, high = 3 * row + a, 3 * column + b
-                    if low == high and first != second:
-                        value *= 2  # here the upper triangle comes to the diagonal too
-                    if low < high:
-                        low, high = high, low
-                    if low < 3 * count:
-                        own[low, high] += value
-                    elif high < 3 * count:
-                        across[high, low - 3 * count] += value
-                    else:
-                        rest[low - 3 * count, high - 3 * count] += value
+            i, j = 3 * first, 3 * second
+            if row == column:
+                # Of one node the lower triangle is there, of two all, and the upper triangle brings the same once more.
+                k = 3 * row
+                for b in range(3):
+                    for a in range(b if first == second else 0, 3):
+                        value = block[i + a, j + b]
+                        if first != second and a == b:
+                            value *= 2
+                        low, high = k + max(a, b), k + min(a, b)
+                        if row < count:
+                            own[low, high] += value
+                        else:
+                            rest[low - 3 * count, high - 3 * count] += value
+            elif row < count and column < count:
+                for b in range(3):
+                    for a in range(3):
+                        if row > column:
+                            own[3 * row + a, 3 * column + b] += block[i + a, j + b]
+                        else:
+                            own[3 * column + b, 3 * row + a] += block[i + a, j + b]
+            elif row < count:
+                for b in range(3):
+                    for a in range(3):
+                        across[3 * row + a, 3 * (column - count) + b] += block[i + a, j + b]
+            elif column < count:
+                for b in range(3):
+                    for a in range(3):
+                        across[3 * column + b, 3 * (row - count) + a] += block[i + a, j + b]
+            else:
+                k, m = 3 * (row - count), 3 * (column - count)
+                for b in range(3):
+                    for a in range(3):
+                        if row > column:
+                            rest[k + a, m + b] += block[i + a, j + b]
+                        else:
+                            rest[m + b, k + a] += block[i + a, j + b]
+
+
+@compiled
+def fill_upper(matrix: Floats) -> None:
+    """Make a matrix (n, n), of which the lower triangle is given, symmetric."""
+    size, step = len(matrix), 64  # blocks that stay in the cache
+    for first in range(0, size, step):
+        for second in range(0, first + 1, step):
+            for column in range(second, min(second + step, size)):
+                for row in range(max(first, column + 1), min(first + step, size)):
+                    matrix[column, row] = matrix[row, column]
 
 
 @compiled

@@ -6,9 +6,9 @@ that is free has a hub that follows it (see `hub`), whose six dofs are the force
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -66,11 +66,10 @@ class SolidBody:
             return SidesAround(span, self.rest // 2, self.neighbours, self.cuts, self.sector.cut_radii)
         return RingAround(span, self.rest, self.neighbours)
 
-    @cached_property
-    def _matrices(self) -> tuple[Floats, Floats]:
+    def _matrix(self, parity: int) -> Floats:
         """Of tooth 0 and what stands beside it, on the cut behind and the hub."""
-        even, odd = (self.sector.span.matrices[parity] + self._around.matrix(parity) for parity in (0, 1))
-        return even, odd
+        result: Floats = self.sector.span.matrices[parity] + self._around.matrix(parity)
+        return result
 
     def solve(self, loads: Floats, wanted: Wholes | None = None, *, at: Wholes | None = None) -> Moved:
         """Displacements of the nodes `wanted` (n,) of each tooth, and torques, by loads (3 k, m) in N at nodes (k,) of tooth 0.
@@ -95,36 +94,50 @@ class SolidBody:
             each[:] = turn @ each
         return Moved(found, torques)
 
-    def _joints(self, solved: Forward, arriving: tuple[Floats, Floats]) -> _Joints:
+    @cached_property
+    def _factors(self) -> list[tuple[Wholes, Callable[[Floats], Floats]]]:
+        """Of both parities: the dofs of the hub that follow the bore, and what solves for the cut behind and these."""
         import scipy.linalg
 
         span = self.sector.span
+        found: list[tuple[Wholes, Callable[[Floats], Floats]]] = []
+        for parity in (0, 1):
+            ours = np.flatnonzero(span.hub_parities == PARITIES[parity]) if self.sector.free else np.empty(0, int)
+            every = np.r_[np.arange(span.cut), span.cut + ours]
+            matrix = self._matrix(parity)[np.ix_(every, every)]
+            if len(ours):  # forces for dofs: it is not definite
+                found.append((ours, partial(scipy.linalg.lu_solve, scipy.linalg.lu_factor(matrix))))
+            else:
+                found.append((ours, partial(scipy.linalg.cho_solve, scipy.linalg.cho_factor(matrix, lower=True))))
+        return found
+
+    def _joints(self, solved: Forward, arriving: tuple[Floats, Floats]) -> _Joints:
+        span = self.sector.span
         cuts, hubs = [], []
         given = self.sector.hub_forward[0].dot(solved)
-        for parity in (0, 1):
-            matrix, right = self._matrices[parity], arriving[parity]
+        for (ours, solve), right, own in zip(self._factors, arriving, given, strict=True):
+            both = solve(np.concatenate([right, -own[ours]]))
             hub = np.zeros((len(span.hub_parities), right.shape[1]))
-            if not self.sector.free:
-                cuts.append(scipy.linalg.solve(matrix[: span.cut, : span.cut], right, assume_a="pos", check_finite=False))
-            else:
-                ours = np.flatnonzero(span.hub_parities == PARITIES[parity])
-                every = np.r_[np.arange(span.cut), span.cut + ours]
-                both = np.linalg.solve(matrix[np.ix_(every, every)], np.concatenate([right, -given[parity][ours]]))
-                cuts.append(both[: span.cut])
-                hub[ours] = both[span.cut :]
+            hub[ours] = both[span.cut :]
+            cuts.append(both[: span.cut])
             hubs.append(hub)
         return _Joints((cuts[0], cuts[1]), (hubs[0], hubs[1]))
 
     def _torques(self, solved: Forward, joints: _Joints) -> Floats:
-        sector, n = self.sector, self.sector.span.cut
+        sector = self.sector
         if sector.free:
             turn = rigid_motions(sector.mesh.points, 0.0)[..., :1]
             per_sector = (sector.cut_turn.T @ sector.mesh.to_turning(turn).ravel()) @ sector.hub_forces
             result: Floats = (self.rest + 1) * per_sector[0] * joints.hub[1][0]
             return result
         own = sector.hub_forward[0].dot(solved)[1][0]
-        reaction: Floats = -2 * (own + self._matrices[1][n, :n] @ joints.cuts[1])
+        reaction: Floats = -2 * (own + self._reaction @ joints.cuts[1])
         return reaction
+
+    @cached_property
+    def _reaction(self) -> Floats:
+        """On half the hub that is held, by odd displacements (n,) of the cut behind."""
+        return self._matrix(1)[-1, : self.sector.span.cut].copy()
 
     def _teeth(self, solved: Forward, joints: _Joints, nodes: Wholes) -> Iterator[tuple[int, Floats]]:
         """Every tooth, and the displacements (3 n, m) of nodes of it, in polar axes at the cuts."""

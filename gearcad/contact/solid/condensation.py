@@ -118,7 +118,10 @@ class Condensed:
         """What `backward` needs of loads (dofs, m), and the loads (n, m) of both parities that arrive at the cut."""
         orbits, count = self.orbits, loads.shape[1]
         turned = orbits.turn.turned(loads)
-        left = np.hstack([loads + turned, loads - turned]) / 2
+        left = np.empty((len(loads), 2 * count))
+        np.add(loads, turned, out=left[:, :count])
+        np.subtract(loads, turned, out=left[:, count:])
+        left /= 2
         left[node_dofs(np.flatnonzero(orbits.turn.on_axis))] /= 2
         left[node_dofs(orbits.moved)] = 0.0
         loaded: Bools = np.asarray(left.any(axis=1))
@@ -185,7 +188,7 @@ def condense(turn: HalfTurn, halves: Halves, cut: Wholes, matrices_of: Callable[
     `matrices_of` gives the matrices (m, 60, 60) of the hexahedra of a box; nodes that no part has are held. Raises SolverError
     for a matrix that is not positive definite.
     """
-    from gearcad.contact.solid.assembling import add_block, add_hexahedra
+    from gearcad.contact.solid.assembling import add_block, add_hexahedra, fill_upper
 
     over = 0.0
 
@@ -214,7 +217,8 @@ def condense(turn: HalfTurn, halves: Halves, cut: Wholes, matrices_of: Callable[
         _hold(blocks, np.flatnonzero(np.isin(node_dofs(halves.between), orbits.still(parity))))
         blocks = blocks.eliminated()
         top.append(Front(node_dofs(halves.between), node_dofs(cut), blocks.own, blocks.across))
-        matrices.append(np.tril(blocks.rest) + np.tril(blocks.rest, -1).T)
+        fill_upper(blocks.rest)
+        matrices.append(blocks.rest)
         done(front_flops(len(halves.between), len(cut)))
     return Condensed(orbits, tuple(elimination.fronts), (top[0], top[1]), (matrices[0], matrices[1]))
 

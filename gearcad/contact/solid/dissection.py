@@ -80,7 +80,7 @@ class Halves:
     between: Wholes
     cut: int
 
-    @property
+    @cached_property
     def flops(self) -> float:
         """Operations of eliminating all: the half once, the nodes between for even and for odd motions."""
         return sum(part.flops for part in self.half.every()) + 2 * front_flops(len(self.between), self.cut)

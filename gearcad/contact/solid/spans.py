@@ -14,9 +14,10 @@ from functools import cached_property
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
+from gearcad.contact.solid.fronts import Blocks
 from gearcad.contact.solid.half_turn import PARITIES
 
-__all__ = ["Joined", "Reversal", "Span", "eliminated", "joined"]
+__all__ = ["Inside", "Reversal", "Span", "eliminated", "joined"]
 
 
 @dataclass(frozen=True)
@@ -78,13 +79,13 @@ class Span:
         """Dofs of one cut."""
         return len(self.reversal.image)
 
-    @cached_property
+    @property
     def near(self) -> Floats:
         """Forces (n, n + hub) at the cut behind by displacements of it and the hub, the other one held."""
         n, (even, odd) = self.cut, self.matrices
         return np.hstack([(even[:n, :n] + odd[:n, :n]) / 2, even[:n, n:] + odd[:n, n:]])
 
-    @cached_property
+    @property
     def far(self) -> Floats:
         """Forces (n, n + hub) at the cut ahead by the same, after the turn."""
         n, (even, odd) = self.cut, self.matrices
@@ -110,78 +111,79 @@ class Span:
 
     def ends(self, aside: float) -> Floats:
         """On the cut behind and the hub of a row that begins with this one, the cut ahead held: `aside` teeth is its middle."""
-        n, turn = self.cut, self.seen(-aside)
-        across = self.near[:, n:] @ turn
-        return np.block([[self.near[:, :n], across], [across.T, turn.T @ self.hub @ turn]])
+        n, near, turn = self.cut, self.near, self.seen(-aside)
+        across = near[:, n:] @ turn
+        return np.block([[near[:, :n], across], [across.T, turn.T @ self.hub @ turn]])
 
     def inward(self, aside: float) -> Floats:
         """Forces (n, n + hub) at the cut ahead by the cut behind and the hub of such a row."""
-        n = self.cut
-        return self.reversal.rows(np.hstack([self.far[:, :n], self.far[:, n:] @ self.seen(-aside)]))
+        far = self.reversal.rows(self.far)
+        far[:, self.cut :] = far[:, self.cut :] @ self.seen(-aside)
+        return far
 
     def repeated(self, times: int) -> Span:
         """So many of this row."""
         if times == 1:
             return self
         half = self.repeated(times // 2)
-        return joined(half, self if times % 2 else None).whole
+        return joined(half, self if times % 2 else None)[0]
 
 
 @dataclass(frozen=True)
-class Joined:
-    """A row, another one or none ahead of it, and the row again: the `whole`, and how the first cut inside follows the ends.
+class Inside:
+    """How the first cut inside a row that begins with `side` follows its ends; `aside` teeth is the row's middle.
 
-    `lower` are L with L L.T the matrices of that cut, even and odd; without a row in the middle, on its even or odd part.
+    `lower` are L with L L.T the matrices of that cut, even and odd, `hub` (n, hub) what else is between it and the hub; None
+    where the row has only `side` twice, and `lower` are of the even and the odd part of the cut.
     """
 
     side: Span
-    middle: Span | None
-    whole: Span
+    aside: float
     lower: tuple[Floats, Floats]
+    hub: tuple[Floats, Floats] | None
 
     def moved(self, ends: Floats, parity: int) -> Floats:
-        """Displacements (n, m) of the first cut inside by those of the cut behind and the hub (n + hub, m)."""
+        """Displacements (n, m) by those of the cut behind and the hub (n + hub, m)."""
         import scipy.linalg
 
-        side, n = self.side, self.side.cut
-        force = self.side.inward((self.whole.teeth - side.teeth) / 2) @ ends
-        if self.middle is not None:
-            force += self.middle.matrices[parity][:n, n:] @ ends[n:]
+        reversal, n = self.side.reversal, self.side.cut
+        force = self.side.inward(self.aside) @ ends
+        if self.hub is not None:
+            force += self.hub[parity] @ ends[n:]
             return -np.asarray(scipy.linalg.cho_solve((self.lower[parity], True), force, check_finite=False), float)
-        part = side.reversal.part(force, parity)
-        return -side.reversal.whole(scipy.linalg.cho_solve((self.lower[parity], True), part, check_finite=False), parity)
+        part = reversal.part(force, parity)
+        return -reversal.whole(scipy.linalg.cho_solve((self.lower[parity], True), part, check_finite=False), parity)
 
 
-def joined(side: Span, middle: Span | None) -> Joined:
+def joined(side: Span, middle: Span | None) -> tuple[Span, Inside]:
     """A row on both sides of another one, or of none."""
     teeth = 2 * side.teeth + (0 if middle is None else middle.teeth)
     n, aside, reversal = side.cut, (teeth - side.teeth) / 2, side.reversal
-    ends, inward = side.ends(aside), side.inward(aside)
     lowers, matrices = [], []
     for parity in (0, 1):
+        ends, inward, near = side.ends(aside), side.inward(aside), side.near[:, :n]
         if middle is None:
-            inner = reversal.part(reversal.part(side.near[:, :n], parity).T, parity)
+            inner = reversal.part(reversal.part(near, parity).T, parity)
             lower, matrix = eliminated(inner, reversal.part(inward, parity), ends)
         else:
-            given, across, outside = middle.matrices[parity], inward.copy(), ends.copy()
-            across[:, n:] += given[:n, n:]
-            outside[n:, n:] += given[n:, n:]
-            lower, matrix = eliminated(reversal.both(side.near[:, :n]) + given[:n, :n], across, outside)
+            given = middle.matrices[parity]
+            inward[:, n:] += given[:n, n:]
+            ends[n:, n:] += given[n:, n:]
+            lower, matrix = eliminated(reversal.both(near) + given[:n, :n], inward, ends)
         others = n + np.flatnonzero(side.hub_parities != PARITIES[parity])
         matrix[others] = 0.0
         matrix[:, others] = 0.0
         lowers.append(lower)
         matrices.append(matrix)
     whole = Span((matrices[0], matrices[1]), teeth, reversal, side.seen, side.hub_parities)
-    return Joined(side, middle, whole, (lowers[0], lowers[1]))
+    hub = None if middle is None else (middle.matrices[0][:n, n:].copy(), middle.matrices[1][:n, n:].copy())
+    return whole, Inside(side, aside, (lowers[0], lowers[1]), hub)
 
 
 def eliminated(inner: Floats, across: Floats, ends: Floats) -> tuple[Floats, Floats]:
-    """L of a matrix (n, n), and the one (m, m) at the `ends` without its dofs; `across` (n, m) is between both."""
-    import scipy.linalg
-    from scipy.linalg.blas import dsyrk
+    """L of a symmetric matrix (n, n), and the one (m, m) at the `ends` without its dofs; `across` (n, m) is between both."""
+    from gearcad.contact.solid.assembling import fill_upper
 
-    lower = scipy.linalg.cholesky(inner, lower=True, check_finite=False)
-    over = scipy.linalg.solve_triangular(lower, across, lower=True, check_finite=False)
-    taken = dsyrk(1.0, over, trans=1, lower=1)
-    return lower, ends - (np.tril(taken) + np.tril(taken, -1).T)
+    blocks = Blocks(inner.T, np.asfortranarray(across), ends.T).eliminated()
+    fill_upper(blocks.rest)
+    return blocks.own, blocks.rest
