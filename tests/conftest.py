@@ -5,7 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Generator, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -30,15 +30,9 @@ settings.register_profile(
 settings.load_profile("repeatable")
 
 
-@pytest.hookimpl(wrapper=True)
-def pytest_collection() -> Generator[None, object, object]:
-    """What is collected lives until the end: the garbage collector need not look at it, neither meanwhile nor later."""
-    gc.disable()
-    try:
-        return (yield)
-    finally:
-        gc.freeze()
-        gc.enable()
+def pytest_collection_finish() -> None:
+    """What is collected lives until the end: the garbage collector need not look at it each time."""
+    gc.freeze()
 
 
 @pytest.fixture

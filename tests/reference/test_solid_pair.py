@@ -164,3 +164,15 @@ def test_linear_in_the_load_but_for_the_contact(spur: SolidPair) -> None:
     """Teeth bend in proportion; the contact is a little stiffer under more load, as Hertz's is."""
     few, many = (SolidCycle.run(spur, torque, 4).values("stiffness").mean() for torque in (60.0, 300.0))
     assert 1.0 < many / few < 1.12
+
+
+def test_contacts_that_are_known_are_those_of_their_flanks_and_mounting(helical: SolidPair) -> None:
+    """Not solved again whatever the sign of the torque; nor taken for those of a pair that is mounted otherwise."""
+    known = helical.solve(1.0, HELICAL_TORQUE)
+    assert helical.solve(1.0, -HELICAL_TORQUE) is known
+    assert helical.solve(1.0, HELICAL_TORQUE, single=True) is not known
+    again = helical.remade(helical.pair, helical.mounting).solve(1.0, HELICAL_TORQUE)
+    assert again is not known
+    assert again.forces.tolist() == known.forces.tolist()
+    turned = helical.remade(helical.pair, Mounting(misalignment=20.0)).solve(1.0, HELICAL_TORQUE)
+    assert turned.approach - turned.rigid > 1.1 * (known.approach - known.rigid)

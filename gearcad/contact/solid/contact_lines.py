@@ -272,6 +272,9 @@ def _taken_back(pair: GearPair, places: PerGear[Places]) -> Floats:
     depths = []
     for gear, (lengths, heights) in zip(gears_loaded_left(pair), places, strict=True):
         form = gear.flank_form
+        if not form.modification.present:
+            depths.append(np.zeros_like(lengths))
+            continue
         # The point that stands there now comes from further down the flank, by what it was taken back.
         depths.append(form.depth(lengths - form.depth(lengths, heights), heights))
     result: Floats = depths[0] + depths[1]

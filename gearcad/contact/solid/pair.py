@@ -106,6 +106,10 @@ class KnownResponses(dict[tuple[float, float, bool], Responses]):
     """
 
 
+class KnownSolutions(dict[tuple[float, float, bool], LineSolution]):
+    """Contacts by roll angle (deg), torque (N·m) and whether the middle pair is alone; grows as positions are solved."""
+
+
 @dataclass(frozen=True)
 class SolidPair(FlexiblePair[SolidCompliance]):
     """Both bodies over their face widths, in contact along lines of `cells` over the common one.
@@ -117,12 +121,14 @@ class SolidPair(FlexiblePair[SolidCompliance]):
     cells: int
     fillets: PerGear[SolidFillets] = field(repr=False)
     known: KnownResponses = field(default_factory=KnownResponses, repr=False)
+    solved: KnownSolutions = field(default_factory=KnownSolutions, repr=False)
 
     def remade(self, pair: GearPair, mounting: Mounting) -> SolidPair:
         """The same bodies with other modifications of the flanks, or another mounting, of an otherwise equal pair."""
         mounted = mounting.mounted(pair)
         known = self.known if mounted.centre_distance == self.pair.centre_distance else KnownResponses()
-        return replace(self, pair=mounted, mounting=mounting, line=line_of_action(mounted), known=known)
+        line = line_of_action(mounted)
+        return replace(self, pair=mounted, mounting=mounting, line=line, known=known, solved=KnownSolutions())
 
     @property
     def repeats(self) -> bool:
@@ -175,6 +181,12 @@ class SolidPair(FlexiblePair[SolidCompliance]):
 
         Raises SolverError, and GeometryError where nothing can touch.
         """
+        asked = roll_angle, abs(torque), single
+        if (found := self.solved.get(asked)) is None:
+            found = self.solved[asked] = self._solved(roll_angle, torque, single)
+        return found
+
+    def _solved(self, roll_angle: float, torque: float, single: bool) -> LineSolution:
         self.require_narrow_contact(torque, self.modulus)
         force, farthest = self.force(torque), self.farthest(torque)
         while True:
