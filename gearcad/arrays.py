@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
-__all__ = ["Bools", "Complexes", "Floats", "Indices", "Wholes", "freeze"]
+__all__ = ["Bools", "Complexes", "Floats", "Indices", "Wholes", "distinct", "freeze"]
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -22,6 +22,13 @@ Wholes = NDArray[np.int64]
 
 Indices = NDArray[np.intp]
 """Places in arrays, of the machine's own size."""
+
+
+def distinct(values: Floats) -> Floats:
+    """Values (n,) in their order, each once. NumPy's own function imports all of masked arrays for that."""
+    ordered = np.sort(values)
+    kept: Floats = ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])]
+    return kept
 
 
 def freeze(result: DataclassInstance) -> None:

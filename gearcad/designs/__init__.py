@@ -42,4 +42,4 @@ if not TYPE_CHECKING:
     _KINDS = ("toothed", "geared", "gear", "pair", "rack", "rack_pair", "train", "planetary")
     from gearcad.lazy import lazily
 
-    __getattr__ = lazily(__name__, __all__, ("design", "reader", "table", *(f"kinds.{home}" for home in _KINDS), "mesh_pairs"))
+    __getattr__ = lazily(__name__, __all__, ("design", "reader", *(f"kinds.{home}" for home in _KINDS), "mesh_pairs", "table"))

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, ClassVar, Protocol, Self, TypeVar
+from typing import Any, ClassVar, Protocol, Self
 
 from gearcad.designs.files import Where
 from gearcad.errors import ParameterError
@@ -18,12 +18,10 @@ from gearcad.version import __version__
 __all__ = [
     "LONGEST_NAME",
     "LONGEST_NAME_IN_BYTES",
-    "Accepted",
     "Described",
     "Design",
     "DesignKind",
     "kinds_in_words",
-    "not_accepted",
     "require_plain_name",
 ]
 
@@ -34,8 +32,6 @@ LONGEST_NAME_IN_BYTES = 200
 """The same in UTF-8, with room for what the names of files beside the folder add."""
 
 _RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{port}{number}" for port in ("COM", "LPT") for number in range(1, 10))}
-
-Accepted = TypeVar("Accepted", bound="Design")
 
 
 class DesignKind(Enum):
@@ -107,11 +103,10 @@ class Design(ABC):
         """The notices in words, each led by what it is about."""
         return texts(self.notices)
 
-    def accepted(self, *kinds: type[Accepted], why: str) -> Accepted:
-        """The design, if it is of one of these kinds. Raises ParameterError that ends with why no other will do."""
-        if isinstance(self, kinds):
-            return self
-        raise not_accepted(type(self), kinds, why)
+    def require_kind(self, *kinds: DesignKind, why: str) -> None:
+        """Raise ParameterError, that ends with why no other will do, unless the design is of one of these kinds."""
+        if self.kind not in kinds:
+            raise ParameterError("kind", self.kind.words, f"must be {kinds_in_words(kinds)}: {self.elsewhere or why}")
 
     def to_dict(self) -> dict[str, Any]:
         """The document of `data.json`: inputs and derived properties under their field names (mm, degrees)."""
@@ -119,14 +114,9 @@ class Design(ABC):
         return document | {name: each.to_dict() for name, each in self.described.items()}
 
 
-def not_accepted(kind: type[Design], accepted: Iterable[type[Design]], why: str) -> ParameterError:
-    """The error for a kind of design that is none of the accepted ones; `why` is said of those that know no better."""
-    return ParameterError("kind", kind.kind.words, f"must be {kinds_in_words(accepted)}: {kind.elsewhere or why}")
-
-
-def kinds_in_words(accepted: Iterable[type[Design]]) -> str:
+def kinds_in_words(accepted: Iterable[DesignKind]) -> str:
     """ "a gear, a pair or a rack"."""
-    *others, last = (f"a {each.kind.words}" for each in accepted)
+    *others, last = (f"a {each.words}" for each in accepted)
     return f"{', '.join(others)} or {last}" if others else last
 
 

@@ -6,20 +6,23 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
-from gearcad.designs import Design, GearDesign, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, ToothedDesign
+from gearcad.designs.design import Design, DesignKind
+from gearcad.designs.kinds.toothed import ToothedDesign
 from gearcad.errors import GeometryError, ParameterError, as_choice
 from gearcad.jobs.data import Data
 from gearcad.jobs.job import Job, Writer
-from gearcad.jobs.products import AssemblyProduct, products_of, require_bodies
+from gearcad.jobs.products import products_of, require_bodies
 from gearcad.jobs.subject import Subject, as_design
 from gearcad.notice import Notice
 from gearcad.progress import Progress
 from gearcad.solids import FileOptions, Format
 from gearcad.solids.files.formats import formats_minding
-from gearcad.solids.files.train_products import TrainProduct
 from gearcad.version import __version__
+
+if TYPE_CHECKING:
+    from gearcad.solids.files.train_products import TrainProduct
 
 __all__ = ["Build", "build"]
 
@@ -48,7 +51,7 @@ class Build(Job[ToothedDesign, ToothedDesign]):
     """
 
     verb = "build"
-    accepts = (GearDesign, PairDesign, RackDesign, RackPairDesign, PlanetaryDesign)
+    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
     why = "there are no teeth"
     solves = False
 
@@ -61,12 +64,12 @@ class Build(Job[ToothedDesign, ToothedDesign]):
             raise ParameterError("format", "", f"must be one or more of {', '.join(kind.value for kind in Format)}")
 
     def _run(self, design: ToothedDesign, _progress: Progress | None) -> ToothedDesign:
-        if self.options.bracket and not isinstance(design, PairDesign):
+        if self.options.bracket and design.kind is not DesignKind.PAIR:
             alone = "a single gear has no assembly" if design.assembly is None else "it stands on the shafts of both"
-            alone = "a planetary train has a carrier" if isinstance(design, PlanetaryDesign) else alone
+            alone = "a planetary train has a carrier" if design.kind is DesignKind.PLANETARY else alone
             raise GeometryError("bracket", True, f"needs a pair of gears: {alone}")
         for option in _OF_TRAINS:
-            if getattr(self.options, option) and not isinstance(design, PlanetaryDesign):
+            if getattr(self.options, option) and design.kind is not DesignKind.PLANETARY:
                 raise GeometryError(option, True, "needs a planetary train")
         for option, where in _WHERE.items():
             needed = formats_minding(option)
@@ -91,10 +94,10 @@ class Build(Job[ToothedDesign, ToothedDesign]):
             if kind not in self.formats:
                 continue
             found |= {f"{name}.{kind.value}": partial(kind.entry.write, product) for name, product in parts.items()}
-            if isinstance(assembly, TrainProduct) and assembly.carrier is not None and kind.entry.write_carrier is not None:
-                found[f"{assembly.train.carrier.name}.{kind.value}"] = partial(kind.entry.write_carrier, assembly.carrier)
-            if (write := _assembly_writer(kind, assembly)) is not None:
-                found[f"assembly.{kind.value}"] = write
+            if result.kind is DesignKind.PLANETARY:
+                found |= _train_writers(kind, cast("TrainProduct", assembly))
+            elif assembly is not None and kind.entry.write_pair is not None:
+                found[f"assembly.{kind.value}"] = partial(kind.entry.write_pair, assembly)
         return found
 
     @property
@@ -112,8 +115,8 @@ class Build(Job[ToothedDesign, ToothedDesign]):
         if not formats:
             return Data()
         options = FileOptions(**{name: value for kind in formats for name, value in kind.minded(self.options).items()})
-        foreign = () if isinstance(design, PlanetaryDesign) else _OF_TRAINS
-        foreign = foreign if isinstance(design, PairDesign) else (*foreign, "bracket")
+        foreign = () if design.kind is DesignKind.PLANETARY else _OF_TRAINS
+        foreign = foreign if design.kind is DesignKind.PAIR else (*foreign, "bracket")
         return Build(formats=formats, options=replace(options, **dict.fromkeys(foreign, False)))
 
 
@@ -124,13 +127,14 @@ def _formats(given: object) -> tuple[Format, ...]:
     return tuple(as_choice("format", each, Format) for each in given)
 
 
-def _assembly_writer(kind: Format, assembly: AssemblyProduct | None) -> Writer | None:
-    """What writes the assembly in a format that has some."""
-    if isinstance(assembly, TrainProduct):
-        return kind.entry.write_train and partial(kind.entry.write_train, assembly)
-    if assembly is None or kind.entry.write_pair is None:
-        return None
-    return partial(kind.entry.write_pair, assembly)
+def _train_writers(kind: Format, train: TrainProduct) -> dict[str, Writer]:
+    """What writes the carrier of a train, if one is made, and the train, in a format that has them."""
+    found: dict[str, Writer] = {}
+    if train.carrier is not None and kind.entry.write_carrier is not None:
+        found[f"{train.train.carrier.name}.{kind.value}"] = partial(kind.entry.write_carrier, train.carrier)
+    if kind.entry.write_train is not None:
+        found[f"assembly.{kind.value}"] = partial(kind.entry.write_train, train)
+    return found
 
 
 def build(

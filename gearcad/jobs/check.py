@@ -12,7 +12,7 @@ from gearcad.check.document import check_document, reported_document
 from gearcad.check.options import CheckOptions
 from gearcad.check.result import CheckResult
 from gearcad.check.run import check_pair, expected_check
-from gearcad.designs import Design, Inputs, PairDesign
+from gearcad.designs import Design, DesignKind, Inputs, PairDesign
 from gearcad.geometry import GearPair
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.subject import as_design
@@ -34,7 +34,7 @@ class Check(Job[PairDesign, CheckResult]):
     """
 
     verb = "check"
-    accepts = (PairDesign,)
+    accepts = (DesignKind.PAIR,)
     why = "a single gear has nothing to press against"
     sometimes: ClassVar[tuple[str, ...]] = ("stress_pinion.vtu", "stress_wheel.vtu")
 

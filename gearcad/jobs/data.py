@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Unpack
 
-from gearcad.designs.design import Design
+from gearcad.designs.design import Design, DesignKind
 from gearcad.jobs.job import Job
 from gearcad.jobs.subject import Subject, as_design
 from gearcad.notice import Notice
@@ -25,7 +25,7 @@ class Data(Job[Design, Design]):
     """The data sheet. Its result is the design itself, whose gears, pair or train know their derived properties."""
 
     verb = "data"
-    accepts = (Design,)
+    accepts = tuple(DesignKind)
     why = "every kind has derived quantities"
     solves = False
 

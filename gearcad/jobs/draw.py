@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
-from gearcad.designs import GearDesign, Inputs, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, ToothedDesign
+from gearcad.designs import DesignKind, Inputs, ToothedDesign
 from gearcad.drawing.files import sheet_document, unshown, write_dxf, write_pdf, write_svg
 from gearcad.drawing.options import SCALES, DrawingOptions, PartDrawing, SheetSize
 from gearcad.drawing.sheets import Drawing, Sheet, draw_gear, draw_pair, draw_train
@@ -59,7 +59,7 @@ class Draw(Job[ToothedDesign, Drawing]):
     """
 
     verb = "draw"
-    accepts = (GearDesign, PairDesign, RackDesign, RackPairDesign, PlanetaryDesign)
+    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
     why = "there are no teeth"
     solves = False
 

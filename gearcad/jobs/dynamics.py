@@ -11,7 +11,7 @@ from typing import Any, Unpack
 import numpy as np
 
 from gearcad.check.options import CheckOptions
-from gearcad.designs import Design, Inputs, PairDesign, TrainDesign
+from gearcad.designs import Design, DesignKind, Inputs, PairDesign, TrainDesign
 from gearcad.designs.loaded_pairs import pair_specs
 from gearcad.dynamics.engagement import engaged
 from gearcad.dynamics.idle_options import idle_without_levels
@@ -69,7 +69,7 @@ class Dynamics(Job[PairDesign | TrainDesign, Study]):
     """The study that [dynamics] of a design asks for."""
 
     verb = "dynamics"
-    accepts = (PairDesign, TrainDesign)
+    accepts = (DesignKind.PAIR, DesignKind.TRAIN)
     why = "a single gear has no mesh"
     sometimes = tuple(file_name("dynamics", name) for name in _TABLES)
 

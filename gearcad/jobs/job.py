@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar, Generic, TypeVar, cast
 
-from gearcad.designs.design import Design
+from gearcad.designs.design import Design, DesignKind
 from gearcad.notice import Notice
 from gearcad.output import json_text, staged_files
 from gearcad.progress import Agenda, Expected, Progress
@@ -33,7 +33,7 @@ class Job(ABC, Generic[Accepted, Result]):
     verb: ClassVar[str]
     """Its name: that of its module, of its command, of its document and of its function in `gearcad`."""
 
-    accepts: ClassVar[tuple[type[Design], ...]]
+    accepts: ClassVar[tuple[DesignKind, ...]]
     """The kinds of designs that it takes."""
 
     why: ClassVar[str]
@@ -114,7 +114,8 @@ class Job(ABC, Generic[Accepted, Result]):
         return {}
 
     def _accepted(self, design: Design) -> Accepted:
-        return cast("Accepted", design.accepted(*self.accepts, why=self.why))
+        design.require_kind(*self.accepts, why=self.why)
+        return cast("Accepted", design)
 
 
 def _plain(value: Any) -> Any:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, Unpack
 
-from gearcad.designs import Design, GearDesign, GearedDesign, Inputs, PairDesign
+from gearcad.designs import Design, DesignKind, GearedDesign, Inputs, PairDesign
 from gearcad.geometry import Gear, GearPair
 from gearcad.jobs.contact_zones import contact_zones
 from gearcad.jobs.job import Job, Writer
@@ -40,7 +40,7 @@ class Mesh(Job[GearedDesign, MeshResult]):
     """
 
     verb = "mesh"
-    accepts = (GearDesign, PairDesign)
+    accepts = (DesignKind.GEAR, DesignKind.PAIR)
     why = "there are no teeth"
     solves = False
     writes_long = True

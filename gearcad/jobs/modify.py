@@ -16,7 +16,7 @@ from gearcad.contact.optimum.variants import AMOUNTS, with_amounts
 from gearcad.contact.shared.loaded_left import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
-from gearcad.designs import Design, Inputs, PairDesign
+from gearcad.designs import Design, DesignKind, Inputs, PairDesign
 from gearcad.errors import GeometryError, ParameterError, as_choice
 from gearcad.geometry import GearPair, ReliefShape
 from gearcad.jobs.job import Job
@@ -47,7 +47,7 @@ class Modify(Job[PairDesign, Proposal]):
     """
 
     verb = "modify"
-    accepts = (PairDesign,)
+    accepts = (DesignKind.PAIR,)
     why = "flanks are modified for those of a mate"
 
     torque: float | None = None

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from gearcad.designs import GearDesign, PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, ToothedDesign
+from gearcad.designs import DesignKind, PlanetaryDesign, RackDesign, ToothedDesign
 from gearcad.errors import GeometryError, ParameterError, as_choice, require_whole
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.products import products_of, require_bodies
@@ -62,7 +62,7 @@ class Picture(Job[ToothedDesign, Pictured]):
     """
 
     verb = "picture"
-    accepts = (GearDesign, PairDesign, RackDesign, RackPairDesign, PlanetaryDesign)
+    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
     why = "there are no teeth"
     solves = False
     writes_long = True

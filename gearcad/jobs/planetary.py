@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple, Unpack
 
-from gearcad.designs import Design, Inputs, PlanetaryDesign
+from gearcad.designs import Design, DesignKind, Inputs, PlanetaryDesign
 from gearcad.designs.mesh_pairs import MeshPairs
 from gearcad.dynamics.planetary.document import study_document
 from gearcad.dynamics.planetary.result import PlanetaryStudy
@@ -42,7 +42,7 @@ class Planetary(Job[PlanetaryDesign, Studied]):
     """The study of a planetary train, with the specs of its meshes for all that takes pairs; its `response` if asked for."""
 
     verb = "planetary"
-    accepts = (PlanetaryDesign,)
+    accepts = (DesignKind.PLANETARY,)
     why = "only planets go round"
 
     response: bool = False

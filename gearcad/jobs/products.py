@@ -3,44 +3,64 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING, TypeAlias, cast
 
-from gearcad.designs import PairDesign, PlanetaryDesign, RackDesign, RackPairDesign, ToothedDesign
+from gearcad.designs.design import DesignKind
+from gearcad.designs.kinds.toothed import ToothedDesign
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear
 from gearcad.solids import FileOptions
 from gearcad.solids.files.products import GearProduct, PairProduct
-from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
-from gearcad.solids.files.train_products import TrainProduct
 from gearcad.solids.rim import require_rim
+
+if TYPE_CHECKING:
+    from gearcad.designs import PairDesign, PlanetaryDesign, RackDesign, RackPairDesign
+    from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
+    from gearcad.solids.files.train_products import TrainProduct
 
 __all__ = ["AssemblyProduct", "PartProduct", "products_of", "require_bodies"]
 
-PartProduct = GearProduct | RackProduct
-AssemblyProduct = PairProduct | RackPairProduct | TrainProduct
+PartProduct: TypeAlias = "GearProduct | RackProduct"
+AssemblyProduct: TypeAlias = "PairProduct | RackPairProduct | TrainProduct"
 
 
 def products_of(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[str, PartProduct], AssemblyProduct | None]:
     """Gears and racks by the names of their files, and what they are in mesh."""
-    if isinstance(design, PlanetaryDesign):
-        train = TrainProduct(design.train, options, _given_speeds(design))
+    if design.kind is DesignKind.PLANETARY:
+        train = _train_product(cast("PlanetaryDesign", design), options)
         return train.parts, train
-    if isinstance(design, PairDesign):
-        pair = PairProduct(design.pair, options)
+    if design.kind is DesignKind.PAIR:
+        pair = PairProduct(cast("PairDesign", design).pair, options)
         return pair.parts, pair
-    if isinstance(design, RackPairDesign):
-        with_rack = RackPairProduct(design.pair, options)
-        return with_rack.parts, with_rack
-    if isinstance(design, RackDesign):
-        return {"rack": RackProduct(rack=design.rack, name=design.name, options=options)}, None
+    if design.kind in (DesignKind.RACK, DesignKind.RACK_PAIR):
+        return _with_rack(cast("RackDesign | RackPairDesign", design), options)
     return {name: GearProduct(gear=gear, name=design.name, options=options) for name, gear in design.gears.items()}, None
+
+
+def _train_product(design: PlanetaryDesign, options: FileOptions) -> TrainProduct:
+    from gearcad.solids.files.train_products import TrainProduct
+
+    return TrainProduct(design.train, options, _given_speeds(design))
+
+
+def _with_rack(
+    design: RackDesign | RackPairDesign, options: FileOptions
+) -> tuple[Mapping[str, PartProduct], RackPairProduct | None]:
+    from gearcad.designs import RackPairDesign
+    from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
+
+    if isinstance(design, RackPairDesign):
+        pair = RackPairProduct(design.pair, options)
+        return pair.parts, pair
+    return {"rack": RackProduct(rack=design.rack, name=design.name, options=options)}, None
 
 
 def require_bodies(design: ToothedDesign, options: FileOptions) -> None:
     """Raise GeometryError for a ring without a rim, its parameter led by the gear's name, and a train that has no room."""
     for name, gear in design.gears.items():
         _require_body(name, gear)
-    if isinstance(design, PlanetaryDesign):
-        TrainProduct(design.train, options).require_room()
+    if design.kind is DesignKind.PLANETARY:
+        _train_product(cast("PlanetaryDesign", design), options).require_room()
 
 
 def _require_body(name: str, gear: Gear) -> None:

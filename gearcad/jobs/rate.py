@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Unpack
 
-from gearcad.designs import Design, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
+from gearcad.designs import Design, DesignKind, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
 from gearcad.dynamics.planetary.strength import TrainStrength
 from gearcad.dynamics.planetary.study import study_planetary
 from gearcad.errors import SolverError
@@ -36,7 +36,7 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
     """
 
     verb = "rate"
-    accepts = (PairDesign, RackPairDesign, PlanetaryDesign)
+    accepts = (DesignKind.PAIR, DesignKind.RACK_PAIR, DesignKind.PLANETARY)
     why = "a single gear carries nothing"
 
     report: bool = True

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Unpack
 
 from gearcad.check.options import CheckOptions
-from gearcad.designs import Design, Inputs, PairDesign
+from gearcad.designs import Design, DesignKind, Inputs, PairDesign
 from gearcad.errors import ParameterError, require_whole
 from gearcad.geometry import GearPair
 from gearcad.jobs.job import Job, Writer
@@ -38,7 +38,7 @@ class Stiffness(Job[PairDesign, StiffnessComparison]):
     """
 
     verb = "stiffness"
-    accepts = (PairDesign,)
+    accepts = (DesignKind.PAIR,)
     why = "a single gear has no mesh"
 
     methods: Sequence[str] = tuple(METHODS)

@@ -369,19 +369,6 @@ def test_version_and_help() -> None:
     assert "gearcad new pair" in help_text
 
 
-def test_data_imports_nothing_heavy(tmp_path: Path) -> None:
-    spec = starter(tmp_path)
-    heavy = ["scipy", "cadquery", "OCP", "trimesh", "ezdxf", "matplotlib", "gmsh", "skfem", "rich"]
-    code = f"""
-import sys
-from gearcad.cli import main
-main(['data', {str(spec)!r}, '--json'], standalone_mode=False)
-print([name for name in {heavy} if name in sys.modules], file=sys.stderr)
-"""
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
-    assert done.stderr == "[]\n"
-
-
 @pytest.mark.parametrize("home", ["/dev/null", "locked"])
 def test_no_home_folder_is_no_matter(home: str, tmp_path: Path) -> None:
     """Libraries that keep caches there, matplotlib and ezdxf, do without, and say nothing."""

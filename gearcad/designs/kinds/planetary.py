@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any, ClassVar, Self
 
 from gearcad.check.options import CheckOptions
-from gearcad.designs.design import Accepted, Described, DesignKind, require_plain_name
+from gearcad.designs.design import Described, DesignKind, require_plain_name
 from gearcad.designs.drawings import drawings_of
 from gearcad.designs.files import Where
 from gearcad.designs.keys import BESIDE, SPEEDS
@@ -103,10 +103,10 @@ class PlanetaryDesign(ToothedDesign):
         """What the design of a mesh or stage is called."""
         return f"{self.name}-{name}"
 
-    def accepted(self, *kinds: type[Accepted], why: str) -> Accepted:
-        """The design, if it is of one of these kinds. Raises ParameterError: jobs of pairs take the specs of its meshes."""
+    def require_kind(self, *kinds: DesignKind, why: str) -> None:
+        """Raise ParameterError unless it is of one of these kinds: jobs of pairs take the specs of its meshes."""
         specs = " and ".join(f"{mesh.name}.toml" for mesh in self.train.meshes)
-        return super().accepted(*kinds, why=f"`gearcad planetary` writes the specs of its meshes for that, {specs}")
+        super().require_kind(*kinds, why=f"`gearcad planetary` writes the specs of its meshes for that, {specs}")
 
     def loaded(self, why: str) -> TrainLoad:
         """Its load. Raises ParameterError where there is none, that ends with why it is needed."""

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, field, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from gearcad.designs.design import Accepted, Design, DesignKind, kinds_in_words, require_plain_name
+from gearcad.designs.design import Design, DesignKind, kinds_in_words, require_plain_name
 from gearcad.designs.files import Where
 from gearcad.designs.keys import permitted_words
 from gearcad.designs.kinds.train_pairs import read_pair
@@ -79,12 +79,12 @@ class TrainDesign(Design):
         with reader.blame("train"):
             return cls(name=train.name, train=train, other_models=others, dynamics=dynamics)
 
-    def accepted(self, *kinds: type[Accepted], why: str) -> Accepted:
-        """The design, if it is of one of these kinds. Raises ParameterError: jobs of pairs take the specs of its pairs."""
-        if not isinstance(self, kinds) and any(mesh.pair is not None for mesh in self.train.meshes):
+    def require_kind(self, *kinds: DesignKind, why: str) -> None:
+        """Raise ParameterError unless it is of one of these kinds: jobs of pairs take the specs of its pairs."""
+        if self.kind not in kinds and any(mesh.pair is not None for mesh in self.train.meshes):
             pairs = "`gearcad dynamics` writes the specs of the pairs of its meshes for that, under their loads"
             raise ParameterError("kind", self.kind.words, f"must be {kinds_in_words(kinds)}: {pairs}")
-        return super().accepted(*kinds, why=why)
+        super().require_kind(*kinds, why=why)
 
     def to_dict(self) -> dict[str, Any]:
         """The document of `data.json`: the train and its parts, each kind under its table, and the options."""

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from gearcad.arrays import Floats, Wholes
+from gearcad.arrays import Floats, Wholes, distinct
 from gearcad.solids.facets.sampling import ToothGrid
 from gearcad.solids.facets.tooth_end import Cap, GearEnd, ToothEnd, points_at
 from gearcad.solids.facets.zipper import Chain, zip_levels
@@ -62,7 +62,7 @@ class _Capper(ToothEnd):
         if first_on_cone < tip:
             land = np.linspace(right[tip], left[tip], grid.tip_steps + 1)
             beyond = self.end.step * np.arange(1, math.ceil(2 * math.pi / self.end.step))
-            fixed = self.turn[tip] + np.unique(np.concatenate([right[tip] - beyond, land, left[tip] + beyond]))
+            fixed = self.turn[tip] + distinct(np.concatenate([right[tip] - beyond, land, left[tip] + beyond]))
         else:
             fixed = self.turn[0] + np.linspace(right[0], left[0], math.ceil(foot / min(most, foot)) + 1)
         straight = foot <= most

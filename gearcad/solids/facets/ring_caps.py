@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gearcad.arrays import Bools, Floats, Wholes
+from gearcad.arrays import Bools, Floats, Wholes, distinct
 from gearcad.solids.facets.sampling import ToothGrid
 from gearcad.solids.facets.tooth_end import Cap, GearEnd, ToothEnd, points_at
 from gearcad.solids.facets.zipper import Chain, upright, zip_levels
@@ -95,7 +95,7 @@ class _RingCapper(ToothEnd):
         parts = max(1, math.ceil((left - right) / max(grid.tip_steps, 1) / step - 1e-9))
         land = np.linspace(right, left, parts * grid.tip_steps + 1)
         beyond = step * np.arange(1, math.ceil(2 * math.pi / step))
-        return np.unique(np.concatenate([right - beyond, land, left + beyond]))
+        return distinct(np.concatenate([right - beyond, land, left + beyond]))
 
     def _faces_up(self, level: int, inner: Chain, outer: Chain, strip: list[tuple[int, int, int]]) -> bool:
         radius = self.grid.radius
