@@ -1,4 +1,4 @@
-"""Solids and files: exact boundary representations (CadQuery), structured meshes, contours and points.
+"""Solids and files: exact boundary representations, structured meshes, contours and points.
 
 Everything starts from the ToothProfile; CadQuery and ezdxf are imported when a function needs them.
 """

@@ -2,6 +2,8 @@
 
 import json
 import re
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -150,6 +152,21 @@ def test_kernel_failure_is_status_1(stand_ins: list[str], tmp_path: Path, monkey
     result = CliRunner().invoke(main, ["build", str(TEMPLATES / "spur.toml"), "--quiet"])
     assert (result.exit_code, result.stderr) == (1, "Error: the CAD kernel could not write it\n")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_solids_and_facets_need_no_heavy_library(tmp_path: Path) -> None:
+    """Every word of a STEP file and every triangle is ours."""
+    heavy = ["cadquery", "OCP", "trimesh", "ezdxf", "vtkmodules", "scipy", "matplotlib", "gmsh", "skfem"]
+    command = ["build", str(TEMPLATES / "spur.toml"), "-o", str(tmp_path / "out"), "--format", "step,stl", "--quiet"]
+    code = f"""
+import sys
+from gearcad.cli import main
+main({command!r}, standalone_mode=False)
+print([name for name in {heavy} if name in sys.modules], file=sys.stderr)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.stderr == "[]\n"
+    assert names(tmp_path / "out") == {"data.json", "gear.step", "gear.stl"}
 
 
 # ---------------------------------------------------------------------- the real thing

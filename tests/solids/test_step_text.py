@@ -41,7 +41,7 @@ SAME = 1e-9
 
 def _bodied(teeth: int = 8, **given: object) -> Gear:
     body = Body(bore=5, keyway_width=2, keyway_depth=1, hub_diameter=9, hub_length=2, end_chamfer=0.4)
-    return Gear(teeth=teeth, normal_module=2, face_width=6, **{"body": body, **given})
+    return Gear(teeth=teeth, normal_module=2, **{"face_width": 6, "body": body, **given})
 
 
 def _ring(**given: object) -> Gear:
@@ -53,7 +53,7 @@ PARTS = {
     "bodied": lambda: gear_boundary(_bodied(helix_angle=15)),
     "rack": lambda: rack_boundary(Rack(teeth=2, normal_module=2, face_width=8, height=6, helix_angle=17)),
     "spur": lambda: gear_boundary(_bodied(20)),
-    "chamfers below the root": lambda: gear_boundary(_bodied(12, body=Body(bore=5, end_chamfer=5.2))),
+    "chamfers below the root": lambda: gear_boundary(_bodied(12, face_width=12, body=Body(bore=5, end_chamfer=5.2))),
     "ring": lambda: gear_boundary(_ring(helix_angle=-18)),
     "gap": lambda: gear_boundary(_bodied(helix_angle=25, double_helix=DoubleHelix(gap_width=2, offset=0.3))),
     "apex": lambda: gear_boundary(_bodied(helix_angle=25, double_helix=DoubleHelix(gap_width=0))),
