@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 from gearcad.arrays import Floats
 from gearcad.errors import GeometryError
 from gearcad.geometry import Gear
+from gearcad.geometry.bracketed import root_between
 from gearcad.geometry.tooling import corner_radius, shaped
 from gearcad.geometry.trochoid import FilletTool
 from gearcad.rating.virtual import LoadPoint, VirtualGear
@@ -179,11 +180,9 @@ class _GeneratedFillet:
 
     def theta_at(self, lean: float) -> float | None:
         """Where the fillet leans so much (rad); None where it does not."""
-        from scipy.optimize import brentq
-
         if not self.lean(0.0) > lean > self.lean(self.tool.last_angle):
             return None
-        return float(brentq(lambda theta: float(self.lean(theta)) - lean, 0.0, self.tool.last_angle, xtol=1e-15, rtol=8.9e-16))
+        return root_between(lambda theta: float(self.lean(theta)) - lean, 0.0, self.tool.last_angle, xtol=1e-15, rtol=8.9e-16)
 
     def curvature_radius(self, theta: float) -> float:
         """Radius of curvature (mm), from differences of fourth order along the curve."""

@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from gearcad.arrays import Bools, Floats
+from gearcad.geometry.bracketed import root_between
 from gearcad.per_gear import PerGear
 from gearcad.sizing.geometry import ManyPairs, shift_sum_at
 from gearcad.sizing.grid import distances_within, rounded_width
@@ -62,7 +63,6 @@ def least_width(task: SizeTask, variant: Rated) -> float:
 
     A root between the width there is, which is safe, and the first half of it, or half of that, that is not.
     """
-    from scipy.optimize import brentq
 
     def reserve(width: float) -> float:
         """Below 0 of too narrow a face, and of one that has no rating."""
@@ -79,7 +79,7 @@ def least_width(task: SizeTask, variant: Rated) -> float:
     narrow = wide / 2
     while reserve(narrow) > 0:
         wide, narrow = narrow, narrow / 2
-    return float(brentq(reserve, narrow, wide, xtol=1e-6))
+    return root_between(reserve, narrow, wide, xtol=1e-6)
 
 
 def _of_each(task: SizeTask, found: Rated) -> Rated:

@@ -15,6 +15,7 @@ from gearcad.contact.shared.line_of_action import TransverseFlank, line_of_actio
 from gearcad.dynamics.tooth_errors.gaps import TurnedFlank, tooth_gaps
 from gearcad.dynamics.tooth_errors.springs import ToothSpring
 from gearcad.geometry import GearPair
+from gearcad.geometry.bracketed import root_between
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.per_gear import PerGear
 
@@ -104,10 +105,8 @@ def _first(base_radii: PerGear[float], whole: float, length: float) -> float:
         pinion, wheel = math.hypot(one, first + length), math.hypot(other, whole - first)
         return (pinion - one * stretch) - math.copysign(1.0, other) * (wheel - abs(other) * stretch)
 
-    from scipy.optimize import brentq
-
     middle = one * math.tan(math.radians(PRESSURE_ANGLE))
-    return float(brentq(excess, middle - length, middle))
+    return root_between(excess, middle - length, middle)
 
 
 def pair_path(pair: GearPair) -> ToothPath:

@@ -14,6 +14,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.errors import require_number
+from gearcad.geometry.bracketed import root_between
 from gearcad.rating.factors import Points
 from gearcad.rating.factors.elementwise import Values, number_or_array
 
@@ -144,7 +145,6 @@ def torque_at_safety(safety_of: Callable[[float], float], required: float, torqu
 
 def _between(safety_of: Callable[[float], float], required: float, low: float, high: float) -> float:
     """As `torque_at_safety`, of a torque `low` that holds and `high` that does not."""
-    from scipy.optimize import brentq
 
     def excess(logarithm: float) -> float:
         ratio = safety_of(math.exp(logarithm)) / required
@@ -152,7 +152,7 @@ def _between(safety_of: Callable[[float], float], required: float, low: float, h
 
     if excess(math.log(low)) == 0:
         return low
-    return math.exp(brentq(excess, math.log(low), math.log(high), xtol=1e-13, rtol=1e-13))
+    return math.exp(root_between(excess, math.log(low), math.log(high), xtol=1e-13, rtol=1e-13))
 
 
 def _falling(curve: Points) -> list[tuple[float, float]]:
