@@ -35,7 +35,8 @@ distributed = pytest.importorskip("distributed")
 
 DATA = (Data(),)
 OPTIONS = ("--format", "csv,dxf,stl", "--quiet")
-MANY = (GEARS[0], *(f"row {number:03d},{12 + number % 50},1,2,{number % 3}" for number in range(100)))
+ROWS = 60
+MANY = (GEARS[0], *(f"row {number:03d},{12 + number % 50},1,2,{number % 3}" for number in range(ROWS)))
 
 _SCHEDULER = """
 import sys
@@ -160,12 +161,12 @@ def many(tmp_path: Path) -> Path:
 def test_ctrl_c_ends_the_run_on_the_cluster_too(address: str, many: Path, tmp_path: Path) -> None:
     folder = tmp_path / "out"
     with start_batch(many, "-o", folder, "--format", "dxf", "--cluster", address, "--quiet") as process:
-        wait_until(lambda: len(list(folder.glob("row*"))) > 20, "rows that are finished")
+        wait_until(lambda: len(list(folder.glob("row*"))) > 10, "rows that are finished")
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=PATIENCE)
     assert (process.returncode, errors.strip()) == (130, "Aborted!")
     assert {line["status"] for line in read_results(folder)} == {"ok", "not run"}
-    assert run_table(many, folder, (Build(formats=(Format.DXF,)),), cluster=address).ok == 100
+    assert run_table(many, folder, (Build(formats=(Format.DXF,)),), cluster=address).ok == ROWS
     assert lies(folder) == [] and not list(folder.glob(".*"))
 
 
@@ -175,7 +176,7 @@ def run_here(table: Path, folder: Path, address: str) -> tuple[list[Summary], th
     formats = (Build(formats=(Format.DXF,)),)
     thread = threading.Thread(target=lambda: found.append(run_table(table, folder, formats, cluster=address)))
     thread.start()
-    wait_until(lambda: len(list(folder.glob("row*"))) > 20, "rows that are finished")
+    wait_until(lambda: len(list(folder.glob("row*"))) > 10, "rows that are finished")
     return found, thread
 
 
@@ -186,7 +187,7 @@ def test_worker_of_the_cluster_that_dies_costs_nothing(many: Path, tmp_path: Pat
         workers = [process for process in scheduler.children() if process.children()]
         workers[0].kill()
         thread.join(PATIENCE)
-    assert [(summary.ok, summary.failed) for summary in found] == [(100, 0)]
+    assert [(summary.ok, summary.failed) for summary in found] == [(ROWS, 0)]
     assert lies(tmp_path / "out") == []
 
 
@@ -204,10 +205,10 @@ def test_scheduler_that_dies_ends_the_run_with_what_there_is(
             process.kill()
     (summary,) = found
     assert summary.stopped == "the cluster is gone: its scheduler does not answer any more"
-    assert summary.ok >= 1 and summary.failed == 0 and summary.ok + summary.not_run == 100
+    assert summary.ok >= 1 and summary.failed == 0 and summary.ok + summary.not_run == ROWS
     assert {line["status"] for line in read_results(tmp_path / "out")} == {"ok", "not run"}
     assert "Traceback" not in capfd.readouterr().err
-    assert run_table(many, tmp_path / "out", (Build(formats=(Format.DXF,)),), jobs=2).ok == 100
+    assert run_table(many, tmp_path / "out", (Build(formats=(Format.DXF,)),), jobs=2).ok == ROWS
 
 
 # ---------------------------------------------------------------------- clusters that cannot be used
