@@ -38,6 +38,7 @@ __all__ = [
     "Fields",
     "explain_unknown_key",
     "explain_unknown_table",
+    "field_of",
     "fields_of_mates",
     "flat_fields",
     "names_of_materials",
@@ -185,6 +186,14 @@ def _fields_of_pairs() -> dict[str, FieldSchema]:
 
 FIELDS = LazyTable(("gear", "pair", "pinion", "wheel", "rack", *_HOMES), _fields)
 """What each key of each table says of itself, the keys flattened with dots."""
+
+
+def field_of(table: str, key: str) -> FieldSchema | None:
+    """What a key of a table says of itself; None for one that is unknown. Drawings are imported for what no gear has itself."""
+    if table in ("gear", "pinion", "wheel") and key in GEAR_FIELDS:
+        return GEAR_FIELDS[key]
+    return FIELDS[table].get(key)
+
 
 KEYS = LazyTable(FIELDS, lambda table: tuple(FIELDS[table]))
 """Permitted keys of each table."""

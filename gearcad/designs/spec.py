@@ -14,10 +14,11 @@ from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 from gearcad.designs.auto import AUTO, CLEAR
 from gearcad.designs.design import require_plain_name
 from gearcad.designs.files import Where, require_sane_tables
-from gearcad.designs.keys import ALTERNATIVES, FIELDS, PARTS, PARTS_BESIDE, SHARED, explain_unknown_key
+from gearcad.designs.keys import ALTERNATIVES, FIELDS, GEAR_FIELDS, PARTS, PARTS_BESIDE, SHARED, explain_unknown_key, field_of
 from gearcad.errors import GeometryError, InputError, ParameterError, SpecError, format_number, shown
 from gearcad.geometry import NAMED_RACKS, BasicRack
 from gearcad.per_gear import Role
+from gearcad.schema import FieldSchema
 
 __all__ = ["OF_SHIFT", "Given", "Spec"]
 
@@ -78,7 +79,7 @@ class Spec:
         for table, content in tables.items():
             for field, value in _entries(content, PARTS_BESIDE.get(table, _TABLES_OF_GEAR)):
                 key = f"{table}.{field}"
-                said = FIELDS[table].get(field)
+                said = field_of(table, field)
                 if said is None:
                     raise SpecError(f"{where(key)}: {shown(key)}: {explain_unknown_key(table, field)}")
                 require_sane_tables(value, where, key)
@@ -182,21 +183,21 @@ class Spec:
         with self.blame(owner):
             if not isinstance(values.get("name", ""), str):
                 raise ParameterError("name", values["name"], "must be a text")
-            return kind(**_missing(owner.rpartition(".")[2]) | _with_parts(values, PARTS_BESIDE.get(owner, {})))
+            return kind(**_missing(FIELDS[owner.rpartition(".")[2]]) | _with_parts(values, PARTS_BESIDE.get(owner, {})))
 
     def gear_inputs(self, owner: str) -> dict[str, Any]:
         """Keyword arguments of Gear; "auto" not yet resolved, what is missing as None for Gear to complain about."""
-        return self._inputs_of(owner, PARTS, "gear")
+        return self._inputs_of(owner, PARTS, GEAR_FIELDS)
 
     def rack_inputs(self, owner: str) -> dict[str, Any]:
         """Keyword arguments of Rack; what is missing as None."""
-        return self._inputs_of(owner, {"rack": BasicRack}, "rack")
+        return self._inputs_of(owner, {"rack": BasicRack}, FIELDS["rack"])
 
-    def _inputs_of(self, owner: str, kinds: Mapping[str, type[Any]], table: str) -> dict[str, Any]:
-        """Keyword arguments of what has parts of these kinds, and the fields of a table."""
+    def _inputs_of(self, owner: str, kinds: Mapping[str, type[Any]], fields: Mapping[str, FieldSchema]) -> dict[str, Any]:
+        """Keyword arguments of what has parts of these kinds, and these fields."""
         given = self.fields_of(owner)
         parts: dict[str, dict[str, Any]] = {part: {} for part in kinds}
-        inputs = _missing(table)
+        inputs = _missing(fields)
         for key, value in given.items():
             part, _, field = key.partition(".")
             if part in _OWN:
@@ -236,9 +237,9 @@ def _with_parts(values: Mapping[str, Any], kinds: Mapping[str, type[Any]]) -> di
     return found
 
 
-def _missing(table: str) -> dict[str, Any]:
+def _missing(fields: Mapping[str, FieldSchema]) -> dict[str, Any]:
     """None for every field that must be given: its type complains about it."""
-    return {key: None for key, field in FIELDS[table].items() if field.required}
+    return {key: None for key, field in fields.items() if field.required}
 
 
 def _entries(content: Mapping[str, Any], parts: Collection[str]) -> Iterator[tuple[str, Any]]:

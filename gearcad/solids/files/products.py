@@ -13,10 +13,8 @@ from gearcad.solids.exact.assembly import pair_product, part_names
 from gearcad.solids.exact.products import AssembledProduct, SolidProduct
 from gearcad.solids.exact.solid import gear_boundary
 from gearcad.solids.facets.tessellation import Facets, tessellate
-from gearcad.solids.files.dxf import write_dxf
 from gearcad.solids.files.options import FileOptions
 from gearcad.solids.files.part import Part
-from gearcad.solids.files.points import write_points
 
 __all__ = ["GearProduct", "PairProduct"]
 
@@ -44,10 +42,14 @@ class GearProduct:
 
     def write_dxf(self, path: Path) -> None:
         """Its section: see `write_dxf`."""
+        from gearcad.solids.files.dxf import write_dxf
+
         write_dxf(self.gear, path, circles=self.options.circles)
 
     def write_points(self, path: Path) -> None:
         """The outline of a tooth and the tool: see `write_points`."""
+        from gearcad.solids.files.points import write_points
+
         write_points(self.gear, path)
 
 
