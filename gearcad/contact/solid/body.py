@@ -7,7 +7,7 @@ that is free has a hub that follows it (see `hub`), whose six dofs are the force
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import NamedTuple
 
@@ -51,6 +51,7 @@ class SolidBody:
     """A body of equal sectors: tooth 0, and `neighbours` on each side whose displacements are wanted too.
 
     `rest` sectors beside tooth 0 make up the ring or, `held`, stand half on each side of it, their outer cuts as `cuts` says.
+    `tell` hears how much of a solution is done.
     """
 
     sector: SolidSector
@@ -58,6 +59,7 @@ class SolidBody:
     held: bool
     cuts: Cuts
     neighbours: int
+    tell: Share = field(default=unheard, compare=False, repr=False)
 
     @cached_property
     def _around(self) -> Around:
@@ -77,18 +79,19 @@ class SolidBody:
         None are all nodes. Loads and displacements are in the turning axes.
         """
         sector, every = self.sector, np.arange(self.sector.mesh.nodes)
-        wanted, at = every if wanted is None else wanted, node_dofs(every if at is None else at)
+        wanted, loaded = every if wanted is None else wanted, node_dofs(every if at is None else at)
         found = np.empty((2 * self.neighbours + 1, 3 * len(wanted), loads.shape[1]))
         torques = np.empty(loads.shape[1])
         for first in range(0, loads.shape[1], _AT_ONCE):
             these = slice(first, first + _AT_ONCE)
-            these_loads = np.zeros((sector.dofs, len(torques[these])))
-            these_loads[at] = loads[:, these]
-            solved, arriving = sector.condensed.forward(sector.cut_turn.T @ these_loads)
+            everywhere = np.zeros((sector.dofs, len(torques[these])))
+            everywhere[loaded] = loads[:, these]
+            solved, arriving = sector.condensed.forward(sector.cut_turn.T @ everywhere)
             joints = self._joints(solved, arriving)
             torques[these] = self._torques(solved, joints)
             for tooth, moved in self._teeth(solved, joints, wanted):
                 found[self.neighbours + tooth, :, these] = moved
+            self.tell(min(first + _AT_ONCE, len(torques)) / len(torques))
         turn = sector.cut_turn[node_dofs(wanted)][:, node_dofs(wanted)]
         for each in found:
             each[:] = turn @ each
@@ -171,12 +174,14 @@ def assemble_body(
     cuts: Cuts,
     *,
     free: bool = False,
-    tell: Share = unheard,
+    condensed: Share = unheard,
+    solved: Share = unheard,
 ) -> SolidBody:
     """A ring of `teeth` equal sectors, or a body of `held` teeth (odd, at least 3), its outer cuts as `cuts` says.
 
-    The bore of a ring may be `free`; `tell` hears how much of the condensation is done.
+    The bore of a ring may be `free`; `condensed` and `solved` hear how much of the condensation is done, and of a solution.
     """
     rest = (teeth if held is None else held) - 1
     # Where the ring has fewer teeth than are asked for, those on both sides would be the same.
-    return SolidBody(SolidSector(mesh, material, free, tell), rest, held is not None, cuts, min(neighbours, rest // 2))
+    sector = SolidSector(mesh, material, free, condensed)
+    return SolidBody(sector, rest, held is not None, cuts, min(neighbours, rest // 2), solved)

@@ -15,15 +15,26 @@ POSITION_SECONDS = 0.025
 _ROWS = 8
 """Unit loads in each layer, at the most."""
 
-_CONDENSING = 1.2e-6
-_FIELDS = 8e-6
-_SOLVING = 1e-8
-_JOINING = 1e-9
-"""Seconds: per quadrangles^1.5 layers^3; per quadrangle, layer and load; per dof, layer, load and tooth; per cube of a cut's
-dofs and doubling of the ring. Measured on one core of a server of the 2020s; within a third for 2 to 13 thousand nodes."""
+_OPERATIONS, _FACTORS = 4.0e3, 370.0
+"""Of the condensation, per squared quadrangles and layers^1.93, and numbers that are kept of it, per quadrangles^1.4 and
+layers^1.3: within a fifth for 126 to 324 quadrangles and 5 to 63 layers."""
 
-_FRONTS, _COPIES, _CHAINS = 18e3, 3.0, 12.0
-"""Bytes per quadrangle and squared layers of the factors, copies of the displacements, and of the ring's matrices."""
+_ELIMINATING, _ASSEMBLING = 3.5e-11, 4.5e-4
+_FIELDS = 3.5e-6
+_SOLVING = 1.6e-10
+_JOINING = 3.4e-11
+"""Seconds: per operation, and per hexahedron; per quadrangle, layer and load; per number that is kept, load and tooth, and the
+loaded one once more; per cube of a cut's dofs and step of putting rows together. Measured on one core of a server of the 2020s;
+within a third for 3 to 30 thousand nodes."""
+
+_SPAN, _DOUBLED = 5.0, 3.0
+"""Steps of putting one more tooth on both sides of a row, and of doubling a row."""
+
+_FRONTS, _ROWS_OF_CUTS, _AT_ONCE = 1.4, 20.0, 400.0
+"""Numbers in memory: copies of what is kept, matrices of a cut, and of every dof while loads are solved for."""
+
+_READ = 0.12
+"""Nodes whose displacements are read, over all."""
 
 
 class BodyCost(NamedTuple):
@@ -45,9 +56,12 @@ def body_cost(mesh: SweptMesh, teeth: int, neighbours: int) -> BodyCost:
     quads, layers, dofs = len(mesh.section.quads), mesh.layers, 3 * mesh.nodes
     loads, told = _ROWS * layers, 2 * neighbours + 1
     cut = 3 * len(mesh.over(mesh.section.ahead))
+    operations, factors = _OPERATIONS * quads**2 * layers**1.93, _FACTORS * quads**1.4 * layers**1.3
+    steps = _SPAN * neighbours + _DOUBLED * math.log2(max(teeth - 2 * neighbours, 2))
+    numbers = _FRONTS * factors + _ROWS_OF_CUTS * cut**2 + _AT_ONCE * dofs + _READ * told * dofs * loads
     return BodyCost(
         fields=_FIELDS * quads * layers * loads,
-        condensation=_CONDENSING * quads**1.5 * layers**3,
-        solution=_SOLVING * dofs * layers * loads * told + _JOINING * cut**3 * math.log2(max(teeth, 2)),
-        memory=_FRONTS * quads * layers**2 + 8 * _COPIES * told * dofs * loads + 8 * _CHAINS * (2 * cut) ** 2,
+        condensation=_ELIMINATING * operations + _ASSEMBLING * quads * layers,
+        solution=_SOLVING * factors * loads * (told + 1) + _JOINING * cut**3 * steps,
+        memory=8 * numbers,
     )

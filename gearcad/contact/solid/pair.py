@@ -234,7 +234,15 @@ def solid_pair(
         held = body.teeth_held(gear)
         heard = _Heard(body_cost(mesh, held or gear.tooth_count, neighbours))
         solid = assemble_body(
-            mesh, gear.tooth_count, neighbours, of, held, body.cuts, free=support.bends, tell=heard.condensation
+            mesh,
+            gear.tooth_count,
+            neighbours,
+            of,
+            held,
+            body.cuts,
+            free=support.bends,
+            condensed=heard.condensation,
+            solved=heard.solution,
         )
         jobs.append((heard, partial(solid_compliance, gear, solid, of, start, heard.fields)))
     bodies, mounted = PerGear(*_side_by_side(jobs, tell)), mounting.mounted(pair)
@@ -277,6 +285,9 @@ class _Heard:
 
     def condensation(self, share: float) -> None:
         self.seconds = self.cost.fields + share * self.cost.condensation
+
+    def solution(self, share: float) -> None:
+        self.seconds = self.cost.fields + self.cost.condensation + share * self.cost.solution
 
 
 def _side_by_side(jobs: Sequence[tuple[_Heard, Callable[[], SolidCompliance]]], tell: Share) -> list[SolidCompliance]:
