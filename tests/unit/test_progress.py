@@ -139,8 +139,12 @@ def test_lines_come_now_and_then(monkeypatch: pytest.MonkeyPatch, capsys: pytest
 
 
 def test_memory_of_bodies_is_what_was_expected() -> None:
-    """Within a third, both gears side by side; arrays of numpy are traced."""
-    pair, body, sizes = coarse_pair("helical"), BodyModel(), SolidSizes().refined(0.5)
+    """Within a third, both gears side by side; arrays of numpy are traced, libraries are there before."""
+    import skfem  # noqa: F401
+
+    import gearcad.contact.solid.assembling  # noqa: F401
+
+    pair, body, sizes = coarse_pair("helical"), BodyModel(), SolidSizes().refined(0.6)
     tracemalloc.start()
     try:
         with threadpool_limits(1):

@@ -30,8 +30,8 @@ within a third for 3 to 30 thousand nodes."""
 _SPAN, _DOUBLED = 5.0, 3.0
 """Steps of putting one more tooth on both sides of a row, and of doubling a row."""
 
-_FRONTS, _ROWS_OF_CUTS, _AT_ONCE = 1.4, 20.0, 400.0
-"""Numbers in memory: copies of what is kept, matrices of a cut, and of every dof while loads are solved for."""
+_FRONTS, _ROWS_OF_CUTS, _COPIES, _AT_ONCE = 1.4, 20.0, 6.0, 64
+"""Numbers in memory: copies of what is kept, matrices of a cut, and copies of all dofs for so many loads at once."""
 
 _READ = 0.12
 """Nodes whose displacements are read, over all."""
@@ -58,7 +58,7 @@ def body_cost(mesh: SweptMesh, teeth: int, neighbours: int) -> BodyCost:
     cut = 3 * len(mesh.over(mesh.section.ahead))
     operations, factors = _OPERATIONS * quads**2 * layers**1.93, _FACTORS * quads**1.4 * layers**1.3
     steps = _SPAN * neighbours + _DOUBLED * math.log2(max(teeth - 2 * neighbours, 2))
-    numbers = _FRONTS * factors + _ROWS_OF_CUTS * cut**2 + _AT_ONCE * dofs + _READ * told * dofs * loads
+    numbers = _FRONTS * factors + _ROWS_OF_CUTS * cut**2 + _COPIES * dofs * min(loads, _AT_ONCE) + _READ * told * dofs * loads
     return BodyCost(
         fields=_FIELDS * quads * layers * loads,
         condensation=_ELIMINATING * operations + _ASSEMBLING * quads * layers,
