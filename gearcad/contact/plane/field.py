@@ -142,10 +142,8 @@ def _smooth_stresses(
 
 def _at_length(body: PlaneCompliance, columns: Floats, length: float) -> Floats:
     """Responses to the unit loads, interpolated to a roll length (mm), no nearer to the tip corner than the last of them."""
-    from scipy.interpolate import CubicSpline
-
-    found: Floats = CubicSpline(body.loads, columns, axis=1)(np.clip(length, body.loads[0], body.loads[-1]))
-    return found
+    result: Floats = columns @ body.between_loads(np.clip(length, body.loads[0], body.loads[-1]))
+    return result
 
 
 def _element_stresses(body: PlaneCompliance, triangles: Wholes, moved: Floats) -> Floats:

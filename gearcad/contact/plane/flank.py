@@ -20,6 +20,7 @@ from gearcad.contact.plane.flamant import edge_displacement, flamant_displacemen
 from gearcad.contact.plane.ring import Ring
 from gearcad.contact.shared.engaged import FlankCompliance, LoadedFlank
 from gearcad.geometry import Gear
+from gearcad.geometry.spline import Spline
 from gearcad.meshing.section import SectorMesh
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.quality import mesh_quality
@@ -118,6 +119,11 @@ class PlaneCompliance(FlankCompliance):
             edge = edge_displacement(np.where(apart, distance, 1.0), self.elasticity)
             smooth[:, column] += np.where(apart, singular - edge, 0.0)
         return smooth
+
+    @cached_property
+    def between_loads(self) -> Spline:
+        """Parts (m,) of the unit loads' responses in that to a load between theirs, by its roll length (mm)."""
+        return Spline(self.loads, np.eye(len(self.loads)))
 
     @property
     def hub_radius(self) -> float:

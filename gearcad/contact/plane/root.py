@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -15,6 +15,7 @@ from gearcad.contact.plane.rim import far_responses
 from gearcad.contact.plane.support import key_load
 from gearcad.contact.shared.holding import Hold
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, RootStress
+from gearcad.geometry.spline import Spline
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.shapes import GAUSS, edge_shapes, edge_slopes, edges_of
 
@@ -40,7 +41,7 @@ class Fillets:
         for tooth, length, force in loads:
             # A load on tooth j is seen from tooth 0 as the load on tooth 0 is from tooth -j.
             if (seen := self._response(side, -tooth)) is not None:
-                total += seen(length) * force
+                total += seen(np.asarray(length)) * force
         return total
 
     def greatest(self, side: Side, loads: list[ToothLoad]) -> RootStress:
@@ -106,19 +107,17 @@ class Fillets:
             found[side] = (np.hypot(*where.T), angle, matrix)
         return found
 
-    def _response(self, side: Side, tooth: int) -> Callable[[float], Floats] | None:
+    def _response(self, side: Side, tooth: int) -> Spline | None:
         """Stress on a side of a tooth by 1 N per mm on tooth 0, as a function of the load's roll length; None if unknown."""
         support = self.body.ring.support
         place = (tooth + self.body.neighbours) % support.teeth if support.bends else tooth + self.body.neighbours
         return self._splines[side][place] if 0 <= place < len(self._splines[side]) else None
 
     @cached_property
-    def _splines(self) -> dict[Side, tuple[Callable[[float], Floats], ...]]:
+    def _splines(self) -> dict[Side, tuple[Spline, ...]]:
         """Stresses (points,) of each side by the roll length of the load, from tooth -neighbours on."""
-        from scipy.interpolate import CubicSpline
-
         loads = self.body.loads
-        return {side: tuple(CubicSpline(loads, each, axis=1) for each in teeth) for side, teeth in self._responses.items()}
+        return {side: tuple(Spline(loads, each.T) for each in teeth) for side, teeth in self._responses.items()}
 
     @cached_property
     def _responses(self) -> dict[Side, Floats]:

@@ -12,14 +12,14 @@ __all__ = ["greatest_von_mises", "strip_stresses", "von_mises"]
 
 def strip_stresses(x: Floats, depth: Floats, places: Floats, width: float, pressures: Floats) -> tuple[Floats, Floats, Floats]:
     """sigma_x, sigma_z and tau_xz (MPa) at points (x, depth) below strips of `width` (mm) centred on `places`."""
-    right, left = x[..., None] - places + width / 2, x[..., None] - places - width / 2
-    first, second = np.arctan2(depth[..., None], right), np.arctan2(depth[..., None], left)
-    spread, sines = 2 * (second - first), np.sin(2 * second) - np.sin(2 * first)
-    scale = pressures / (2 * np.pi)
-    across = -(scale * (spread + sines)).sum(-1)
-    down = -(scale * (spread - sines)).sum(-1)
-    shear = (scale * (np.cos(2 * second) - np.cos(2 * first))).sum(-1)
-    return across, down, shear
+    right, left, z = x[..., None] - places + width / 2, x[..., None] - places - width / 2, depth[..., None]
+    to_right, to_left = (np.maximum(end**2 + z**2, np.finfo(float).tiny) for end in (right, left))
+    scale = pressures / np.pi
+    # From the angles at which both ends of a strip are seen: their difference, and those of their sines and cosines, doubled.
+    turned = np.arctan2(z * width, right * left + z**2) @ scale
+    sines = (z * (left / to_left - right / to_right)) @ scale
+    shear: Floats = (z**2 * (1 / to_right - 1 / to_left)) @ scale
+    return -(turned + sines), -(turned - sines), shear
 
 
 def von_mises(x: Floats, y: Floats, shear: Floats, elasticity: PlaneElasticity) -> Floats:
