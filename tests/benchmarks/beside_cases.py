@@ -10,7 +10,7 @@ __all__ = ["CASES", "INPUTS", "SERIES", "Series"]
 CASES: dict[str, str] = {
     "help": "gearcad --help",
     "version": "gearcad --version",
-    "new": "gearcad new pair",
+    "new": "gearcad new pair -o mine.toml",
     "data, gear": "gearcad data spur.toml",
     "data, pair": "gearcad data volvo-13-44.toml",
     "data, train": "gearcad data planetary-24-21-66.toml",
