@@ -36,7 +36,11 @@ _SAFETY = 1.25
 """Factor on the change to the finest mesh where the changes are too small or too uneven to show an order (Roache)."""
 
 SOLID_FACTORS = (0.794, 1.0, 1.26)
-"""Refinement of three solid meshes, each of twice the dofs of the one before; the check itself is the middle one."""
+"""Refinement of three solid meshes, each of twice the dofs of the one before; the check itself is the middle one.
+
+Two coarser ones in place of the finer one cannot tell its error: few layers and columns of unit loads move root tensions to and
+fro. Of 22 on eleven pairs nine errors were told less than half as great as they are; with the finer mesh four.
+"""
 
 SOLID_ORDER = 2.0
 """The greatest order that solid meshes are credited with, and that which is taken where they show a lower one than 1.
