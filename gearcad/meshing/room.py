@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
-import os
 from dataclasses import replace
 
 import numpy as np
 
 from gearcad.errors import GeometryError, InputError, ParameterError
+from gearcad.machine import machine_memory
 from gearcad.meshing.bodies.elements import Element
 from gearcad.meshing.expected import expected_memory
 from gearcad.meshing.gear_plan import SectorsPlan
@@ -40,7 +39,7 @@ def _require(plan: MeshPlan) -> None:
     amount = plan.amount
     if amount is None:
         return
-    nodes, needed, there = _most_nodes(plan), expected_memory(amount), _memory()
+    nodes, needed, there = _most_nodes(plan), expected_memory(amount), machine_memory()
     excess = max(nodes / _MOST_NODES, needed / there)
     if excess > 1:
         many = f", of which a file numbers at most {_MOST_NODES}" if nodes > _MOST_NODES else ""
@@ -66,15 +65,3 @@ def _refusal(plan: MeshPlan, text: str, excess: float) -> InputError:
         larger = options.size * excess ** (1 / plan.element.shape.dimension)
         return ParameterError("size", options.size, f"{text}; about {larger:.2g} mm would do", "mm")
     return GeometryError("what", plan.options.what, f"{text}; a larger size, or less of the gear, would do")
-
-
-def _memory() -> float:
-    """Bytes that the machine has, or less where the system permits less; endless where that is not told."""
-    try:
-        import resource
-
-        machine = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-        permitted = resource.getrlimit(resource.RLIMIT_AS)[0]
-    except (ImportError, AttributeError, ValueError, OSError):  # Windows has neither
-        return math.inf
-    return float(machine if permitted == resource.RLIM_INFINITY else min(machine, permitted))

@@ -12,6 +12,7 @@ from gearcad.check.options import Model
 from gearcad.check.solid.expected import BODIES, COARSER, CYCLE, FINER, RATING, SWEEP, sizes_of
 from gearcad.check.solid.judge import compare_solid
 from gearcad.check.solid.result import SolidCheck
+from gearcad.check.solid.room import require_room
 from gearcad.check.solid.summary import SolidSummary, summarise_solid
 from gearcad.check.sweep import sweep_points
 from gearcad.check.task import CheckTask
@@ -35,6 +36,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     turns helix angles over and leaves heights and radii as they are, and all results are those of its left flanks. The
     mounting's misalignment is always that of the flanks that carry.
     """
+    require_room(task)
     model = solid_model(task, 1.0, agenda.within(BODIES))
     positions = task.options.positions_of(Model.SOLID)
     cycle = SolidCycle.run(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
