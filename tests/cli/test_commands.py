@@ -306,12 +306,12 @@ def test_missing_file_is_one_line(command: str) -> None:
 def test_fault_of_ours_is_one_line_with_status_1_and_a_traceback_only_on_demand(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import gearcad.designs
+    import gearcad.designs.reader
 
     def fail(path: Path) -> None:
         raise ZeroDivisionError("two\nlines")
 
-    monkeypatch.setattr(gearcad.designs, "read_spec", fail)
+    monkeypatch.setattr(gearcad.designs.reader, "read_spec", fail)
     result = run("data", "x.toml", status=1)
     assert result.stderr.startswith("Error: unexpected ZeroDivisionError: two lines (")
     assert "--debug" in result.stderr and result.stderr.count("\n") == 1

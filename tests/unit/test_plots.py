@@ -202,7 +202,7 @@ def test_a_label_has_words_symbol_and_unit(key: str, label: str) -> None:
 
 def test_every_symbol_can_be_drawn() -> None:
     """A glyph that the font lacks is a warning of matplotlib, and mathtext that it cannot read an error."""
-    tables = FIELDS | {"pinion": {*FIELDS["pinion"], *symbols.GEAR}, "pair": {*FIELDS["pair"], *symbols.PAIR}}
+    tables = {**FIELDS, "pinion": {*FIELDS["pinion"], *symbols.GEAR}, "pair": {*FIELDS["pair"], *symbols.PAIR}}
     keys = [f"{table}.{field}" for table, known in tables.items() for field in known]
     labels = [axis_label(key) for key in keys]
     assert not set(labels) & set(keys)
