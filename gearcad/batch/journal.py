@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from gearcad.batch.results import FILES
-from gearcad.batch.row import Record, Status
+from gearcad.batch.row import Checked, Record, Status
 from gearcad.designs.table import Row
 from gearcad.errors import OutputError, format_number
 
@@ -25,7 +25,7 @@ class Journal:
         self._database.execute("PRAGMA journal_mode = OFF")
         self._database.execute("BEGIN")  # and never commit: nobody reads it after us
         self._database.execute(
-            "CREATE TABLE rows (number INTEGER PRIMARY KEY, name TEXT, folded TEXT UNIQUE, row BLOB, record BLOB)"
+            "CREATE TABLE rows (number INTEGER PRIMARY KEY, name TEXT, folded TEXT UNIQUE, row BLOB, checked BLOB, record BLOB)"
         )
 
     def close(self) -> None:
@@ -47,17 +47,21 @@ class Journal:
             return [f"{said}: must be another one; this is the name of a table of results"]
         return []
 
+    def keep(self, number: int, checked: Checked) -> None:
+        """Note what the check of a row has found."""
+        self._execute("UPDATE rows SET checked = ? WHERE number = ?", (pickle.dumps(checked), number))
+
     def finish(self, record: Record) -> None:
         """Note how a row ended."""
-        self._execute("UPDATE rows SET record = ? WHERE number = ?", (pickle.dumps(record), record.number))
+        self._execute("UPDATE rows SET record = ?, checked = NULL WHERE number = ?", (pickle.dumps(record), record.number))
 
-    def open_rows(self) -> Iterator[Row]:
-        """The rows without a record, in the order of the table."""
+    def open_rows(self) -> Iterator[tuple[Row, Checked]]:
+        """The rows without a record, in the order of the table, with what their checks have found."""
         last = -1
-        query = "SELECT number, row FROM rows WHERE record IS NULL AND number > ? ORDER BY number LIMIT 1"
+        query = "SELECT number, row, checked FROM rows WHERE record IS NULL AND number > ? ORDER BY number LIMIT 1"
         while (found := self._execute(query, (last,)).fetchone()) is not None:
             last = found[0]
-            yield pickle.loads(found[1])
+            yield pickle.loads(found[1]), pickle.loads(found[2]) if found[2] else Checked()
 
     def results(self) -> Iterator[tuple[Row, Record]]:
         """Every row and its record, in the order of the table."""

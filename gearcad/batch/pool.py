@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import logging
 import os
 from collections.abc import Callable, Iterable, Iterator
@@ -136,6 +135,8 @@ def _dask_pool(address: str, jobs: int, look: Callable[[], None]) -> Iterator[Po
 @contextmanager
 def _client(address: str, jobs: int) -> Iterator[Any]:
     """A client of the Dask cluster, which "local" starts and ends."""
+    import asyncio
+
     try:
         from distributed import Client
     except ImportError as error:
@@ -188,6 +189,8 @@ def _quiet_log() -> Iterator[None]:
 
 async def _greet(address: str) -> None:
     """Shake hands once: Dask's client would wait for ever for what is no scheduler."""
+    import asyncio
+
     from distributed.comm import connect
     from distributed.security import Security
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import json
+import pickle
 import shutil
 import socket
 import time
@@ -17,6 +18,7 @@ from typing import Any, NamedTuple
 
 from gearcad.batch.manifest import Manifest, Part, inputs_hash, publish, read_manifest
 from gearcad.batch.stages import DATA, make_parts
+from gearcad.designs import Design
 from gearcad.designs.table import Row
 from gearcad.errors import GearcadError, OutputError, SpecError, out_of_memory
 from gearcad.jobs.job import Job
@@ -24,7 +26,7 @@ from gearcad.output import UNWRITABLE, unwritable
 from gearcad.per_gear import PerGear
 from gearcad.symbols import PER_GEAR
 
-__all__ = ["Record", "Status", "Task", "check_rows", "make_row"]
+__all__ = ["Checked", "Record", "Status", "Task", "check_rows", "make_row"]
 
 _HOPELESS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.ENOENT)
 """Errors of the target that every other row would meet too."""
@@ -39,6 +41,15 @@ class Status(Enum):
 
 
 @dataclass(frozen=True)
+class Checked:
+    """What the check of a row has found: its faults, or else the hash of its inputs and the pickled design that they make."""
+
+    faults: tuple[str, ...] = ()
+    inputs: str = ""
+    design: bytes = b""
+
+
+@dataclass(frozen=True)
 class Task:
     """One row and the jobs to do on it: in `folder`/NAME, by way of `workspace` on the same file system."""
 
@@ -47,6 +58,14 @@ class Task:
     folder: Path
     workspace: Path
     fresh: bool
+    checked: Checked = Checked()
+
+    def design(self, inputs: str) -> Design:
+        """The design of inputs with this hash: that of the check, unless a file that the row names has changed since."""
+        if self.checked.design and self.checked.inputs == inputs:
+            design: Design = pickle.loads(self.checked.design)
+            return design
+        return self.row.design()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,9 +82,15 @@ class Record:
     stop: bool = False
 
 
-def check_rows(rows: list[Row]) -> list[list[str]]:
-    """The faults of each row; runs in a worker."""
-    return [row.all_faults() for row in rows]
+def check_rows(rows: list[Row]) -> list[Checked]:
+    """Check each row; runs in a worker."""
+    return list(map(_checked, rows))
+
+
+def _checked(row: Row) -> Checked:
+    inputs = inputs_hash(row.inputs)  # before the design: what changes in between makes another hash
+    found = row.design_or_faults()
+    return Checked(faults=tuple(found)) if isinstance(found, list) else Checked(inputs=inputs, design=pickle.dumps(found))
 
 
 def make_row(task: Task) -> Record:
@@ -146,7 +171,7 @@ def _update(task: Task, folder: Path, job: Job[Any, Any]) -> _Update:
     kept = _kept(before, inputs, folder)
     missing = [name for name, options in wanted.items() if task.fresh or name not in kept or kept[name].options != options]
     if missing:
-        design = row.design()
+        design = task.design(inputs)
         with _staging(task, folder) as staging:
             make_parts(job, design, missing, staging)
             made = _parts_in(staging, job)

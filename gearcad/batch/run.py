@@ -16,7 +16,7 @@ from filelock import FileLock, Timeout
 from gearcad.batch.journal import Journal
 from gearcad.batch.pool import ClusterLostError, Outcome, Pool, open_pool
 from gearcad.batch.results import FILES, Decimal, write_results
-from gearcad.batch.row import Record, Status, Task, check_rows, make_row
+from gearcad.batch.row import Checked, Record, Status, Task, check_rows, make_row
 from gearcad.batch.stages import stages
 from gearcad.batch.worker import WorkerLostError
 from gearcad.designs.table import Row, Table, open_table
@@ -88,7 +88,7 @@ def run_table(
             raise SpecError("\n".join(faults))
         with _workspace(folder) as workspace:
             target = workspace.parent
-            tasks = (Task(row, jobs_of_row, target, workspace, fresh) for row in journal.open_rows())
+            tasks = (Task(row, jobs_of_row, target, workspace, fresh, checked) for row, checked in journal.open_rows())
             try:
                 run.make(tasks, time_limit)
             except ClusterLostError as error:
@@ -115,10 +115,12 @@ class _Run:
         """Note every row in the journal; the faults of all of them in the order of the table. A row at fault has failed."""
         faults: dict[int, list[str]] = {}
         for outcome in self.pool.run(check_rows, self._chunks(table, faults), _CHECK_SECONDS):
-            for row, found in zip(outcome.argument, _checked(outcome), strict=True):
+            for row, checked in zip(outcome.argument, _checked(outcome), strict=True):
                 # The name's own fault comes first; that of its place among the others next.
-                if found or row.number in faults:
-                    faults[row.number] = [*found, *faults.get(row.number, ())]
+                if checked.faults or row.number in faults:
+                    faults[row.number] = [*checked.faults, *faults.get(row.number, ())]
+                else:
+                    self.journal.keep(row.number, checked)
             self.done += len(outcome.argument)
             self.tell("checking", len(faults), 0)
         for number, lines in faults.items():
@@ -186,7 +188,7 @@ def falls_short(values: Mapping[str, Any]) -> bool:
     return values.get("check.passed") is False or values.get("rate.passed", True) is not True
 
 
-def _checked(outcome: Outcome[list[Row], list[list[str]]]) -> list[list[str]]:
+def _checked(outcome: Outcome[list[Row], list[Checked]]) -> list[Checked]:
     try:
         return outcome.future.result()
     except WorkerLostError:

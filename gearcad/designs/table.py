@@ -65,7 +65,12 @@ class Row:
         return {"name": self.name, **self.values, **{f"{key}: text": _text_of(Path(str(file))) for key, file in found.items()}}
 
     def all_faults(self) -> list[str]:
-        """Every fault of the row that does not depend on another, from left to right; [] for a good row.
+        """Every fault of the row that does not depend on another, from left to right; [] for a good row."""
+        found = self.design_or_faults()
+        return found if isinstance(found, list) else []
+
+    def design_or_faults(self) -> Design | list[str]:
+        """The design, or every fault of the row that does not depend on another, from left to right.
 
         They are the cells that cannot be read, or else what fails first in making the design; then every value that is
         wrong whatever the others are, and every one that is missing.
@@ -75,11 +80,9 @@ class Row:
         found = list(zip(self.unread, self.faults, strict=True))
         if not found:
             try:
-                self.design()
+                return self.design()
             except SpecError as error:
                 found.append((error.key, str(error)))
-            else:
-                return []
         found += [(error.key, str(error)) for error in self._single_faults()]
         return [text for _, text in sorted(dict.fromkeys(found), key=lambda fault: self._index(fault[0]))]
 

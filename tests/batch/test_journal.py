@@ -23,7 +23,7 @@ def test_rows_come_back_in_the_order_of_the_table_with_their_records() -> None:
     done = [Record(number=number, status=Status.OK, seconds=0.5) for number in (7, 2)]
     for record in done:
         journal.finish(record)
-    assert [row.number for row in journal.open_rows()] == [4, 8]
+    assert [row.number for row, _ in journal.open_rows()] == [4, 8]
     assert len(list(journal.results())) == 4
     assert list(journal.results()) == [
         (rows[0], done[1]),
@@ -39,7 +39,7 @@ def test_rows_may_be_finished_while_the_open_ones_are_read() -> None:
     for number in range(2, 8):
         journal.add(replace(ROW, number=number, name=str(number)))
     seen = []
-    for row in journal.open_rows():
+    for row, _ in journal.open_rows():
         seen.append(row.number)
         journal.finish(Record(number=row.number, status=Status.OK))
     assert seen == [2, 3, 4, 5, 6, 7]
