@@ -77,9 +77,14 @@ def open_ports(processes: list[psutil.Process]) -> set[tuple[str, int]]:
 
 
 @pytest.fixture(scope="module")
-def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    with running_cluster(tmp_path_factory.mktemp("cluster")) as (address, _):
-        yield address
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, psutil.Process]]:
+    with running_cluster(tmp_path_factory.mktemp("cluster")) as found:
+        yield found
+
+
+@pytest.fixture
+def address(cluster: tuple[str, psutil.Process]) -> str:
+    return cluster[0]
 
 
 @pytest.fixture(scope="module")
@@ -180,13 +185,13 @@ def run_here(table: Path, folder: Path, address: str) -> tuple[list[Summary], th
     return found, thread
 
 
-def test_worker_of_the_cluster_that_dies_costs_nothing(many: Path, tmp_path: Path) -> None:
-    """Dask gives its rows to another."""
-    with running_cluster(tmp_path) as (address, scheduler):
-        found, thread = run_here(many, tmp_path / "out", address)
-        workers = [process for process in scheduler.children() if process.children()]
-        workers[0].kill()
-        thread.join(PATIENCE)
+def test_worker_of_the_cluster_that_dies_costs_nothing(cluster: tuple[str, psutil.Process], many: Path, tmp_path: Path) -> None:
+    """Dask gives its rows to another, and starts one in its place."""
+    address, scheduler = cluster
+    found, thread = run_here(many, tmp_path / "out", address)
+    workers = [process for process in scheduler.children() if process.children()]
+    workers[0].kill()
+    thread.join(PATIENCE)
     assert [(summary.ok, summary.failed) for summary in found] == [(ROWS, 0)]
     assert lies(tmp_path / "out") == []
 

@@ -23,7 +23,8 @@ from gearcad.solids import Format
 DATA = (Data(),)
 POINTS = (Build(formats=(Format.CSV,)),)
 
-MANY = (GEARS[0], *(f"row {number:03d},{12 + number % 50},1,2,{number % 3}" for number in range(60)))
+ROWS = 30
+MANY = (GEARS[0], *(f"row {number:03d},{12 + number % 50},1,2,{number % 3}" for number in range(ROWS)))
 
 
 @pytest.fixture
@@ -121,8 +122,8 @@ def test_second_run_in_the_same_folder_is_refused_while_the_first_is_at_it(many:
         first.send_signal(signal.SIGCONT)
         _, errors = first.communicate(timeout=PATIENCE)
     assert (first.returncode, errors) == (0, "")
-    assert [line["status"] for line in read_results(folder)] == ["ok"] * 60
-    assert run_table(many, folder, POINTS, jobs=1).ok == 60
+    assert [line["status"] for line in read_results(folder)] == ["ok"] * ROWS
+    assert run_table(many, folder, POINTS, jobs=1).ok == ROWS
 
 
 def test_folder_that_is_removed_during_the_run_ends_it(many: Path, tmp_path: Path) -> None:
@@ -134,7 +135,7 @@ def test_folder_that_is_removed_during_the_run_ends_it(many: Path, tmp_path: Pat
         _, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 1
     one_line(errors, f"output = '{folder}")
-    assert run_table(many, folder, POINTS, jobs=1).ok == 60
+    assert run_table(many, folder, POINTS, jobs=1).ok == ROWS
 
 
 # ---------------------------------------------------------------------- no room
@@ -168,21 +169,21 @@ def test_files_larger_than_the_system_permits_fail_their_rows(table: Path, tmp_p
 
 
 def test_results_larger_than_the_system_permits_are_status_1(many: Path, tmp_path: Path) -> None:
-    done = run_limited(12_000, many, "-o", tmp_path / "out", "--do", "data", "-j", "1", "--quiet")
+    done = run_limited(6_000, many, "-o", tmp_path / "out", "--do", "data", "-j", "1", "--quiet")
     assert (done.returncode, done.stdout) == (1, "")
     one_line(done.stderr, f"output = '{tmp_path / 'out'}': cannot be written (File too large)")
-    assert len(list((tmp_path / "out").iterdir())) == 60 and lies(tmp_path / "out") == []
+    assert len(list((tmp_path / "out").iterdir())) == ROWS and lies(tmp_path / "out") == []
 
 
 @pytest.mark.parametrize("formats", ["csv,dxf", *(pytest.param(each, marks=pytest.mark.long) for each in ("stl", "step"))])
 def test_full_disk_ends_the_run_and_a_larger_one_the_work(formats: str, small_disk: Path, tmp_path: Path) -> None:
-    table, folder, undisturbed = write_table(tmp_path / "table.csv", MANY[:31]), small_disk / "out", tmp_path / "undisturbed"
+    table, folder, undisturbed = write_table(tmp_path / "table.csv", MANY), small_disk / "out", tmp_path / "undisturbed"
     options = ("--format", formats, "-j", "2", "--quiet")
     done = run_batch(table, "-o", folder, *options)
     assert done.returncode == 1
     one_line(done.stderr, f"output = '{folder}", "cannot be written (No space left on device); give a folder you may write to")
     finished = {path.name for path in folder.glob("row*")}
-    assert lies(folder) == [] and 0 < len(finished) < 30
+    assert lies(folder) == [] and 0 < len(finished) < ROWS
     if (folder / "results.csv").exists():
         assert {line["name"] for line in read_results(folder) if line["status"] == "ok"} <= finished
     assert not list(folder.glob(".*"))

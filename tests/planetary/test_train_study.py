@@ -190,6 +190,7 @@ def test_what_is_given_in_place_of_the_designs_own() -> None:
         gearcad.planetary(read_spec(TEMPLATES / "volvo-13-44.toml"))
 
 
+@pytest.mark.usefixtures("quick")
 def test_the_command_shows_the_figures_and_writes_the_files(tmp_path: Path) -> None:
     spec = TEMPLATES / "planetary-24-21-66.toml"
     result = run("planetary", str(spec), "-o", str(tmp_path), "--quiet")
@@ -203,6 +204,7 @@ def test_the_command_shows_the_figures_and_writes_the_files(tmp_path: Path) -> N
     assert json.loads(run("planetary", str(spec), "-o", str(tmp_path), "--json", "--quiet").stdout)["ratio"] == 3.75
 
 
+@pytest.mark.usefixtures("quick")
 def test_the_screen_says_who_drives_a_differential(tmp_path: Path) -> None:
     """The carrier turns at (30·1500 + 66·300)/96; sun and ring put power in, as the starter says."""
     spec = TEMPLATES / "planetary-differential.toml"

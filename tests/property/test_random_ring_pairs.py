@@ -110,7 +110,7 @@ def check(inputs: dict[str, Any]) -> None:
         confirm_mesh(pair)
 
 
-@settings(max_examples=450)
+@settings(max_examples=130)
 @given(ring_pair_inputs())
 def test_rings_and_pinions_touch_nowhere_but_at_their_flanks(inputs: dict[str, Any]) -> None:
     check(inputs)
@@ -164,7 +164,7 @@ def check_way_in(inputs: dict[str, Any]) -> None:
     assert (deepest_on_the_way_in(pair) < 0) is ("radial-assembly" in codes)
 
 
-@settings(max_examples=100)
+@settings(max_examples=40)
 @given(ring_pair_inputs(most_more=20))
 def test_what_goes_in_along_the_line_of_centres(inputs: dict[str, Any]) -> None:
     check_way_in(inputs)

@@ -275,10 +275,11 @@ def _random_gear(rng: np.random.Generator) -> Gear:
     )
 
 
-def test_random_gears_are_closed_and_have_their_volume() -> None:
+@pytest.mark.parametrize("wanted", [20, pytest.param(60, marks=pytest.mark.long)])
+def test_random_gears_are_closed_and_have_their_volume(wanted: int) -> None:
     rng = np.random.default_rng(20)
     made = 0
-    while made < 60:
+    while made < wanted:
         try:
             gear = _random_gear(rng)
         except GearcadError:

@@ -16,12 +16,12 @@ from support.modified import roll_ends
 __all__ = ["AMOUNTS", "GEARS", "crossed", "modified", "random_gear"]
 
 _KEYED = {"bore": 12, "keyway_width": 4, "keyway_depth": 1.5, "hub_diameter": 20, "hub_length": 3, "hub_side": "both"}
-_PLAIN = {"teeth": 20, "normal_module": 2.0, "face_width": 12.2}
+_PLAIN = {"teeth": 14, "normal_module": 2.0, "face_width": 12.2, "profile_shift": 0.2}
 
 GEARS: dict[str, Gear] = {
     "spur": Gear(teeth=18, normal_module=2.0, face_width=10),
     "right hand": Gear(teeth=13, normal_module=2.5, face_width=18.3, helix_angle=28, profile_shift=0.107, tooth_thinning=0.08),
-    "left hand": Gear(teeth=24, normal_module=2.5, face_width=15.1, helix_angle=-28, profile_shift=-0.378),
+    "left hand": Gear(teeth=18, normal_module=2.5, face_width=15.1, helix_angle=-28, profile_shift=-0.378),
     "undercut": Gear(teeth=8, normal_module=2.0, face_width=10, helix_angle=15),
     "chamfered": Gear(**_PLAIN, helix_angle=25, body=Body(**_KEYED, end_chamfer=1.2, tip_chamfer=0.3)),
     "chamfered, spur": Gear(**_PLAIN, body=Body(end_chamfer=1.2)),

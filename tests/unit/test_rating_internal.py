@@ -283,10 +283,11 @@ def test_sharp_corners_are_refused() -> None:
         rate(_pair(cutter=ShaperCutter(tip_radius=0.0)), LOAD)
 
 
-def test_random_internal_pairs_are_rated_or_refused_in_a_line() -> None:
+@pytest.mark.parametrize("wanted", [50, pytest.param(200, marks=pytest.mark.long)])
+def test_random_internal_pairs_are_rated_or_refused_in_a_line(wanted: int) -> None:
     """sigma_H0 without Z_eps and Z_beta is Hertz at the pitch point, whatever the pair; sections lie within their teeth."""
     draw, rated = random.Random(16), 0
-    while rated < 200:
+    while rated < wanted:
         teeth, helix = draw.randint(12, 60), draw.choice([0.0, draw.uniform(-40, 40)])
         shift = draw.uniform(-0.2, 0.6)
         ring = teeth + draw.randint(10, 150)

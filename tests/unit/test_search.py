@@ -61,7 +61,7 @@ def run(search: Search, bound: float, *, edges: bool = True) -> Found:
 def test_tip_relief_halves_the_transmission_error_as_the_rules_of_the_field_say(
     search: Search, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 15)
+    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 8)
     found = best(search, _GENEROUS)
     model = coarse_model("FZG C")
     proposed = model.remade(with_amounts(model.pair, found.amounts, ReliefShape.LINEAR), Mounting())
