@@ -52,8 +52,8 @@ def run(*arguments: str) -> Result:
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 4)
-    monkeypatch.setattr("gearcad.contact.optimum.search._STARTS", 2)
+    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 3)
+    monkeypatch.setattr("gearcad.contact.optimum.search._STARTS", 1)
     return tmp_path
 
 
