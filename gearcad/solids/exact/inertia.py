@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from gearcad.geometry import Gear, Rack
-from gearcad.solids.exact.boundary import Boundary
-from gearcad.solids.exact.kernel import kernel_solid
+from gearcad.solids.exact.moments import moments
 from gearcad.solids.exact.rack_solid import rack_boundary
 from gearcad.solids.exact.solid import gear_boundary
 
@@ -22,24 +21,10 @@ class MassProperties(NamedTuple):
 
 def mass_properties(gear: Gear, density: float) -> MassProperties:
     """Of a gear made of a material of `density` (kg/m³). Raises what `gear_boundary` raises."""
-    from OCP.gp import gp
-
-    properties = _volume_properties(gear_boundary(gear))
-    volume, moment = properties.Mass(), properties.MomentOfInertia(gp.OZ_s())  # mm³, mm⁵
-    return MassProperties(volume * density * 1e-9, moment * density * 1e-15)
+    found = moments(gear_boundary(gear))
+    return MassProperties(found.volume * density * 1e-9, found.polar * density * 1e-15)
 
 
 def rack_mass(rack: Rack, density: float) -> float:
     """Mass (kg) of a rack made of a material of `density` (kg/m³)."""
-    volume: float = _volume_properties(rack_boundary(rack)).Mass()  # mm³
-    return volume * density * 1e-9
-
-
-def _volume_properties(boundary: Boundary) -> Any:
-    """GProp_GProps of the kernel's solid."""
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GProp import GProp_GProps
-
-    properties = GProp_GProps()
-    BRepGProp.VolumeProperties_s(kernel_solid(boundary), properties)
-    return properties
+    return moments(rack_boundary(rack)).volume * density * 1e-9
