@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -14,7 +15,9 @@ import scipy.sparse.linalg
 from gearcad import Gear, Material
 from gearcad.contact.shared.chain import Cuts
 from gearcad.contact.solid.body import SolidBody, SolidSector, assemble_body
+from gearcad.contact.solid.flank import solid_compliance
 from gearcad.contact.solid.hexahedra import lame
+from gearcad.errors import SolverError
 from gearcad.meshing.section import MeshSizes
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.quads import mesh_quads
@@ -68,6 +71,25 @@ def test_mesh_is_a_screw(mesh: SweptMesh) -> None:
     angle = np.arctan2(y, x) - np.arctan2(*mesh.section.points[0][::-1])
     assert angle == pytest.approx(2 * math.pi * z / GEAR.lead, abs=1e-12)
     assert z.max() == pytest.approx(GEAR.face_width)
+
+
+def test_layers_that_half_a_turn_changes_are_refused(mesh: SweptMesh) -> None:
+    """The condensation of half a sector tells the other half only where planes are symmetric about the middle."""
+    first, middle, last = mesh.planes
+    lower = replace(mesh, planes=np.array([first, middle - 1e-3 * GEAR.face_width, last]))
+    with pytest.raises(SolverError, match="layers of a gear are not symmetric"):
+        _ = SolidSector(lower, STEEL).condensed
+
+
+def test_bodies_let_go_are_condensed_again(mesh: SweptMesh) -> None:
+    """What fields of teeth need is kept where that is asked for; else it is made again, and gives the same."""
+    found = []
+    for fields in (True, False):
+        body = assemble_body(mesh, GEAR.teeth, 1, STEEL, 3, Cuts.FIXED)
+        given = solid_compliance(GEAR, body, STEEL, 0.0, fields=fields)
+        assert ("condensed" in vars(given.body.sector)) is fields
+        found.append(given.tooth_displacements(0, [(0, np.ones(given.unit_loads))]))
+    np.testing.assert_array_equal(*found)
 
 
 def test_patch_of_constant_strain(sector: SolidSector) -> None:

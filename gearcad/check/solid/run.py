@@ -37,7 +37,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     mounting's misalignment is always that of the flanks that carry.
     """
     require_room(task)
-    model = solid_model(task, 1.0, agenda.within(BODIES))
+    model = solid_model(task, 1.0, agenda.within(BODIES), fields=True)
     positions = task.options.positions_of(Model.SOLID)
     cycle = SolidCycle.run(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
     summary = summarise_solid(cycle, model.single_stiffness(task.torque))
@@ -58,14 +58,14 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     )
 
 
-def solid_model(task: CheckTask, factor: float = 1.0, tell: Share = unheard) -> SolidPair:
+def solid_model(task: CheckTask, factor: float = 1.0, tell: Share = unheard, *, fields: bool = False) -> SolidPair:
     """Both bodies of a task, their elements `factor` times smaller than it asks for; left flanks carry.
 
-    Raises what `check_pair` does.
+    They keep what `fields` of teeth need if these are asked for. Raises what `check_pair` does.
     """
     sizes = sizes_of(task, factor)
     pair, mounting = loaded_left(task.pair, task.torque), replace(task.mounting, centre_distance_change=0.0)
-    return solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, tell=tell)
+    return solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, fields=fields, tell=tell)
 
 
 def _refined(task: CheckTask, middle: SolidPair, agenda: Agenda) -> Iterator[SolidCycle]:

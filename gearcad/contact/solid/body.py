@@ -17,7 +17,6 @@ from gearcad.arrays import Floats, Wholes
 from gearcad.contact.shared.chain import Cuts
 from gearcad.contact.solid.around import Around, RingAround, SidesAround
 from gearcad.contact.solid.condensation import Forward
-from gearcad.contact.solid.fronts import node_dofs
 from gearcad.contact.solid.half_turn import PARITIES
 from gearcad.contact.solid.hub import rigid_motions
 from gearcad.contact.solid.sector import SolidSector
@@ -79,20 +78,19 @@ class SolidBody:
         None are all nodes. Loads and displacements are in the turning axes.
         """
         sector, every = self.sector, np.arange(self.sector.mesh.nodes)
-        wanted, loaded = every if wanted is None else wanted, node_dofs(every if at is None else at)
+        wanted, at = every if wanted is None else wanted, every if at is None else at
         found = np.empty((2 * self.neighbours + 1, 3 * len(wanted), loads.shape[1]))
         torques = np.empty(loads.shape[1])
+        loaded = sector.polar_turn_at(at).T
         for first in range(0, loads.shape[1], _AT_ONCE):
             these = slice(first, first + _AT_ONCE)
-            everywhere = np.zeros((sector.dofs, len(torques[these])))
-            everywhere[loaded] = loads[:, these]
-            solved, arriving = sector.condensed.forward(sector.cut_turn.T @ everywhere)
+            solved, arriving = sector.condensed.forward(loaded @ loads[:, these], at)
             joints = self._joints(solved, arriving)
             torques[these] = self._torques(solved, joints)
             for tooth, moved in self._teeth(solved, joints, wanted):
                 found[self.neighbours + tooth, :, these] = moved
             self.tell(min(first + _AT_ONCE, len(torques)) / len(torques))
-        turn = sector.cut_turn[node_dofs(wanted)][:, node_dofs(wanted)]
+        turn = sector.polar_turn_at(wanted)
         for each in found:
             each[:] = turn @ each
         return Moved(found, torques)

@@ -114,14 +114,13 @@ class Condensed:
         """Dofs of the cut behind."""
         return node_dofs(self.orbits.cut)
 
-    def forward(self, loads: Floats) -> tuple[Forward, tuple[Floats, Floats]]:
-        """What `backward` needs of loads (dofs, m), and the loads (n, m) of both parities that arrive at the cut."""
+    def forward(self, loads: Floats, nodes: Wholes) -> tuple[Forward, tuple[Floats, Floats]]:
+        """What `backward` needs of loads (3 k, m) at nodes (k,), and those (n, m) of both parities that arrive at the cut."""
         orbits, count = self.orbits, loads.shape[1]
-        turned = orbits.turn.turned(loads)
-        left = np.empty((len(loads), 2 * count))
-        np.add(loads, turned, out=left[:, :count])
-        np.subtract(loads, turned, out=left[:, count:])
-        left /= 2
+        left = np.zeros((3 * len(orbits.turn.nodes), 2 * count))
+        both, half = left.reshape(-1, 3, 2, count), loads.reshape(-1, 3, 1, count) / 2
+        both[nodes] = half
+        both[orbits.turn.nodes[nodes]] += half * TURNED[:, None, None] * PARITIES[:, None]
         left[node_dofs(np.flatnonzero(orbits.turn.on_axis))] /= 2
         left[node_dofs(orbits.moved)] = 0.0
         loaded: Bools = np.asarray(left.any(axis=1))

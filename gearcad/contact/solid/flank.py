@@ -6,7 +6,7 @@ The load's field in a half-space is taken off the elements of the loaded tooth, 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -145,10 +145,13 @@ class SolidCompliance(FlankCompliance):
         return -(self.load_weights(places) @ self.torques)
 
 
-def solid_compliance(gear: Gear, body: SolidBody, material: Material, start: float, tell: Share = unheard) -> SolidCompliance:
+def solid_compliance(
+    gear: Gear, body: SolidBody, material: Material, start: float, tell: Share = unheard, *, fields: bool = False
+) -> SolidCompliance:
     """Solve the body for unit loads on some rows and columns of the flank, from the roll length `start` (mm) up.
 
-    `tell` hears how much of what comes before the body's own part is done: the fields of the loads.
+    With `fields` the body keeps its factors for the fields of its teeth, else it is condensed again for the first one. `tell`
+    hears how much of what comes before the body's own part is done: the fields of the loads.
     """
     sector = body.sector
     mesh, flank = sector.mesh, SolidFlank(gear, sector.mesh.rate)
@@ -158,7 +161,9 @@ def solid_compliance(gear: Gear, body: SolidBody, material: Material, start: flo
     points = _NEAR_OF_RINGS if gear.internal else _NEAR
     rest = remaining(flank, mesh, material, _near_quads(gear, mesh), places, points, tell)
     surface = _surface(mesh, free=sector.free)
-    moved = body.solve(rest.forces.dofs, surface, at=rest.forces.nodes)
+    solver = body if fields else replace(body, sector=replace(body.sector))  # factors go with the copy
+    moved = solver.solve(rest.forces.dofs, surface, at=rest.forces.nodes)
+    del solver
     displacements = moved.displacements.reshape(-1, len(surface), 3, len(places[0]))
     place, normal = np.searchsorted(surface, on_flank), flank.inward(grid.places)
     found = {

@@ -25,7 +25,7 @@ TURNED = np.array([1.0, -1.0, -1.0])
 """What becomes of the components of a vector, along the axis and square to it: polar ones at the cuts too."""
 
 _SAME = 1e-8
-"""Differences of places, over the radius, that are rounding."""
+"""Differences of places, over the radius or the face width, that are rounding."""
 
 
 @dataclass(frozen=True)
@@ -49,8 +49,10 @@ class HalfTurn:
 
     @cached_property
     def nodes(self) -> Wholes:
-        """The node (n,) at whose place each one of the mesh comes."""
+        """The node (n,) at whose place each one of the mesh comes. Raises SolverError for layers that are not symmetric."""
         mesh, count = self.mesh, len(self.section)
+        if np.ptp(mesh.planes + mesh.planes[::-1]) > _SAME * np.ptp(mesh.planes):
+            raise SolverError("the layers of a gear are not symmetric about the middle of its face width")
         planes = [self.section + mesh.plane(mesh.layers - k) for k in range(mesh.layers + 1)]
         above = self.section[: mesh.section.vertices] + (mesh.layers + 1) * count
         middles = [above + (mesh.layers - 1 - k) * mesh.section.vertices for k in range(mesh.layers)]

@@ -219,10 +219,12 @@ def solid_pair(
     sizes: SolidSizes | None = None,
     mounting: Mounting | None = None,
     cells: int = 60,
+    fields: bool = False,
     tell: Share = unheard,
 ) -> SolidPair:
     """Mesh, condense and solve both gears, side by side; a line of contact has `cells` over the common face width.
 
+    With `fields` the bodies keep their factors for the fields of teeth, else they are condensed again where one is asked for.
     `tell` hears how much is done, from the thread that called. Raises SolverError, ParameterError and GeometryError.
     """
     body, sizes, mounting = (body or BodyModel()).for_solids(), sizes or SolidSizes(), mounting or Mounting()
@@ -244,7 +246,7 @@ def solid_pair(
             condensed=heard.condensation,
             solved=heard.solution,
         )
-        jobs.append((heard, partial(solid_compliance, gear, solid, of, start, heard.fields)))
+        jobs.append((heard, partial(solid_compliance, gear, solid, of, start, heard.fields, fields=fields)))
     bodies, mounted = PerGear(*_side_by_side(jobs, tell)), mounting.mounted(pair)
     return SolidPair(mounted, line_of_action(mounted), bodies, mounting, cells, bodies.map(solid_fillets))
 

@@ -73,6 +73,10 @@ class SolidSector:
         """Matrix (scipy CSR) from dofs with polar cuts to those in x, y, z of the turning axes."""
         return polar_turn(self._cut_angles, 3)
 
+    def polar_turn_at(self, nodes: Wholes) -> Any:
+        """The same of some nodes (n,)."""
+        return polar_turn(self._cut_angles[nodes], 3)
+
     @cached_property
     def _cut_angles(self) -> Floats:
         """Angles (rad) of the nodes of the cuts, 0 for all others."""
@@ -175,7 +179,7 @@ class SolidSector:
     @cached_property
     def hub_forward(self) -> tuple[Forward, tuple[Floats, Floats]]:
         """What `backward` needs of the hub's forces, and those that arrive at the cuts."""
-        return self.condensed.forward(self.hub_forces)
+        return self.condensed.forward(self.hub_forces, np.arange(self.mesh.nodes))
 
     @cached_property
     def hub_forces(self) -> Floats:
