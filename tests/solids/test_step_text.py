@@ -8,7 +8,6 @@ from pathlib import Path
 import cadquery
 import pytest
 from hypothesis import HealthCheck, given, settings
-from support.kernel_step import write_by_kernel
 from support.part21_text import checked_text
 from support.step_witness import assert_same_solids, product_tree
 from support.strategies import build_gear, gear_inputs
@@ -19,7 +18,7 @@ from gearcad.designs import read_spec
 from gearcad.errors import InputError
 from gearcad.geometry import DoubleHelix, RackPair
 from gearcad.jobs.products import products_of
-from gearcad.solids import FileOptions, gear_solid, rack_solid, write_step
+from gearcad.solids import FileOptions, rack_solid, write_step
 from gearcad.solids.carrier_plan import CarrierPlan
 from gearcad.solids.colours import BRIGHT_STEEL
 from gearcad.solids.exact.assembly import pair_product
@@ -32,6 +31,7 @@ from gearcad.solids.exact.solid import gear_boundary
 from gearcad.solids.exact.train_assembly import train_product
 from gearcad.solids.files.part21 import real
 from gearcad.solids.files.step import write_product
+from gearcad.solids.files.step_kernel import write_by_kernel
 from gearcad.solids.train_plan import TrainPlan
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
@@ -178,19 +178,6 @@ def test_what_python_writes_is_what_commands_write(tmp_path: Path) -> None:
     write_step(cad_assembly(pair), tmp_path / "pair.step", name="any")
     write_product(pair, tmp_path / "same.step")
     assert (tmp_path / "pair.step").read_bytes() == (tmp_path / "same.step").read_bytes()
-
-
-def test_what_was_gone_on_with_is_written_by_cadquery(tmp_path: Path) -> None:
-    solid, path = gear_solid(_bodied(body=Body())), tmp_path / "drilled.step"
-    volume = solid.Volume()
-    drilled = cadquery.Workplane(obj=solid).faces(">Z").workplane(origin=(0, 0, 0)).hole(4).val()
-    write_step(drilled, path, name="drilled")
-    (again,) = cadquery.importers.importStep(str(path)).solids().vals()
-    assert again.Volume() == pytest.approx(drilled.Volume(), rel=SAME)
-    solid.move(cadquery.Location(cadquery.Vector(0, 0, 5)))
-    write_step(solid, path, name="moved")
-    (again,) = cadquery.importers.importStep(str(path)).solids().vals()
-    assert (again.Volume(), again.Center().z) == pytest.approx((volume, 8.0), rel=SAME)
 
 
 # ---------------------------------------------------------------------- by hand, and by booleans

@@ -13,7 +13,7 @@ from gearcad.solids.exact.products import AssembledProduct, Occurrence, Product,
 if TYPE_CHECKING:
     import cadquery
 
-__all__ = ["cad_assembly", "cad_product", "cad_solid"]
+__all__ = ["cad_assembly", "cad_product", "cad_solid", "product_name"]
 
 _MADE = "_gearcad_made"
 """The attribute of a solid of ours that holds what it was made of."""
@@ -86,7 +86,7 @@ def _product_of(node: cadquery.Assembly, parts: dict[Any, SolidProduct]) -> Asse
         if product is None:
             return None
         found.append(Occurrence(child.name, product, _frame(child.loc)))
-    return AssembledProduct(_product_name(node), tuple(found)) if node.obj is None else None
+    return AssembledProduct(product_name(node), tuple(found)) if node.obj is None else None
 
 
 def _part_of(node: cadquery.Assembly, parts: dict[Any, SolidProduct]) -> SolidProduct | None:
@@ -96,7 +96,7 @@ def _part_of(node: cadquery.Assembly, parts: dict[Any, SolidProduct]) -> SolidPr
         return None
     red, green, blue = (round(share, 6) for share in node.color.toTuple()[:3]) if node.color else (None, None, None)
     colour = None if red is None or green is None or blue is None else (red, green, blue)
-    name = _product_name(node)
+    name = product_name(node)
     return parts.setdefault((name, boundary, colour), SolidProduct(name, boundary, colour))
 
 
@@ -106,7 +106,8 @@ def _boundary_of(solid: Any) -> Boundary | None:
     return boundary if made is not None and solid.wrapped.IsEqual(made) else None
 
 
-def _product_name(node: cadquery.Assembly) -> str:
+def product_name(node: cadquery.Assembly) -> str:
+    """What a part of an assembly, or a sub-assembly, is called as a product."""
     return str(node.metadata.get(_PRODUCT, node.name))
 
 

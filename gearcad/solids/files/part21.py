@@ -17,6 +17,8 @@ _RUNS = re.compile(r"[\x20-\x7e]+|[^\x20-\x7e\U00010000-\U0010ffff]+|[\U00010000
 _TO_A_LINE = 12
 """References that stand on one line of a file."""
 
+_SCHEMA = "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }"
+
 _NO_DATE = datetime(2000, 1, 1)
 """Written where nobody sets the date: files of equal input are equal."""
 
@@ -77,10 +79,10 @@ class DataSection:
         return "DATA;\n" + "".join(lines) + "ENDSEC;\n"
 
 
-def header(name: str, schema: str) -> str:
-    """The header section of what is called `name`: by gearcad, of nobody, at SOURCE_DATE_EPOCH or else in the year 2000."""
+def header(name: str) -> str:
+    """The header section of what is called `name`, in AP214: of nobody, at SOURCE_DATE_EPOCH or else in the year 2000."""
     stamp = (source_date() or _NO_DATE).strftime("%Y-%m-%dT%H:%M:%S")
-    of = [string(text) for text in (name, stamp, f"gearcad {__version__}", schema)]
+    of = [string(text) for text in (name, stamp, f"gearcad {__version__}", _SCHEMA)]
     return (
         "HEADER;\n"
         f"FILE_DESCRIPTION(({of[0]}),'2;1');\n"

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 __all__ = ["write_product", "write_step"]
 
-_SCHEMA = "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }"
 _ASSEMBLED = 1e-6
 """How far (mm) places of an assembly may differ."""
 
@@ -28,19 +27,19 @@ _WORLD = Frame((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 def write_step(model: cadquery.Assembly | cadquery.Solid, path: Path | str, *, name: str) -> None:
     """Write a solid, as one part called `name`, or an assembly, which has names of its own, to `path` (STEP AP214, mm).
 
-    What was made here is written as `write_product` has it. What was gone on with in CadQuery is written by CadQuery itself.
-    Raises ParameterError for a date that is none (see `part21.header`), and OSError if the file cannot be written.
+    What was made here is written as `write_product` has it, what was gone on with in CadQuery by the CAD kernel. Names may
+    hold any character; the time stamp is that of `part21.header`. Raises SolverError if the kernel cannot write, ParameterError
+    for a date that is none, and OSError if the file cannot be written.
     """
-    import cadquery
-
     from gearcad.solids.exact.cad import cad_product
 
     product = cad_product(model, name, BRIGHT_STEEL)
     if product is not None:
         write_product(product, path)
         return
-    assembly = model if isinstance(model, cadquery.Assembly) else cadquery.Assembly(model, name=name)
-    assembly.export(str(path), exportType="STEP")
+    from gearcad.solids.files.step_kernel import write_by_kernel
+
+    write_by_kernel(model, path, name)
 
 
 def write_product(product: Product, path: Path | str) -> None:
@@ -50,7 +49,7 @@ def write_product(product: Product, path: Path | str) -> None:
     """
     writer = _StepWriter()
     writer.product(product)
-    text = f"ISO-10303-21;\n{part21.header(product.name, _SCHEMA)}{writer.data.text()}END-ISO-10303-21;\n"
+    text = f"ISO-10303-21;\n{part21.header(product.name)}{writer.data.text()}END-ISO-10303-21;\n"
     Path(path).write_bytes(text.encode("ascii"))
 
 
