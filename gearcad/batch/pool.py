@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from gearcad.batch.interrupt import remembered_interrupt
-from gearcad.batch.worker import close_workers, isolated
+from gearcad.batch.worker import close_workers, isolated, own_worker
 from gearcad.errors import GearcadError, ParameterError, require_whole
 from gearcad.version import __version__
 
@@ -100,7 +100,7 @@ def open_pool(jobs: int | None, cluster: str | None) -> Iterator[Pool]:
         with remembered_interrupt() as look, _dask_pool(cluster, count, look) as pool:
             yield pool
         return
-    executor = ThreadPoolExecutor(count, thread_name_prefix="gearcad")
+    executor = ThreadPoolExecutor(count, thread_name_prefix="gearcad", initializer=own_worker)
 
     def stop() -> None:
         executor.shutdown(wait=False, cancel_futures=True)

@@ -20,7 +20,7 @@ from typing import IO, Any, TypeVar
 from gearcad.errors import GearcadError, format_number
 from gearcad.guard import death, die_with
 
-__all__ = ["WorkerLostError", "close_workers", "isolated"]
+__all__ = ["WorkerLostError", "close_workers", "isolated", "own_worker"]
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
@@ -45,10 +45,18 @@ def isolated(function: Callable[[Argument], Result], argument: Argument, time_li
     `function` raises.
     """
     worker: _Worker | None = getattr(_here, "worker", None)
-    if worker is None or worker.closed:
+    if worker is None or (worker.closed and not worker.only):
         worker = _here.worker = _Worker()
     answer: Result = worker.call(function, argument, time_limit)
     return answer
+
+
+def own_worker() -> None:
+    """Give this thread its only child: once `close_workers` has ended that, `isolated` raises WorkerLostError in this thread.
+
+    A thread that takes calls only after this cannot begin one that `close_workers` does not see.
+    """
+    _here.worker = _Worker(only=True)
 
 
 def close_workers() -> None:
@@ -60,8 +68,8 @@ def close_workers() -> None:
 class _Worker:
     """One child process at a time, and what is said to it through its pipes."""
 
-    def __init__(self) -> None:
-        self.closed = False
+    def __init__(self, *, only: bool = False) -> None:
+        self.closed, self.only = False, only
         self._process: subprocess.Popen[bytes] | None = None
         self._starting = threading.Lock()
         _open.add(self)
