@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import re
-import tempfile
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -26,41 +25,47 @@ TRAIN = tomllib.loads(starter_text("train-1-stage")[1])
 HUGE = 10**400
 
 
-def spec_file(text: str, name: str = "x.toml") -> str:
-    path = Path(tempfile.mkdtemp()) / name
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One for all examples: each writes over what the last one left."""
+    return tmp_path_factory.mktemp("hostile")
+
+
+def spec_file(folder: Path, text: str, name: str = "x.toml") -> str:
+    path = folder / name
     path.write_text(text, encoding="utf-8")
     return str(path)
 
 
 @settings(max_examples=100)
 @given(text=hostile_specs(trains=False))
-def test_data_of_a_hostile_spec(text: str) -> None:
-    run_politely("data", spec_file(text))
+def test_data_of_a_hostile_spec(folder: Path, text: str) -> None:
+    run_politely("data", spec_file(folder, text))
 
 
 @settings(max_examples=100)
 @given(text=hostile_specs(trains=True))
-def test_reading_a_hostile_train(text: str) -> None:
+def test_reading_a_hostile_train(folder: Path, text: str) -> None:
     try:
-        read_spec(spec_file(text))
+        read_spec(spec_file(folder, text))
     except SpecError as error:
         assert str(error).isprintable()
 
 
 @settings(max_examples=100)
 @given(text=hostile_specs(planetary=True))
-def test_reading_a_hostile_planetary_train(text: str) -> None:
+def test_reading_a_hostile_planetary_train(folder: Path, text: str) -> None:
     try:
-        json_text(read_spec(spec_file(text)).to_dict())
+        json_text(read_spec(spec_file(folder, text)).to_dict())
     except SpecError as error:
         assert str(error).isprintable() and len(str(error)) < 1200
 
 
 @settings(max_examples=100)
 @given(text=hostile_rows())
-def test_reading_a_hostile_table(text: str) -> None:
+def test_reading_a_hostile_table(folder: Path, text: str) -> None:
     try:
-        faults = [fault for row in open_table(spec_file(text, "x.csv")).rows() for fault in row.all_faults()]
+        faults = [fault for row in open_table(spec_file(folder, text, "x.csv")).rows() for fault in row.all_faults()]
     except SpecError as error:
         faults = str(error).split("\n")
     assert all(fault.isprintable() for fault in faults)
@@ -88,10 +93,10 @@ def test_reading_a_hostile_table(text: str) -> None:
         ("pinion.\x1b[31m" + "k" * 3000, 1, "pinion.\\x1b[31mkkkk"),
     ],
 )
-def test_what_no_gear_can_be(key: str, value: Any, said: str) -> None:
+def test_what_no_gear_can_be(folder: Path, key: str, value: Any, said: str) -> None:
     spec = copy.deepcopy(FZG)
     put(spec, tuple(key.split(".", 1)), value)
-    result = run_politely("check", spec_file(toml_text(spec)))
+    result = run_politely("check", spec_file(folder, toml_text(spec)))
     assert result.exit_code == 2 and f": {said}" in result.stderr
 
 
@@ -112,32 +117,32 @@ def test_what_no_gear_can_be(key: str, value: Any, said: str) -> None:
         (("mesh", 0, "teeth"), [1e300, 20], "must be a whole number from 1 to"),
     ],
 )
-def test_what_no_train_can_be(path: tuple[Any, ...], value: Any, said: str) -> None:
+def test_what_no_train_can_be(folder: Path, path: tuple[Any, ...], value: Any, said: str) -> None:
     spec = copy.deepcopy(TRAIN)
     put(spec, ("train", *path), value)
     if path[0] == "shaft":
         put(spec, ("train", "shaft", 0, "start"), "nobody")
-    result = run_politely("dynamics", spec_file(toml_text(spec)))
+    result = run_politely("dynamics", spec_file(folder, toml_text(spec)))
     assert result.exit_code == 2 and said in result.stderr
 
 
-def test_five_hundred_lists_in_each_other() -> None:
-    result = run_politely("data", spec_file("[gear]\nteeth = " + 500 * "[" + 500 * "]"))
+def test_five_hundred_lists_in_each_other(folder: Path) -> None:
+    result = run_politely("data", spec_file(folder, "[gear]\nteeth = " + 500 * "[" + 500 * "]"))
     assert "lists or tables in each other, hundreds deep" in result.stderr
 
 
-def test_a_thousand_tables_in_each_other() -> None:
-    result = run_politely("data", spec_file("[gear]\nteeth = 20\n[x" + 1000 * ".a" + "]"))
+def test_a_thousand_tables_in_each_other(folder: Path) -> None:
+    result = run_politely("data", spec_file(folder, "[gear]\nteeth = 20\n[x" + 1000 * ".a" + "]"))
     assert result.exit_code == 2 and "has lists or tables in each other, more than 50 deep" in result.stderr
 
 
 @pytest.mark.parametrize(("torque", "modulus"), [(3e6, 206000.0), (TORQUE.most, 206000.0), (302.0, 0.1)])
-def test_load_that_no_teeth_can_carry_is_said_with_its_torque(torque: float, modulus: float) -> None:
+def test_load_that_no_teeth_can_carry_is_said_with_its_torque(folder: Path, torque: float, modulus: float) -> None:
     """a = sqrt(4 F rho/(pi E*)) at the pitch point, above the depth of the teeth."""
     spec = copy.deepcopy(FZG)
     put(spec, ("load", "torque"), torque)
     put(spec, ("material", "youngs_modulus"), modulus)
-    result = run_politely("check", spec_file(toml_text(spec)), "--quiet")
+    result = run_politely("check", spec_file(folder, toml_text(spec)), "--quiet")
     assert result.exit_code == 2
     width = 48.88 * (torque / 3e6 * 206000 / modulus) ** 0.5
     assert f"the contact would be {width:.4g} mm wide on teeth 10.04 mm deep" in result.stderr
@@ -169,12 +174,12 @@ OF_TRAINS = (
 @pytest.mark.parametrize("command", ["check", "dynamics"])
 @settings(max_examples=60)
 @given(text=physical_specs(FZG | {"dynamics": {"speeds": 20, "stiffness": "potential-energy"}}, PHYSICAL))
-def test_numbers_of_any_size(command: str, text: str) -> None:
-    run_politely(command, spec_file(text), "--quiet", "-o", tempfile.mkdtemp())
+def test_numbers_of_any_size(folder: Path, command: str, text: str) -> None:
+    run_politely(command, spec_file(folder, text), "--quiet", "-o", str(folder))
 
 
 @pytest.mark.long
 @settings(max_examples=150)
 @given(text=physical_specs(TRAIN | {"dynamics": {"speeds": 20}}, OF_TRAINS))
-def test_trains_of_any_size(text: str) -> None:
-    run_politely("dynamics", spec_file(text), "--quiet", "-o", tempfile.mkdtemp())
+def test_trains_of_any_size(folder: Path, text: str) -> None:
+    run_politely("dynamics", spec_file(folder, text), "--quiet", "-o", str(folder))
