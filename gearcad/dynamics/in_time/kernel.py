@@ -10,8 +10,8 @@ What jumps - stiffness where a pair of teeth comes or goes, torque, speed - is t
 a step behind, by tables of integrals: no impulse is lost or found twice, wherever in the step the jump lies.
 
 Compiled by numba: import this room inside functions only. All of it is in one file, because numba looks only at the file of a
-function to see whether the code that it keeps on disk is still good, not at those of the functions it calls. SI units; places
-of teeth in base pitches.
+function to see whether the code that it keeps on disk is still good, not at those of the functions it calls. Loops instead of
+whole arrays: these take numba seconds each to compile. SI units; places of teeth in base pitches.
 """
 
 from __future__ import annotations
@@ -458,9 +458,11 @@ def _measure(scale: float, free: Floats, dz: Floats, dv: Floats, df: Floats, gro
     size = math.sqrt(size)
     if not 0.0 < size < math.inf:
         return
-    dz /= size
-    dv /= size
-    df /= size
+    for i in range(dz.size):
+        dz[i] /= size
+        dv[i] /= size
+    for j in range(df.size):
+        df[j] /= size
     growth[0] += math.log(size)
     growth[1] = min(growth[1], growth[0])
     growth[2] = max(growth[2], growth[0] - growth[1])
@@ -557,10 +559,14 @@ def run(model: Model, course: CourseTables, h: float, begin: int, count: int, st
     n, m = mesh.shape
     steps = propagators(model.squares, model.damping, h)
     give, rate = _yielding(mesh, steps, 5), _yielding(mesh, steps, 7)
-    most = math.ceil((marks[:, _LAST] - marks[:, _FIRST]).max() + _MOST_PASSED) + 1
+    longest = 0.0
+    for j in range(m):
+        longest = max(longest, marks[j, _LAST] - marks[j, _FIRST])
+    most = math.ceil(longest + _MOST_PASSED) + 1
     springs, counts, work = np.zeros((m, most, 2)), np.zeros(m, np.int64), np.zeros((m, m + 1))
     y, rates, shift, push, found = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(n), np.zeros((3, m))
-    found[0] = state.force
+    for j in range(m):
+        found[0, j] = state.force[j]
     speed, turns, at_speed = _along(speeds, 0, (begin - 0.5) * h)
     _, passed, at_factor = _along(factors, 0, (begin - 0.5) * h)
     window, sampled = 0, 0
@@ -606,5 +612,6 @@ def run(model: Model, course: CourseTables, h: float, begin: int, count: int, st
             window += 1
         if window < ends.size:
             _counted(crests, parted, reach, rows, window, found, z)
-    state.force[:] = found[0]
+    for j in range(m):
+        state.force[j] = found[0, j]
     return count

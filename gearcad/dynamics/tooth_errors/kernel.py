@@ -5,7 +5,8 @@ forces of the meshes at the end of a step are those that the motion there asks f
 places of their teeth at once, and each tooth period is like the next: what springs and gaps are there is known before, and
 what is left to be done for a sample is a few operations that processors do four at a time.
 
-Compiled by numba: import this room inside functions only. Arrays have the samples last. SI units.
+Compiled by numba: import this room inside functions only. Loops instead of whole arrays: these take numba seconds each to
+compile. Arrays have the samples last. SI units.
 """
 
 from __future__ import annotations
@@ -116,9 +117,11 @@ def _solve(
     bonded, pairs = math.isnan(backlash), 0
     for p in range(k.size):
         pairs += k[p] > 0.0
-    x[:] = right
+    for s in range(x.size):
+        x[s] = right[s]
     for _ in range(1 if bonded else pairs + 1):
-        active[:], closed[:] = 1.0, right
+        for s in range(x.size):
+            active[s], closed[s] = 1.0, right[s]
         for p in range(k.size):
             stiff = part * k[p]
             if stiff == 0.0:
@@ -242,8 +245,10 @@ def advance(steps: Steps, pattern: Pattern, samples: Samples, turns: Floats, beg
         for i in range(n):
             _coast(steps, i, samples.z[i], samples.v[i], samples.push[i], y, w)
         for j in range(m):
-            y[j] -= pattern.error[row, j]
-            w[j] -= pattern.rate[row, j]
+            error, change = pattern.error[row, j], pattern.rate[row, j]
+            for s in range(size):
+                y[j, s] -= error
+                w[j, s] -= change
             if shifted:
                 _shifted(samples, j, step * turns[j], shift)
                 for s in range(size):
@@ -260,12 +265,16 @@ def advance(steps: Steps, pattern: Pattern, samples: Samples, turns: Floats, beg
             for j in range(m):
                 damping, over = steps.damping[j], 1.0 / (1.0 + steps.damping[j] * rate[j, j])
                 part = give[j, j] * over
-                right[:], speed[:] = y[j], w[j]
+                for s in range(size):
+                    right[s], speed[s] = y[j, s], w[j, s]
                 for k in range(m):
                     if k != j:
-                        right -= give[j, k] * samples.force[k]
-                        speed -= rate[j, k] * samples.force[k]
-                right -= part * damping * speed
+                        less, slower, force = give[j, k], rate[j, k], samples.force[k]
+                        for s in range(size):
+                            right[s] -= less * force[s]
+                            speed[s] -= slower * force[s]
+                for s in range(size):
+                    right[s] -= part * damping * speed[s]
                 _solve(pattern.stiffness[row, j], gaps[j], right, part, steps.backlash[j], x, active, closed)
                 _carried(right, x, speed, part, damping, over, springs[j], samples.force[j])
         for j in range(m):
