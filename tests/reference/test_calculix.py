@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 from support.boxes import box
+from support.plane_matrix import stiffness_matrix
 
 from gearcad import Gear
-from gearcad.contact.plane.elasticity import Plane, PlaneElasticity, stiffness_matrix
+from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
 from gearcad.material import Material
 from gearcad.meshing import Element, ElementMesh, MeshSizes
 from gearcad.meshing.bodies.section_mesh import mesh_section

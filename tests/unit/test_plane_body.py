@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 import scipy.sparse
 import scipy.sparse.linalg
+from support.plane_matrix import stiffness_matrix, summed
 
 from gearcad import Gear, Material
-from gearcad.contact.plane.elasticity import Plane, PlaneElasticity, stiffness_matrix
-from gearcad.contact.plane.ring import assemble, chain_of, make_sector
+from gearcad.contact.plane.dissection import dissect, node_dofs
+from gearcad.contact.plane.elasticity import Plane, PlaneElasticity, element_forces, element_mass, element_stiffness
+from gearcad.contact.plane.ring import assemble
+from gearcad.contact.plane.sector import chain_of, make_sector
 from gearcad.contact.shared.chain import Chain, Cuts
 from gearcad.meshing.section import MeshSizes, SectorMesh, mesh_sector
 from gearcad.meshing.section.outline import Side
@@ -98,6 +101,57 @@ def test_part_of_the_elements_adds_up(mesh: SectorMesh) -> None:
     assert (
         abs(stiffness_matrix(mesh, steel, some) + stiffness_matrix(mesh, steel, rest) - whole).max() < 1e-9 * abs(whole).max()
     )
+
+
+def test_elements_are_those_of_scikit_fem(mesh: SectorMesh) -> None:
+    from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri2
+    from skfem.models.elasticity import linear_elasticity
+
+    steel = PlaneElasticity(STEEL)
+    whole = MeshTri2(mesh.points.T, mesh.triangles.T)
+    basis = Basis(whole, ElementVector(ElementTriP2()), intorder=4)
+    mass = BilinearForm(lambda u, v, _: (u * v).sum(axis=0))
+    # Its dofs: those of the vertices, then those of the edges in an order of its own.
+    order = np.argsort(basis.doflocs[:, ::2].T @ [1.0, np.pi])
+    ours = np.argsort(mesh.points @ [1.0, np.pi])
+    for form, matrices in (
+        (linear_elasticity(*steel.lame), element_stiffness(mesh, steel)),
+        (mass, element_mass(mesh)),
+    ):
+        found = summed(mesh.triangles, matrices, len(mesh.points))[node_dofs(ours)][:, node_dofs(ours)]
+        theirs = form.assemble(basis)[node_dofs(order)][:, node_dofs(order)]
+        assert abs(found - theirs).max() < EXACT * abs(theirs).max()
+
+
+def test_forces_of_elements_are_those_of_their_matrix(mesh: SectorMesh) -> None:
+    steel, some = PlaneElasticity(STEEL), np.arange(7, 40)
+    moved = np.random.default_rng(3).normal(size=(2 * len(mesh.points), 3))
+    forces = element_forces(mesh.triangles[some], element_stiffness(mesh, steel, some), moved)
+    assert np.abs(forces - stiffness_matrix(mesh, steel, some) @ moved).max() < EXACT * np.abs(forces).max()
+
+
+def test_dissection_is_static_condensation(mesh: SectorMesh) -> None:
+    """Matrix at the cuts, what arrives there, its work, and displacements inside, by one solution of the whole matrix."""
+    steel, random = PlaneElasticity(STEEL), np.random.default_rng(5)
+    cuts, held = np.union1d(mesh.behind, mesh.ahead), mesh.sides[Side.HELD]
+    found = dissect(mesh.points, mesh.triangles, element_stiffness(mesh, steel), cuts, held)
+    matrix, kept = stiffness_matrix(mesh, steel), node_dofs(np.setdiff1d(cuts, held))
+    assert found.kept == pytest.approx(kept)
+    inside = np.setdiff1d(np.arange(found.dofs), np.r_[kept, node_dofs(held)])
+    solve = scipy.sparse.linalg.splu(matrix[inside][:, inside].tocsc()).solve
+    across = matrix[inside][:, kept].toarray()
+    condensed = matrix[kept][:, kept].toarray() - across.T @ solve(across)
+    assert np.abs(found.matrix - condensed).max() < EXACT * np.abs(condensed).max()
+    loads = np.zeros((found.dofs, 2))
+    loads[inside[: len(inside) // 3]] = random.normal(size=(len(inside) // 3, 2))
+    arrived, by_loads = found.forward(loads), solve(loads[inside])
+    assert arrived.loads == pytest.approx(-across.T @ by_loads, abs=EXACT * np.abs(loads).max())
+    assert arrived.work == pytest.approx(loads[inside].T @ by_loads, rel=EXACT)
+    at_cuts = random.normal(size=(len(kept), 2)) * np.abs(by_loads).max()
+    moved = found.backward(at_cuts, arrived)
+    assert np.abs(moved[inside] - by_loads + solve(across @ at_cuts)).max() < EXACT * np.abs(moved).max()
+    assert (moved[kept] == at_cuts).all()
+    assert not moved[node_dofs(held)].any()
 
 
 def explicit(mesh: SectorMesh, teeth: int, cuts: Cuts | None) -> tuple[Any, Any]:

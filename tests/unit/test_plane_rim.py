@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 import scipy.sparse
 import scipy.sparse.linalg
+from support.plane_matrix import stiffness_matrix
 
 from gearcad import Body, Gear, GearPair, Material
-from gearcad.contact.plane.elasticity import PlaneElasticity, stiffness_matrix
+from gearcad.contact.plane.elasticity import PlaneElasticity
 from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
 from gearcad.contact.plane.pair import flank_body
 from gearcad.contact.plane.rim import far_responses

@@ -1,18 +1,19 @@
-"""Plane linear elasticity of a sector mesh: its stiffness matrix by scikit-fem, per mm of face width."""
+"""Plane linear elasticity of a sector mesh: the stiffness of its elements, per mm of face width."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any
 
 import numpy as np
 
-from gearcad.arrays import Floats, Wholes
+from gearcad.arrays import Bools, Floats, Wholes
+from gearcad.contact.plane.dissection import node_dofs
 from gearcad.material import Material
 from gearcad.meshing.section import SectorMesh
+from gearcad.meshing.section.shapes import TRIANGLE_PLACES, TRIANGLE_WEIGHTS, triangle_shapes, triangle_slopes
 
-__all__ = ["Plane", "PlaneElasticity", "mass_matrix", "stiffness_matrix"]
+__all__ = ["Plane", "PlaneElasticity", "element_forces", "element_mass", "element_stiffness"]
 
 
 class Plane(Enum):
@@ -47,50 +48,58 @@ class PlaneElasticity:
         return self.modulus * self.ratio / (1 - self.ratio**2), self.modulus / 2 / (1 + self.ratio)
 
 
-def stiffness_matrix(mesh: SectorMesh, elasticity: PlaneElasticity, elements: Wholes | None = None) -> Any:
-    """Stiffness (scipy CSR, N/mm per mm of width) of the mesh or of some of its elements.
-
-    Dof 2 n is node n in x, 2 n + 1 in y.
-    """
-    from skfem import ElementTriP2
-
-    triangles, basis = _basis(mesh, elements, ElementTriP2())
-    slopes = np.stack([shape[0].grad for shape in basis.basis])  # (6 nodes, 2 directions, elements, points)
-    slopes = np.moveaxis(slopes, 2, 0).reshape(len(triangles), 12, -1)
-    products = ((slopes * basis.dx[:, None]) @ slopes.swapaxes(1, 2)).reshape(-1, 6, 2, 6, 2)
+def element_stiffness(mesh: SectorMesh, elasticity: PlaneElasticity, elements: Wholes | None = None) -> Floats:
+    """Stiffness (m, 12, 12) in N/mm per mm of width of all elements, or of some: x and y of each of its nodes in turn."""
+    gradients, weights = _integrated(mesh, elements)
+    slopes = gradients.reshape(len(gradients), 12, -1)
+    products = ((slopes * weights[:, None]) @ slopes.swapaxes(1, 2)).reshape(-1, 6, 2, 6, 2)
     lame, shear = elasticity.lame
     # Integrals of lambda div u div v + mu (grad u + grad u^T) : grad v.
     local = lame * products + shear * products.swapaxes(2, 4)
     along = products[:, :, 0, :, 0] + products[:, :, 1, :, 1]
     for direction in (0, 1):
         local[:, :, direction, :, direction] += shear * along
-    dofs = 2 * triangles[..., None] + np.arange(2)
-    return _summed(local.reshape(-1, 12, 12), dofs.reshape(-1, 12), 2 * len(mesh.points))
+    return local.reshape(-1, 12, 12)
 
 
-def mass_matrix(mesh: SectorMesh, elements: Wholes | None = None) -> Any:
-    """Integral of N^T N (scipy CSR, mm²) over the mesh or some of its elements, dofs as those of the stiffness."""
-    from skfem import ElementTriP2
-
-    triangles, basis = _basis(mesh, elements, ElementTriP2())
-    shapes = np.stack([np.broadcast_to(shape[0].value, basis.dx.shape) for shape in basis.basis], 1)  # (elements, 6, points)
-    local = (shapes * basis.dx[:, None]) @ shapes.swapaxes(1, 2)
-    size, parts = 2 * len(mesh.points), 2 * triangles
-    return _summed(local, parts, size) + _summed(local, parts + 1, size)
-
-
-def _basis(mesh: SectorMesh, elements: Wholes | None, element: Any) -> tuple[Wholes, Any]:
-    """Elements by their nodes (n, 6), and scikit-fem's shape functions of each at the points where it integrates."""
-    from skfem import Basis, MeshTri2
-
-    triangles = mesh.triangles if elements is None else mesh.triangles[elements]
-    used, local = np.unique(triangles, return_inverse=True)
-    return triangles, Basis(MeshTri2(mesh.points[used].T, local.reshape(triangles.shape).T), element, intorder=4)
+def element_mass(mesh: SectorMesh, elements: Wholes | None = None) -> Floats:
+    """Integrals of N^T N (m, 12, 12) in mm² over all elements, or some, by the same dofs."""
+    _, weights = _integrated(mesh, elements)
+    shapes = triangle_shapes(TRIANGLE_PLACES)
+    local = np.zeros((len(weights), 6, 2, 6, 2))
+    for direction in (0, 1):
+        local[:, :, direction, :, direction] = np.einsum("eq,qa,qb->eab", weights, shapes, shapes)
+    return local.reshape(-1, 12, 12)
 
 
-def _summed(local: Floats, dofs: Wholes, size: int) -> Any:
-    """Matrices of elements (n, k, k) with their dofs (n, k), summed up (scipy CSR, (size, size))."""
-    import scipy.sparse
+def element_forces(triangles: Wholes, matrices: Floats, moved: Floats) -> Floats:
+    """Forces (2 n, k) of elements (m, 6) with their matrices (m, 12, 12) by displacements (2 n, k) of all nodes."""
+    dofs = node_dofs(triangles)
+    moves: Bools = np.any(moved, axis=1)
+    strained = moves[dofs].any(axis=1)
+    dofs = dofs[strained]
+    each = (matrices[strained] @ moved[dofs]).reshape(dofs.size, moved.shape[1])
+    order = np.argsort(dofs, axis=None, kind="stable")
+    found, begin = np.unique(dofs.ravel()[order], return_index=True)
+    forces = np.zeros_like(moved)
+    forces[found] = np.add.reduceat(each[order], begin) if len(begin) else 0.0
+    return forces
 
-    rows, columns = np.broadcast_arrays(dofs[:, :, None], dofs[:, None])
-    return scipy.sparse.csr_matrix((local.ravel(), (rows.ravel(), columns.ravel())), shape=(size, size))
+
+def _integrated(mesh: SectorMesh, elements: Wholes | None) -> tuple[Floats, Floats]:
+    """Of elements, where they are integrated: slopes (m, 6, 2, places) of their shape functions, and weights (m, places) in
+    mm².
+    """
+    corners = mesh.points[mesh.triangles if elements is None else mesh.triangles[elements]]
+    local = triangle_slopes(TRIANGLE_PLACES).transpose(2, 0, 1)
+    (x_s, y_s), (x_t, y_t) = (np.moveaxis(along @ corners, -1, 0) for along in local)
+    area = x_s * y_t - y_s * x_t
+    by_s, by_t = (along.T[None] for along in local)
+    gradients = np.stack(
+        [
+            by_s * (y_t / area)[:, None] - by_t * (y_s / area)[:, None],
+            by_t * (x_s / area)[:, None] - by_s * (x_t / area)[:, None],
+        ],
+        axis=2,
+    )
+    return gradients, np.abs(area) * TRIANGLE_WEIGHTS / 2

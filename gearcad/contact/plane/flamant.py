@@ -23,9 +23,9 @@ def flamant_displacement(points: Floats, load_at: Floats, inward: Floats, elasti
     across = np.array([-inward[1], inward[0]])
     r = np.hypot(away[..., 0], away[..., 1])
     at_load = r < 1e-12
-    angle = np.arctan2(away @ across, away @ inward)
-    log = np.log(np.where(at_load, 1.0, r))
-    cosine, sine = np.cos(angle), np.sin(angle)
+    r = np.where(at_load, 1.0, r)
+    cosine, sine, log = away @ inward / r, away @ across / r, np.log(r)
+    angle = np.arctan2(sine, cosine)
     radial = -(2 * cosine * log + (1 - nu) * angle * sine) / (np.pi * e)
     circumferential = (2 * nu * sine + 2 * log * sine - (1 - nu) * angle * cosine + (1 - nu) * sine) / (np.pi * e)
     along = radial * cosine - circumferential * sine

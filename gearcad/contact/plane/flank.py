@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.contact.plane.elasticity import PlaneElasticity, stiffness_matrix
+from gearcad.contact.plane.elasticity import PlaneElasticity, element_forces
 from gearcad.contact.plane.flamant import edge_displacement, flamant_displacement, flamant_traction
 from gearcad.contact.plane.ring import Ring
 from gearcad.contact.shared.engaged import FlankCompliance, LoadedFlank
@@ -205,15 +205,13 @@ def flank_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> Pla
     loads = _load_places(flank)
     near = near_elements(gear, mesh)
     nodes = np.unique(mesh.triangles[near])
+    points, inward = flank.points(loads), flank.inward(loads)
     singular = np.zeros((2 * len(mesh.points), len(loads)))
-    forces = np.zeros_like(singular)
-    edges = _boundary_edges(mesh.triangles[near])
-    for column, load in enumerate(loads):
-        at, inward = flank.points(load), flank.inward(load)
-        moved = flamant_displacement(mesh.points[nodes], at, inward, elasticity)
+    for column, (at, into) in enumerate(zip(points, inward, strict=True)):
+        moved = flamant_displacement(mesh.points[nodes], at, into, elasticity)
         singular[2 * nodes, column], singular[2 * nodes + 1, column] = moved.T
-        forces[:, column] = -_traction_forces(mesh, edges, at, inward)
-    forces += stiffness_matrix(mesh, elasticity, near) @ singular
+    forces = -_traction_forces(mesh, _boundary_edges(mesh.triangles[near]), points, inward)
+    forces += element_forces(mesh.triangles[near], ring.sector.stiffness[near], singular)
     displacements, torques = ring.solve(forces)
     displacements[len(displacements) // 2] -= singular
     hub_forces = ring.hub_forces(forces) if ring.support.floats else None
@@ -254,15 +252,15 @@ def _boundary_edges(triangles: Wholes) -> Wholes:
     return once
 
 
-def _traction_forces(mesh: SectorMesh, edges: Wholes, load_at: Floats, inward: Floats) -> Floats:
-    """Nodal forces (2 n,) of the tractions of Flamant's field on the edges."""
+def _traction_forces(mesh: SectorMesh, edges: Wholes, loads_at: Floats, inward: Floats) -> Floats:
+    """Nodal forces (2 n, m) of the tractions of Flamant's fields on the edges, each by the load at a point (m, 2)."""
     s, weight = np.polynomial.legendre.leggauss(_GAUSS)
     shape, slope = (np.ascontiguousarray(each[:, _ENDS_FIRST].T) for each in (edge_shapes(s), edge_slopes(s)))
     points = np.einsum("aq,eac->eqc", shape, mesh.points[edges])
     along = np.einsum("aq,eac->eqc", slope, mesh.points[edges])
     normals = np.stack([along[..., 1], -along[..., 0]], -1)  # outward, times the length per unit of s
-    traction = flamant_traction(points, normals, load_at, inward)
-    nodal = np.einsum("aq,q,eqc->eac", shape, weight, traction)
-    forces = np.zeros((len(mesh.points), 2))
-    np.add.at(forces, edges, nodal)
-    return forces.ravel()
+    forces = np.zeros((len(mesh.points), 2, len(loads_at)))
+    for column, (at, into) in enumerate(zip(loads_at, inward, strict=True)):
+        nodal = np.einsum("aq,eqc->eac", shape * weight, flamant_traction(points, normals, at, into))
+        np.add.at(forces[..., column], edges, nodal)
+    return forces.reshape(-1, len(loads_at))

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.contact.plane.ring import Ring, factorise
+from gearcad.contact.plane.ring import Ring
 from gearcad.contact.plane.support import hub_seen_by
 
 __all__ = ["far_responses"]
@@ -28,7 +28,7 @@ def far_responses(ring: Ring, rows: Any, displacements: Floats, forces: Floats) 
     for _ in range(teeth - count - 1):
         beyond.append(chain.followed_by(beyond[-1]))
     n = chain.cut
-    near, end = (sector.cut_turn.T @ displacements[-1])[sector.ahead], (sector.cut_turn.T @ displacements[0])[sector.behind]
+    near, end = sector.axes.polar(displacements[-1])[sector.ahead], sector.axes.polar(displacements[0])[sector.behind]
     found = []
     for tooth in range(count // 2 + 1, teeth - count // 2):
         left = teeth - count // 2 - 1 - tooth
@@ -46,10 +46,11 @@ def far_responses(ring: Ring, rows: Any, displacements: Floats, forces: Floats) 
 def _from_cuts(ring: Ring, rows: Any) -> Floats:
     """What `rows` tell, (n, cuts and hub), of a sector in full by the displacements of its cuts and the forces of its hub."""
     sector = ring.sector
-    cuts = np.r_[sector.behind, sector.ahead]
-    inside = np.setdiff1d(np.arange(sector.dofs), cuts)
-    polar = (rows @ sector.cut_turn).tocsc()
-    given = np.c_[sector.matrix[inside][:, cuts].toarray(), sector.hub[inside]]
-    moved = factorise(sector.matrix[inside][:, inside]).solve(given)
-    result: Floats = np.c_[polar[:, cuts].toarray(), np.zeros((rows.shape[0], sector.hub.shape[1]))] - polar[:, inside] @ moved
+    kept = sector.condensed.kept
+    cuts, hub = np.r_[sector.behind, sector.ahead], sector.hub.shape[1]
+    at_cuts = np.zeros((len(kept), len(cuts) + hub))
+    at_cuts[np.searchsorted(kept, cuts), np.arange(len(cuts))] = 1.0
+    loads = np.c_[np.zeros((sector.dofs, len(cuts))), -sector.inside(sector.hub)]
+    moved = sector.condensed.backward(sector.at_cuts.plain(at_cuts), sector.condensed.forward(loads))
+    result: Floats = rows @ moved
     return result

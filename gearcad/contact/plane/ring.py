@@ -1,160 +1,49 @@
 """A gear body put together from equal tooth sectors: some in full, the rest condensed to the cuts between them.
 
-The dofs of a cut are radial and tangential, so the matrices of all sectors are the same and need no turning. A bore that is
-held, and a cut that is, belong to a rigid hub with one dof, its turn: the row of that dof is the torque on the hub. A bore
-that is not held has a hub that follows it (see `support`): its dofs are the forces that it gives back. Of a ring on bolts only
-the sectors that have one are held.
+A cut that is held belongs to the rigid hub. Of a ring on bolts only the sectors that have one are held.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, reduce
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.contact.plane.elasticity import PlaneElasticity, stiffness_matrix
-from gearcad.contact.plane.support import held_nodes, hub_seen_by, hub_tractions, rigid_motions, with_support
-from gearcad.contact.shared.chain import Chain, Cuts, polar_turn
+from gearcad.contact.plane.dissection import Arrived
+from gearcad.contact.plane.elasticity import PlaneElasticity
+from gearcad.contact.plane.sector import Sector, chain_of, make_sector
+from gearcad.contact.plane.support import hub_seen_by, rigid_motions
+from gearcad.contact.shared.chain import Chain, Cuts
 from gearcad.contact.shared.holding import Support
-from gearcad.errors import SolverError
 from gearcad.meshing.section import SectorMesh
 
-__all__ = ["Ring", "Sector", "assemble", "chain_of", "factorise", "make_sector"]
-
-
-@dataclass(frozen=True)
-class Sector:
-    """The matrix of a tooth's sector in its own frame, except for the dofs of its cuts; and what the hub does to it.
-
-    `mesh` is the gear's, `whole` has its share of the shaft too. `held` dofs belong to the hub and move with `turn` (dofs,)
-    when it turns by 1 rad; `hub` (dofs, hub) are the forces of its dofs, `hub_matrix` what they do to themselves.
-    """
-
-    mesh: SectorMesh
-    whole: SectorMesh
-    matrix: Any
-    held: Wholes
-    turn: Floats
-    hub: Floats
-    hub_matrix: Floats
-
-    @property
-    def dofs(self) -> int:
-        """Dofs of the sector, hub and cuts included."""
-        return 2 * len(self.whole.points)
-
-    @cached_property
-    def behind(self) -> Wholes:
-        """Dofs of the cut behind, radial and tangential in turn, but for those on the hub."""
-        return self._free(self.whole.behind)
-
-    @cached_property
-    def ahead(self) -> Wholes:
-        """Dofs of the cut ahead: the k-th meets the k-th of `behind`."""
-        return self._free(self.whole.ahead)
-
-    def _free(self, nodes: Wholes) -> Wholes:
-        dofs = _dofs(nodes)
-        return dofs[~np.isin(dofs, self.held)]
-
-    def let_go(self) -> Sector:
-        """The same sector with nothing that holds it."""
-        nothing = np.zeros_like
-        return replace(
-            self, held=np.empty(0, int), turn=nothing(self.turn), hub=nothing(self.hub), hub_matrix=nothing(self.hub_matrix)
-        )
-
-    @cached_property
-    def cut_turn(self) -> Any:
-        """Matrix (scipy CSR) from dofs with polar cuts to those in x and y of the sector's frame."""
-        return _cut_turn(self.whole)
-
-
-def make_sector(mesh: SectorMesh, elasticity: PlaneElasticity, support: Support | None = None) -> Sector:
-    """Stiffness of a sector with polar dofs on its cuts."""
-    support = support or Support()
-    whole = with_support(mesh, support)
-    polar = _cut_turn(whole)
-    stiffness = stiffness_matrix(whole, elasticity, np.arange(len(mesh.triangles)))
-    if len(whole.triangles) > len(mesh.triangles):
-        shaft = PlaneElasticity(support.shaft, elasticity.plane)
-        stiffness = stiffness + stiffness_matrix(whole, shaft, np.arange(len(mesh.triangles), len(whole.triangles)))
-    matrix = (polar.T @ stiffness @ polar).tocsr()
-    held, turn = _dofs(held_nodes(mesh, support)), np.zeros(2 * len(whole.points))
-    turn[held] = rigid_motions(whole.points)[..., 0].ravel()[held]
-    turn = polar.T @ turn
-    if support.floats:
-        return Sector(mesh, whole, matrix, held, turn, polar.T @ hub_tractions(mesh, whole, support), np.zeros((3, 3)))
-    hub = (matrix @ turn)[:, None]
-    return Sector(mesh, whole, matrix, held, turn, hub, turn[None] @ hub)
-
-
-def _cut_turn(mesh: SectorMesh) -> Any:
-    angles = np.zeros(len(mesh.points))
-    for nodes in (mesh.ahead, mesh.behind):
-        angles[nodes] = np.arctan2(mesh.points[nodes, 1], mesh.points[nodes, 0])
-    return polar_turn(angles, 2)
-
-
-def _dofs(nodes: Wholes) -> Wholes:
-    return (2 * nodes[:, None] + np.arange(2)).ravel()
-
-
-def chain_of(sector: Sector, onward: Floats | None = None) -> Chain:
-    """One sector condensed to its cuts and the hub, whose dofs the next sector sees `onward`."""
-    cuts = np.r_[sector.behind, sector.ahead]
-    inside = np.setdiff1d(np.arange(sector.dofs), np.r_[cuts, sector.held])
-    forces = np.c_[sector.matrix[:, cuts].toarray(), sector.hub]
-    matrix = np.block([[forces[cuts, : len(cuts)], sector.hub[cuts]], [sector.hub[cuts].T, sector.hub_matrix]])
-    matrix -= forces[inside].T @ factorise(sector.matrix[inside][:, inside]).solve(forces[inside])
-    return Chain((matrix + matrix.T) / 2, np.eye(1) if onward is None else onward)
-
-
-def factorise(matrix: Any) -> Any:
-    """Sparse LU for symmetric positive matrices; raises SolverError."""
-    import scipy.sparse.linalg
-
-    try:
-        return scipy.sparse.linalg.splu(
-            matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0, options={"SymmetricMode": True}
-        )
-    except RuntimeError as error:
-        raise SolverError(f"the stiffness matrix of a gear body could not be factorised ({error})") from error
+__all__ = ["Ring", "assemble"]
 
 
 @dataclass(frozen=True)
 class Ring:
-    """The assembled body, factorised: `dofs` (sectors, 2 n) numbers the dofs of each sector in full, -1 for those of the hub.
+    """The assembled body, condensed: `dofs` (sectors, 2 n) numbers the dofs of each sector in full, -1 for those of the hub.
 
-    Sectors in full are tooth -count ... count; the middle one is tooth 0. `hub` (dofs, hub) and `hub_matrix` are those of the
-    hub, and `motions` (dofs, 3) the rigid motions of a body whose hub follows it; the hub of another stands still.
+    Sectors in full are tooth -count ... count; the middle one is tooth 0. `parts` are these, each held by the hub or not;
+    `cuts` (k,) the dofs between them, to which they are condensed, and `matrix` (k, k) is that of the whole body on them.
+    `hub` (dofs, hub) and `hub_matrix` are those of the hub, and `motions` (dofs, 3) the rigid motions of a body whose hub
+    follows it; the hub of another stands still.
     """
 
     sector: Sector
     dofs: Wholes
-    matrix: Any
+    parts: tuple[Sector, ...]
+    cuts: Wholes
+    matrix: Floats
     hub: Floats
     hub_matrix: Floats
     motions: Floats | None
     support: Support
     chain: Chain | None
-
-    @cached_property
-    def _factor(self) -> Any:
-        if self.motions is None:
-            return factorise(self.matrix)
-        import scipy.linalg
-        import scipy.sparse
-
-        # Three springs hold what no load moves, as all loads are balanced.
-        _, _, order = scipy.linalg.qr(self.motions.T, mode="economic", pivoting=True)
-        springs = np.zeros(len(self.motions))
-        springs[order[:3]] = self.matrix.diagonal()[order[:3]]
-        return factorise(self.matrix + scipy.sparse.diags(springs))
 
     def solve(self, loads: Floats) -> tuple[Floats, Floats]:
         """Displacements (sectors, 2 n, m) in the frame of each sector (mm) and torques on the hub (m,) (N mm per mm).
@@ -163,18 +52,52 @@ class Ring:
         """
         right = self._on_dofs(loads)
         if self.motions is None:
-            solved: Floats = self._factor.solve(right)
+            solved = self._solved(right)
             torques: Floats = -(self.hub[:, 0] @ solved)
         else:
             forces = self.hub_forces(loads)
-            solved = self._factor.solve(right - self.hub @ forces)
+            solved = self._solved(right - self.hub @ forces)
             grip = self.hub.T @ self.motions
             moved = self.hub.T @ solved + self.hub_matrix @ forces
             solved -= self.motions @ np.asarray(np.linalg.solve(grip, moved), float)
             torques = grip[:, 0] @ forces
         padded = np.r_[solved, np.zeros((1, loads.shape[1]))]  # dof -1: the hub stands still
-        displacements = np.stack([(self.sector.cut_turn @ padded[row])[: len(loads)] for row in self.dofs])
+        displacements = np.stack([self.sector.axes.plain(padded[row])[: len(loads)] for row in self.dofs])
         return displacements, torques
+
+    def _solved(self, right: Floats) -> Floats:
+        """Displacements (dofs, m) by forces (dofs, m)."""
+        padded = np.r_[right, np.zeros((1, right.shape[1]))]
+        left, arrived = np.zeros_like(padded), dict[int, Arrived]()
+        left[self.cuts] = right[self.cuts]
+        for place, (part, row) in enumerate(zip(self.parts, self.dofs, strict=True)):
+            loads = part.inside(padded[row])
+            if loads.any():
+                arrived[place] = part.condensed.forward(loads)
+                np.add.at(left, row[part.condensed.kept], part.at_cuts.polar(arrived[place].loads))
+        moved = np.zeros_like(padded)
+        moved[self.cuts] = np.linalg.solve(self._sprung, left[self.cuts])
+        for place, (part, row) in enumerate(zip(self.parts, self.dofs, strict=True)):
+            kept = part.condensed.kept
+            at_cuts = moved[row[kept]]
+            inner = part.condensed.backward(part.at_cuts.plain(at_cuts), arrived.get(place))
+            inner[kept] = at_cuts
+            moved[row] = inner
+            moved[-1] = 0.0
+        result: Floats = moved[:-1]
+        return result
+
+    @cached_property
+    def _sprung(self) -> Floats:
+        """The matrix; of a body that nothing holds with three springs at what no load moves, as all loads are balanced."""
+        if self.motions is None:
+            return self.matrix
+        import scipy.linalg
+
+        _, _, order = scipy.linalg.qr(self.motions[self.cuts].T, mode="economic", pivoting=True)
+        springs = np.zeros(len(self.cuts))
+        springs[order[:3]] = self.matrix.diagonal()[order[:3]]
+        return self.matrix + np.diag(springs)
 
     def hub_forces(self, loads: Floats) -> Floats:
         """Dofs (3, m) of a hub that follows the bore, which balance loads (2 n, m) on tooth 0."""
@@ -186,8 +109,8 @@ class Ring:
         given[: len(loads)] = loads
         middle = self.dofs[len(self.dofs) // 2]
         free = middle >= 0
-        right = np.zeros((self.matrix.shape[0], loads.shape[1]))
-        np.add.at(right, middle[free], (self.sector.cut_turn.T @ given)[free])
+        right = np.zeros((len(self.hub), loads.shape[1]))
+        np.add.at(right, middle[free], self.sector.axes.polar(given)[free])
         return right
 
 
@@ -206,8 +129,6 @@ def assemble(
     `held` None makes the full ring, else a body of so many teeth (odd, at least those in full), its outer cuts as `cuts` says,
     whose bore must be held.
     """
-    import scipy.sparse
-
     support = support or Support()
     full, offsets = 2 * neighbours + 1, range(-neighbours, neighbours + 1)
     rest = (teeth if held is None else held) - full
@@ -215,25 +136,35 @@ def assemble(
     motions = _hub_motions(sector, offsets, support, cuts if held is not None and not rest else Cuts.FREE)
     numbers = _number(sector, motions.held, closed=held is None and not rest)
     count = int(numbers.max()) + 1
-    entries = sector.matrix.tocoo()
-    blocks = [(row[entries.row], row[entries.col], entries.data) for row in numbers]
     hub, hub_matrix = np.zeros((count + 1, sector.hub.shape[1])), np.zeros_like(sector.hub_matrix)
     for row, turn, tooth in zip(numbers, motions.turn, offsets, strict=True):
-        forces = sector.hub @ hub_seen_by(tooth, support) if support.floats else (sector.matrix @ turn)[:, None]
+        forces = sector.hub @ hub_seen_by(tooth, support) if support.floats else sector.forces(turn[:, None])
         np.add.at(hub, row, forces)  # the last row collects what acts on the hub itself
+    let_go = sector.let_go() if support.bolts else sector
+    parts = tuple(sector if support.holds(tooth) else let_go for tooth in offsets)
+    blocks = [(row[part.condensed.kept], part.cut_matrix) for part, row in zip(parts, numbers, strict=True)]
     other = make_sector(coarse, elasticity, support) if rest else None
     chain = chain_of(other, hub_seen_by(1, support)) if other else None
     between = chain_of(other.let_go(), hub_seen_by(1, support)) if other and support.bolts else None
     for dofs, matrix in _joints(sector, chain, between, support, numbers, rest, held is None, cuts):
         n = len(dofs)
-        blocks.append((np.repeat(dofs, n), np.tile(dofs, n), matrix[:n, :n].ravel()))
+        blocks.append((dofs, matrix[:n, :n]))
         np.add.at(hub, dofs, matrix[:n, n:])
         hub_matrix += matrix[n:, n:]
-    row, column, value = (np.concatenate(part) for part in zip(*blocks, strict=True))
-    free = (row >= 0) & (column >= 0)
-    matrix = scipy.sparse.csc_matrix((value[free], (row[free], column[free])), shape=(count, count))
+    at_cuts, matrix = _joined(blocks)
     rigid = _rigid(sector, numbers, support, count) if support.floats else None
-    return Ring(sector, numbers, matrix, hub[:-1], hub_matrix, rigid, support, chain)
+    return Ring(sector, numbers, parts, at_cuts, matrix, hub[:-1], hub_matrix, rigid, support, chain)
+
+
+def _joined(blocks: list[tuple[Wholes, Floats]]) -> tuple[Wholes, Floats]:
+    """The dofs (k,) of matrices, each once, and the sum (k, k) of all; dof -1 is left out."""
+    every = np.unique(np.concatenate([dofs for dofs, _ in blocks]))
+    matrix = np.zeros((len(every), len(every)))
+    for dofs, block in blocks:
+        places = np.searchsorted(every, dofs)
+        np.add.at(matrix, (places[:, None], places), block)
+    first = int(every[0] < 0)
+    return every[first:], matrix[first:, first:]
 
 
 def _joints(
@@ -266,7 +197,7 @@ def _joints(
 def _rigid(sector: Sector, numbers: Wholes, support: Support, count: int) -> Floats:
     """Rigid motions (dofs, 3) of the body - a turn, and shifts along the axes of tooth 0 - by the numbers of its dofs."""
     found = np.zeros((count, 3))
-    own = sector.cut_turn.T @ rigid_motions(sector.whole.points).reshape(-1, 3)
+    own = sector.axes.polar(rigid_motions(sector.whole.points).reshape(-1, 3))
     for place, row in enumerate(numbers):
         found[row] = own @ hub_seen_by(place - len(numbers) // 2, support)
     return found

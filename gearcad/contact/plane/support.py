@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.contact.plane.elasticity import mass_matrix
+from gearcad.contact.plane.elasticity import element_forces, element_mass
 from gearcad.contact.shared.holding import Hold, Support
 from gearcad.meshing.section import SectorMesh
 from gearcad.meshing.section.outline import Side
@@ -61,7 +61,7 @@ def hub_tractions(mesh: SectorMesh, whole: SectorMesh, support: Support) -> Floa
     """Nodal forces (2 n, 3) on the `whole` of a sector by torque and forces of unit shape, of a hub that floats."""
     if support.hold is Hold.SHAFT:
         shaft = np.arange(len(mesh.triangles), len(whole.triangles))
-        return np.asarray(mass_matrix(whole, shaft) @ rigid_motions(whole.points).reshape(-1, 3))
+        return element_forces(whole.triangles[shaft], element_mass(whole, shaft), rigid_motions(whole.points).reshape(-1, 3))
     return _on_bore(mesh, math.pi)
 
 

@@ -6,10 +6,27 @@ import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 
-__all__ = ["GAUSS", "edge_shapes", "edge_slopes", "edges_of", "triangle_shapes", "triangle_slopes"]
+__all__ = [
+    "GAUSS",
+    "TRIANGLE_PLACES",
+    "TRIANGLE_WEIGHTS",
+    "edge_shapes",
+    "edge_slopes",
+    "edges_of",
+    "triangle_shapes",
+    "triangle_slopes",
+]
 
 GAUSS = 1 / np.sqrt(3)
 """Gauss's two places on an edge from -1 to 1: there strains of quadratic elements are most accurate."""
+
+_ROOT = np.sqrt(38 - 44 * np.sqrt(0.4))
+_INNER, _OUTER = (8 - np.sqrt(10) + _ROOT) / 18, (8 - np.sqrt(10) - _ROOT) / 18
+_SHARE = np.sqrt(213125 - 53320 * np.sqrt(10)) / 3720
+
+TRIANGLE_PLACES = np.array([[s, t] for a in (_INNER, _OUTER) for s, t in ((a, a), (1 - 2 * a, a), (a, 1 - 2 * a))])
+TRIANGLE_WEIGHTS = np.repeat([1 / 6 + _SHARE, 1 / 6 - _SHARE], 3)
+"""Six places in a triangle, and their shares, that integrate polynomials of degree 4 (Strang and Fix 1973; Dunavant 1985)."""
 
 
 def edges_of(chain: Wholes) -> Wholes:
