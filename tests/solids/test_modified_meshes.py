@@ -158,6 +158,7 @@ def test_random_modifications_long(seed: int) -> None:
 
 SECTIONS = {**{name: GEARS[name] for name in ("spur", "undercut")}, "tip chamfer": GEARS["chamfered"]}
 SECTIONS["left hand"] = replace(GEARS["left hand"], teeth=44)
+SECTIONS["left hand, z 24"] = replace(GEARS["left hand"], teeth=24)
 SECTIONS["full radius"] = replace(GEARS["spur"], rack=BasicRack(root_radius="full"))
 
 
@@ -186,7 +187,7 @@ def _on_arcs(contour: np.ndarray, shares: tuple[float, ...] = (0.0, 0.25, 0.5, 0
 @pytest.mark.parametrize("name", SECTIONS)
 def test_contour_is_the_modified_section_at_mid_face_width(name: str) -> None:
     gear, accuracy = modified(SECTIONS[name]), 1e-4
-    points = _at_middle(gear, _on_arcs(gear_contour(gear, accuracy)))
+    points = _at_middle(gear, _on_arcs(gear_contour(gear, accuracy), tuple(np.arange(23) / 23)))
     radius = np.hypot(*points[:, :2].T)
     on_involute = (radius > gear.form_diameter / 2 + accuracy) & (radius < gear.tip_form_diameter / 2 - accuracy)
     off = np.abs(depth_off(gear, points[on_involute]))
