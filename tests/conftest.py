@@ -35,6 +35,33 @@ def pytest_collection_finish() -> None:
     gc.freeze()
 
 
+@pytest.fixture(scope="module")
+def one_worker() -> Iterator[None]:
+    """Runs of a table with `jobs=1` share one worker: it need not start anew for tests of what becomes of rows."""
+    from gearcad.batch import pool, worker
+
+    kept = worker._Worker()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pool, "own_worker", lambda: setattr(worker._here, "worker", kept))
+        patch.setattr(pool, "close_workers", lambda: None)
+        yield
+    kept.close()
+
+
+_PICTURED = (
+    *("check.figures", "check.sections", "check.views", "stiffness.report", "strength.report", "planetary.sections"),
+    *("dynamics.displacements", "dynamics.report", "dynamics.side_by_side"),
+)
+
+
+@pytest.fixture
+def no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Reports with empty pictures: drawing takes longer than all the rest of a command, and tests of reports have it."""
+    for room in _PICTURED:
+        for name in ("figure_address", "picture_address"):
+            monkeypatch.setattr(f"gearcad.report.{room}.{name}", lambda *_drawing: "data:,", raising=False)
+
+
 @pytest.fixture
 def small_disk(tmp_path: Path) -> Iterator[Path]:
     """A file system with room for a few rows only."""

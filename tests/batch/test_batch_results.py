@@ -30,14 +30,14 @@ TEXTS = ("name", "rack", "hub_side", "profile_shift_split")
 
 
 def make(folder: Path, lines: tuple[str, ...], wanted: tuple[Job[Any, Any], ...] = DATA, **options: Any) -> Summary:
-    return run_table(write_table(folder / "table.csv", lines), folder / "out", wanted, jobs=2, **options)
+    return run_table(write_table(folder / "table.csv", lines), folder / "out", wanted, **({"jobs": 1} | options))
 
 
 @pytest.fixture(scope="module")
 def mixed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Gears and pairs in one table, made with their tool-path points."""
     folder = tmp_path_factory.mktemp("mixed")
-    summary = make(folder, MIXED, POINTS)
+    summary = make(folder, MIXED, POINTS, jobs=2)
     assert (summary.ok, summary.failed, summary.not_run, summary.errors, summary.stopped) == (3, 0, 0, (), "")
     assert summary.results == tuple(folder / "out" / name for name in ("results.csv", "columns.csv", "results.parquet"))
     return folder
@@ -295,7 +295,7 @@ def test_row_that_takes_its_worker_with_it_costs_that_row_only(tmp_path: Path, m
     monkeypatch.setattr(run_module, "make_row", jobs.make_row_or_die)
     names = ["a", "segfault-1", "b", "exit-1", "c", "kill-1", "d", "e"]
     lines = ("name,teeth,normal_module,face_width", *(f"{name},{20 + n},1,5" for n, name in enumerate(names)))
-    summary = make(tmp_path, lines)
+    summary = make(tmp_path, lines, jobs=2)
     results = read_results(tmp_path / "out")
     place = f"{tmp_path / 'table.csv'} row "
     expected = {name: f"{place}{2 + n} ({name}): {DEADLY[name]}" if name in DEADLY else "" for n, name in enumerate(names)}

@@ -34,7 +34,7 @@ from gearcad.solids import Format
 distributed = pytest.importorskip("distributed")
 
 DATA = (Data(),)
-OPTIONS = ("--format", "csv,dxf,stl", "--quiet")
+OPTIONS = ("--format", "csv,stl", "--quiet")
 ROWS = 60
 MANY = (GEARS[0], *(f"row {number:03d},{12 + number % 50},1,2,{number % 3}" for number in range(ROWS)))
 
@@ -91,7 +91,7 @@ def address(cluster: tuple[str, psutil.Process]) -> str:
 def expected(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """The tree that a run without a cluster makes."""
     folder = tmp_path_factory.mktemp("plain")
-    assert run_batch(write_table(folder / "table.csv", MIXED), "-o", folder / "out", *OPTIONS, "-j", "2").returncode == 0
+    assert run_batch(write_table(folder / "table.csv", MIXED), "-o", folder / "out", *OPTIONS, "-j", "1").returncode == 0
     return snapshot(folder / "out")
 
 

@@ -18,6 +18,8 @@ from gearcad.batch.manifest import MANIFEST, Manifest, Part, inputs_hash, read_m
 from gearcad.jobs.build import Build
 from gearcad.solids import Format
 
+pytestmark = pytest.mark.usefixtures("one_worker")
+
 POINTS = (Build(formats=(Format.CSV,)),)
 
 

@@ -17,6 +17,8 @@ from gearcad.jobs.data import Data
 from gearcad.jobs.job import Job
 from gearcad.solids import FileOptions, Format
 
+pytestmark = pytest.mark.usefixtures("one_worker")
+
 POINTS = (Build(formats=(Format.CSV,)),)
 DATA = (Data(),)
 
@@ -32,7 +34,7 @@ def files_of(folder: Path, name: str) -> set[str]:
 
 
 @pytest.fixture(scope="module")
-def first_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def first_run(one_worker: None, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("first")
     assert make(folder).ok == 3
     assert made_now(folder / "out") == ["spur", "left", "right"]

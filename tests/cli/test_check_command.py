@@ -63,6 +63,7 @@ def spec(text: str) -> str:
     return "pair.toml"
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_check_prints_the_verdict_and_writes_both_files(here: Path) -> None:
     result = run("check", spec(SPUR))
     assert result.exit_code == 0, result.output
@@ -183,6 +184,7 @@ def test_absurd_load_and_thin_rim_are_warnings_with_their_numbers(here: Path) ->
     assert "the pinion's rim (1.5 mm, 0.333 tooth depths) is held rigidly" in result.stdout
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_modified_and_misaligned_gears_are_checked_as_far_as_a_plane_goes(here: Path, request: pytest.FixtureRequest) -> None:
     """Reliefs and pitch errors count; what depends on z is named and left out; the report lists all of it."""
     changes = "pinion_pitch_error = 4\ncentre_distance_change = 0.05\nmisalignment = 10\n"

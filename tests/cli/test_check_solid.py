@@ -227,6 +227,7 @@ def test_stress_fields_open_with_the_colours_of_the_root(folder: Path, pair: Gea
     assert root.size and (root < getattr(pair, gear).form_diameter / 2).all()
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_spur_gears_as_solids_carry_as_in_the_plane(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without modifications, loaded backwards, and without the finer mesh: the model is asked for on the command line."""
     monkeypatch.chdir(tmp_path)

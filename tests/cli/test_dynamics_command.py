@@ -65,6 +65,7 @@ def spec(text: str) -> str:
     return "it.toml"
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_a_train(here: Path) -> None:
     """Osinski's one stage: component modes of the paper, and the peak that an isolated pair does not have."""
     result = run("dynamics", spec(TRAIN), "--quiet")
@@ -222,6 +223,7 @@ def test_tooth_errors_and_flanks_that_part_are_too_much(here: Path) -> None:
     assert re.search(r"Warning: flanks are taken to stick to each other, for .* would have \d+ harmonics here", result.stdout)
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_the_contact_model_of_the_thesis(here: Path) -> None:
     text = (TEMPLATES / "uhlir-19-23.toml").read_text(encoding="utf-8")
     short = text.replace("speeds = 41", "speeds = 3").replace("duration = 1.0", "duration = 0.2")

@@ -108,6 +108,7 @@ def test_verdict_comes_first_and_names_what_failed(document):
     assert verdict.xpath(".//ul")[0].text_content().strip().startswith("contact pressure: ")
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_passes_where_every_gate_does(monkeypatch):
     monkeypatch.setattr(PlaneSections, "stiffness", "pairs like <this> have none")
     inside = tuple(each for each in small_check().comparisons if each.quantity != "contact pressure")
@@ -184,6 +185,7 @@ def test_check_json_holds_what_the_report_says(document):
     assert reported["notices"] == [{"code": "test", "where": "", "text": reported["warnings"][0]}]
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_a_single_torque_shows_no_trend(monkeypatch):
     monkeypatch.setattr(PlaneSections, "stiffness", "not wanted here")
     captions = report_html(replace(small_check(), sweep=small_check().sweep[:1]), "one")

@@ -107,6 +107,7 @@ def test_reasons_tell_width_unevenness_and_the_rest(document: lxml.html.HtmlElem
     assert f"KHβ = {result.summary.face_load_factor:.3f}" in lines.text_content()
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_backwards_and_without_a_finer_mesh(text: str) -> None:
     result = small_solid_check()
     inside = tuple(each for each in result.comparisons if not each.quantity.startswith("change on"))

@@ -11,6 +11,8 @@ from click.testing import CliRunner, Result
 
 from gearcad.cli import main
 
+pytestmark = pytest.mark.usefixtures("no_pictures")
+
 PAIR = """
 [pair]
 normal_module = 2.0

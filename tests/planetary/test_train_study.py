@@ -84,6 +84,7 @@ def test_the_response_is_there_if_it_is_asked_for() -> None:
     assert 1 < factor < 2 and speed > 0
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_the_document_has_what_the_design_promises(alm: Studied, tmp_path: Path) -> None:
     job = Planetary()
     files = job.write(alm, tmp_path)
@@ -109,6 +110,7 @@ def test_the_document_has_what_the_design_promises(alm: Studied, tmp_path: Path)
     assert list(data["planetary"]["meshes"]) == ["ring_4-rim_3", "ring_5-rim_3p"]
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_specs_of_the_meshes_are_those_of_the_train_at_its_load(alm: Studied, tmp_path: Path) -> None:
     Planetary().write(alm, tmp_path)
     pair = read_spec(tmp_path / "ring_5-rim_3p.toml")
@@ -190,7 +192,7 @@ def test_what_is_given_in_place_of_the_designs_own() -> None:
         gearcad.planetary(read_spec(TEMPLATES / "volvo-13-44.toml"))
 
 
-@pytest.mark.usefixtures("quick")
+@pytest.mark.usefixtures("quick", "no_pictures")
 def test_the_command_shows_the_figures_and_writes_the_files(tmp_path: Path) -> None:
     spec = TEMPLATES / "planetary-24-21-66.toml"
     result = run("planetary", str(spec), "-o", str(tmp_path), "--quiet")
@@ -204,7 +206,7 @@ def test_the_command_shows_the_figures_and_writes_the_files(tmp_path: Path) -> N
     assert json.loads(run("planetary", str(spec), "-o", str(tmp_path), "--json", "--quiet").stdout)["ratio"] == 3.75
 
 
-@pytest.mark.usefixtures("quick")
+@pytest.mark.usefixtures("quick", "no_pictures")
 def test_the_screen_says_who_drives_a_differential(tmp_path: Path) -> None:
     """The carrier turns at (30·1500 + 66·300)/96; sun and ring put power in, as the starter says."""
     spec = TEMPLATES / "planetary-differential.toml"
@@ -221,7 +223,7 @@ def test_equal_notices_are_told_once_with_their_places() -> None:
     assert list(map(str, found)) == ["a, b: taken for rigid", "a: soft"]
 
 
-@pytest.mark.usefixtures("quick")
+@pytest.mark.usefixtures("quick", "no_pictures")
 def test_without_a_speed_torques_are_known_and_nothing_is_said_to_stand(tmp_path: Path) -> None:
     text = (TEMPLATES / "planetary-24-21-66.toml").read_text(encoding="utf-8")
     spec = tmp_path / "slow.toml"

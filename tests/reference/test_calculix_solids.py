@@ -61,6 +61,7 @@ def _agree(of: Deviations, error: float = ERROR, root: float = ROOT) -> None:
 
 
 @needs_ccx
+@pytest.mark.long
 def test_calculix_loads_a_small_helical_pair_about_as_we_do(tmp_path: Path) -> None:
     _agree(_compared(_small(), 0.0, tmp_path), COARSE_ERROR, COARSE_ROOT)
 

@@ -66,10 +66,10 @@ def test_parts_reopen_named_coloured_and_separate(tmp_path: Path, bracket: bool)
     pair = _volvo()
     path = tmp_path / "assembly.step"
     write_step(pair_assembly(pair, bracket=bracket), path, name=pair.name)
-    solids = cadquery.importers.importStep(str(path)).solids().vals()
+    again = cadquery.Assembly.importStep(str(path))
+    solids = again.toCompound().Solids()
     assert len(solids) == 2 + bracket
     assert all(solid.isValid() for solid in solids)
-    again = cadquery.Assembly.importStep(str(path))
     names = ["pair pinion", "pair wheel", "pair bracket"][: 2 + bracket]
     assert [child.name for child in again.children] == names
     assert len({child.color.toTuple() for child in again.children}) == len(names)

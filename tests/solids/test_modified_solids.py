@@ -95,12 +95,13 @@ def test_each_modification_is_measured_on_the_solid(name: str, amount: str) -> N
 
 @pytest.mark.parametrize("shape", ["linear", pytest.param("parabolic", marks=pytest.mark.long)])
 @pytest.mark.parametrize("name", GEARS)
-def test_all_modifications_before_and_after_step(name: str, shape: str, tmp_path: Path) -> None:
+def test_all_modifications_after_step(name: str, shape: str, tmp_path: Path) -> None:
     gear = modified(GEARS[name], tip_relief_shape=shape, root_relief_shape=shape, end_relief_shape=shape)
     solid = gear_solid(gear)
-    for made in (solid, _again(solid, tmp_path / "gear.step")):
-        assert _valid_and_closed(made)
-        _measure(gear, made)
+    assert _valid_and_closed(solid)
+    again = _again(solid, tmp_path / "gear.step")
+    assert _valid_and_closed(again)
+    _measure(gear, again)
 
 
 @pytest.mark.parametrize(("name", "amount"), crossed([*AMOUNTS, "all"]))
@@ -121,9 +122,9 @@ def test_an_end_relief_that_begins_inside_on_or_beyond_the_cone(name: str, share
     plain = GEARS[name]
     gear = modified(plain, end_relief_length=min(share * plain.body.end_chamfer, plain.face_width / 2))
     solid = gear_solid(gear)
-    for made in (solid, _again(solid, tmp_path / "gear.step")):
-        assert _valid_and_closed(made)
-        _measure(gear, made)
+    again = _again(solid, tmp_path / "gear.step")
+    assert _valid_and_closed(again)
+    _measure(gear, again)
     removed = gear_solid(plain).Volume() - solid.Volume()
     assert removed == pytest.approx(removed_volume(gear), abs=VOLUME_TOLERANCE * solid.Volume())
 

@@ -157,10 +157,9 @@ def test_end_chamfer(name: str, helix: float, tmp_path: Path) -> None:
     )  # fmt: skip
     gear = replace(bare, body=body)
     solid = gear_solid(gear)
-    expected = RingSection(gear).volume
-    for shape in (solid, _again(solid, tmp_path / "ring.step")):
-        assert _valid_and_closed(shape)
-        assert shape.Volume() == pytest.approx(expected, rel=VOLUME_TOLERANCE)
+    again = _again(solid, tmp_path / "ring.step")
+    assert _valid_and_closed(again)
+    assert again.Volume() == pytest.approx(RingSection(gear).volume, rel=VOLUME_TOLERANCE)
     face = RingSection(gear).tip + length * math.tan(math.radians(angle))
     cones = [each for each in solid.Faces() if each.geomType() == "CONE"]
     assert len(cones) == 2 * 40
