@@ -32,7 +32,7 @@ _LEAST_WINDOW = 1e-6
 _MOST_PASSED, _FARTHEST = 1.001, 2.0**50
 """Base pitches that pass in a step at most - there is room for the teeth of so many - and places that are told apart."""
 
-_NEWTON, _SWEEPS, _HALVINGS = 20, 200, 200
+_NEWTON, _SWEEPS, _HALVINGS = 20, 200, 201
 """Newton's steps for all meshes at once; where these fail, meshes in turn, each by steps inside a bracket."""
 
 _ALIKE = 1e-12
@@ -330,8 +330,9 @@ def _one_mesh(
     share = 1.0 / (1.0 + marks[j, _DAMPING] * rate)
     part = give * share
     low, high, x = -np.inf, np.inf, y
-    spring, slope = _carried(marks, springs, j, count, x)
+    spring, slope = 0.0, 0.0
     for _ in range(_HALVINGS):
+        spring, slope = _carried(marks, springs, j, count, x)
         value = x - y + part * (spring + damped)
         if not abs(value) > _ALIKE * (abs(x) + abs(y)):  # nor where it is no number any more
             break
@@ -342,7 +343,6 @@ def _one_mesh(
         x -= value / (1.0 + part * slope)
         if not low <= x <= high:
             x = 0.5 * (low + high)
-        spring, slope = _carried(marks, springs, j, count, x)
     return share * (spring + damped), spring, slope
 
 
@@ -410,7 +410,8 @@ def _disturb(
 ) -> None:  # fmt: skip
     """Take the disturbance over one step, along the tangent of the motion."""
     n, m = mesh.shape
-    work[:, m] = 0.0
+    for j in range(m):
+        work[j, m] = 0.0
     for i in range(n):
         push = 0.0
         for j in range(m):
@@ -472,14 +473,15 @@ def _measure(scale: float, free: Floats, dz: Floats, dv: Floats, df: Floats, gro
 
 
 @compiled
-def _yielding(mesh: Floats, steps: Floats, column: int) -> Floats:
-    """(m, m): by how much approaches, or their rates, are less for each newton at the end of a step."""
+def _yielding(mesh: Floats, left: Floats) -> Floats:
+    """(m, m): by how much approaches, or their rates, are less for each newton at the end of a step, of which modes get `left`
+    (n,)."""
     n, m = mesh.shape
     result = np.zeros((m, m))
     for i in range(n):
         for j in range(m):
             for k in range(m):
-                result[j, k] += steps[i, column] * mesh[i, j] * mesh[i, k]
+                result[j, k] += left[i] * mesh[i, j] * mesh[i, k]
     return result
 
 
@@ -558,7 +560,7 @@ def run(model: Model, course: CourseTables, h: float, begin: int, count: int, st
     speeds, factors = course.speed, course.factor
     n, m = mesh.shape
     steps = propagators(model.squares, model.damping, h)
-    give, rate = _yielding(mesh, steps, 5), _yielding(mesh, steps, 7)
+    give, rate = _yielding(mesh, steps[:, 5]), _yielding(mesh, steps[:, 7])
     longest = 0.0
     for j in range(m):
         longest = max(longest, marks[j, _LAST] - marks[j, _FIRST])
@@ -567,14 +569,15 @@ def run(model: Model, course: CourseTables, h: float, begin: int, count: int, st
     y, rates, shift, push, found = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(n), np.zeros((3, m))
     for j in range(m):
         found[0, j] = state.force[j]
-    speed, turns, at_speed = _along(speeds, 0, (begin - 0.5) * h)
-    _, passed, at_factor = _along(factors, 0, (begin - 0.5) * h)
-    window, sampled = 0, 0
-    for step in range(begin, begin + count + 1):
+    speed, turns, passed, at_speed, at_factor, window = 0.0, 0.0, 0.0, 0, 0, 0
+    taken = begin // records.stride + 1 if begin > 0 else 0
+    for step in range(begin - 1, begin + count + 1):
         still = step == begin
         speed_before, turns_before, passed_before = speed, turns, passed
         speed, turns, at_speed = _along(speeds, at_speed, (step + 0.5) * h)
         _, passed, at_factor = _along(factors, at_factor, (step + 0.5) * h)
+        if step < begin:
+            continue
         factor, faster = (passed - passed_before) / h, (speed - speed_before) / h
         _moved(mesh, steps, z, v, push, load, driven, factor, faster, still, y, rates)
         for j in range(m):
@@ -603,11 +606,11 @@ def run(model: Model, course: CourseTables, h: float, begin: int, count: int, st
                 _measure(model.scale, model.free, dz, dv, df, state.growth)
         if still and begin > 0:
             continue
-        if step % records.stride == 0 and sampled < samples:
+        sample = step // records.stride - taken
+        if step % records.stride == 0 and sample < samples:
             for j in range(m):
                 y[j] = _sum(mesh, j, z)
-            _written(records, sampled, rows, found, y, z, v)
-            sampled += 1
+            _written(records, sample, rows, found, y, z, v)
         while window < ends.size and step >= ends[window]:
             window += 1
         if window < ends.size:
