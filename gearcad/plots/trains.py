@@ -13,7 +13,6 @@ from gearcad.arrays import Floats
 from gearcad.dynamics.trains.eigenmodes import NaturalModes
 from gearcad.dynamics.trains.members import GROUND, Shaft
 from gearcad.dynamics.trains.train import Train
-from gearcad.geometry.spline import SPLINE_PLACES, Spline
 from gearcad.plots.labels import plain
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, SERIES, new_figure, prepared, short
 
@@ -50,8 +49,8 @@ _Node = tuple[str, str]
 """("inertia", name), or ("ground", name of the shaft that ends there)."""
 
 
-_BETWEEN = 8
-"""Steps of a shape that is drawn from one place where it is known to the next."""
+_BETWEEN, _LEAST_PLACES = 8, 4
+"""Steps of a shape that is drawn from one place where it is known to the next; fewer places are joined by lines."""
 
 
 class _Way(NamedTuple):
@@ -118,11 +117,13 @@ def _finely(modes: NaturalModes, mode: int) -> tuple[Floats, Floats]:
 
     Half waves have few places where they are many: lines between these would cut their tops.
     """
-    if len(modes.places) < SPLINE_PLACES:
+    if len(modes.places) < _LEAST_PLACES:
         return modes.places, modes.shaft_shape[mode]
+    from scipy.interpolate import CubicSpline
+
     parts = np.arange(_BETWEEN * (len(modes.places) - 1) + 1) / _BETWEEN
     along = np.interp(parts, np.arange(len(modes.places)), modes.places)
-    return along, Spline(modes.places, modes.shaft_shape[mode].T)(along).T
+    return along, CubicSpline(modes.places, modes.shaft_shape[mode].T)(along).T
 
 
 def _title(modes: NaturalModes, mode: int) -> str:

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -20,11 +20,13 @@ from gearcad.contact.plane.flamant import edge_displacement, flamant_displacemen
 from gearcad.contact.plane.ring import Ring
 from gearcad.contact.shared.engaged import FlankCompliance, LoadedFlank
 from gearcad.geometry import Gear
-from gearcad.geometry.spline import Spline
 from gearcad.meshing.section import SectorMesh
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.quality import mesh_quality
 from gearcad.meshing.section.shapes import edge_shapes, edge_slopes
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 __all__ = ["Compliance", "PlaneCompliance", "PlaneFlank", "flank_compliance", "flank_of", "near_elements"]
 
@@ -121,9 +123,11 @@ class PlaneCompliance(FlankCompliance):
         return smooth
 
     @cached_property
-    def between_loads(self) -> Spline:
+    def between_loads(self) -> CubicSpline:
         """Parts (m,) of the unit loads' responses in that to a load between theirs, by its roll length (mm)."""
-        return Spline(self.loads, np.eye(len(self.loads)))
+        from scipy.interpolate import CubicSpline
+
+        return CubicSpline(self.loads, np.eye(len(self.loads)))
 
     @property
     def hub_radius(self) -> float:

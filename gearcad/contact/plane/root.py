@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,9 +15,11 @@ from gearcad.contact.plane.rim import far_responses
 from gearcad.contact.plane.support import key_load
 from gearcad.contact.shared.holding import Hold
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, RootStress
-from gearcad.geometry.spline import Spline
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.shapes import GAUSS, edge_shapes, edge_slopes, edges_of
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 __all__ = ["Fillets", "ToothLoad", "seen_from"]
 
@@ -107,17 +109,19 @@ class Fillets:
             found[side] = (np.hypot(*where.T), angle, matrix)
         return found
 
-    def _response(self, side: Side, tooth: int) -> Spline | None:
+    def _response(self, side: Side, tooth: int) -> CubicSpline | None:
         """Stress on a side of a tooth by 1 N per mm on tooth 0, as a function of the load's roll length; None if unknown."""
         support = self.body.ring.support
         place = (tooth + self.body.neighbours) % support.teeth if support.bends else tooth + self.body.neighbours
         return self._splines[side][place] if 0 <= place < len(self._splines[side]) else None
 
     @cached_property
-    def _splines(self) -> dict[Side, tuple[Spline, ...]]:
+    def _splines(self) -> dict[Side, tuple[CubicSpline, ...]]:
         """Stresses (points,) of each side by the roll length of the load, from tooth -neighbours on."""
+        from scipy.interpolate import CubicSpline
+
         loads = self.body.loads
-        return {side: tuple(Spline(loads, each.T) for each in teeth) for side, teeth in self._responses.items()}
+        return {side: tuple(CubicSpline(loads, each.T) for each in teeth) for side, teeth in self._responses.items()}
 
     @cached_property
     def _responses(self) -> dict[Side, Floats]:
