@@ -31,7 +31,6 @@ from gearcad.per_gear import PerGear
 from gearcad.progress import Share, Tell, unheard, untold
 from gearcad.rating.dynamic_factor import DynamicFactor
 from gearcad.rating.options import RatingOptions
-from gearcad.stiffness.methods import METHODS
 
 __all__ = ["study_contact", "study_pair"]
 
@@ -87,7 +86,7 @@ def study_pair(
         pair=pair,
         cycle=cycle,
         inertias=inertias,
-        method=METHODS[cycle.method].title,
+        method=_title(cycle),
         study=study,
         bearings=bearings,
         unrated=unrated,
@@ -104,8 +103,15 @@ def _smooth_errors(pair: GearPair, rating: RatingOptions, options: DynamicsOptio
 
 def _single_teeth(pair: GearPair, cycle: MeshCycle, rating: RatingOptions, options: DynamicsOptions) -> tuple[MeshTeeth, ...]:
     """Of the one mesh, for errors that are drawn."""
-    source = METHODS[cycle.method].title
-    return (pair_teeth(pair, cycle, rating if options.errors else None, single=options.premature, source=source),)
+    errors = rating if options.errors else None
+    return (pair_teeth(pair, cycle, errors, single=options.premature, source=_title(cycle)),)
+
+
+def _title(cycle: MeshCycle) -> str:
+    """Of the method that has found it."""
+    from gearcad.stiffness.methods import METHODS  # only here: trains without pairs do not need them
+
+    return METHODS[cycle.method].title
 
 
 def _method_b(

@@ -38,7 +38,6 @@ from gearcad.mounting import Mounting
 from gearcad.notice import Notice
 from gearcad.per_gear import PerGear, Role
 from gearcad.progress import Agenda, Progress
-from gearcad.stiffness.methods import METHODS
 from gearcad.version import __version__
 
 __all__ = ["Dynamics", "Study", "dynamics", "specs_of"]
@@ -186,6 +185,8 @@ def _steps(steps: Mapping[str, float], options: DynamicsOptions) -> Mapping[str,
 
 def _mesh_cycle(design: PairDesign, load: Load, options: DynamicsOptions) -> MeshCycle:
     """By the method of the options, the bodies held as [check] says."""
+    from gearcad.stiffness.methods import METHODS  # only here: trains without pairs do not need them
+
     mounting, body = design.mounting or Mounting(), (design.check or CheckOptions()).body
     kind = METHODS[options.method_for(mounting.mounted(design.pair))]
     return kind(pair=design.pair, material=design.material or Material(), body=body, mounting=mounting)(load)

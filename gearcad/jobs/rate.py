@@ -10,7 +10,6 @@ from typing import Any, Unpack
 
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
 from gearcad.dynamics.planetary.strength import TrainStrength
-from gearcad.dynamics.planetary.study import study_planetary
 from gearcad.errors import SolverError
 from gearcad.jobs.job import Job, Writer
 from gearcad.jobs.rate_columns import rate_columns
@@ -92,6 +91,8 @@ def _of_bodies(design: PairDesign, load: Load) -> BodyLoad | None:
 
 def _of_train(design: PlanetaryDesign) -> TrainStrength:
     """That of its study, in which planets share the load. Raises SolverError where it has none."""
+    from gearcad.dynamics.planetary.study import study_planetary  # only here: pairs do not need the dynamics
+
     load = design.loaded(_NO_LOAD)
     found = study_planetary(
         design.train, load, design.speeds, material=design.material, dynamics=design.dynamics, rating=design.rating

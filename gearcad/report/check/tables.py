@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearcad import symbols
-from gearcad.check.result import CheckResult
 from gearcad.geometry import Gear, GearPair
 from gearcad.load import Load
 from gearcad.material import Material, Materials, by_gear
 from gearcad.mounting import Mounting
 from gearcad.schema import symbols_of
 from gearcad.symbols import Symbol
+
+if TYPE_CHECKING:
+    from gearcad.check.result import CheckResult
 
 __all__ = ["Row", "gear_rows", "load_rows", "pair_rows", "rating_rows"]
 
