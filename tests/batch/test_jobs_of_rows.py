@@ -14,6 +14,8 @@ from gearcad.designs.columns import column_symbol
 from gearcad.jobs import VERBS, job_of
 from gearcad.jobs.stiffness import Stiffness
 
+pytestmark = pytest.mark.usefixtures("one_worker")
+
 LINES = (
     "name,gear.teeth,gear.normal_module,gear.face_width,"
     "pair.normal_module,pinion.teeth,wheel.teeth,pinion.face_width,wheel.face_width,load.torque",

@@ -17,6 +17,8 @@ from support.processes import PATIENCE, batch_command, run_batch
 import gearcad
 from gearcad.cli import main
 
+pytestmark = pytest.mark.usefixtures("one_worker")
+
 TEMPLATES = Path(__file__).parents[2] / "templates"
 
 BAD = (*GEARS[:2], "flat,2,1,2,", "steep,17,1,3,95")

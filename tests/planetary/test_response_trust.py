@@ -77,14 +77,19 @@ def folded() -> PlanetaryResponse:
     return _respond(_train((22, 20, -62), (0.4, 0.3, -1.0), 4), 9, 36_500.0, 42_000.0)
 
 
+@pytest.fixture(scope="module")
+def steady() -> PlanetaryResponse:
+    """Three planets in phase, far from any such speed."""
+    return _respond(_train((24, 21, -66), (0.3, 0.2, -0.7), 3), 5, 4000.0, 6000.0)
+
+
 # ---------------------------------------------------------------------- at one speed
 
 
-def test_at_a_speed_every_planet_carries_its_own_force() -> None:
+def test_at_a_speed_every_planet_carries_its_own_force(steady: PlanetaryResponse) -> None:
     """Three planets taken for one: the mean force of each mesh is that at rest, its greatest that of the chart."""
-    found = _respond(_train((24, 21, -66), (0.3, 0.2, -0.7), 3), 5, 4000.0, 6000.0)
+    found, one = steady, steady.at(5000.0)
     assert found.alike == 3
-    one = found.at(5000.0)
     forces = one.spring_forces()[0]
     assert forces.mean(axis=0) == pytest.approx(found.up.static_forces, rel=1e-3)  # jumps between samples
     assert len(one.system.names[0]) == one.spring_forces().shape[-1] == 6
@@ -115,6 +120,7 @@ def test_nothing_grows_without_bound_where_flanks_part(unstable: PlanetaryRespon
     assert "does not last" in notice.text and "not computed, and can be greater" in notice.text
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_a_greatest_factor_that_does_not_last_is_marked(unstable: PlanetaryResponse) -> None:
     """In the document, on the screen and in the report."""
     row = int(unstable.up.factors.max(axis=1).argmax())
@@ -128,10 +134,10 @@ def test_a_greatest_factor_that_does_not_last_is_marked(unstable: PlanetaryRespo
     assert "That motion does not last" in " ".join(section.words)
 
 
-def test_a_greatest_factor_that_lasts_is_not_marked() -> None:
-    found = _respond(_train((24, 21, -66), (0.3, 0.2, -0.7), 3), 5, 4000.0, 6000.0)
-    assert found.to_dict()["greatest"]["lasts"] is True and all(found.to_dict()["stable"])
-    assert not {"unstable", "planets-differ"} & {notice.code for notice in found.notices}
+def test_a_greatest_factor_that_lasts_is_not_marked(steady: PlanetaryResponse) -> None:
+    document = steady.to_dict()
+    assert document["greatest"]["lasts"] is True and all(document["stable"])
+    assert not {"unstable", "planets-differ"} & {notice.code for notice in steady.notices}
 
 
 # ---------------------------------------------------------------------- what is left out
