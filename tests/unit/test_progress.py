@@ -139,7 +139,7 @@ def test_lines_come_now_and_then(monkeypatch: pytest.MonkeyPatch, capsys: pytest
 
 
 def test_memory_of_bodies_is_what_was_expected() -> None:
-    """Within a third, both gears side by side; arrays of numpy are traced, libraries are there before."""
+    """Within a third, one gear after the other; arrays of numpy are traced, libraries are there before."""
     import skfem  # noqa: F401
 
     import gearcad.contact.solid.assembling  # noqa: F401

@@ -21,7 +21,7 @@ _SOUGHT = 2
 """How many times the positions asked for there are with those between them, where extremes are sought."""
 _RATING_SECONDS = 0.2
 
-_PROGRAM = 0.15e9
+_PROGRAM = 0.2e9
 """Bytes of Python and its libraries."""
 
 
@@ -34,7 +34,7 @@ def _bodies(task: CheckTask) -> dict[str, Expected]:
     factors = dict(zip((COARSER, BODIES, FINER), SOLID_FACTORS, strict=True))
     wanted = (BODIES, COARSER, FINER) if task.options.refines else (BODIES,)
     pair = loaded_left(task.pair, task.torque)
-    return {name: expected_bodies(pair, task.body, sizes_of(task, factors[name])) for name in wanted}
+    return {name: expected_bodies(pair, task.body, sizes_of(task, factors[name]), fields=name == BODIES) for name in wanted}
 
 
 def solid_steps(task: CheckTask) -> dict[str, float]:

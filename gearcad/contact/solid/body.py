@@ -6,9 +6,12 @@ that is free has a hub that follows it (see `hub`), whose six dofs are the force
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property, partial
+from itertools import pairwise
+from threading import Lock
 from typing import NamedTuple
 
 import numpy as np
@@ -23,12 +26,13 @@ from gearcad.contact.solid.sector import SolidSector
 from gearcad.material import Material
 from gearcad.meshing.section.swept import SweptMesh
 from gearcad.progress import Share, unheard
+from gearcad.threads import on_all_cores
 
 __all__ = ["Moved", "SolidBody", "SolidSector", "assemble_body"]
 
 
 _AT_ONCE = 64
-"""Loads for which the body is solved at once: more take more memory."""
+"""The most loads for which the body is solved at once: more take more memory."""
 
 
 class Moved(NamedTuple):
@@ -81,19 +85,29 @@ class SolidBody:
         wanted, at = every if wanted is None else wanted, every if at is None else at
         found = np.empty((2 * self.neighbours + 1, 3 * len(wanted), loads.shape[1]))
         torques = np.empty(loads.shape[1])
-        loaded = sector.polar_turn_at(at).T
-        for first in range(0, loads.shape[1], _AT_ONCE):
-            these = slice(first, first + _AT_ONCE)
+        self._prepare()
+        loaded, over, lock = sector.polar_turn_at(at).T, 0, Lock()
+
+        def work(these: slice) -> None:
+            nonlocal over
             solved, arriving = sector.condensed.forward(loaded @ loads[:, these], at)
             joints = self._joints(solved, arriving)
             torques[these] = self._torques(solved, joints)
             for tooth, moved in self._teeth(solved, joints, wanted):
                 found[self.neighbours + tooth, :, these] = moved
-            self.tell(min(first + _AT_ONCE, len(torques)) / len(torques))
+            with lock:
+                over += len(torques[these])
+                self.tell(over / len(torques))
+
+        on_all_cores(work, _some_at_a_time(len(torques)))
         turn = sector.polar_turn_at(wanted)
         for each in found:
             each[:] = turn @ each
         return Moved(found, torques)
+
+    def _prepare(self) -> None:
+        """Make what threads would else make at the same time."""
+        _ = self._factors, self._reaction
 
     @cached_property
     def _factors(self) -> list[tuple[Wholes, Callable[[Floats], Floats]]]:
@@ -161,6 +175,12 @@ class SolidBody:
         even = (self.sector.hub_parities == PARITIES[0])[:, None]
         ours = self.sector.hub_forward[0].times(-hub * even, -hub * ~even)
         return ours if solved is None else solved.plus(ours)
+
+
+def _some_at_a_time(loads: int) -> list[slice]:
+    """Parts of so many loads, of about equal length."""
+    ends = np.linspace(0, loads, math.ceil(loads / _AT_ONCE) + 1).astype(int).tolist()
+    return [slice(*each) for each in pairwise(ends)]
 
 
 def assemble_body(

@@ -9,15 +9,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from threading import Lock
 from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.arrays import Bools, Floats, Wholes
 from gearcad.contact.solid.dissection import Box, Halves, front_flops
-from gearcad.contact.solid.fronts import Blocks, Elimination, Front, node_dofs
+from gearcad.contact.solid.fronts import Blocks, Elimination, Front, Store, node_dofs
 from gearcad.contact.solid.half_turn import PARITIES, TURNED, HalfTurn
 from gearcad.progress import Share
+from gearcad.threads import on_all_cores
 
 __all__ = ["Condensed", "Forward", "condense"]
 
@@ -189,21 +191,24 @@ def condense(turn: HalfTurn, halves: Halves, cut: Wholes, matrices_of: Callable[
     """
     from gearcad.contact.solid.assembling import add_block, add_hexahedra, fill_upper
 
-    over = 0.0
+    over, lock = 0.0, Lock()
 
     def done(flops: float) -> None:
         nonlocal over
-        over += flops
-        tell(min(over / halves.flops, 1.0))
+        with lock:
+            over += flops
+            tell(min(over / halves.flops, 1.0))
 
     def nodes_of(box: Box) -> Wholes:
         return box.nodes(turn.mesh)
 
-    elimination = Elimination(turn.mesh.nodes, nodes_of, matrices_of, done)
-    matrix, orbits, applied = elimination.eliminated(halves.half), _orbits(turn, halves, cut), np.ones(1)
-    top, matrices = [], []
+    store, between, ends = Store(halves.factors), 3 * len(halves.between), 3 * len(cut)
+    elimination = Elimination(turn.mesh.nodes, nodes_of, matrices_of, store, done)
+    matrix, orbits, applied = elimination.on_all_cores(halves.half), _orbits(turn, halves, cut), np.ones(1)
+    given = []
     for parity in (0, 1):
-        blocks, signs = Blocks.zeros(3 * len(halves.between), 3 * len(cut)), orbits.signs(parity)
+        blocks = Blocks(store.zeros(between, between), store.zeros(between, ends), np.zeros((ends, ends), order="F"))
+        signs = orbits.signs(parity)
         here = signs[node_dofs(halves.half.aside)]
         matrix *= (here * applied)[:, None]
         matrix *= here * applied
@@ -214,12 +219,17 @@ def condense(turn: HalfTurn, halves: Halves, cut: Wholes, matrices_of: Callable[
             turned = signs[node_dofs(nodes)]
             add_hexahedra(turned[:, :, None] * matrices_of(halves.middle) * turned[:, None] / 2, orbits.places[nodes], *blocks)
         _hold(blocks, np.flatnonzero(np.isin(node_dofs(halves.between), orbits.still(parity))))
-        blocks = blocks.eliminated()
-        top.append(Front(node_dofs(halves.between), node_dofs(cut), blocks.own, blocks.across))
-        fill_upper(blocks.rest)
-        matrices.append(blocks.rest)
+        given.append(blocks)
+    del matrix
+
+    def eliminated(blocks: Blocks) -> tuple[Front, Floats]:
+        own, across, rest = blocks.eliminated()
+        fill_upper(rest)
         done(front_flops(len(halves.between), len(cut)))
-    return Condensed(orbits, tuple(elimination.fronts), (top[0], top[1]), (matrices[0], matrices[1]))
+        return Front(node_dofs(halves.between), node_dofs(cut), own, across), rest
+
+    (even, of_even), (odd, of_odd) = on_all_cores(eliminated, given)
+    return Condensed(orbits, tuple(elimination.fronts), (even, odd), (of_even, of_odd))
 
 
 def _orbits(turn: HalfTurn, halves: Halves, cut: Wholes) -> _Orbits:

@@ -61,6 +61,11 @@ class SolidPart:
         """Operations of eliminating its own nodes."""
         return front_flops(len(self.own), len(self.aside))
 
+    @cached_property
+    def all_flops(self) -> float:
+        """Those and the ones of its parts."""
+        return self.flops + sum(part.all_flops for part in self.parts)
+
     def every(self) -> Iterator[SolidPart]:
         """All parts of it in the order in which they go, itself last."""
         for part in self.parts:
@@ -83,7 +88,7 @@ class Halves:
     @cached_property
     def flops(self) -> float:
         """Operations of eliminating all: the half once, the nodes between for even and for odd motions."""
-        return sum(part.flops for part in self.half.every()) + 2 * front_flops(len(self.between), self.cut)
+        return self.half.all_flops + 2 * front_flops(len(self.between), self.cut)
 
     @property
     def factors(self) -> int:

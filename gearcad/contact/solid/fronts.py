@@ -7,16 +7,23 @@ row.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from threading import Lock
 from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
+from gearcad.contact.solid.dense import cholesky, solve_above, solve_aside, subtract_square
 from gearcad.contact.solid.dissection import Box, SolidPart
 from gearcad.errors import SolverError
+from gearcad.threads import on_all_cores
 
-__all__ = ["Blocks", "Elimination", "Front", "node_dofs"]
+__all__ = ["Blocks", "Elimination", "Front", "Store", "node_dofs"]
+
+
+_APART = 0.5
+"""Of all operations, the most in a part that is eliminated beside others."""
 
 
 def node_dofs(nodes: Wholes) -> Wholes:
@@ -35,7 +42,8 @@ class Front:
 
     def forward(self, left: Floats) -> Floats:
         """L^-1 times the loads (n, m) of its own dofs; those of all dofs, `left` (dofs, m), get what is left of them."""
-        solved = self._solved(left[self.own], transposed=1)
+        solved = left[self.own]
+        solve_aside(self.lower, solved.T, transposed=True)  # rows of C are columns of Fortran
         left[self.aside] -= self.across.T @ solved
         return solved
 
@@ -43,14 +51,8 @@ class Front:
         """Displacements of its own dofs in those of all, `moved` (dofs, m), by what `forward` gave: None stands for no load."""
         right = self.across @ moved[self.aside]
         np.negative(right, out=right) if solved is None else np.subtract(solved, right, out=right)
-        moved[self.own] = self._solved(right, transposed=0)
-
-    def _solved(self, right: Floats, transposed: int) -> Floats:
-        from scipy.linalg.blas import dtrsm
-
-        # From the right: rows of C are columns of Fortran.
-        turned: Floats = dtrsm(1.0, self.lower, right.T, side=1, lower=1, trans_a=transposed, overwrite_b=1)
-        return turned.T
+        solve_aside(self.lower, right.T, transposed=False)
+        moved[self.own] = right
 
 
 class Blocks(NamedTuple):
@@ -60,61 +62,126 @@ class Blocks(NamedTuple):
     across: Floats
     rest: Floats
 
-    @classmethod
-    def zeros(cls, own: int, rest: int) -> Blocks:
-        """Of so many dofs."""
-        return cls(*(np.zeros(shape, order="F") for shape in ((own, own), (own, rest), (rest, rest))))
-
     def eliminated(self) -> Blocks:
         """L, L^-1 across, and the matrix on the others, all in place. Raises SolverError if it is not positive definite."""
-        from scipy.linalg.blas import dsyrk, dtrsm
-        from scipy.linalg.lapack import dpotrf
-
         if not len(self.own):
             return self
-        lower, failed = dpotrf(self.own, lower=1, clean=0, overwrite_a=1)
-        if failed:
+        if failed := cholesky(self.own):
             raise SolverError(f"the stiffness matrix of a gear body could not be factorised (its minor {failed})")
-        if not len(self.rest):
-            return Blocks(lower, self.across, self.rest)
-        across = dtrsm(1.0, lower, self.across, lower=1, overwrite_b=1)
-        return Blocks(lower, across, dsyrk(-1.0, across, beta=1.0, c=self.rest, trans=1, lower=1, overwrite_c=1))
+        if len(self.rest):
+            solve_above(self.own, self.across)
+            subtract_square(self.across, self.rest)
+        return self
+
+
+class Store:
+    """Memory of matrices that stay: one piece for so many numbers, which the system gets back as a whole."""
+
+    def __init__(self, numbers: int) -> None:
+        self._left, self._lock = np.zeros(numbers), Lock()
+
+    def zeros(self, rows: int, columns: int) -> Floats:
+        """A matrix (rows, columns)."""
+        with self._lock:
+            taken, self._left = np.split(self._left, [rows * columns])
+        return taken.reshape(rows, columns, order="F")
+
+
+class _Room:
+    """Memory of matrices that have gone, for those to come: what the system gives is cleared page by page, and slow."""
+
+    def __init__(self) -> None:
+        self._left: list[Floats] = []
+
+    def zeros(self, size: int) -> Floats:
+        """A matrix (size, size)."""
+        fitting = [each for each in self._left if each.size >= size**2]
+        if fitting:
+            chosen = min(fitting, key=len)
+            self._drop(chosen)
+            chosen[: size**2] = 0.0
+        else:
+            if self._left:
+                self._drop(max(self._left, key=len))
+            chosen = np.zeros(size**2)
+        return chosen[: size**2].reshape(size, size, order="F")
+
+    def _drop(self, chosen: Floats) -> None:
+        self._left = [each for each in self._left if each is not chosen]
+
+    def take_back(self, matrix: Floats) -> None:
+        """One that `zeros` gave, which nobody needs any more."""
+        base = matrix.base
+        assert base is not None
+        self._left.append(base)
 
 
 @dataclass
 class Elimination:
     """Of the parts of a mesh of so many `nodes`: `nodes_of` gives those (m, 20) of the hexahedra of a box, `matrices_of` their
-    matrices (m, 60, 60). `done` hears the operations of each part.
+    matrices (m, 60, 60). What stays is in `store`; `done` hears the operations of each part.
     """
 
     nodes: int
     nodes_of: Callable[[Box], Wholes]
     matrices_of: Callable[[Box], Floats]
+    store: Store
     done: Callable[[float], None]
     fronts: list[Front] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self._places = np.full(self.nodes, -1)  # but for the nodes of the part that is put together
+        self._room = _Room()
 
-    def eliminated(self, part: SolidPart) -> Floats:
-        """The matrix, its lower triangle only, on the dofs of the nodes that a part leaves."""
-        blocks = self._assembled(part).eliminated()
+    def on_all_cores(self, part: SolidPart) -> Floats:
+        """`eliminated`, the greater parts of it side by side."""
+        apart = _apart(part, _APART * part.all_flops)
+
+        def work(each: SolidPart) -> tuple[list[Front], Floats]:
+            helper = replace(self, fronts=[])
+            return helper.fronts, helper.eliminated(each)
+
+        known = {}
+        for each, (fronts, matrix) in zip(apart, on_all_cores(work, apart), strict=True):
+            self.fronts += fronts
+            known[id(each)] = matrix
+        matrix = self.eliminated(part, known)
+        self._room = _Room()
+        return matrix
+
+    def eliminated(self, part: SolidPart, known: dict[int, Floats] | None = None) -> Floats:
+        """The matrix, its lower triangle only, on the dofs of the nodes that a part leaves; `known` are those of some parts of
+        it, by their identities, and go.
+        """
+        known = {} if known is None else known
+        if id(part) in known:
+            return known.pop(id(part))
+        blocks = self._assembled(part, known).eliminated()
         if len(part.own):
             self.fronts.append(Front(node_dofs(part.own), node_dofs(part.aside), blocks.own, blocks.across))
         self.done(part.flops)
         return blocks.rest
 
-    def _assembled(self, part: SolidPart) -> Blocks:
+    def _assembled(self, part: SolidPart, known: dict[int, Floats]) -> Blocks:
         from gearcad.contact.solid.assembling import add_block, add_hexahedra
 
-        given = [(each, self.eliminated(each)) for each in part.parts]
-        blocks = Blocks.zeros(3 * len(part.own), 3 * len(part.aside))
+        given = [(each, self.eliminated(each, known)) for each in part.parts]
+        own, rest = 3 * len(part.own), 3 * len(part.aside)
+        blocks = Blocks(self.store.zeros(own, own), self.store.zeros(own, rest), self._room.zeros(rest))
         every = np.r_[part.own, part.aside]
         self._places[every] = np.arange(len(every))
         while given:
             each, matrix = given.pop()
             add_block(matrix, self._places[each.aside], *blocks)
+            self._room.take_back(matrix)
         if part.box is not None:
             add_hexahedra(self.matrices_of(part.box), self._places[self.nodes_of(part.box)], *blocks)
         self._places[every] = -1
         return blocks
+
+
+def _apart(part: SolidPart, most: float) -> list[SolidPart]:
+    """The parts of one, or of its parts, that are no more than so many operations."""
+    if part.all_flops <= most or not part.parts:
+        return [part]
+    return [each for one in part.parts for each in _apart(one, most)]

@@ -49,8 +49,11 @@ _BENT = 0.02
 _SINGLE = 15
 """Positions of one pair of teeth along its path of contact, among which it is stiffest."""
 
-SIDE_BY_SIDE = 0.75
-"""Time of both gears, solved side by side, over the sum of their times."""
+_ON_ALL_CORES = 0.75
+"""Time of a body on two cores, over that on one."""
+
+_LEFT = 0.15
+"""Memory that is left of a body without its factors, over all that it takes."""
 
 _TICK = 0.2
 """Seconds between looks at how far they are."""
@@ -222,7 +225,7 @@ def solid_pair(
     fields: bool = False,
     tell: Share = unheard,
 ) -> SolidPair:
-    """Mesh, condense and solve both gears, side by side; a line of contact has `cells` over the common face width.
+    """Mesh, condense and solve both gears, each on all cores; a line of contact has `cells` over the common face width.
 
     With `fields` the bodies keep their factors for the fields of teeth, else they are condensed again where one is asked for.
     `tell` hears how much is done, from the thread that called. Raises SolverError, ParameterError and GeometryError.
@@ -247,16 +250,18 @@ def solid_pair(
             solved=heard.solution,
         )
         jobs.append((heard, partial(solid_compliance, gear, solid, of, start, heard.fields, fields=fields)))
-    bodies, mounted = PerGear(*_side_by_side(jobs, tell)), mounting.mounted(pair)
+    bodies, mounted = PerGear(*_one_by_one(jobs, tell)), mounting.mounted(pair)
     return SolidPair(mounted, line_of_action(mounted), bodies, mounting, cells, bodies.map(solid_fillets))
 
 
-def expected_bodies(pair: GearPair, body: BodyModel, sizes: SolidSizes) -> Expected:
+def expected_bodies(pair: GearPair, body: BodyModel, sizes: SolidSizes, *, fields: bool = False) -> Expected:
     """What `solid_pair` is expected to take. Raises what it does for bodies that cannot be meshed."""
     body = body.for_solids()
     meshes = zip(pair.gears, _meshes(pair, body, sizes), strict=True)
     costs = [body_cost(mesh, body.teeth_held(gear) or gear.tooth_count, teeth_moved(pair)) for gear, mesh in meshes]
-    return Expected(SIDE_BY_SIDE * sum(cost.seconds for cost in costs), sum(cost.memory for cost in costs))
+    first, second = (cost.memory for cost in costs)
+    memory = first + second if fields else max(first, _LEFT * first + second)
+    return Expected(_ON_ALL_CORES * sum(cost.seconds for cost in costs), memory)
 
 
 def teeth_moved(pair: GearPair) -> int:
@@ -292,13 +297,19 @@ class _Heard:
         self.seconds = self.cost.fields + self.cost.condensation + share * self.cost.solution
 
 
-def _side_by_side(jobs: Sequence[tuple[_Heard, Callable[[], SolidCompliance]]], tell: Share) -> list[SolidCompliance]:
-    """Both gears in threads: most of the work is dense algebra, which leaves Python to the other thread."""
+def _one_by_one(jobs: Sequence[tuple[_Heard, Callable[[], SolidCompliance]]], tell: Share) -> list[SolidCompliance]:
+    """Both gears, in a thread of their own, while this one tells: one needs the memory that the other has left."""
     whole = sum(heard.cost.seconds for heard, _ in jobs)
     tell(0.0)
-    with ThreadPoolExecutor(len(jobs)) as threads:
-        running = [threads.submit(job) for _, job in jobs]
-        while wait(running, _TICK).not_done:
-            done = (heard.cost.seconds if job.done() else heard.seconds for (heard, _), job in zip(jobs, running, strict=True))
-            tell(sum(done) / whole)
+    with ThreadPoolExecutor(1) as thread:
+        try:
+            running = [thread.submit(job) for _, job in jobs]
+            while wait(running, _TICK).not_done:
+                done = (
+                    heard.cost.seconds if job.done() else heard.seconds for (heard, _), job in zip(jobs, running, strict=True)
+                )
+                tell(sum(done) / whole)
+        except BaseException:
+            thread.shutdown(cancel_futures=True)
+            raise
         return [job.result() for job in running]

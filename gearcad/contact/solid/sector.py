@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -168,13 +169,14 @@ class SolidSector:
         """Which dofs of the hub move it evenly (1), and which oddly (-1)."""
         return HUB_PARITIES if self.free else HUB_PARITIES[:1]
 
-    def seen_by(self, teeth: float) -> Floats:
+    @property
+    def seen_by(self) -> Callable[[float], Floats]:
         """Dofs of the hub as a sector so many teeth ahead sees them, from those that the loaded one sees."""
         if not self.free:
-            return np.eye(1)
+            return _seen_alike
         nodes = self.mesh.section.points[[self.mesh.section.ahead[0], self.mesh.section.behind[0]]]
         ahead, behind = np.arctan2(nodes[:, 1], nodes[:, 0])
-        return seen_at(float(ahead - behind) * teeth)
+        return partial(_seen, float(ahead - behind))
 
     @cached_property
     def hub_forward(self) -> tuple[Forward, tuple[Floats, Floats]]:
@@ -200,3 +202,11 @@ class SolidSector:
         held[self.hub] = motion[self.hub]
         result: Floats = self.cut_turn.T @ held
         return result
+
+
+def _seen(pitch: float, teeth: float) -> Floats:
+    return seen_at(pitch * teeth)
+
+
+def _seen_alike(_teeth: float) -> Floats:
+    return np.eye(1)

@@ -16,6 +16,7 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.contact.solid.fronts import Blocks
 from gearcad.contact.solid.half_turn import PARITIES
+from gearcad.threads import on_all_cores
 
 __all__ = ["Inside", "Reversal", "Span", "eliminated", "joined"]
 
@@ -159,8 +160,8 @@ def joined(side: Span, middle: Span | None) -> tuple[Span, Inside]:
     """A row on both sides of another one, or of none."""
     teeth = 2 * side.teeth + (0 if middle is None else middle.teeth)
     n, aside, reversal = side.cut, (teeth - side.teeth) / 2, side.reversal
-    lowers, matrices = [], []
-    for parity in (0, 1):
+
+    def of(parity: int) -> tuple[Floats, Floats]:
         ends, inward, near = side.ends(aside), side.inward(aside), side.near[:, :n]
         if middle is None:
             inner = reversal.part(reversal.part(near, parity).T, parity)
@@ -173,8 +174,9 @@ def joined(side: Span, middle: Span | None) -> tuple[Span, Inside]:
         others = n + np.flatnonzero(side.hub_parities != PARITIES[parity])
         matrix[others] = 0.0
         matrix[:, others] = 0.0
-        lowers.append(lower)
-        matrices.append(matrix)
+        return lower, matrix
+
+    lowers, matrices = zip(*on_all_cores(of, (0, 1)), strict=True)
     whole = Span((matrices[0], matrices[1]), teeth, reversal, side.seen, side.hub_parities)
     hub = None if middle is None else (middle.matrices[0][:n, n:].copy(), middle.matrices[1][:n, n:].copy())
     return whole, Inside(side, aside, (lowers[0], lowers[1]), hub)
@@ -184,6 +186,6 @@ def eliminated(inner: Floats, across: Floats, ends: Floats) -> tuple[Floats, Flo
     """L of a symmetric matrix (n, n), and the one (m, m) at the `ends` without its dofs; `across` (n, m) is between both."""
     from gearcad.contact.solid.assembling import fill_upper
 
-    blocks = Blocks(inner.T, np.asfortranarray(across), ends.T).eliminated()
+    blocks = Blocks(*(np.asfortranarray(each) for each in (inner.T, across, ends.T))).eliminated()
     fill_upper(blocks.rest)
     return blocks.own, blocks.rest
