@@ -185,6 +185,7 @@ def run_here(table: Path, folder: Path, address: str) -> tuple[list[Summary], th
     return found, thread
 
 
+@pytest.mark.long
 def test_worker_of_the_cluster_that_dies_costs_nothing(cluster: tuple[str, psutil.Process], many: Path, tmp_path: Path) -> None:
     """Dask gives its rows to another, and starts one in its place."""
     address, scheduler = cluster

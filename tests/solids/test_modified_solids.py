@@ -214,12 +214,12 @@ def _check_random(seed: int, path: Path) -> None:
     assert removed == pytest.approx(removed_volume(gear), abs=VOLUME_TOLERANCE * solid.Volume()), gear
 
 
-@pytest.mark.parametrize("seed", [*range(2), 109, 239])  # the last two have been wrong once
+@pytest.mark.parametrize("seed", [109, 239])  # these have been wrong once
 def test_random_modifications(seed: int, tmp_path: Path) -> None:
     _check_random(seed, tmp_path / "gear.step")
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("seed", range(2, 300))
+@pytest.mark.parametrize("seed", range(300))
 def test_random_modifications_long(seed: int, tmp_path: Path) -> None:
     _check_random(seed, tmp_path / "gear.step")

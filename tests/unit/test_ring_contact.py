@@ -176,6 +176,7 @@ def test_the_contact_lies_on_both_flanks_of_the_field(cycle: PlaneCycle) -> None
         assert 0.4 < sense * (deepest @ frame)[1] / contact.hertz_half_width < 1.2
 
 
+@pytest.mark.long
 def test_flanks_meshed_finely_tell_the_same_without_flamant(model: PlanePair) -> None:
     """Elements that carry the contact themselves, with nothing taken off: stiffness within 0.5 %, root tension within 1 %."""
     fine = replace(MeshSizes(), flank=0.012, corner=0.01)
