@@ -28,35 +28,32 @@ class Images:
     factor: ClassVar[float] = 1.39
     """At nu = 0.3 (R. Guilbault, Journal of Tribology 133, 2011, 031402); elements and splines carry what it misses."""
 
-    def mirrored(self, at: Floats, inward: Floats) -> list[tuple[Floats, Floats]]:
-        """Points and inward normals (n, 3) of the images of loads."""
+    def loads(self, at: Floats, inward: Floats) -> tuple[Floats, Floats, Floats]:
+        """Points (m, 3), inward normals (m, 3) and forces (m,) in N of all that stands for 1 N at a point."""
         flip = np.array([1.0, 1.0, -1.0])
-        ends = (0.0, self.flank.gear.face_width)
-        return [(at * flip + np.array([0.0, 0.0, 2 * end]), inward * flip) for end in ends]
+        ends = np.array([0.0, self.flank.gear.face_width])
+        return at * flip + np.outer(2 * ends, [0.0, 0.0, 1.0]), np.tile(inward * flip, (2, 1)), np.full(2, self.factor)
 
     def displacement(self, points: Floats, at: Floats, inward: Floats) -> Floats:
-        """Displacement (..., 3) in mm at points by the images of one load of 1 N."""
-        moved = (half_space_displacement(points, where, to, self.material) for where, to in self.mirrored(at, inward))
-        return self.factor * sum(moved, start=np.zeros(points.shape))
+        """Displacement (..., 3) in mm at points by all that."""
+        where, to, forces = self.loads(at, inward)
+        return half_space_displacement(points, where, to, self.material, forces)
 
     def traction(self, points: Floats, normals: Floats, at: Floats, inward: Floats) -> Floats:
-        """Traction (..., 3) in MPa on elements of surface by the images of one load of 1 N."""
-        found = (half_space_traction(points, normals, where, to, self.material) for where, to in self.mirrored(at, inward))
-        return self.factor * sum(found, start=np.zeros(points.shape))
+        """Traction (..., 3) in MPa on elements of surface by all that."""
+        where, to, forces = self.loads(at, inward)
+        return half_space_traction(points, normals, where, to, self.material, forces)
 
     def normal(self, moved: Places, loaded: Places) -> Floats:
-        """Normal displacements (n, m) in mm at places by the images of 1 N at each loaded place."""
-        points, normals = self.flank.points(moved)[:, None], self.flank.inward(moved)[:, None]
-        at, inward = self.flank.points(loaded), self.flank.inward(loaded)
-        result: Floats = (self.displacement(np.broadcast_to(points, (len(points), len(at), 3)), at, inward) * normals).sum(-1)
-        return result
+        """Normal displacements (n, m) in mm at places by all that stands for 1 N at each loaded place."""
+        points, normals = self.flank.points(moved), self.flank.inward(moved)
+        loads = zip(self.flank.points(loaded), self.flank.inward(loaded), strict=True)
+        return np.stack([(self.displacement(points, at, inward) * normals).sum(-1) for at, inward in loads], -1)
 
 
 class TakenOff(Images):
     """The field that is taken off: a load's in a half-space, and its images'."""
 
-    def displacement(self, points: Floats, at: Floats, inward: Floats) -> Floats:
-        return half_space_displacement(points, at, inward, self.material) + super().displacement(points, at, inward)
-
-    def traction(self, points: Floats, normals: Floats, at: Floats, inward: Floats) -> Floats:
-        return half_space_traction(points, normals, at, inward, self.material) + super().traction(points, normals, at, inward)
+    def loads(self, at: Floats, inward: Floats) -> tuple[Floats, Floats, Floats]:
+        where, to, forces = super().loads(at, inward)
+        return np.vstack([at, where]), np.vstack([inward, to]), np.r_[1.0, forces]
