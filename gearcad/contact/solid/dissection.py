@@ -232,13 +232,22 @@ class _Dissection:
 
 def _halves(points: Floats, quads: Wholes) -> tuple[Wholes, Wholes]:
     centres = points[quads[:, :4]].mean(axis=1)
+    nodes, place = np.unique(quads, return_inverse=True)
+    place = place.reshape(quads.shape)
+
+    def standing(some: Wholes) -> Bools:
+        """Which of the nodes some quadrangles have."""
+        found = np.zeros(len(nodes), bool)
+        found[place[some]] = True
+        return found
+
     best: tuple[int, Wholes, Wholes] | None = None
     for angle in np.linspace(0, np.pi, _DIRECTIONS, endpoint=False):
         order = np.argsort(centres @ [np.cos(angle), np.sin(angle)], kind="stable")
         for share in _SHARES:
             count = round(share * len(order))
             first, second = order[:count], order[count:]
-            shared = len(np.intersect1d(quads[first], quads[second]))
+            shared = int((standing(first) & standing(second)).sum())
             if best is None or shared < best[0]:
                 best = (shared, first, second)
     assert best is not None  # there are directions
