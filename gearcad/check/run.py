@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from gearcad.check.load_distribution import load_distribution
 from gearcad.check.options import CheckOptions, Model
-from gearcad.check.plane.run import PLANE_MEMORY, PLANE_STEPS, check_plane
+from gearcad.check.plane.run import PLANE_MEMORY, check_plane, plane_steps
 from gearcad.check.result import CheckResult
 from gearcad.check.solid.expected import expected_solid, solid_steps
 from gearcad.check.solid.run import check_solid
@@ -40,7 +40,7 @@ def check_pair(
         found = load_distribution(pair, material, load, rating, mounting=mounting, check=options)
         task = replace(task, body_load=found.body_load)
     if task.model is Model.PLANE:
-        return check_plane(task, Agenda(progress, PLANE_STEPS))
+        return check_plane(task, Agenda(progress, plane_steps(task)))
     return check_solid(task, Agenda(progress, solid_steps(task)))
 
 
@@ -55,5 +55,5 @@ def expected_check(
     """What `check_pair` is expected to take. Raises what it raises for input that cannot be checked."""
     task = check_task(pair, material, load, options, mounting, rating)
     if task.model is Model.PLANE:
-        return Expected(sum(PLANE_STEPS.values()), PLANE_MEMORY)
+        return Expected(sum(plane_steps(task).values()), PLANE_MEMORY)
     return expected_solid(task)

@@ -12,7 +12,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.plane.elasticity import PlaneElasticity
-from gearcad.contact.plane.flank import Compliance, PlaneCompliance, flank_of
+from gearcad.contact.plane.flank import PlaneCompliance, flank_of
 from gearcad.contact.plane.ring import Ring
 from gearcad.geometry import Gear
 
@@ -35,14 +35,16 @@ class NodalCompliance(PlaneCompliance):
         """An edge of the flank (mm): narrower cells would tell nothing more, and their pressures would swing."""
         return float(np.diff(self.flank.arc(self.loads)).max())
 
-    def response(self, tooth: int) -> Compliance:
-        """Normal displacement of a flank by a load on tooth 0, linear between vertices."""
-        table = self.weights.T @ self._normal(tooth)
+    def by_unit_loads(self, lengths: Floats) -> Floats:
+        """Linear between vertices."""
+        teeth = range(-self.neighbours, self.neighbours + 1)
+        tables = np.stack([self.weights.T @ self._normal(tooth) for tooth in teeth])
+        result: Floats = np.einsum("nv,tvm->ntm", _between(self.loads, lengths), tables, optimize=True)
+        return result
 
-        def compliance(x: Floats, y: Floats) -> Floats:
-            return _between(self.loads, x) @ table @ _between(self.loads, y).T
-
-        return compliance
+    def parts_of_loads(self, lengths: Floats) -> Floats:
+        """Linear between vertices."""
+        return _between(self.loads, lengths)
 
 
 def _between(vertices: Floats, at: Floats) -> Floats:

@@ -39,8 +39,11 @@ class HalfPlane:
     neighbours: int = 1
     edge_taken_off: bool = True
 
-    def response(self, tooth: int) -> Any:
-        return lambda x, y: np.zeros((len(x), len(y)))
+    def by_unit_loads(self, lengths: Any) -> Any:
+        return np.zeros((len(lengths), 2 * self.neighbours + 1, 1))
+
+    def parts_of_loads(self, lengths: Any) -> Any:
+        return np.zeros((len(lengths), 1))
 
 
 def cylinders(radius: float, half_width: float, count: int, *, shift: float = 0.0, tooth: int = 0) -> ContactPair:

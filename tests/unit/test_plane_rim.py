@@ -16,7 +16,7 @@ from gearcad import Body, Gear, GearPair, Material
 from gearcad.contact.plane.elasticity import PlaneElasticity
 from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
 from gearcad.contact.plane.pair import flank_body
-from gearcad.contact.plane.rim import far_responses
+from gearcad.contact.plane.rim import SurfaceStresses, far_responses
 from gearcad.contact.plane.ring import Ring, assemble
 from gearcad.contact.plane.root import Fillets
 from gearcad.contact.plane.support import hub_tractions, key_load, with_support
@@ -140,7 +140,8 @@ def test_a_free_bore_is_that_of_the_ring_in_full(mesh: SectorMesh, in_full: InFu
     assert np.abs(moved - expected[middle - neighbours : middle + neighbours + 1]).max() < EXACT * scale
     x, y = mesh.points[mesh.sides[Side.LEFT_FLANK][0]]
     assert torques == pytest.approx([-y, x], rel=1e-9)
-    everything = scipy.sparse.identity(2 * len(mesh.points), format="csr")
+    every = np.arange(2 * len(mesh.points))[:, None]
+    everything = SurfaceStresses(every, np.ones(every.shape))
     far = far_responses(ring, everything, moved, ring.hub_forces(loads))
     assert len(far) == GEAR.teeth - 2 * neighbours - 1
     for k, found in enumerate(far, neighbours + 1):
@@ -226,11 +227,11 @@ def test_a_thin_ring_bends_as_in_closed_form() -> None:
     assert len(middle) == 1
     loads = np.zeros((2 * len(mesh.points), 1))
     loads[2 * middle] = -1.0
-    row = scipy.sparse.csr_matrix(([1.0], ([0], 2 * middle)), shape=(1, len(loads)))
+    row = SurfaceStresses(2 * middle[:, None], np.ones((1, 1)))
     moved, torques = ring.solve(loads)
     assert torques == pytest.approx(0.0, abs=1e-9)
     far = far_responses(ring, row, moved, ring.hub_forces(loads))
-    radial = [float((row @ moved[1])[0, 0]), *(float(far[k - 2][0, 0]) for k in (3, 6, 9))]
+    radial = [float(row.by(moved[1])[0, 0]), *(float(far[k - 2][0, 0]) for k in (3, 6, 9))]
     series = sum(4 / (n * n - 1) ** 2 for n in range(2, 400, 4))
     bending = radius**3 / (math.pi * ELASTIC.modulus * depth**3 / 12) * series
     assert radial[0] - radial[1] + radial[2] - radial[3] == pytest.approx(-bending, rel=0.005)

@@ -20,16 +20,37 @@ from gearcad.meshing.section import MeshSizes
 from gearcad.notice import Notice
 from gearcad.progress import Agenda
 
-__all__ = ["PLANE_MEMORY", "PLANE_STEPS", "check_plane", "plane_model", "plane_notices"]
+__all__ = ["PLANE_MEMORY", "check_plane", "plane_model", "plane_notices", "plane_steps"]
 
 _WORTH_A_WORD = 0.01
 """How much wider than the mesh a root carries before it is told."""
 
-PLANE_STEPS = {"mesh cycle": 1.0, "convergence": 3.0, "torque sweep": 0.5, "rating": 0.1}
-"""Seconds expected of each step."""
+_BODIES = (0.1, 0.13)
+"""Seconds for two bodies: whatever their mesh, and times the square of its refinement."""
+
+_POSITION, _SOUGHT, _SINGLE, _RATING = 0.003, 20, 25, 0.5
+"""Seconds for a position; how many are sought between those of a cycle, and of one pair alone; seconds for the rest."""
 
 PLANE_MEMORY = 0.4e9
 """Bytes."""
+
+
+def plane_steps(task: CheckTask) -> dict[str, float]:
+    """Seconds expected of each step, in order."""
+
+    def bodies(factor: float) -> float:
+        whatever, refined = _BODIES
+        return whatever + refined * (factor * task.options.refinement) ** 2
+
+    few = (FEW_POSITIONS + _SOUGHT) * _POSITION
+    own = (task.options.positions_of(Model.PLANE) + _SOUGHT + _SINGLE) * _POSITION
+    others = [bodies(factor) + few for factor in FACTORS if factor != 1] if task.options.refines else []
+    return {
+        "mesh cycle": bodies(1.0) + own,
+        "convergence": sum(others),
+        "torque sweep": len(task.torques) * few,
+        "rating": _RATING,
+    }
 
 
 def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:

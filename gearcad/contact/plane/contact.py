@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise, product
 
 import numpy as np
 
@@ -106,18 +107,20 @@ def compliance_matrix(pairs: tuple[ContactPair, ...], body: PlaneCompliance, rol
 
     (n, n) in mm²/MPa.
     """
-    matrix = np.block([[_block(moved, loaded, body, role) for loaded in pairs] for moved in pairs])
+    lengths = [pair.cells.lengths.pick(role) for pair in pairs]
+    begin = np.cumsum([0, *map(len, lengths)])
+    spans = [slice(first, last) for first, last in pairwise(begin.tolist())]
+    moved, parts = body.by_unit_loads(np.concatenate(lengths)), body.parts_of_loads(np.concatenate(lengths))
+    matrix = np.zeros((begin[-1], begin[-1]))
+    for (one, other), (there, here) in zip(product(pairs, pairs), product(spans, spans), strict=True):
+        apart = (one.tooth - other.tooth) * TOOTH_ORDER.pick(role)
+        if abs(apart) <= body.neighbours:
+            block = moved[there, apart + body.neighbours] @ parts[here].T
+            matrix[there, here] = block * (one.cells.width * other.cells.width)
+        if body.edge_taken_off and not apart:
+            matrix[there, here] += _edge_block(one.cells, body)
     result: Floats = (matrix + matrix.T) / 2
     return result
-
-
-def _block(moved: ContactPair, loaded: ContactPair, body: PlaneCompliance, role: Role) -> Floats:
-    apart = (moved.tooth - loaded.tooth) * TOOTH_ORDER.pick(role)
-    if abs(apart) > body.neighbours:
-        return np.zeros((len(moved.cells.place), len(loaded.cells.place)))
-    places, loads = (pair.cells.lengths.pick(role) for pair in (moved, loaded))
-    block = body.response(apart)(places, loads) * (moved.cells.width * loaded.cells.width)
-    return block + _edge_block(moved.cells, body) if body.edge_taken_off and not apart else block
 
 
 def _edge_block(cells: ContactCells, body: PlaneCompliance) -> Floats:

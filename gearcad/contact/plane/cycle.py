@@ -191,12 +191,13 @@ def _bent(model: PlanePair, loaded: list[tuple[ContactPair, Floats, float]], pla
     for role, body in model.bodies.items():
         lengths = pair.cells.lengths.pick(role)
         around = np.interp(middle + half * np.array([-1.0, 0.0, 1.0]), pair.cells.place[order], lengths[order])
-        for other, carried, load in loaded:
+        before, here, behind = body.by_unit_loads(around)
+        bends = (before - 2 * here + behind) / half**2
+        centres = [other.cells.lengths.pick(role) @ carried / carried.sum() for other, carried, _ in loaded]
+        for (other, _, load), parts in zip(loaded, body.parts_of_loads(np.array(centres)), strict=True):
             apart = TOOTH_ORDER.pick(role) * (pair.tooth - other.tooth)
             if abs(apart) <= body.neighbours:
-                centre = other.cells.lengths.pick(role) @ carried / carried.sum()
-                moved = body.response(apart)(around, np.array([centre]))[:, 0]
-                total += load * float(moved[0] - 2 * moved[1] + moved[2]) / half**2
+                total += load * float(bends[apart + body.neighbours] @ parts)
     return total
 
 

@@ -155,13 +155,38 @@ class PlaneCompliance(FlankCompliance):
 
         Teeth are counted counter-clockwise.
         """
-        return self._responses[tooth + self.neighbours]
+
+        def compliance(x: Floats, y: Floats) -> Floats:
+            result: Floats = self.by_unit_loads(x)[:, tooth + self.neighbours] @ self.parts_of_loads(y).T
+            return result
+
+        return compliance
+
+    def by_unit_loads(self, lengths: Floats) -> Floats:
+        """Responses (n, teeth in full, m) at roll lengths (n,) of each tooth to the unit loads on tooth 0."""
+        result: Floats = _within(self._over_flank, self._spread(lengths)).reshape(len(lengths), -1, len(self.loads))
+        return result
+
+    def parts_of_loads(self, lengths: Floats) -> Floats:
+        """What of the responses to unit loads (m,) is in that to loads at roll lengths (n,): (n, m)."""
+        return _within(self._over_loads, self._spread(lengths))
 
     @cached_property
-    def _responses(self) -> tuple[Compliance, ...]:
-        """Of the teeth in full, in order."""
+    def _over_flank(self) -> CubicSpline:
+        """Responses (teeth times m) of all teeth in full, in order, by the place on the flank."""
+        from scipy.interpolate import CubicSpline
+
         teeth = range(-self.neighbours, self.neighbours + 1)
-        return tuple(self._interpolated(self._normal(tooth) if tooth else self._regular()) for tooth in teeth)
+        values = np.hstack([self._normal(tooth) if tooth else self._regular() for tooth in teeth])
+        lengths = self.flank.lengths
+        rows = lengths <= self._last
+        return CubicSpline(self._spread(lengths[rows]), values[rows])
+
+    @cached_property
+    def _over_loads(self) -> CubicSpline:
+        from scipy.interpolate import CubicSpline
+
+        return CubicSpline(self._spread(self.loads), np.eye(len(self.loads)))
 
     def _normal(self, tooth: int) -> Floats:
         nodes, inward = self.flank.nodes, self.flank.inward(self.flank.lengths)
@@ -169,37 +194,28 @@ class PlaneCompliance(FlankCompliance):
         result: Floats = moved[2 * nodes] * inward[:, :1] + moved[2 * nodes + 1] * inward[:, 1:]
         return result
 
-    @property
+    @cached_property
     def _corner(self) -> float:
         """Length of the last edge before the tip corner (mm of arc): the scale below which nothing is resolved."""
         arc = self.flank.arc(self.flank.lengths)
         return float(arc[-1] - arc[-3])
 
-    def _interpolated(self, values: Floats) -> Compliance:
-        """Bicubic spline in -ln(arc distance to the tip + the last edge): near the corner the field varies like that."""
-        from scipy.interpolate import RectBivariateSpline
+    @cached_property
+    def _last(self) -> float:
+        """Roll length (mm) beyond which nothing is resolved: half an edge before the tip corner."""
+        arc = self.flank.arc(self.flank.lengths)
+        return self.flank.length_at(float(arc[-1]) - self._corner / 2)
 
-        flank, corner = self.flank, self._corner
-        end = float(flank.arc(flank.lengths[-1]))
-        last = flank.length_at(end - corner / 2)
-
-        def spread(lengths: Floats) -> Floats:
-            return -np.log(np.maximum(end - flank.arc(np.minimum(lengths, last)), 0) + corner)
-
-        rows = flank.lengths <= last
-        spline = RectBivariateSpline(spread(flank.lengths[rows]), spread(self.loads), values[rows])
-
-        def compliance(x: Floats, y: Floats) -> Floats:
-            # The spline wants rising arguments; along the wheel's flank they fall.
-            rows, columns = slice(None, None, _sense(x)), slice(None, None, _sense(y))
-            values: Floats = spline(spread(x[rows]), spread(y[columns]))[rows, columns]
-            return values
-
-        return compliance
+    def _spread(self, lengths: Floats) -> Floats:
+        """-ln(arc distance to the tip + the last edge) at roll lengths: near the corner the field varies like that."""
+        end = float(self.flank.arc(self.flank.lengths[-1]))
+        return -np.log(np.maximum(end - self.flank.arc(np.minimum(lengths, self._last)), 0) + self._corner)
 
 
-def _sense(values: Floats) -> int:
-    return -1 if values[0] > values[-1] else 1
+def _within(spline: CubicSpline, at: Floats) -> Floats:
+    """Values at places, beyond the ends those of the ends."""
+    result: Floats = spline(np.clip(at, spline.x[0], spline.x[-1]))
+    return result
 
 
 def flank_compliance(gear: Gear, ring: Ring, elasticity: PlaneElasticity) -> PlaneCompliance:

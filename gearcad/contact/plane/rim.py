@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.arrays import Floats
+from gearcad.arrays import Floats, Wholes
 from gearcad.contact.plane.ring import Ring
 from gearcad.contact.plane.support import hub_seen_by
 
-__all__ = ["far_responses"]
+__all__ = ["SurfaceStresses", "far_responses"]
 
 
-def far_responses(ring: Ring, rows: Any, displacements: Floats, forces: Floats) -> list[Floats]:
-    """What `rows` (scipy sparse, (n, 2 nodes)) tell of the displacements of every tooth that does not stand in full.
+class SurfaceStresses(NamedTuple):
+    """Stresses (n,) in MPa at points of a surface: sums of `factors` (n, k) with the displacements of `dofs` (n, k)."""
+
+    dofs: Wholes
+    factors: Floats
+
+    def by(self, moved: Floats) -> Floats:
+        """Those (n, m) by displacements (dofs, m)."""
+        result: Floats = np.einsum("nk,nkm->nm", self.factors, moved[self.dofs])
+        return result
+
+
+def far_responses(ring: Ring, rows: SurfaceStresses, displacements: Floats, forces: Floats) -> list[Floats]:
+    """What `rows` tell of the displacements of every tooth that does not stand in full.
 
     `displacements` (sectors, 2 nodes, m) are those of the teeth that do, `forces` (3, m) the hub's. Each tooth has (n, m),
     counter-clockwise from the last of those in full.
@@ -43,7 +55,7 @@ def far_responses(ring: Ring, rows: Any, displacements: Floats, forces: Floats) 
     return found
 
 
-def _from_cuts(ring: Ring, rows: Any) -> Floats:
+def _from_cuts(ring: Ring, rows: SurfaceStresses) -> Floats:
     """What `rows` tell, (n, cuts and hub), of a sector in full by the displacements of its cuts and the forces of its hub."""
     sector = ring.sector
     kept = sector.condensed.kept
@@ -52,5 +64,4 @@ def _from_cuts(ring: Ring, rows: Any) -> Floats:
     at_cuts[np.searchsorted(kept, cuts), np.arange(len(cuts))] = 1.0
     loads = np.c_[np.zeros((sector.dofs, len(cuts))), -sector.inside(sector.hub)]
     moved = sector.condensed.backward(sector.at_cuts.plain(at_cuts), sector.condensed.forward(loads))
-    result: Floats = rows @ moved
-    return result
+    return rows.by(moved)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.contact.plane.dissection import node_dofs
 from gearcad.contact.plane.flank import PlaneCompliance
-from gearcad.contact.plane.rim import far_responses
+from gearcad.contact.plane.rim import SurfaceStresses, far_responses
 from gearcad.contact.plane.support import key_load
 from gearcad.contact.shared.holding import Hold
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, RootStress
@@ -90,10 +91,8 @@ class Fillets:
         return (*_ROOT, Side.HELD) if self.body.ring.support.bends else (Side.LEFT_FILLET, Side.RIGHT_FILLET)
 
     @cached_property
-    def _geometry(self) -> dict[Side, tuple[Floats, Floats, Any]]:
-        """Radius and tangent angle of the points of each side, and the matrix of their stresses by displacements."""
-        import scipy.sparse
-
+    def _geometry(self) -> dict[Side, tuple[Floats, Floats, SurfaceStresses]]:
+        """Radius and tangent angle of the points of each side, and their stresses by displacements."""
         found = {}
         points = self.body.ring.sector.mesh.points
         for side in self._sides:
@@ -102,11 +101,9 @@ class Fillets:
             along = np.einsum("qa,eac->eqc", _SLOPE, points[edges]).reshape(-1, 2)
             angle = np.degrees(np.arctan2(along[:, 1], np.abs(along[:, 0])))
             strain = np.tile(_SLOPE, (len(edges), 1))[:, :, None] * (along / (along**2).sum(-1, keepdims=True))[:, None]
-            columns = (2 * np.repeat(edges, len(_SLOPE), axis=0)[:, :, None] + np.arange(2)).ravel()
-            rows = np.repeat(np.arange(len(where)), strain[0].size)
-            values = strain.ravel() * self.body.elasticity.modulus
-            matrix = scipy.sparse.csr_matrix((values, (rows, columns)), shape=(len(where), points.size))
-            found[side] = (np.hypot(*where.T), angle, matrix)
+            dofs = node_dofs(np.repeat(edges, len(_SLOPE), axis=0))
+            stresses = SurfaceStresses(dofs, strain.reshape(len(where), -1) * self.body.elasticity.modulus)
+            found[side] = (np.hypot(*where.T), angle, stresses)
         return found
 
     def _response(self, side: Side, tooth: int) -> CubicSpline | None:
@@ -145,10 +142,10 @@ class Fillets:
 
     def _stresses(self, moved: Floats, hub_forces: Floats | None) -> dict[Side, Floats]:
         """Stresses (teeth, points, m) of each side by displacements (teeth in full, 2 n, m)."""
-        import scipy.sparse
-
-        rows = scipy.sparse.vstack([self._geometry[side][2] for side in self._sides])
-        found = [rows @ each for each in moved]
+        rows = SurfaceStresses(
+            *(np.concatenate(of) for of in zip(*(self._geometry[side][2] for side in self._sides), strict=True))
+        )
+        found = [rows.by(each) for each in moved]
         if hub_forces is not None and self.body.ring.support.bends:
             found += far_responses(self.body.ring, rows, moved, hub_forces)
         ends = np.cumsum([len(self.places(side)[0]) for side in self._sides])

