@@ -76,8 +76,10 @@ def _agree(of: Deviations) -> None:
     assert abs(of.contact_pressure) < PRESSURE
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("roll_angle", [0.1875, -9.9375], ids=["one pair", "two pairs"])
+@pytest.mark.parametrize(
+    "roll_angle",
+    [pytest.param(0.1875, id="one pair", marks=pytest.mark.long), pytest.param(-9.9375, id="two pairs")],
+)
 def test_calculix_loads_the_fzg_pair_as_we_do(roll_angle: float, tmp_path: Path) -> None:
     _agree(_compared(_template("fzg-c"), roll_angle, tmp_path))
 
