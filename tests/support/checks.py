@@ -13,6 +13,7 @@ from gearcad.check.plane.judge import compare_plane
 from gearcad.check.plane.result import PlaneCheck
 from gearcad.check.plane.summary import summarise_plane
 from gearcad.check.solid.judge import compare_solid
+from gearcad.check.solid.pictures import tooth_stresses
 from gearcad.check.solid.result import SolidCheck
 from gearcad.check.solid.summary import summarise_solid
 from gearcad.check.sweep import SweepPoint
@@ -92,6 +93,7 @@ def small_solid_check() -> SolidCheck:
         task=task,
         cycle=cycle,
         summary=summary,
+        tooth_stresses=tooth_stresses(cycle),
         sweep=sweep,
         convergence=convergence,
         comparisons=compare_solid(task, cycle, summary, convergence),

@@ -29,10 +29,14 @@ __all__ = ["SolidCheck"]
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class SolidCheck(CheckResult):
-    """A check of solid bodies; under a negative torque `cycle` is that of the mirrored pair."""
+    """A check of solid bodies; under a negative torque `cycle` is that of the mirrored pair.
+
+    `tooth_stresses` are those of the most stressed tooth of each gear.
+    """
 
     cycle: SolidCycle
     summary: SolidSummary
+    tooth_stresses: PerGear[ToothStress]
 
     model: ClassVar[Model] = Model.SOLID
 
@@ -82,11 +86,6 @@ class SolidCheck(CheckResult):
         return pictures.loaded_cells(self.cycle)
 
     @cached_property
-    def tooth_stresses(self) -> PerGear[ToothStress]:
-        """Of the most stressed tooth of each gear."""
-        return pictures.tooth_stresses(self.cycle)
-
-    @cached_property
     def tooth_surfaces(self) -> PerGear[ToothSurface]:
-        """Of these teeth."""
+        """Of the most stressed teeth."""
         return PerGear(*map(pictures.tooth_surface, self.tooth_stresses, self.pair.gears))

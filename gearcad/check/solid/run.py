@@ -11,6 +11,7 @@ from gearcad.check.notices import common_notices
 from gearcad.check.options import Model
 from gearcad.check.solid.expected import BODIES, COARSER, CYCLE, FINER, RATING, SWEEP, sizes_of
 from gearcad.check.solid.judge import compare_solid
+from gearcad.check.solid.pictures import tooth_stresses
 from gearcad.check.solid.result import SolidCheck
 from gearcad.check.solid.room import require_room
 from gearcad.check.solid.summary import SolidSummary, summarise_solid
@@ -40,7 +41,8 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     model = solid_model(task, 1.0, agenda.within(BODIES), fields=True)
     positions = task.options.positions_of(Model.SOLID)
     cycle = SolidCycle.run(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
-    summary = summarise_solid(cycle, model.single_stiffness(task.torque))
+    summary, stresses = summarise_solid(cycle, model.single_stiffness(task.torque)), tooth_stresses(cycle)
+    model.let_go()
     agenda(SWEEP)
     sweep = sweep_points(cycle, task.torques)
     convergence = three_solid_meshes(_refined(task, model, agenda)) if task.options.refines else ()
@@ -51,6 +53,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
         task=task,
         cycle=cycle,
         summary=summary,
+        tooth_stresses=stresses,
         sweep=sweep,
         convergence=convergence,
         comparisons=comparisons,

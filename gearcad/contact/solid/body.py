@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property, partial
 from itertools import pairwise
 from threading import Lock
@@ -104,6 +104,12 @@ class SolidBody:
         for each in found:
             each[:] = turn @ each
         return Moved(found, torques)
+
+    def let_go(self) -> None:
+        """Keep nothing of what solutions are made of: the next one makes it again."""
+        for each in (self, self.sector):
+            for name in vars(each).keys() - {own.name for own in fields(each)}:
+                del vars(each)[name]
 
     def _prepare(self) -> None:
         """Make what threads would else make at the same time."""

@@ -6,7 +6,7 @@ The load's field in a half-space is taken off the elements of the loaded tooth, 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -161,9 +161,9 @@ def solid_compliance(
     points = _NEAR_OF_RINGS if gear.internal else _NEAR
     rest = remaining(flank, mesh, material, _near_quads(gear, mesh), places, points, tell)
     surface = _surface(mesh, free=sector.free)
-    solver = body if fields else replace(body, sector=replace(body.sector))  # factors go with the copy
-    moved = solver.solve(rest.forces.dofs, surface, at=rest.forces.nodes)
-    del solver
+    moved = body.solve(rest.forces.dofs, surface, at=rest.forces.nodes)
+    if not fields:
+        body.let_go()
     displacements = moved.displacements.reshape(-1, len(surface), 3, len(places[0]))
     place, normal = np.searchsorted(surface, on_flank), flank.inward(grid.places)
     found = {

@@ -133,6 +133,11 @@ class SolidPair(FlexiblePair[SolidCompliance]):
         line = line_of_action(mounted)
         return replace(self, pair=mounted, mounting=mounting, line=line, known=known, solved=KnownSolutions())
 
+    def let_go(self) -> None:
+        """Keep no factors of the bodies: the next field of a tooth makes them again."""
+        for body in self.bodies:
+            body.body.let_go()
+
     @property
     def repeats(self) -> bool:
         """True unless the middle pair of teeth stands proud."""
