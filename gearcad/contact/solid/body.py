@@ -26,13 +26,13 @@ from gearcad.contact.solid.sector import SolidSector
 from gearcad.material import Material
 from gearcad.meshing.section.swept import SweptMesh
 from gearcad.progress import Share, unheard
-from gearcad.threads import on_all_cores
+from gearcad.threads import cores, on_all_cores, one_thread
 
 __all__ = ["Moved", "SolidBody", "SolidSector", "assemble_body"]
 
 
-_AT_ONCE = 64
-"""The most loads for which the body is solved at once: more take more memory."""
+_AT_ONCE, _FEWEST = 128, 8
+"""The most loads for which the body is solved at once, on all cores - more take more memory - and the fewest on each."""
 
 
 class Moved(NamedTuple):
@@ -85,7 +85,6 @@ class SolidBody:
         wanted, at = every if wanted is None else wanted, every if at is None else at
         found = np.empty((2 * self.neighbours + 1, 3 * len(wanted), loads.shape[1]))
         torques = np.empty(loads.shape[1])
-        self._prepare()
         loaded, over, lock = sector.polar_turn_at(at).T, 0, Lock()
 
         def work(these: slice) -> None:
@@ -99,7 +98,9 @@ class SolidBody:
                 over += len(torques[these])
                 self.tell(over / len(torques))
 
-        on_all_cores(work, _some_at_a_time(len(torques)))
+        with one_thread():  # the cores are taken by what is side by side
+            self._prepare()
+            on_all_cores(work, _some_at_a_time(len(torques)))
         turn = sector.polar_turn_at(wanted)
         for each in found:
             each[:] = turn @ each
@@ -184,8 +185,9 @@ class SolidBody:
 
 
 def _some_at_a_time(loads: int) -> list[slice]:
-    """Parts of so many loads, of about equal length."""
-    ends = np.linspace(0, loads, math.ceil(loads / _AT_ONCE) + 1).astype(int).tolist()
+    """Parts of so many loads, of about equal length: half of what is solved at once, less where more cores share it."""
+    most = max(_AT_ONCE // max(cores(), 2), _FEWEST)
+    ends = np.linspace(0, loads, math.ceil(loads / most) + 1).astype(int).tolist()
     return [slice(*each) for each in pairwise(ends)]
 
 
