@@ -16,7 +16,7 @@ from gearcad.contact.shared.line_of_action import line_of_action
 from gearcad.contact.shared.loaded_left import gears_loaded_left
 from gearcad.contact.solid.body import assemble_body
 from gearcad.contact.solid.contact_lines import contact_lines, gaps, near_path
-from gearcad.contact.solid.cost import BodyCost, body_cost
+from gearcad.contact.solid.cost import KEPT, LEFT, BodyCost, body_cost
 from gearcad.contact.solid.flank import SolidCompliance, solid_compliance
 from gearcad.contact.solid.line_contact import LineSolution, Responses, responses, solve_lines
 from gearcad.contact.solid.root import SolidFillets, solid_fillets
@@ -50,10 +50,7 @@ _SINGLE = 15
 """Positions of one pair of teeth along its path of contact, among which it is stiffest."""
 
 _ON_ALL_CORES = 0.75
-"""Time of a body on two cores, over that on one."""
-
-_LEFT = 0.15
-"""Memory that is left of a body without its factors, over all that it takes."""
+"""Time of a body on all cores, over that on one: not measured, but what two cores make of it that share half of the work."""
 
 _TICK = 0.2
 """Seconds between looks at how far they are."""
@@ -265,7 +262,7 @@ def expected_bodies(pair: GearPair, body: BodyModel, sizes: SolidSizes, *, field
     meshes = zip(pair.gears, _meshes(pair, body, sizes), strict=True)
     costs = [body_cost(mesh, body.teeth_held(gear) or gear.tooth_count, teeth_moved(pair)) for gear, mesh in meshes]
     first, second = (cost.memory for cost in costs)
-    memory = first + second if fields else max(first, _LEFT * first + second)
+    memory = max(first, (KEPT if fields else LEFT) * first + second)
     return Expected(_ON_ALL_CORES * sum(cost.seconds for cost in costs), memory)
 
 
