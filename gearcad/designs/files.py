@@ -12,7 +12,7 @@ from gearcad.designs.named_files import find_named_files
 from gearcad.designs.suffixes import is_table_name
 from gearcad.errors import SpecError, format_number, printable, shown
 
-__all__ = ["Where", "read_tables", "require_sane_tables"]
+__all__ = ["Where", "read_tables", "require_sane_tables", "tables_of_text"]
 
 Where = Callable[[str], str]
 """Says where a key stands, such as `pair.toml line 7`, for the beginning of a message."""
@@ -39,9 +39,18 @@ def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
         _refuse_table(path)
         raise SpecError(f"{file}: is not UTF-8 text (byte {error.start}); save it as UTF-8") from error
     try:
+        return tables_of_text(text, file, path.parent)
+    except SpecError as error:
+        if isinstance(error.__cause__, tomllib.TOMLDecodeError):
+            _refuse_table(path)
+        raise
+
+
+def tables_of_text(text: str, file: str, folder: Path) -> tuple[dict[str, Any], Where]:
+    """The same of a spec's text, which messages call `file`; files that it names are seen from `folder`. Raises SpecError."""
+    try:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        _refuse_table(path)
         raise SpecError(f"{file}{explain_syntax(error, text)}") from error
     except ValueError as error:
         raise SpecError(f"{file}: has a whole number of thousands of digits; write a smaller one") from error
@@ -54,7 +63,7 @@ def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
         return f"{file} line {line}" if line else file
 
     require_sane_tables(tables, where)
-    find_named_files(tables, path.parent)
+    find_named_files(tables, folder)
     return tables, where
 
 

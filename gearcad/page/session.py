@@ -1,0 +1,93 @@
+"""Session: one tab of a browser - its workbench, and the panels that follow it."""
+
+from __future__ import annotations
+
+import asyncio
+import secrets
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from nicegui import background_tasks, run, ui
+
+from gearcad.page.panels import Panel
+from gearcad.page.panels.bodies import BODIES, BodiesPanel
+from gearcad.page.panels.inputs import InputsPanel
+from gearcad.page.panels.section import SectionPanel
+from gearcad.page.panels.sheet import SheetPanel
+from gearcad.page.workbench import Workbench
+
+__all__ = ["Session"]
+
+
+class Session:
+    """Builds the page in the browser, and lets every panel follow the design.
+
+    What was found for a design that is not the last any more is not shown.
+    """
+
+    def __init__(self, text: str, name: str, folder: Path) -> None:
+        self.bench = Workbench(text, name, folder)
+        self.key = secrets.token_urlsafe(12)
+        self._change = 0
+        self._task: asyncio.Task[None] | None = None
+        with ui.element("header").classes("bar"):
+            self._bar(name)
+        with ui.element("main").classes("panels"):
+            with ui.element("div").classes("left"):
+                self._inputs = InputsPanel(self.typed, {"search": "find a key"}, {})
+            with ui.element("div").classes("middle"):
+                self._bodies = BodiesPanel(self.key)
+                self._section = SectionPanel()
+            with ui.element("div").classes("right"):
+                sheet = SheetPanel()
+        self._panels: tuple[Panel[Any], ...] = (self._section, sheet, self._bodies)
+        ui.context.client.on_delete(self._leave)
+        self.follow()
+
+    def _bar(self, name: str) -> None:
+        ui.label(name).classes("name")
+        self._undo = ui.button(icon="undo", on_click=lambda: self.step(self.bench.undo)).props("flat dense round")
+        self._redo = ui.button(icon="redo", on_click=lambda: self.step(self.bench.redo)).props("flat dense round")
+        ui.slider(min=-0.5, max=0.5, step=0.002, value=0, on_change=lambda event: self.pose(event.value))
+        self._fault = ui.label("").classes("fault-line")
+
+    def typed(self, key: str, text: str) -> None:
+        """Somebody typed into the field of a key."""
+        self.bench.change({key: text})
+        self.follow()
+
+    def step(self, take: Callable[[], None]) -> None:
+        """Undo or redo."""
+        take()
+        self.follow()
+
+    def pose(self, turn: float) -> None:
+        """Turn the first gear by so many radians."""
+        self._bodies.pose(turn)
+        self._section.pose(turn)
+
+    def follow(self) -> None:
+        """Show what the workbench has: inputs at once, all else as it is found."""
+        self._inputs.follow(self.bench)
+        self._fault.set_text(self.bench.fault.line if self.bench.fault else "")
+        self._undo.set_enabled(self.bench.can_undo)
+        self._redo.set_enabled(self.bench.can_redo)
+        self._change += 1
+        if self._task is None or self._task.done():
+            self._task = background_tasks.create(self._find())
+
+    async def _find(self) -> None:
+        """Until all panels show the last design; each change begins anew with the quickest of them."""
+        shown = 0
+        while shown != self._change:
+            shown, design = self._change, self.bench.design
+            for panel in self._panels:
+                found = await run.io_bound(panel.find, design)
+                if shown != self._change:
+                    break
+                panel.show(found)
+
+    def _leave(self) -> None:
+        """The tab was closed."""
+        BODIES.pop(self.key, None)
