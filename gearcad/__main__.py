@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 __all__ = ["run"]
 
-_MINDS_ITSELF = ("batch",)
-"""Commands whose work is in processes of their own: at Ctrl-C they tell what they have."""
+_MINDS_ITSELF = ("batch", "open")
+"""Commands whose work is in processes of their own: at Ctrl-C they tell what they have, or end those."""
 
 
 def run() -> None:

@@ -10,21 +10,28 @@ from gearcad.cli.group import debug_option
 
 __all__ = ["open"]
 
+_STARTER = "reducer"
+"""What is opened if nothing is given."""
+
 
 @click.command("open")
 @click.argument("spec", type=click.Path(path_type=Path), required=False)
-@click.option("--host", metavar="ADDRESS", help="Let others in at this address of the machine: the page then has a token.")
-@click.option("--port", type=click.IntRange(1, 65535), default=8765, show_default=True, help="Where it listens.")
+@click.option("--host", metavar="ADDRESS", help="Let others in at this address of the machine, who have the token.")
+@click.option("--port", type=click.IntRange(1, 65535), help="Where it listens.  [default: 8765, or the next that is free]")
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
 @debug_option
-def open(spec: Path | None, host: str | None, port: int, no_browser: bool) -> None:
-    """Open a page in the browser, in which the design of SPEC follows every change."""
+def open(spec: Path | None, host: str | None, port: int | None, no_browser: bool) -> None:
+    """Open a page in the browser in which the gears move: every change of SPEC, or of a starter, is seen at once.
+
+    It listens at 127.0.0.1 only, until Ctrl-C.
+    """
+    from gearcad.designs.files import spec_text
     from gearcad.designs.starters import starter_text
     from gearcad.page.server import serve
 
     if spec is None:
-        name, text = starter_text("fzg")
-        name, folder = Path(name).stem, Path.cwd()
+        name, text = starter_text(_STARTER)
+        spec = Path(name)
     else:
-        name, text, folder = spec.stem, spec.read_bytes().decode("utf-8-sig"), spec.parent
-    serve(text, name, folder, host, port, not no_browser)
+        text = spec_text(spec)
+    serve(text, spec.stem, spec.parent, host=host, port=port, browser=not no_browser)

@@ -12,7 +12,7 @@ from gearcad.designs.named_files import find_named_files
 from gearcad.designs.suffixes import is_table_name
 from gearcad.errors import SpecError, format_number, printable, shown
 
-__all__ = ["Where", "read_tables", "require_sane_tables", "tables_of_text"]
+__all__ = ["Where", "read_tables", "require_sane_tables", "spec_text", "tables_of_text"]
 
 Where = Callable[[str], str]
 """Says where a key stands, such as `pair.toml line 7`, for the beginning of a message."""
@@ -28,9 +28,20 @@ def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
 
     Only the files that it names are named as they are found from here.
     """
+    path, text = Path(path), spec_text(path)
+    try:
+        return tables_of_text(text, printable(str(path)), path.parent)
+    except SpecError as error:
+        if isinstance(error.__cause__, tomllib.TOMLDecodeError):
+            _refuse_table(path)
+        raise
+
+
+def spec_text(path: Path | str) -> str:
+    """The text of a spec. Raises SpecError."""
     path, file = Path(path), printable(str(path))
     try:
-        text = path.read_bytes().decode("utf-8-sig")
+        return path.read_bytes().decode("utf-8-sig")
     except OSError as error:
         raise SpecError(
             f"{file}: cannot be read ({error.strerror}); give a spec file, or make one with `gearcad new`"
@@ -38,12 +49,6 @@ def read_tables(path: Path | str) -> tuple[dict[str, Any], Where]:
     except UnicodeDecodeError as error:
         _refuse_table(path)
         raise SpecError(f"{file}: is not UTF-8 text (byte {error.start}); save it as UTF-8") from error
-    try:
-        return tables_of_text(text, file, path.parent)
-    except SpecError as error:
-        if isinstance(error.__cause__, tomllib.TOMLDecodeError):
-            _refuse_table(path)
-        raise
 
 
 def tables_of_text(text: str, file: str, folder: Path) -> tuple[dict[str, Any], Where]:

@@ -8,12 +8,15 @@ from http.cookies import SimpleCookie
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
-__all__ = ["Access"]
+__all__ = ["TOKEN", "Access"]
 
 Scope = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[Any]]
 Send = Callable[[Any], Awaitable[None]]
 App = Callable[[Scope, Receive, Send], Awaitable[None]]
+
+TOKEN = "token"
+"""Its name in the address."""
 
 _COOKIE = "gearcad_token"
 
@@ -51,7 +54,7 @@ class Access:
         return ours and (not self._token or self._in_address(scope) or self._in_cookie(headers))
 
     def _in_address(self, scope: Scope) -> bool:
-        return self._is_token(parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])[0])
+        return self._is_token(parse_qs(scope.get("query_string", b"").decode("latin-1")).get(TOKEN, [""])[0])
 
     def _in_cookie(self, headers: dict[str, str]) -> bool:
         cookie = SimpleCookie(headers.get("cookie", "")).get(_COOKIE)

@@ -1,0 +1,18 @@
+"""What the page fetches besides what NiceGUI sends: bodies by their session's key, which nobody else knows."""
+
+from __future__ import annotations
+
+from fastapi import FastAPI, Response
+
+from gearcad.page.panels.bodies import BODIES
+
+__all__ = ["add_routes"]
+
+
+def add_routes(app: FastAPI) -> None:
+    """Answer them at this app."""
+
+    @app.get("/bodies/{key}/{_number}.glb")
+    def bodies(key: str, _number: int) -> Response:
+        content = BODIES.get(key)
+        return Response(content or b"", 200 if content else 404, media_type="model/gltf-binary")
