@@ -46,7 +46,7 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
 
     def root() -> None:
         ui.add_css(Path(__file__).parent / "page.css")
-        Session(text, name, folder)
+        Session.of(text, name, folder)
 
     add_routes(app)
     app.add_middleware(Access, hosts={f"{each}:{port}" for each in (LOCAL, "localhost", host) if each}, token=token)

@@ -15,9 +15,15 @@ from gearcad.page.panels.bodies import BODIES, BodiesPanel
 from gearcad.page.panels.inputs import InputsPanel
 from gearcad.page.panels.section import SectionPanel
 from gearcad.page.panels.sheet import SheetPanel
+from gearcad.page.words import Language, Words, language_of
 from gearcad.page.workbench import Workbench
 
 __all__ = ["Session"]
+
+_HANDED: dict[str, Workbench] = {}
+"""Workbenches that a tab leaves to the page that it opens next, in another language."""
+
+_MOST_HANDED = 100
 
 
 class Session:
@@ -26,16 +32,16 @@ class Session:
     What was found for a design that is not the last any more is not shown.
     """
 
-    def __init__(self, text: str, name: str, folder: Path) -> None:
-        self.bench = Workbench(text, name, folder)
+    def __init__(self, bench: Workbench, words: Words) -> None:
+        self.bench, self.words = bench, words
         self.key = secrets.token_urlsafe(12)
         self._change = 0
         self._task: asyncio.Task[None] | None = None
         with ui.element("header").classes("bar"):
-            self._bar(name)
+            self._bar()
         with ui.element("main").classes("panels"):
             with ui.element("div").classes("left"):
-                self._inputs = InputsPanel(self.typed, {"search": "find a key"}, {})
+                self._inputs = InputsPanel(self.typed, words)
             with ui.element("div").classes("middle"):
                 self._bodies = BodiesPanel(self.key)
                 self._section = SectionPanel()
@@ -45,12 +51,31 @@ class Session:
         ui.context.client.on_delete(self._leave)
         self.follow()
 
-    def _bar(self, name: str) -> None:
-        ui.label(name).classes("name")
+    @classmethod
+    def of(cls, text: str, name: str, folder: Path) -> Session:
+        """The page that the browser asks for, with the workbench that it had in the other language, if it comes from there."""
+        query, headers = ui.context.client.request.query_params, ui.context.client.request.headers
+        words = Words.of(language_of(query.get("lang"), headers.get("accept-language", "")))
+        handed = query.get("from", "")
+        return cls(_HANDED.pop(handed) if handed in _HANDED else Workbench(text, name, folder), words)
+
+    def speak(self, language: Language) -> None:
+        """Open the page in another language, with this workbench."""
+        while len(_HANDED) >= _MOST_HANDED:
+            _HANDED.pop(next(iter(_HANDED)))
+        key = secrets.token_urlsafe(12)
+        _HANDED[key] = self.bench
+        ui.navigate.to(f"/?lang={language.value}&from={key}")
+
+    def _bar(self) -> None:
+        ui.label(self.bench.name).classes("name")
         self._undo = ui.button(icon="undo", on_click=lambda: self.step(self.bench.undo)).props("flat dense round")
         self._redo = ui.button(icon="redo", on_click=lambda: self.step(self.bench.redo)).props("flat dense round")
         ui.slider(min=-0.5, max=0.5, step=0.002, value=0, on_change=lambda event: self.pose(event.value))
         self._fault = ui.label("").classes("fault-line")
+        for language in Language:
+            spoken = ui.button(language.value, on_click=lambda _, language=language: self.speak(language)).props("flat dense")
+            spoken.set_enabled(language is not self.words.language)
 
     def typed(self, key: str, text: str) -> None:
         """Somebody typed into the field of a key."""

@@ -7,6 +7,7 @@ from typing import Any
 
 from gearcad.page.components.inputs import InputsView
 from gearcad.page.fields import fields_of, given_texts, used_texts
+from gearcad.page.words import Words
 from gearcad.page.workbench import Workbench
 
 __all__ = ["InputsPanel"]
@@ -15,8 +16,8 @@ __all__ = ["InputsPanel"]
 class InputsPanel:
     """Follows the workbench itself, not the last good design: what is wrong must be seen where it was typed."""
 
-    def __init__(self, changed: Callable[[str, str], None], words: dict[str, str], terms: dict[str, str]) -> None:
-        self._view = InputsView(changed, words, terms)
+    def __init__(self, changed: Callable[[str, str], None], words: Words) -> None:
+        self._view = InputsView(changed, {"search": words["find a key"]}, dict(words.table))
         self._layout: Any = None
 
     def follow(self, bench: Workbench) -> None:

@@ -1,0 +1,67 @@
+"""The words of the page, in the language of who reads it: English stands in the code, the others in a template."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from functools import cache
+
+from gearcad.shipped import templates
+
+__all__ = ["Language", "Words", "language_of"]
+
+_FILE = "page_words.toml"
+
+
+class Language(StrEnum):
+    """A language that the page speaks, by its code."""
+
+    ENGLISH = "en"
+    GERMAN = "de"
+
+
+@dataclass(frozen=True)
+class Words:
+    """`words["find a key"]` is what stands for these words in the language of the page.
+
+    Fields and derived quantities are found by the words that the schema and `symbols` have for them. What has no other words
+    stays English, as messages do.
+    """
+
+    language: Language
+    table: Mapping[str, str] = field(repr=False)
+
+    @classmethod
+    def of(cls, language: Language) -> Words:
+        """Those of the shipped template."""
+        return cls(language, _tables().get(language.value, {}))
+
+    def __getitem__(self, english: str) -> str:
+        return self.table.get(english, english)
+
+
+@cache
+def _tables() -> Mapping[str, Mapping[str, str]]:
+    """The words of each language by the English ones."""
+    return tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
+
+
+def language_of(asked: str | None, accepted: str) -> Language:
+    """The language that the address asks for, else the first of ours that the browser would take (its Accept-Language)."""
+    ours = {each.value: each for each in Language}
+    if asked in ours:
+        return ours[asked]
+    ranked = sorted(accepted.split(","), key=_rank, reverse=True)
+    codes = (each.partition(";")[0].strip().lower()[:2] for each in ranked)
+    return next((ours[code] for code in codes if code in ours), Language.ENGLISH)
+
+
+def _rank(accepted: str) -> float:
+    """How much a browser likes one of its languages, such as `de-AT;q=0.8`; 1 where it does not say."""
+    quality = accepted.partition("q=")[2].strip()
+    try:
+        return float(quality) if quality else 1.0
+    except ValueError:
+        return 0.0
