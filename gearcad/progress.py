@@ -2,10 +2,28 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Callable, Mapping
 from typing import NamedTuple, Protocol
 
-__all__ = ["Agenda", "Expected", "Progress", "Share", "Tell", "onwards", "part", "unheard", "untold"]
+__all__ = [
+    "Agenda",
+    "Clock",
+    "Expected",
+    "Progress",
+    "Share",
+    "Tell",
+    "about",
+    "about_memory",
+    "onwards",
+    "part",
+    "unheard",
+    "untold",
+]
+
+_SETTLED = 0.1
+"""Share of a job from which on its own pace tells the time left."""
 
 Progress = Callable[[str, float, float], None]
 """Called with what is being done, how much of the job is done, and how much there is (0: nobody knows yet).
@@ -81,3 +99,32 @@ class Agenda:
     def counted(self, step: str, word: str) -> Callable[[int, int], None]:
         """What tells that `done` of `count` things, called `word`, are done."""
         return lambda done, count: self(step, done / count, f"{word} {done + 1} of {count}")
+
+
+class Clock:
+    """How long a job still takes: by its expected time at first, by its own pace later."""
+
+    def __init__(self, expected: Expected | None) -> None:
+        self.began, self.expected = time.monotonic(), expected
+
+    def left(self, share: float) -> str:
+        """In words; nothing where shares are those of steps, which take what they take."""
+        if self.expected is None:
+            return ""
+        gone = time.monotonic() - self.began
+        settled = share > _SETTLED and gone > 1
+        seconds = gone * (1 - share) / share if settled else self.expected.seconds * (1 - share)
+        return f"{about(seconds)} left"
+
+
+def about(seconds: float) -> str:
+    """A time that is known roughly."""
+    if seconds < 90:
+        step = 1 if seconds < 10 else 5
+        return f"about {max(step * round(seconds / step), 1)} s"
+    return f"about {round(seconds / 60)} min" if seconds < 5400 else f"about {seconds / 3600:.1f} h"
+
+
+def about_memory(size: float) -> str:
+    """A size in bytes that is known roughly."""
+    return f"{size / 1e9:.1f} GB" if size >= 0.95e9 else f"{100 * math.ceil(size / 1e8)} MB"

@@ -20,12 +20,12 @@ from typing import IO, Any, TypeVar
 from gearcad.errors import GearcadError, format_number
 from gearcad.guard import death, die_with
 
-__all__ = ["WorkerLostError", "close_workers", "isolated", "own_worker"]
+__all__ = ["ONE_THREAD", "WorkerLostError", "close_workers", "isolated", "own_worker"]
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
 
-_ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 """The parallel unit is the row; one thread each also gives the same bytes on every machine."""
 
 _LENGTH_BYTES = 8
@@ -119,7 +119,7 @@ def _start() -> subprocess.Popen[bytes]:
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
-        env=os.environ | _ONE_THREAD,
+        env=os.environ | ONE_THREAD,
     )
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gearcad.cli.screen import shows_styles
+from gearcad.progress import Clock, about, about_memory
 
 if TYPE_CHECKING:
     from gearcad.progress import Expected, Progress
@@ -23,9 +24,6 @@ _SECONDS_BETWEEN_LINES = 5.0
 
 _LONG = 10.0
 """Seconds from which on it is worth telling beforehand what a job takes."""
-
-_SETTLED = 0.1
-"""Share of a job from which on its own pace tells the time left."""
 
 
 @contextmanager
@@ -56,7 +54,7 @@ def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[P
         return
     if expected is not None and (told := _told(expected)):
         click.echo(told, err=True)
-    clock = _Clock(expected)
+    clock = Clock(expected)
     if not shows_styles(sys.stderr):
         yield _JobLines(clock)
         return
@@ -75,43 +73,14 @@ def job_progress(*, shown: bool, expected: Expected | None = None) -> Iterator[P
 
 def _told(expected: Expected) -> str:
     """What is worth telling before a job begins."""
-    takes = f"takes {_about(expected.seconds)} and {_about_memory(expected.memory)} of memory"
+    takes = f"takes {about(expected.seconds)} and {about_memory(expected.memory)} of memory"
     return ", ".join(filter(None, (expected.makes, takes if expected.seconds >= _LONG else "")))
-
-
-class _Clock:
-    """How long a job still takes: by its expected time at first, by its own pace later."""
-
-    def __init__(self, expected: Expected | None) -> None:
-        self.began, self.expected = time.monotonic(), expected
-
-    def left(self, share: float) -> str:
-        """In words; nothing where shares are those of steps, which take what they take."""
-        if self.expected is None:
-            return ""
-        gone = time.monotonic() - self.began
-        settled = share > _SETTLED and gone > 1
-        seconds = gone * (1 - share) / share if settled else self.expected.seconds * (1 - share)
-        return f"{_about(seconds)} left"
-
-
-def _about(seconds: float) -> str:
-    """A time that is known roughly."""
-    if seconds < 90:
-        step = 1 if seconds < 10 else 5
-        return f"about {max(step * round(seconds / step), 1)} s"
-    return f"about {round(seconds / 60)} min" if seconds < 5400 else f"about {seconds / 3600:.1f} h"
-
-
-def _about_memory(size: float) -> str:
-    """A size in bytes that is known roughly."""
-    return f"{size / 1e9:.1f} GB" if size >= 0.95e9 else f"{100 * math.ceil(size / 1e8)} MB"
 
 
 class _JobLines:
     """Progress where there is no terminal: a line for each step, and every few seconds."""
 
-    def __init__(self, clock: _Clock) -> None:
+    def __init__(self, clock: Clock) -> None:
         self.clock = clock
         self.last, self.step = -math.inf, ""
 

@@ -34,13 +34,14 @@ _GROUPS = {
 
 def print_strength(name: str, result: StrengthRating | TrainStrength) -> None:
     """All of a rating, or of those of the meshes of a train, its notices, and the verdict."""
+    from gearcad.jobs.rate import load_words
     from gearcad.rating.strength import StrengthRating
 
     if isinstance(result, StrengthRating):
         click.echo("\n".join(strength_lines(result)))
     else:
         for mesh, rating in result.meshes.items():
-            click.echo("\n".join([f"{mesh}: {_load(rating)}", *strength_lines(rating)]))
+            click.echo("\n".join([f"{mesh}: {load_words(rating)}", *strength_lines(rating)]))
         click.echo("\n".join(train_strength_lines(result, verdict=False)))
     echo_warnings(result.notices)
     colour = {True: "green", False: "red", None: "yellow"}[result.passed]
@@ -49,16 +50,9 @@ def print_strength(name: str, result: StrengthRating | TrainStrength) -> None:
 
 def verdict_line(name: str, result: StrengthRating | TrainStrength) -> str:
     """What a rating comes to."""
-    from gearcad.rating.strength import StrengthRating
+    from gearcad.jobs.rate import Rate
 
-    at = f" at {_load(result)}" if isinstance(result, StrengthRating) else ""
-    return f"{name}{at}: {result.verdict}"
-
-
-def _load(rating: StrengthRating) -> str:
-    load = rating.load
-    torque = f"{load.torque:.6g} N·m" if rating.own_names is None else f"{load.torque:.6g} N·m on {rating.own_names.pinion}"
-    return f"{torque}, {load.speed:.6g} rpm" if load.speed else torque
+    return Rate().conclusion(name, result)
 
 
 def strength_lines(rating: StrengthRating) -> Iterator[str]:

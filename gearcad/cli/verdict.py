@@ -55,7 +55,9 @@ def print_verdict(name: str, result: CheckResult) -> None:
 
 def verdict_line(name: str, result: CheckResult) -> str:
     """What a check comes to."""
-    return f"{name} at {result.torque:g} N·m: {result.verdict}"
+    from gearcad.jobs.check import Check
+
+    return Check().conclusion(name, result)
 
 
 def _row(of: Comparison) -> _Line:

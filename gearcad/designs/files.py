@@ -10,7 +10,7 @@ from typing import Any
 from gearcad.designs.lines import explain_syntax, find_lines, nearest_line
 from gearcad.designs.named_files import find_named_files
 from gearcad.designs.suffixes import is_table_name
-from gearcad.errors import SpecError, format_number, printable, shown
+from gearcad.errors import ParameterError, SpecError, format_number, printable, shown
 
 __all__ = ["Where", "read_tables", "require_sane_tables", "spec_text", "tables_of_text"]
 
@@ -68,7 +68,10 @@ def tables_of_text(text: str, file: str, folder: Path) -> tuple[dict[str, Any], 
         return f"{file} line {line}" if line else file
 
     require_sane_tables(tables, where)
-    find_named_files(tables, folder)
+    try:
+        find_named_files(tables, folder)
+    except ParameterError as error:
+        raise SpecError(f"{where(error.parameter)}: {error}", error.parameter) from error
     return tables, where
 
 

@@ -2,14 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any
 
-__all__ = ["find_named_files", "names_file", "with_files_found"]
+from gearcad.errors import ParameterError
+
+__all__ = ["files_only_in", "find_named_files", "names_file", "with_files_found"]
 
 _TEMPLATE = "drawing.template"
 """What changes the title block of drawings."""
+
+_fence: ContextVar[Path | None] = ContextVar("the folder in which files must be", default=None)
+
+
+@contextmanager
+def files_only_in(folder: Path) -> Iterator[None]:
+    """What is read meanwhile by this thread names files in `folder` only, wherever links lead. Raises ParameterError."""
+    token = _fence.set(folder.resolve())
+    try:
+        yield
+    finally:
+        _fence.reset(token)
 
 
 def names_file(key: str) -> bool:
@@ -21,19 +37,32 @@ def names_file(key: str) -> bool:
 
 def with_files_found(values: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """The values with files, which are seen from `folder`, as they are found from here."""
-    return {key: _found(each, folder) if names_file(key) else each for key, each in values.items()}
+    return {key: _found(key, each, folder) if names_file(key) else each for key, each in values.items()}
 
 
 def find_named_files(tables: Mapping[str, Any], folder: Path) -> None:
     """The same of the tables of a spec in `folder`, in place."""
     train, drawing = tables.get("train"), tables.get("drawing")
     meshes = train.get("mesh") if isinstance(train, Mapping) else None
-    named = [(mesh, "pair") for mesh in meshes] if isinstance(meshes, list) else []
-    for table, key in (*named, (drawing, "template")):
+    named = [(f"train.mesh[{at}]", mesh, "pair") for at, mesh in enumerate(meshes)] if isinstance(meshes, list) else []
+    for where, table, key in (*named, ("drawing", drawing, "template")):
         if isinstance(table, dict) and key in table:
-            table[key] = _found(table[key], folder)
+            table[key] = _found(f"{where}.{key}", table[key], folder)
 
 
-def _found(name: Any, folder: Path) -> Any:
+def _found(key: str, name: Any, folder: Path) -> Any:
     """A name that no file can have is left as it is written: whoever reads the file refuses it."""
-    return str(folder / name) if isinstance(name, str) and name.strip() and "\0" not in name else name
+    if not isinstance(name, str) or not name.strip() or "\0" in name:
+        return name
+    fence, found = _fence.get(), folder / name
+    if fence is not None and not _resolved(found).is_relative_to(fence):
+        raise ParameterError(key, name, "must be a file in the folder of the page")
+    return str(found)
+
+
+def _resolved(path: Path) -> Path:
+    """Where links lead; of a path that leads nowhere, what is outside of everything."""
+    try:
+        return path.resolve()
+    except (OSError, RuntimeError):  # a loop of links
+        return Path("/")

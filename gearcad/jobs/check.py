@@ -67,6 +67,9 @@ class Check(Job[PairDesign, CheckResult]):
     def notices(self, result: CheckResult) -> Sequence[Notice]:
         return result.all_notices
 
+    def conclusion(self, name: str, result: CheckResult) -> str:
+        return f"{name} at {result.torque:g} N·m: {result.verdict}"
+
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """The verdict, the summary and the rating."""
         verdict = {name: document[name] for name in ("passed", "numerics", "strength")}

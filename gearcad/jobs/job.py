@@ -72,6 +72,10 @@ class Job(ABC, Generic[Accepted, Result]):
         """What to know before trusting a result."""
         return ()
 
+    def conclusion(self, _name: str, _result: Result) -> str:
+        """What the result of a design of this name comes to, in one line; "" where nothing is judged."""
+        return ""
+
     def files(self, result: Result) -> dict[str, Writer]:
         """The names of a result's files, in the order in which they are made, and what writes each."""
         return {f"{self.verb}.json": partial(self.write_document, result)}

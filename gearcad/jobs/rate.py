@@ -22,7 +22,7 @@ from gearcad.rating.load_factors import BodyLoad
 from gearcad.rating.strength import StrengthRating, rate_strength
 from gearcad.version import __version__
 
-__all__ = ["Rate", "rate"]
+__all__ = ["Rate", "load_words", "rate"]
 
 _NO_LOAD = "without it there is no stress"
 
@@ -61,6 +61,10 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
     def notices(self, result: StrengthRating | TrainStrength) -> Sequence[Notice]:
         return result.notices
 
+    def conclusion(self, name: str, result: StrengthRating | TrainStrength) -> str:
+        at = f" at {load_words(result)}" if isinstance(result, StrengthRating) else ""
+        return f"{name}{at}: {result.verdict}"
+
     def figures(self, document: dict[str, Any]) -> dict[str, Any]:
         """What a line of a table has of it."""
         return rate_columns(document)
@@ -76,6 +80,13 @@ class Rate(Job[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRating | T
             f"rate-{name}.html": partial(_write_report, each, f"{result.name}, {name}") for name, each in result.meshes.items()
         }
         return {**found, **reports}
+
+
+def load_words(rating: StrengthRating) -> str:
+    """At what a pair is rated: torque and speed."""
+    load = rating.load
+    torque = f"{load.torque:.6g} N·m" if rating.own_names is None else f"{load.torque:.6g} N·m on {rating.own_names.pinion}"
+    return f"{torque}, {load.speed:.6g} rpm" if load.speed else torque
 
 
 def _of_bodies(design: PairDesign, load: Load) -> BodyLoad | None:

@@ -12,6 +12,7 @@ from gearcad.designs.design import Design
 from gearcad.designs.edit import edit_spec
 from gearcad.designs.files import Where, tables_of_text
 from gearcad.designs.keys import Cell
+from gearcad.designs.named_files import files_only_in
 from gearcad.designs.reader import design_from_tables
 from gearcad.errors import GearcadError, SpecError
 
@@ -33,7 +34,7 @@ class Workbench:
     """One design under change: `text` is its spec, `design` the last that could be made, `fault` why the text makes none.
 
     `tables` are what the text says, as far as it can be read at all, and `former` what the one before said. A change is a step:
-    it can be undone and redone. Raises SpecError for a first text that makes nothing.
+    it can be undone and redone. Files that it names must be in `folder`. Raises SpecError for a first text that makes nothing.
     """
 
     def __init__(self, text: str, name: str, folder: Path) -> None:
@@ -99,10 +100,12 @@ class Workbench:
             self.fault = Fault(str(error))
 
     def _tables(self) -> tuple[dict[str, Any], Where]:
-        return tables_of_text(self.text, f"{self.name}.toml", self.folder)
+        with files_only_in(self.folder):
+            return tables_of_text(self.text, f"{self.name}.toml", self.folder)
 
     def _design(self, tables: dict[str, Any], where: Where) -> Design:
-        return design_from_tables(tables, where=where, default_name=self.name)
+        with files_only_in(self.folder):
+            return design_from_tables(tables, where=where, default_name=self.name)
 
 
 def _value(key: str, typed: str) -> Cell | None:

@@ -1,0 +1,72 @@
+"""Run: what was asked of a process, how far it is, and what came of it."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+from gearcad.machine import machine_memory
+from gearcad.page.run_process import Asked
+
+__all__ = ["Limits", "Run", "State"]
+
+_SHARE_OF_MEMORY = 0.5
+_MOST_MEMORY = 16e9
+
+
+@dataclass(frozen=True, kw_only=True)
+class Limits:
+    """What one run may take: seconds, and bytes of memory where the system tells what a process has (Linux)."""
+
+    seconds: float = 3600.0
+    memory: float = field(default_factory=lambda: min(_SHARE_OF_MEMORY * machine_memory(), _MOST_MEMORY))
+
+
+class State(Enum):
+    """How far a run is."""
+
+    WAITING = "waiting"
+    RUNNING = "running"
+    DONE = "done"
+    FAILED = "failed"
+    CANCELLED = "cancelled"
+
+    @property
+    def ended(self) -> bool:
+        return self in (State.DONE, State.FAILED, State.CANCELLED)
+
+
+@dataclass
+class Run:
+    """One of them: what was asked, and what its process has told so far. A thread fills it, others read it."""
+
+    number: int
+    asked: Asked
+    given: Mapping[str, str]
+    """What the spec says under its keys, by which runs are told from each other."""
+
+    state: State = State.WAITING
+    step: str = ""
+    share: float = 0.0
+    left: str = ""
+    line: str = ""
+    """The verdict as the command line says it, or the error."""
+
+    figures: Mapping[str, Any] = field(default_factory=dict)
+    notices: tuple[str, ...] = ()
+    files: tuple[str, ...] = ()
+    stop: threading.Event = field(default_factory=threading.Event, repr=False)
+    ended: threading.Event = field(default_factory=threading.Event, repr=False)
+
+    @property
+    def folder(self) -> Path:
+        """Where its files are."""
+        return Path(self.asked.into)
+
+    def file(self, name: str) -> Path | None:
+        """The path of one of its files, if it has one of this name."""
+        return self.folder / name if name in self.files and self.state is State.DONE else None

@@ -1,0 +1,136 @@
+"""Runs of the page: their processes end as they should, whatever happens, and leave nothing."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from gearcad.designs.starters import starter_text
+from gearcad.errors import ParameterError
+from gearcad.page.run import Limits, Run, State
+from gearcad.page.runs import Runs
+
+ENOUGH = 60.0
+PAIR = starter_text("fzg-c")[1]
+GEAR = starter_text("spur")[1]
+
+
+@pytest.fixture
+def runs() -> Iterator[Runs]:
+    made = Runs()
+    yield made
+    made.close()
+
+
+def _start(runs: Runs, kind: str, text: str = PAIR, folder: Path = Path()) -> Run:
+    return runs.start(kind, text, "mine", folder, {})
+
+
+def _ended(run: Run) -> Run:
+    assert run.ended.wait(ENOUGH)
+    return run
+
+
+def _until_step(run: Run) -> None:
+    end = time.monotonic() + ENOUGH
+    while not run.step and time.monotonic() < end:
+        time.sleep(0.02)
+    assert run.step, run
+
+
+def _children() -> set[str]:
+    return {each.name for each in Path("/proc").glob("[0-9]*") if _parent(each) == os.getpid()}
+
+
+def _parent(process: Path) -> int:
+    try:
+        return int((process / "stat").read_text().rpartition(")")[2].split()[1])
+    except OSError:
+        return 0
+
+
+def test_a_run_tells_its_conclusion_figures_and_files(runs: Runs) -> None:
+    run = _ended(_start(runs, "rate"))
+    assert run.state is State.DONE
+    assert run.line.startswith("fzg-c at ")
+    assert run.figures["S_H_pinion"] > 0 if "S_H_pinion" in run.figures else run.figures
+    assert run.files == ("rate.json", "rate.html")
+    assert (found := run.file("rate.html")) is not None and found.is_file()
+    assert run.file("../rate.html") is None and run.file("data.json") is None
+
+
+def test_what_is_wrong_is_the_line_of_the_command_line(runs: Runs) -> None:
+    wrong = _ended(_start(runs, "rate", PAIR.replace("teeth = 16", "teeth = 2")))
+    assert wrong.state is State.FAILED
+    assert wrong.line.startswith("mine.toml line ") and "teeth" in wrong.line
+    gear = _ended(_start(runs, "check-2d", GEAR))
+    assert gear.line.startswith("kind = 'gear': must be a pair")
+    assert not wrong.folder.exists() and not gear.folder.exists()
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="the system tells no process's memory")
+def test_a_cancelled_run_is_gone_at_once_and_leaves_nothing(runs: Runs) -> None:
+    before = _children()
+    run = _start(runs, "check-3d")
+    waiting = _start(runs, "rate")
+    _until_step(run)
+    assert _children() - before
+    began = time.monotonic()
+    runs.cancel(waiting)
+    runs.cancel(run)
+    assert _ended(run).state is State.CANCELLED
+    assert time.monotonic() - began < 5
+    assert _ended(waiting).state is State.CANCELLED
+    assert not _children() - before
+    assert not run.folder.exists()
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="the system tells no process's memory")
+def test_a_run_out_of_time_or_memory_is_ended_and_says_so() -> None:
+    for limits, line in (
+        (Limits(seconds=0.3), "was stopped at its time limit of 0.3 s"),
+        (Limits(memory=2e7), "was stopped at its memory limit of 0.02 GB"),
+    ):
+        bounded = Runs(limits)
+        run = _ended(_start(bounded, "check-3d"))
+        assert (run.state, run.line) == (State.FAILED, line)
+        bounded.close()
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="the system tells no process's memory")
+def test_a_process_that_dies_says_why_and_the_next_run_is_well(runs: Runs) -> None:
+    before = _children()
+    run = _start(runs, "check-3d")
+    _until_step(run)
+    for child in _children() - before:
+        os.kill(int(child), 9)
+    assert _ended(run).line.startswith("killed its process (SIGKILL")
+    assert _ended(_start(runs, "data")).state is State.DONE
+
+
+def test_a_closed_session_ends_its_run_and_removes_its_files() -> None:
+    runs = Runs()
+    done, run = _ended(_start(runs, "data")), _start(runs, "check-3d")
+    folder = done.folder.parent
+    assert folder.is_dir()
+    runs.close()
+    assert _ended(run).state is State.CANCELLED
+    end = time.monotonic() + ENOUGH
+    while folder.exists() and time.monotonic() < end:
+        time.sleep(0.02)
+    assert not folder.exists()
+    with pytest.raises(ParameterError):
+        _start(runs, "data")
+
+
+def test_only_so_many_wait(runs: Runs) -> None:
+    asked = [_start(runs, "check-3d") for _ in range(5)]
+    with pytest.raises(ParameterError, match="must wait"):
+        _start(runs, "data")
+    for run in asked:
+        runs.cancel(run)
+    assert {_ended(run).state for run in asked} == {State.CANCELLED}
