@@ -3,79 +3,114 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, fields
 from enum import Enum
-from typing import Any
+from functools import cache
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
+from gearcad.designs.auto import AUTO, CLEAR
 from gearcad.designs.cells import list_text, nested_text, texts_cell
 from gearcad.designs.design import Design, DesignKind
 from gearcad.designs.keys import BESIDE, FIELDS, MAIN_TABLES, OF_SETS, Fields
 from gearcad.errors import GearcadError
+from gearcad.geometry.basic_rack import NAMED_RACKS
+from gearcad.material import MaterialGroup, MaterialQuality
 from gearcad.ranges import Choice, Member, Range, Whole
 from gearcad.schema import FieldSchema
 
-__all__ = ["fields_of", "given_texts", "used_texts"]
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+__all__ = ["fields_of", "given_texts", "part_title", "table_title", "used_texts", "words_of"]
 
 _TITLES = {
-    "": "",
     "rack": "Basic rack",
     "cutter": "Shaper cutter",
-    "double_helix": "Double helix",
     "modification": "Flank modifications",
 }
-_LATER = ("mesh", "dynamics", "drawing", "check")
-"""Tables of jobs that one asks for: the page has them folded."""
+"""Titles of parts that are not their names."""
+
+_LATER = ("mounting", "mesh", "dynamics", "drawing", "check", "rating")
+"""Tables of what one asks for later: the page has them folded where the spec says nothing there."""
+
+_GRADES = tuple(f"{group} {quality}" for group in MaterialGroup for quality in MaterialQuality)
+_OFFERED = {"rack": tuple(NAMED_RACKS), "material": _GRADES, "profile_shift": (AUTO,), "tip_alteration": (AUTO, CLEAR)}
+"""Words that specs take at keys of these names, beside numbers or names of one's own."""
+
+_DIGITS, _USED_DIGITS = 15, 7
+"""Significant digits of numbers: all that were typed, and of those that follow what one reads."""
+
+_MEMBERS = ("planetary.input", "planetary.output", "planetary.fixed")
 
 
-def fields_of(design: Design) -> list[dict[str, Any]]:
+def fields_of(design: Design, tables: Mapping[str, Any]) -> list[dict[str, Any]]:
     """The tables of a kind's specs in order, each with its groups of fields: what the browser makes inputs of.
 
-    A train's parts are lists of tables, which stand in its text only.
+    `tables` are what the spec says. A train's parts are lists of tables, which stand in its text only.
     """
     if design.kind is DesignKind.TRAIN:
         return []
+    members = tuple(design.train.members) if hasattr(design, "train") else ()
     return [
-        {"table": table, "folded": table in _LATER, "groups": list(_groups(table, fields))}
-        for table, fields in _tables(design).items()
+        {
+            "table": table,
+            "title": table_title(table),
+            "folded": table in _LATER and table not in tables,
+            "groups": list(_groups(table, fields, members)),
+        }
+        for table, fields in _tables(design, tables).items()
     ]
 
 
-def _tables(design: Design) -> Fields:
+def table_title(table: str) -> str:
+    """What a table is called: its name, in words."""
+    return table.replace("_", " ").capitalize()
+
+
+def part_title(part: str) -> str:
+    """What a part of a table is called."""
+    return _TITLES.get(part, table_title(part))
+
+
+def words_of(key: str, field: FieldSchema) -> str:
+    """What a key is called, in words."""
+    return field.symbol.words or key.rpartition(".")[2].replace("_", " ")
+
+
+def _tables(design: Design, tables: Mapping[str, Any]) -> Fields:
     if design.kind is DesignKind.PLANETARY:
         from gearcad.designs.planetary_keys import PLANETARY
 
-        return {table: PLANETARY[table] for table in PLANETARY if table not in OF_SETS or table in design.gears}
+        return {table: PLANETARY[table] for table in PLANETARY if table not in OF_SETS or table in tables}
     beside = [table for table in BESIDE if hasattr(design, table)]
     return {table: FIELDS[table] for table in (*MAIN_TABLES[design.kind], *beside)}
 
 
-def _groups(table: str, fields: Mapping[str, FieldSchema]) -> Iterator[dict[str, Any]]:
-    """The fields of a table, those of its parts together, each with its part's name."""
+def _groups(table: str, fields: Mapping[str, FieldSchema], members: tuple[str, ...]) -> Iterator[dict[str, Any]]:
+    """The fields of a table, those of its parts together, each with the titles of its part."""
     groups: dict[str, list[dict[str, Any]]] = {"": []}
     for key, field in fields.items():
-        groups.setdefault(key.rpartition(".")[0], []).append(_field(f"{table}.{key}", field))
+        groups.setdefault(key.rpartition(".")[0], []).append(_field(f"{table}.{key}", field, members))
     for part, of_part in groups.items():
-        yield {
-            "part": part,
-            "title": _TITLES.get(part, part.replace("_", " ").replace(".", ": ").capitalize()),
-            "fields": of_part,
-        }
+        titles = [part_title(each) for each in part.split(".") if each]
+        yield {"part": part, "titles": titles, "fields": of_part}
 
 
-def _field(key: str, field: FieldSchema) -> dict[str, Any]:
+def _field(key: str, field: FieldSchema, members: tuple[str, ...]) -> dict[str, Any]:
     """What the browser needs of one field; numbers are typed as text, so that what is half typed is not lost."""
     symbol = field.symbol
     least, most = _bounds(field)
     return {
         "key": key,
-        "words": symbol.words or key.rpartition(".")[2].replace("_", " "),
+        "words": words_of(key, field),
         "symbol": symbol.symbol,
-        "unit": symbol.unit,
+        "unit": "°" if symbol.unit == "deg" else symbol.unit,
         "source": symbol.source,
         "choices": _choices(field),
-        "special": list(field.words),
+        "offered": list(members if key in _MEMBERS else (*field.words, *_offered(key))),
+        "number": not (field.several or field.nested or field.text),
         "whole": field.whole,
-        "required": field.required,
-        "several": field.several,
         "least": least,
         "most": most,
     }
@@ -91,6 +126,15 @@ def _bounds(field: FieldSchema) -> tuple[float | None, float | None]:
     return None, None
 
 
+def _offered(key: str) -> tuple[str, ...]:
+    table, _, name = key.rpartition(".")
+    if table in ("gear", "rack"):
+        return () if name in ("profile_shift", "tip_alteration") else _OFFERED.get(name, ())
+    if table == "material" or table.endswith(".material"):
+        return _GRADES if name == "name" or name in (*OF_SETS, "pinion", "wheel", "rack") else ()
+    return _OFFERED.get(name, ())
+
+
 def _choices(field: FieldSchema) -> list[str]:
     """The words that it can be; none of what can be anything else."""
     if field.switch:
@@ -103,15 +147,43 @@ def _choices(field: FieldSchema) -> list[str]:
 
 def given_texts(tables: Mapping[str, Any]) -> dict[str, str]:
     """What a spec says, as one types it, under dotted keys; what no field can hold is left to the text."""
-    return {key: text for key, value in _flat(tables) if (text := _typed(key, value)) is not None}
+    return _texts(tables, "")
 
 
-def used_texts(design: Design) -> dict[str, str]:
+def used_texts(design: Design, tables: Mapping[str, Any]) -> dict[str, str]:
     """What a design uses - given, shared, derived or by default - under the same keys: it stands in empty fields."""
-    return {key: text for key, value in _flat(design.to_dict()) if (text := _typed(key, value)) is not None}
+    used = dict(_by_default(design.kind))
+    for table, content in design.to_dict().items():
+        if isinstance(content, Mapping):
+            used |= _texts(content, f"{_named(tables).get(table, table)}.", _USED_DIGITS)
+    return used
 
 
-def _flat(content: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+def _named(tables: Mapping[str, Any]) -> dict[str, str]:
+    """The tables of a train's gears by the names that their users gave them: documents have them under these."""
+    named = {table: tables[table].get("name") for table in OF_SETS if isinstance(tables.get(table), Mapping)}
+    return {name: table for table, name in named.items() if isinstance(name, str)}
+
+
+@cache
+def _by_default(kind: DesignKind) -> Mapping[str, str]:
+    """What tables that stand beside a gear are where a spec does not say it."""
+    made: dict[str, str] = {}
+    for table in BESIDE if kind is not DesignKind.PLANETARY else [each for each in BESIDE if each not in ("load", "mounting")]:
+        made |= _texts(_defaults(BESIDE[table]), f"{table}.")
+    return MappingProxyType(made)
+
+
+def _defaults(kind: type[DataclassInstance]) -> dict[str, Any]:
+    """The defaults of a type's fields that have one."""
+    return {each.name: each.default for each in fields(kind) if each.default is not MISSING and each.default is not None}
+
+
+def _texts(content: Mapping[str, Any], before: str, digits: int = _DIGITS) -> dict[str, str]:
+    return {key: text for key, value in _flat(content, before) if (text := _typed(key, value, digits)) is not None}
+
+
+def _flat(content: Mapping[str, Any], before: str) -> Iterator[tuple[str, Any]]:
     for name, value in content.items():
         key = f"{before}{name}"
         if isinstance(value, Mapping):
@@ -120,7 +192,7 @@ def _flat(content: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, A
             yield key, value
 
 
-def _typed(key: str, value: Any) -> str | None:
+def _typed(key: str, value: Any, digits: int) -> str | None:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, Enum):
@@ -128,7 +200,7 @@ def _typed(key: str, value: Any) -> str | None:
     if isinstance(value, str | int):
         return str(value)
     if isinstance(value, float):
-        return repr(round(value, 9) + 0.0).removesuffix(".0")
+        return repr(float(f"{value:.{digits}g}") + 0.0).removesuffix(".0")
     if isinstance(value, list | tuple) and value:
         try:
             if all(isinstance(each, int | float) for each in value):

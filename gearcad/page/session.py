@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import secrets
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +40,7 @@ class Session:
             self._bar()
         with ui.element("main").classes("panels"):
             with ui.element("div").classes("left"):
-                self._inputs = InputsPanel(self.typed, words)
+                self._inputs = InputsPanel(self.typed, self.step, words)
             with ui.element("div").classes("middle"):
                 self._bodies = BodiesPanel(self.key)
                 self._section = SectionPanel()
@@ -69,10 +68,9 @@ class Session:
 
     def _bar(self) -> None:
         ui.label(self.bench.name).classes("name")
-        self._undo = ui.button(icon="undo", on_click=lambda: self.step(self.bench.undo)).props("flat dense round")
-        self._redo = ui.button(icon="redo", on_click=lambda: self.step(self.bench.redo)).props("flat dense round")
+        self._undo = ui.button(icon="undo", on_click=lambda: self.step(False)).props("flat dense round")
+        self._redo = ui.button(icon="redo", on_click=lambda: self.step(True)).props("flat dense round")
         ui.slider(min=-0.5, max=0.5, step=0.002, value=0, on_change=lambda event: self.pose(event.value))
-        self._fault = ui.label("").classes("fault-line")
         for language in Language:
             spoken = ui.button(language.value, on_click=lambda _, language=language: self.speak(language)).props("flat dense")
             spoken.set_enabled(language is not self.words.language)
@@ -82,20 +80,19 @@ class Session:
         self.bench.change({key: text})
         self.follow()
 
-    def step(self, take: Callable[[], None]) -> None:
-        """Undo or redo."""
-        take()
-        self.follow()
+    def step(self, forth: bool) -> None:
+        """Redo, or undo."""
+        (self.bench.redo if forth else self.bench.undo)()
+        self.follow(reveal=True)
 
     def pose(self, turn: float) -> None:
         """Turn the first gear by so many radians."""
         self._bodies.pose(turn)
         self._section.pose(turn)
 
-    def follow(self) -> None:
+    def follow(self, reveal: bool = False) -> None:
         """Show what the workbench has: inputs at once, all else as it is found."""
-        self._inputs.follow(self.bench)
-        self._fault.set_text(self.bench.fault.line if self.bench.fault else "")
+        self._inputs.follow(self.bench, reveal)
         self._undo.set_enabled(self.bench.can_undo)
         self._redo.set_enabled(self.bench.can_redo)
         self._change += 1

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import time
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from gearcad.designs.cells import CellReader, Layout
 from gearcad.designs.design import Design
@@ -16,29 +16,39 @@ from gearcad.designs.named_files import files_only_in
 from gearcad.designs.reader import design_from_tables
 from gearcad.errors import GearcadError, SpecError
 
-__all__ = ["Fault", "Workbench"]
+__all__ = ["TEXT", "Fault", "Workbench"]
 
 _MOST_STEPS = 1000
 """Steps back that are kept: the eldest go first."""
 
+_PAUSE = 1.0
+"""Seconds after which what is typed into the same field is another step."""
 
-@dataclass(frozen=True)
-class Fault:
-    """What is wrong with a text: the line that the command line would print, and the key at fault ("" where it is none)."""
+TEXT = "text"
+"""Where one types who types into the text itself."""
+
+
+class Fault(NamedTuple):
+    """What is wrong with a text: the line that the command line would print, and the key at fault ("" where it is none).
+
+    What cannot be written into the text at all is not `written`: only the field has it.
+    """
 
     line: str
     key: str = ""
+    written: bool = True
 
 
 class Workbench:
     """One design under change: `text` is its spec, `design` the last that could be made, `fault` why the text makes none.
 
     `tables` are what the text says, as far as it can be read at all, and `former` what the one before said. A change is a step:
-    it can be undone and redone. Files that it names must be in `folder`. Raises SpecError for a first text that makes nothing.
+    it can be undone and redone. What is typed in one place without a pause is one step. Files that it names must be in `folder`.
+    Raises SpecError for a first text that makes nothing.
     """
 
-    def __init__(self, text: str, name: str, folder: Path) -> None:
-        self.name, self.folder = name, folder
+    def __init__(self, text: str, name: str, folder: Path, clock: Callable[[], float] = time.monotonic) -> None:
+        self.name, self.folder, self._clock = name, folder, clock
         self.text = text
         self.fault: Fault | None = None
         self.tables, where = self._tables()
@@ -46,6 +56,7 @@ class Workbench:
         self.design = self._design(self.tables, where)
         self._back: list[str] = []
         self._forth: list[str] = []
+        self._place, self._typed = "", 0.0
 
     @property
     def can_undo(self) -> bool:
@@ -64,33 +75,42 @@ class Workbench:
         try:
             text = edit_spec(self.text, {key: _value(key, typed) for key, typed in given.items()})
         except GearcadError as error:
-            self.fault = Fault(str(error), next(iter(given), ""))
+            self.fault = Fault(str(error), next(iter(given), ""), written=False)
             return False
-        return self.write(text)
+        return self.write(text, " ".join(given))
 
-    def write(self, text: str) -> bool:
-        """Take another text, as a step that can be undone; whether it is another one."""
-        other = text != self.text
+    def write(self, text: str, place: str = "") -> bool:
+        """Take another text, as a step that can be undone; whether it is another one.
+
+        What comes from the same `place` as the last text, within a pause of typing, goes on with that step.
+        """
+        other, now = text != self.text, self._clock()
         if other:
-            self._back = [*self._back[1 - _MOST_STEPS :], self.text]
+            going_on = bool(place and self._back) and place == self._place and now - self._typed <= _PAUSE
+            if not going_on:
+                self._back = [*self._back[1 - _MOST_STEPS :], self.text]
+                self.former = self.tables
             self._forth.clear()
+            self._place, self._typed = place, now
         self._take(text)
         return other
 
     def undo(self) -> None:
         """Go a step back, if there is one."""
-        if self._back:
-            self._forth.append(self.text)
-            self._take(self._back.pop())
+        self._go(self._back, self._forth)
 
     def redo(self) -> None:
         """Go a step forth again, if there is one."""
-        if self._forth:
-            self._back.append(self.text)
-            self._take(self._forth.pop())
+        self._go(self._forth, self._back)
+
+    def _go(self, these: list[str], others: list[str]) -> None:
+        if these:
+            others.append(self.text)
+            self._place, self.former = "", self.tables
+            self._take(these.pop())
 
     def _take(self, text: str) -> None:
-        self.text, self.fault, self.former = text, None, self.tables
+        self.text, self.fault = text, None
         try:
             self.tables, where = self._tables()
             self.design = self._design(self.tables, where)

@@ -7,8 +7,14 @@ from pathlib import Path
 
 import pytest
 
+from gearcad import symbols
+from gearcad.designs.keys import FIELDS
+from gearcad.designs.planetary_keys import PLANETARY
+from gearcad.page.fields import part_title, table_title, words_of
 from gearcad.page.words import Language, Words, language_of
 from gearcad.shipped import PACKAGE
+
+_SAME = {"name"}
 
 
 @pytest.mark.parametrize(
@@ -34,8 +40,31 @@ def test_words_without_others_stay_english() -> None:
     assert Words.of(Language.ENGLISH)["find a key"] == "find a key"
 
 
-def test_every_word_of_the_page_has_its_german() -> None:
-    assert set(Words.of(Language.GERMAN).table) == _own_words()
+def test_every_word_has_its_german_and_none_is_left_over() -> None:
+    assert set(Words.of(Language.GERMAN).table) == _own_words() | _words_of_inputs() | _words_of_symbols()
+
+
+def test_germans_are_words_of_their_own() -> None:
+    """What is the same in both languages is meant to be."""
+    table = Words.of(Language.GERMAN).table
+    assert {english for english, german in table.items() if english.lower() == german.lower()} <= _SAME
+
+
+def _words_of_inputs() -> set[str]:
+    """Tables, parts and keys of all specs."""
+    found = set()
+    for tables in (FIELDS, PLANETARY):
+        for table, fields in tables.items():
+            found.add(table_title(table))
+            for key, field in fields.items():
+                found.update((words_of(key, field), *map(part_title, key.split(".")[:-1])))
+    return found
+
+
+def _words_of_symbols() -> set[str]:
+    """What is derived and computed."""
+    tables = [value for name in symbols.__all__ if isinstance(value := getattr(symbols, name), dict)]
+    return {symbol.words for table in tables for symbol in table.values() if isinstance(symbol, symbols.Symbol)}
 
 
 def _own_words() -> set[str]:

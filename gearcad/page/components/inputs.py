@@ -11,13 +11,16 @@ __all__ = ["InputsView"]
 
 
 class InputsView(Element, component="spec_inputs.js"):
-    """Calls `changed(key, text)` with what is typed. `words` are the page's own, `terms` those of fields, in its language."""
+    """Calls `changed(key, text)` with what is typed, and `step(forth)` for keys that undo or redo.
 
-    def __init__(self, changed: Callable[[str, str], None], words: dict[str, str], terms: dict[str, str]) -> None:
+    `words` are its own, in the language of the page.
+    """
+
+    def __init__(self, changed: Callable[[str, str], None], step: Callable[[bool], None], words: dict[str, str]) -> None:
         super().__init__()
-        self._props["words"], self._props["terms"] = words, terms
-        self._props["tables"] = []
+        self._props["words"], self._props["tables"] = words, []
         self.on("change", lambda event: changed(str(event.args["key"]), str(event.args["text"])))
+        self.on("step", lambda event: step(bool(event.args["forth"])))
 
     def have(self, tables: list[dict[str, Any]]) -> None:
         """Make fields of what `gearcad.page.fields` says of the tables of a kind of design."""
@@ -25,5 +28,8 @@ class InputsView(Element, component="spec_inputs.js"):
         self.update()
 
     def show(self, state: dict[str, Any]) -> None:
-        """What is `given` and `used` under which key, which keys have `changed`, and the `fault`, if there is one."""
+        """What is `given` and `used` under which key, which keys have `changed`, and the `fault`, if there is one.
+
+        With `reveal` what has changed comes into sight, and what was being typed goes.
+        """
         self.run_method("show", state)

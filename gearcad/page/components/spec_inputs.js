@@ -1,88 +1,209 @@
 // The inputs of a spec: what the schema says of each key makes a field. What is typed is sent as text; what is wrong with it
-// comes back as the line that the command line prints, and is shown at its field.
+// comes back as the line that the command line prints, and is shown at its field. One change is on its way at a time: what is
+// typed meanwhile waits, so that no server lags behind a key that is held down.
+const PATIENCE = 3000; // ms until a change that nobody answers is taken for lost
+const PHONE = "(max-width: 640px)";
+
 export default {
   template: `
-    <form class="inputs" @submit.prevent autocomplete="off">
-      <input class="search" type="search" :placeholder="words.search" v-model="wanted" :aria-label="words.search" />
+    <form class="inputs" @submit.prevent autocomplete="off" :aria-label="words.inputs">
+      <div class="find">
+        <input class="search" type="search" ref="search" v-model="wanted" :placeholder="words.search + '  /'" :aria-label="words.search"
+               @keydown.esc="wanted = ''; $event.target.blur()" @keydown.enter.prevent="next($event)" />
+        <button v-if="faultAbove" type="button" class="fault" role="alert" @click="go(fault.key)">{{ fault.line }}</button>
+      </div>
+      <p v-if="!shownTables.length" class="none">{{ tables.length ? words.nothing : words.textOnly }}</p>
       <details v-for="table in shownTables" :key="table.table" :open="wanted !== '' || !table.folded" class="table">
-        <summary>{{ said(table.table) }}</summary>
-        <template v-for="group in table.groups" :key="group.part">
-          <component :is="group.part && !wanted ? 'details' : 'div'" class="group">
-            <summary v-if="group.part && !wanted">{{ said(group.title) }}<b v-if="count(group)">{{ count(group) }}</b></summary>
-            <label v-for="field in group.fields" :key="field.key" class="field"
-                   :class="{ changed: changed.includes(field.key), wrong: fault && fault.key === field.key, given: field.key in given }"
-                   :title="hint(field)" :data-key="field.key">
-              <span class="words">{{ said(field.words) }}<i v-if="field.symbol">{{ field.symbol }}</i></span>
-              <select v-if="field.choices.length" :value="given[field.key] ?? ''" :disabled="readonly"
-                      @change="send(field.key, $event.target.value)">
-                <option value="">{{ used[field.key] ?? "" }}</option>
-                <option v-for="word in field.choices" :key="word" :value="word">{{ word }}</option>
-              </select>
-              <input v-else type="text" :inputmode="field.several ? 'text' : 'decimal'" spellcheck="false" :readonly="readonly"
-                     :value="typing.key === field.key ? typing.text : given[field.key] ?? ''"
-                     :placeholder="used[field.key] ?? ''" :aria-invalid="!!(fault && fault.key === field.key)"
-                     @input="type(field.key, $event.target.value)" @blur="leave(field.key)"
-                     @keydown.up.prevent="step(field, 1, $event)" @keydown.down.prevent="step(field, -1, $event)" />
-              <span class="unit">{{ field.unit }}</span>
-              <span v-if="fault && fault.key === field.key" class="fault" role="alert">{{ fault.line }}</span>
-            </label>
-          </component>
-        </template>
+        <summary>{{ table.title }}<b v-if="count(table)">{{ count(table) }}</b></summary>
+        <component v-for="group in table.groups" :key="group.part" :is="group.part && !wanted ? 'details' : 'div'" class="group">
+          <summary v-if="group.part && !wanted" :class="{ changed: group.fields.some(isChanged) }">{{ group.title }}<b v-if="countIn(group)">{{ countIn(group) }}</b></summary>
+          <div v-for="field in group.fields" :key="field.key" :data-key="field.key" class="field"
+               :class="{ changed: isChanged(field), wrong: isWrong(field), given: field.key in given }">
+            <label :for="'in-' + field.key" :title="field.words"><span>{{ field.words }}</span><i v-if="field.symbol">{{ field.symbol }}</i></label>
+            <select v-if="field.choices.length" :id="'in-' + field.key" :value="given[field.key] ?? ''" :disabled="readonly"
+                    :aria-invalid="isWrong(field)" @focus="focused = field" @change="send(field.key, $event.target.value)">
+              <option value="">{{ used[field.key] ?? "" }}</option>
+              <option v-if="given[field.key] && !field.choices.includes(given[field.key])">{{ given[field.key] }}</option>
+              <option v-for="word in field.choices" :key="word" :value="word">{{ word }}</option>
+            </select>
+            <input v-else :id="'in-' + field.key" type="text" spellcheck="false" :class="{ words: !field.number }"
+                   :readonly="readonly" :value="drafts[field.key] ?? given[field.key] ?? ''" :placeholder="used[field.key] ?? ''"
+                   :list="field.offered.length ? 'of-' + field.key : null" :aria-invalid="isWrong(field)"
+                   @focus="focused = field" @input="type(field.key, $event.target.value)" @blur="leave(field.key)"
+                   @keydown="press(field, $event)" />
+            <button v-if="field.key in given && !readonly" type="button" class="out" tabindex="-1" :title="words.out"
+                    :aria-label="words.out + ': ' + field.words" @click="out(field.key)">×</button>
+            <span v-else />
+            <span class="unit">{{ field.unit }}</span>
+            <datalist v-if="field.offered.length" :id="'of-' + field.key"><option v-for="word in field.offered" :key="word" :value="word" /></datalist>
+            <span v-if="isWrong(field)" class="fault" role="alert">{{ fault.line }}</span>
+          </div>
+        </component>
       </details>
+      <div class="hint" role="status">{{ hint }}</div>
     </form>`,
-  props: { tables: Array, words: Object, terms: Object },
+  props: { tables: Array, words: Object },
   data() {
-    return { wanted: "", typing: { key: null, text: "" }, given: {}, used: {}, changed: [], fault: null, readonly: false };
+    return { wanted: "", drafts: {}, given: {}, used: {}, changed: [], fault: null, focused: null, readonly: false };
   },
   computed: {
+    keys() {
+      return new Set(this.tables.flatMap((table) => table.groups.flatMap((group) => group.fields.map((field) => field.key))));
+    },
     shownTables() {
-      const wanted = this.wanted.trim().toLowerCase();
-      if (!wanted) return this.tables;
-      const fits = (field) => `${field.key} ${this.said(field.words)} ${field.symbol}`.toLowerCase().includes(wanted);
+      const parts = this.wanted.trim().toLowerCase().split(/\s+/);
+      if (!parts[0]) return this.tables;
+      const fits = (table, group) => (field) => {
+        const said = `${field.key} ${field.words} ${field.symbol} ${table.title} ${group.title}`.toLowerCase();
+        return parts.every((part) => said.includes(part));
+      };
       return this.tables
         .map((table) => ({
           ...table,
           groups: table.groups
-            .map((group) => ({ ...group, fields: group.fields.filter(fits) }))
+            .map((group) => ({ ...group, fields: group.fields.filter(fits(table, group)) }))
             .filter((group) => group.fields.length),
         }))
         .filter((table) => table.groups.length);
     },
+    // A fault that no field can show, or whose field is not the one that is being typed into.
+    faultAbove() {
+      return this.fault && !(this.keys.has(this.fault.key) && this.focused?.key === this.fault.key);
+    },
+    hint() {
+      const field = this.focused;
+      if (!field) return "";
+      const said = [field.key];
+      if (field.least !== null || field.most !== null)
+        said.push(`${field.least ?? "−∞"} … ${field.most ?? "∞"} ${field.unit}`.trim());
+      if (field.offered.length && field.offered.length < 8) said.push(field.offered.join(", "));
+      if (field.source) said.push(field.source);
+      const shared = `pair.${field.key.slice(field.key.indexOf(".") + 1)}`;
+      if (!(field.key in this.given) && field.key !== shared && shared in this.given) said.push(`${this.words.shared} ${shared}`);
+      return said.join(" · ");
+    },
+  },
+  created() {
+    this.waiting = null; // a change that is on its way, and since when
+    this.queue = {};
+  },
+  mounted() {
+    this.phone = window.matchMedia(PHONE);
+    this.turned = () => (this.readonly = this.phone.matches);
+    this.phone.addEventListener("change", this.turned);
+    this.turned();
+    window.addEventListener("keydown", this.shortcut);
+  },
+  unmounted() {
+    this.phone.removeEventListener("change", this.turned);
+    window.removeEventListener("keydown", this.shortcut);
+    clearTimeout(this.waiting);
   },
   methods: {
-    show(state) {
+    show({ reveal, ...state }) {
+      const former = this.fault?.key;
       Object.assign(this, state);
+      this.answered();
+      if (reveal) this.drafts = {};
+      const key = this.fault?.key && this.fault.key !== former ? this.fault.key : reveal ? this.changed[0] : null;
+      if (key) this.$nextTick(() => this.reveal(key, !this.focused));
     },
-    said(words) {
-      return this.terms[words] ?? words;
+    isChanged(field) {
+      return this.changed.includes(field.key);
     },
-    count(group) {
+    isWrong(field) {
+      return this.fault?.key === field.key;
+    },
+    countIn(group) {
       return group.fields.filter((field) => field.key in this.given).length;
     },
-    hint(field) {
-      const lines = [field.key];
-      if (field.least !== null || field.most !== null) lines.push(`${field.least ?? "-∞"} … ${field.most ?? "∞"} ${field.unit}`);
-      if (field.special.length) lines.push(field.special.join(", "));
-      if (field.source) lines.push(field.source);
-      return lines.join("\n");
+    count(table) {
+      return table.groups.reduce((sum, group) => sum + this.countIn(group), 0);
+    },
+    place(key) {
+      return [...this.$el.querySelectorAll(".field")].find((each) => each.dataset.key === key);
+    },
+    reveal(key, scroll = true) {
+      const place = this.place(key);
+      for (let around = place?.closest("details"); around; around = around.parentElement.closest("details")) around.open = true;
+      if (scroll) place?.scrollIntoView({ block: "nearest" });
+      return place;
+    },
+    go(key) {
+      this.wanted = "";
+      this.$nextTick(() => this.reveal(key)?.querySelector("input, select").focus());
     },
     type(key, text) {
-      this.typing = { key, text };
+      this.drafts[key] = text;
       this.send(key, text);
     },
+    // What could not be written into the spec is only here.
     leave(key) {
-      if (this.typing.key === key) this.typing = { key: null, text: "" };
+      this.focused = null;
+      if (!(this.fault?.key === key && !this.fault.written)) delete this.drafts[key];
+    },
+    out(key) {
+      delete this.drafts[key];
+      this.send(key, "");
+      this.place(key)?.querySelector("input, select").focus();
+    },
+    press(field, event) {
+      if (event.key === "Enter") {
+        event.preventDefault();
+        this.next(event);
+      } else if (event.key === "Escape") event.target.blur();
+      else if (field.number && (event.key === "ArrowUp" || event.key === "ArrowDown")) {
+        event.preventDefault();
+        this.step(field, event.key === "ArrowUp" ? 1 : -1, event);
+      }
+    },
+    next(event) {
+      const all = [...this.$el.querySelectorAll("input, select")].filter((each) => each.offsetParent);
+      const at = all.indexOf(event.target) + (event.shiftKey ? -1 : 1);
+      all[at]?.focus();
+      if (all[at]?.select) all[at].select();
     },
     step(field, sign, event) {
-      const text = event.target.value || event.target.placeholder;
-      const value = Number(text.replace(",", "."));
-      if (field.several || text.trim() === "" || Number.isNaN(value) || this.readonly) return;
-      const digits = field.whole ? 0 : Math.max((text.split(/[.,]/)[1] ?? "").length, 1);
-      const size = (field.whole ? 1 : 10 ** -digits) * (event.shiftKey ? 10 : 1);
-      this.type(field.key, (value + sign * size).toFixed(digits));
+      const text = (event.target.value || event.target.placeholder).replace(",", ".").replace("−", "-");
+      const value = Number(text);
+      if (text.trim() === "" || Number.isNaN(value) || this.readonly) return;
+      const typed = (text.split(".")[1] ?? "").length;
+      const digits = field.whole ? 0 : typed || (Math.abs(value) < 10 ? 1 : 0);
+      const stepped = (value + sign * 10 ** -digits * (event.shiftKey ? 10 : 1)).toFixed(digits);
+      this.type(field.key, Number(stepped) === 0 ? stepped.replace("-", "") : stepped);
     },
     send(key, text) {
+      this.queue[key] = text;
+      if (this.waiting === null) this.flush();
+    },
+    flush() {
+      const [key] = Object.keys(this.queue);
+      if (key === undefined) return;
+      const text = this.queue[key];
+      delete this.queue[key];
+      this.waiting = setTimeout(() => this.answered(), PATIENCE);
       this.$emit("change", { key, text });
+    },
+    answered() {
+      clearTimeout(this.waiting);
+      this.waiting = null;
+      this.flush();
+    },
+    shortcut(event) {
+      const typing = event.target.closest?.("input, textarea, select, [contenteditable=true]");
+      const ours = this.$el.contains(event.target) && event.target !== this.$refs.search;
+      const key = event.key.toLowerCase();
+      if ((event.ctrlKey || event.metaKey) && !event.altKey && (key === "z" || key === "y")) {
+        if (typing && !ours) return;
+        event.preventDefault();
+        this.drafts = {};
+        this.queue = {};
+        this.$emit("step", { forth: key === "y" || event.shiftKey });
+      } else if (key === "/" && !typing) {
+        event.preventDefault();
+        this.$refs.search.focus();
+        this.$refs.search.select();
+      }
     },
   },
 };
