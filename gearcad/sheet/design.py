@@ -1,0 +1,107 @@
+"""The sheet of a design of any kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict
+from typing import Any
+
+from gearcad.designs.design import Design, DesignKind
+from gearcad.designs.keys import BESIDE, FIELDS, Fields
+from gearcad.errors import format_number
+from gearcad.geometry import Rack
+from gearcad.material import Material
+from gearcad.schema import symbols_of
+from gearcad.sheet.blocks import ABSENT, Row, Section, Sheet, block, flattened
+from gearcad.sheet.gears import gear_section, rack_section
+from gearcad.sheet.pairs import pair_section
+from gearcad.symbols import Symbol
+
+__all__ = ["sheet_of"]
+
+_OF_EVERY_RATING = ("standard", "accuracy", "accuracy_grade")
+
+
+def sheet_of(design: Design) -> Sheet:
+    """A column for each gear, then the pair, material, load, mounting and rating, then the notices."""
+    document = design.to_dict()
+    if design.kind is DesignKind.TRAIN:
+        from gearcad.sheet.train import train_sections
+
+        title = f"train, {len(document['inertia'])} inertias"
+        return Sheet(design.name, title, "lengths in mm", "", tuple(train_sections(document)), design.notices)
+    sections = tuple(section for section in _sections(design, document) if section.blocks)
+    units = "lengths in mm, angles in degrees"
+    return Sheet(design.name, _title(design, document), units, "clauses of ISO 21771:2007", sections, design.notices)
+
+
+def _sections(design: Design, document: Mapping[str, Any]) -> Iterator[Section]:
+    pair = flattened(document.get("pair", {})) | document.get("drive", {})
+    if design.gears:
+        yield gear_section(design.gears, document, pair)
+    if isinstance(rack := design.described.get("rack"), Rack):
+        yield rack_section(rack)
+    yield pair_section({"": pair} if pair else {})
+    fields: Fields = FIELDS
+    if design.kind is DesignKind.PLANETARY:
+        from gearcad.designs.planetary_keys import PLANETARY as fields
+        from gearcad.sheet.planetary import planetary_sections
+
+        yield from planetary_sections(document["planetary"])
+    yield _material_section(document)
+    for table in ("load", "mounting", "rating"):
+        given = _shown_of(table, document.get(table, {}))
+        rows = [_row(f"{table}.{key}", fields[table][key].symbol, [value]) for key, value in given.items()]
+        yield Section((), block(table.capitalize(), rows))
+
+
+def _material_section(document: Mapping[str, Any]) -> Section:
+    """The material of all gears, or a column for each."""
+    every = document.get("materials", {})
+    if not every and "material" in document:
+        every = {"": document["material"]}
+    rows = [
+        _row(f"material.{key}", symbol, [of[key] for of in every.values()])
+        for key, symbol in symbols_of(Material).items()
+        if any(of[key] is not None for of in every.values())
+    ]
+    return Section(tuple(every) if len(every) > 1 else (), block("Material", rows))
+
+
+def _row(key: str, symbol: Symbol, values: list[Any]) -> Row:
+    return Row(key, symbol, tuple(values), tuple(ABSENT if value is None else _given(value) for value in values))
+
+
+def _shown_of(table: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    """What is there; of the mounting what is not 0, and of the rating, which has much, what is not as ever."""
+    there = {key: value for key, value in values.items() if value is not None and not (table == "mounting" and value == 0)}
+    if table != "rating" or not there:
+        return there
+    usual = asdict(BESIDE["rating"]())
+    return {key: value for key, value in there.items() if key in _OF_EVERY_RATING or value != usual[key]}
+
+
+def _title(design: Design, document: Mapping[str, Any]) -> str:
+    if isinstance(rack := design.described.get("rack"), Rack):
+        teeth = " / ".join(map(str, [*(gear.teeth for gear in design.gears.values()), rack.teeth]))
+        return f"{'helical' if rack.helix_angle else 'spur'} {'pinion and ' if design.gears else ''}rack, z = {teeth}"
+    teeth = " / ".join(str(gear.teeth) for gear in design.gears.values())
+    if design.kind is DesignKind.PLANETARY:
+        return f"planetary train of type {document['planetary']['set_type']}, z = {teeth}"
+    double = any(gear.double_helix.present for gear in design.gears.values())
+    helical = any(gear.helix_angle for gear in design.gears.values())
+    teeth_are = "double helical" if double else "helical" if helical else "spur"
+    internal = any(gear.internal for gear in design.gears.values())
+    return f"{'internal ' if internal else ''}{teeth_are} {design.kind.value}, z = {teeth}"
+
+
+def _given(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, tuple):
+        if isinstance(value[0], tuple):
+            from gearcad.designs.cells import nested_text
+
+            return nested_text(value)
+        return " ... ".join(map(format_number, value))
+    return value if isinstance(value, str) else format_number(value)
