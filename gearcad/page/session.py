@@ -45,7 +45,7 @@ class Session:
                 self._bodies = BodiesPanel(self.key)
                 self._section = SectionPanel()
             with ui.element("div").classes("right"):
-                sheet = SheetPanel()
+                sheet = SheetPanel(words)
         self._panels: tuple[Panel[Any], ...] = (self._section, sheet, self._bodies)
         ui.context.client.on_delete(self._leave)
         self.follow()

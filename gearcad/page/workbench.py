@@ -43,7 +43,7 @@ class Workbench:
     """One design under change: `text` is its spec, `design` the last that could be made, `fault` why the text makes none.
 
     `tables` are what the text says, as far as it can be read at all, and `former` what the one before said. A change is a step:
-    it can be undone and redone. What is typed in one place without a pause is one step. Files that it names must be in `folder`.
+    it can be undone and redone. What is typed in one place without a pause is one step. Files it names must be in `folder`.
     Raises SpecError for a first text that makes nothing.
     """
 

@@ -12,6 +12,7 @@ from gearcad.designs.keys import FIELDS
 from gearcad.designs.planetary_keys import PLANETARY
 from gearcad.page.fields import part_title, table_title, words_of
 from gearcad.page.words import Language, Words, language_of
+from gearcad.sheet import gears, pairs, train
 from gearcad.shipped import PACKAGE
 
 _SAME = {"name"}
@@ -41,7 +42,7 @@ def test_words_without_others_stay_english() -> None:
 
 
 def test_every_word_has_its_german_and_none_is_left_over() -> None:
-    assert set(Words.of(Language.GERMAN).table) == _own_words() | _words_of_inputs() | _words_of_symbols()
+    assert set(Words.of(Language.GERMAN).table) == _own_words() | _words_of_inputs() | _words_of_symbols() | _titles_of_sheets()
 
 
 def test_germans_are_words_of_their_own() -> None:
@@ -65,6 +66,12 @@ def _words_of_symbols() -> set[str]:
     """What is derived and computed."""
     tables = [value for name in symbols.__all__ if isinstance(value := getattr(symbols, name), dict)]
     return {symbol.words for table in tables for symbol in table.values() if isinstance(symbol, symbols.Symbol)}
+
+
+def _titles_of_sheets() -> set[str]:
+    """Blocks of data sheets."""
+    single = {"Gear mesh", "Planetary train", "Train", "Material", "Load", "Mounting", "Rating"}
+    return single.union(gears._GEAR_BLOCKS, gears._RACK_BLOCKS, pairs._PAIR_BLOCKS, train._TITLES.values())
 
 
 def _own_words() -> set[str]:

@@ -1,0 +1,135 @@
+// Blocks of quantities as tables: words, symbol, unit, values. What changed by the last step stands beside what it was, and what a
+// kept design has in lines below. Rows are walked by the arrow keys; Enter puts one on top, or takes it from there.
+const NUMBER = /^(\D*\d+)([.]\d+)?(e[+-]?\d+)?$/;
+
+export default {
+  template: `
+    <section class="gear-sheet" :aria-label="label" @keydown="walk">
+      <header>
+        <h2 v-if="content.title" :class="content.verdict">{{ content.title }}</h2>
+        <p v-for="line in content.lines" :key="line">{{ line }}</p>
+        <input v-if="content.sections.length" class="search" type="search" v-model="wanted" :placeholder="words.search" :aria-label="words.search" />
+        <p class="aside" role="status">{{ content.changes ? content.changes + " " + words.changed : "" }}</p>
+      </header>
+      <ul v-if="content.notices.length" class="notices" :aria-label="words.notices">
+        <li v-for="notice in content.notices" :key="notice.text">{{ notice.text }}
+          <button v-for="key in notice.keys" :key="key" type="button" class="key" @click="focus(key)">{{ key }}</button></li>
+      </ul>
+      <details v-for="block in blocks" :key="block.id" :open="block.open" @toggle="fold(block, $event.target.open)">
+        <summary>{{ block.title }}</summary>
+        <table>
+          <thead v-if="block.columns.length"><tr><th colspan="3"></th><th v-for="name in block.columns" :key="name" scope="col">{{ name }}</th></tr></thead>
+          <tbody v-for="row in block.rows" :key="row.key">
+            <tr :data-row="row.key" :title="hint(row)" :tabindex="row === here(block) ? 0 : -1" @focus="at = block.id + row.key">
+              <th scope="row">{{ row.words }}</th><td class="symbol">{{ row.symbol }}</td><td class="unit">{{ row.unit }}</td>
+              <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ changed: cell.former }" :colspan="span(block, row)">
+                <del v-if="cell.former">{{ cell.former }}</del><span class="whole">{{ split(cell.text)[0] }}</span
+                ><span class="rest" :style="{ minWidth: block.rest + 'ch' }" v-if="split(cell.text)[1] !== null">{{ split(cell.text)[1] }}</span>
+              </td>
+            </tr>
+            <tr v-for="line in others(row)" :key="line" :class="line">
+              <th scope="row" colspan="3">{{ words[line] }}</th>
+              <td v-for="(cell, number) in row.cells" :key="number" class="value" :colspan="span(block, row)"
+                ><span class="whole">{{ split(cell[line])[0] }}</span><span class="rest" :style="{ minWidth: block.rest + 'ch' }" v-if="split(cell[line])[1] !== null">{{ split(cell[line])[1] }}</span></td>
+            </tr>
+          </tbody>
+        </table>
+      </details>
+    </section>`,
+  props: { label: String, store: String, words: Object },
+  data() {
+    const kept = this.remembered();
+    return {
+      content: { title: "", verdict: "", lines: [], changes: 0, notices: [], sections: [], pins: [] },
+      folds: kept.folds ?? {},
+      pins: kept.pins ?? {},
+      wanted: "",
+      at: "",
+    };
+  },
+  computed: {
+    // What is pinned first, then all blocks; of a search only what is found.
+    blocks() {
+      const wanted = this.wanted.trim().toLowerCase();
+      const fits = (row) => !wanted || `${row.words} ${row.symbol} ${row.key}`.toLowerCase().includes(wanted);
+      const found = [];
+      const pinned = new Map();
+      for (const { columns, blocks } of this.content.sections)
+        for (const { id, title, folded, rows } of blocks) {
+          for (const row of rows) if (this.pinned(row.key)) pinned.set(row.key, row);
+          found.push({ id, title, columns, rows: rows.filter(fits), open: !!wanted || (this.folds[id] ?? !folded) });
+        }
+      const widest = [...pinned.values()].reduce((most, row) => Math.max(most, row.cells.length), 0);
+      const order = [...this.content.pins, ...[...pinned.keys()].filter((key) => !this.content.pins.includes(key))];
+      const columns = this.content.sections.find((section) => section.columns.length === widest)?.columns ?? [];
+      const top = order.filter((key) => pinned.has(key)).map((key) => pinned.get(key));
+      if (!wanted && top.length) found.unshift({ id: "pins", title: this.words.pins, columns, rows: top, open: this.folds.pins ?? true });
+      const shown = found.filter((block) => block.rows.length);
+      for (const block of shown) block.rest = Math.max(0, ...block.rows.flatMap((row) => row.cells.map((cell) => (this.split(cell.text)[1] ?? "").length)));
+      return shown;
+    },
+  },
+  methods: {
+    show(content) {
+      this.content = content;
+    },
+    pinned(key) {
+      return this.pins[key] ?? this.content.pins.includes(key);
+    },
+    // The part of a number before its point and the rest, to be put in line; null for what is no number.
+    split(text) {
+      const found = NUMBER.exec(text);
+      return found ? [found[1], (found[2] ?? "") + (found[3] ?? "")] : [text, null];
+    },
+    // Lines below a row: what the kept design has, and how far this one is from it.
+    others(row) {
+      return ["kept", "difference"].filter((line) => row.cells.some((cell) => cell[line]));
+    },
+    span(block, row) {
+      return row.cells.length === 1 ? Math.max(block.columns.length, 1) : 1;
+    },
+    hint(row) {
+      return [`${row.words} ${row.symbol}`, row.source, row.key].filter(Boolean).join("\n");
+    },
+    // The row of a block that the tab key comes to.
+    here(block) {
+      return block.rows.find((row) => block.id + row.key === this.at) ?? block.rows[0];
+    },
+    walk(event) {
+      const row = event.target.closest("tr[data-row]");
+      if (!row || event.ctrlKey || event.altKey || event.metaKey) return;
+      if (event.key === "Enter") this.pin(row.dataset.row);
+      else if (event.key === "ArrowDown" || event.key === "ArrowUp") {
+        const rows = [...this.$el.querySelectorAll("details[open] tr[data-row]")];
+        rows[rows.indexOf(row) + (event.key === "ArrowDown" ? 1 : -1)]?.focus();
+      } else return;
+      event.preventDefault();
+    },
+    pin(key) {
+      this.pins = { ...this.pins, [key]: !this.pinned(key) };
+      this.remember();
+    },
+    fold(block, open) {
+      if (this.wanted || open === block.open) return;
+      this.folds = { ...this.folds, [block.id]: open };
+      this.remember();
+    },
+    focus(key) {
+      window.dispatchEvent(new CustomEvent("gear-focus", { detail: { key } }));
+    },
+    remembered() {
+      try {
+        return JSON.parse(localStorage.getItem(this.store)) ?? {};
+      } catch {
+        return {};
+      }
+    },
+    remember() {
+      try {
+        localStorage.setItem(this.store, JSON.stringify({ folds: this.folds, pins: this.pins }));
+      } catch {
+        // A browser that keeps nothing forgets with the tab.
+      }
+    },
+  },
+};

@@ -1,0 +1,100 @@
+"""Sections of a sheet as the browser shows them: rows in the page's words, with what changed, and what a kept design has."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+from gearcad.page.words import Words
+from gearcad.sheet import Row, Section
+
+__all__ = ["Cell", "Cells", "cells_of", "changed_cells", "shown_sections"]
+
+
+_SAID = {"Mesh": "Gear mesh"}
+"""Titles that the page has for something else."""
+
+
+class Cell(NamedTuple):
+    """A value with all its digits, and as shown."""
+
+    value: Any
+    text: str
+
+
+Cells = Mapping[tuple[str, str], Cell]
+"""What stands on a sheet, by the keys of rows and the names of columns; in a single column by ""."""
+
+
+def cells_of(sections: Iterable[Section]) -> Cells:
+    """Everything that stands on a sheet."""
+    return {place: cell for section in sections for row in _rows(section) for place, cell in _places(row, section)}
+
+
+def changed_cells(cells: Cells, former: Cells) -> dict[tuple[str, str], str]:
+    """What those that are shown otherwise than before were; what was not there before has not changed."""
+    return {place: former[place].text for place, cell in cells.items() if place in former and former[place].text != cell.text}
+
+
+def shown_sections(
+    sections: Iterable[Section],
+    words: Words,
+    *,
+    folded: Collection[str] = (),
+    changed: Mapping[tuple[str, str], str] | None = None,
+    kept: Cells | None = None,
+) -> list[dict[str, Any]]:
+    """What the browser makes tables of; blocks whose English titles are `folded` are shut until somebody opens them."""
+    before, beside = changed or {}, kept or {}
+    return [
+        {
+            "columns": [words[name] for name in section.columns],
+            "blocks": [
+                {
+                    "id": " ".join((*section.columns, block.title)),
+                    "title": words[_SAID.get(block.title, block.title)],
+                    "folded": block.title in folded,
+                    "rows": [_row(row, section, words, before, beside) for row in block.rows],
+                }
+                for block in section.blocks
+            ],
+        }
+        for section in sections
+    ]
+
+
+def _rows(section: Section) -> Iterator[Row]:
+    for block in section.blocks:
+        yield from block.rows
+
+
+def _places(row: Row, section: Section) -> Iterator[tuple[tuple[str, str], Cell]]:
+    columns = section.columns if len(row.values) > 1 else ("",)
+    for column, value, text in zip(columns, row.values, row.texts, strict=True):
+        yield (row.key, column), Cell(value, text)
+
+
+def _row(row: Row, section: Section, words: Words, changed: Mapping[tuple[str, str], str], kept: Cells) -> dict[str, Any]:
+    return {
+        "key": row.key,
+        "words": words[row.symbol.words],
+        "symbol": row.symbol.symbol,
+        "unit": row.symbol.unit,
+        "source": row.symbol.source,
+        "cells": [
+            {"text": cell.text, "former": changed.get(place, ""), **_beside(cell, kept.get(place))}
+            for place, cell in _places(row, section)
+        ],
+    }
+
+
+def _beside(cell: Cell, kept: Cell | None) -> dict[str, str]:
+    """What the kept design has, where that is shown otherwise, and how much more this one has."""
+    if kept is None or kept.text == cell.text:
+        return {}
+    return {"kept": kept.text, "difference": _difference(cell.value, kept.value)}
+
+
+def _difference(value: Any, kept: Any) -> str:
+    numbers = all(isinstance(each, int | float) and not isinstance(each, bool) for each in (value, kept))
+    return f"{value - kept:+.4g}" if numbers else ""

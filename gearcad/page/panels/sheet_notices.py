@@ -1,0 +1,55 @@
+"""The fields that notices about a design are about: where one looks first when one wants them gone."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Any
+
+from gearcad.notice import Notice
+
+__all__ = ["shown_notices"]
+
+_ABOUT = {
+    "undercut": "profile_shift rack.addendum",
+    "thin-tip": "profile_shift tip_alteration",
+    "full-radius": "rack.root_radius",
+    "form-root": "cutter.teeth",
+    "span-off-involute": "profile_shift tip_alteration",
+    "balls-off-involute": "profile_shift",
+    "narrow-for-span": "face_width",
+    "narrow-for-pins": "face_width",
+    "web-not-modelled": "body.web_thickness",
+    "cutter-trims-tips": "cutter.teeth tip_alteration",
+    "cutter-trims-on-infeed": "cutter.teeth",
+    "rounded-shifts": "centre_distance tooth_thinning",
+    "backlash-may-vanish": "tooth_thinning tooth_allowance centre_distance_tolerance",
+    "low-contact-ratio": "centre_distance helix_angle",
+    "fillet-interference": "tip_alteration rack.root_radius rack.addendum",
+    "undercut-contact": "profile_shift",
+    "radial-assembly": "teeth",
+    "no-pin": "pin_diameter",
+    "low-pin": "pin_diameter",
+    "no-hunting-tooth": "teeth",
+    "wide-backlash": "tooth_thinning",
+    "stage-in-the-way": "axial_position",
+    "unbalanced": "planets",
+}
+"""By the codes of notices, keys of the table that they are about, the first one first."""
+
+_MOST = 2
+"""Fields that are named with a notice: more would hide it."""
+
+
+def shown_notices(notices: Collection[Notice], keys: Collection[str]) -> list[dict[str, Any]]:
+    """Each notice once, with those of the `keys` of a spec's fields that it is about."""
+    found: dict[str, Any] = {}
+    for notice in notices:
+        found.setdefault(str(notice), {"text": str(notice), "keys": _keys(notice, keys)})
+    return list(found.values())
+
+
+def _keys(notice: Notice, keys: Collection[str]) -> list[str]:
+    """Of the table that the notice names, or of those of the gears in mesh."""
+    tables = [*notice.where.split(": "), "pair", "pinion", "wheel", "planetary"]
+    about = [f"{table}.{key}" for key in _ABOUT.get(notice.code, "").split() for table in tables]
+    return [key for key in dict.fromkeys(about) if key in keys][:_MOST]

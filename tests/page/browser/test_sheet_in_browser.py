@@ -1,0 +1,51 @@
+"""The data sheet in a browser: what changed, what is folded, what is searched, and where notices lead."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def value(tab: Any, key: str) -> Any:
+    """The cells of a row outside the first figures."""
+    return tab.page.locator(f'.gear-sheet tr[data-row="{key}"]').last.locator(".value")
+
+
+def test_what_changed_stands_beside_what_it_was(tab: Any) -> None:
+    before = value(tab, "pair.transverse_contact_ratio").inner_text()
+    tab.give("pinion.profile_shift", "0.35")
+    cell = value(tab, "pair.transverse_contact_ratio")
+    cell.locator("del").wait_for()
+    assert cell.locator("del").inner_text() == before
+    assert cell.locator(".whole").inner_text() + cell.locator(".rest").inner_text() != before
+    assert "values changed" in tab.page.inner_text('.gear-sheet [role="status"]')
+
+
+def test_folding_stays_over_changes(tab: Any) -> None:
+    block = tab.page.locator(".gear-sheet details", has_text="Diameters").last
+    block.locator("summary").click()
+    assert block.get_attribute("open") is None
+    tab.give("pinion.teeth", "22")
+    assert block.get_attribute("open") is None
+
+
+def test_rows_are_found_and_walked_and_pinned_by_keys(tab: Any) -> None:
+    tab.page.fill(".gear-sheet .search", "root form")
+    rows = tab.page.locator(".gear-sheet tr[data-row]")
+    assert rows.count() == 1
+    rows.first.focus()
+    tab.page.keyboard.press("Enter")
+    tab.page.fill(".gear-sheet .search", "")
+    first = tab.page.locator(".gear-sheet details").first
+    assert first.locator('tr[data-row="gear.form_diameter"]').count() == 1
+    first.locator("tr[data-row]").first.focus()
+    tab.page.keyboard.press("ArrowDown")
+    assert tab.page.evaluate("document.activeElement.dataset.row") == first.locator("tr[data-row]").nth(1).get_attribute(
+        "data-row"
+    )
+
+
+def test_a_notice_leads_to_its_field(tab: Any) -> None:
+    tab.page.evaluate("window.addEventListener('gear-focus', (event) => { window.led = event.detail.key; })")
+    tab.give("pinion.profile_shift", "-0.4")
+    tab.page.locator(".gear-sheet .notices .key", has_text="pinion.profile_shift").first.click()
+    assert tab.page.evaluate("window.led") == "pinion.profile_shift"

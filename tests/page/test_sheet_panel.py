@@ -1,0 +1,119 @@
+"""The data sheet of the page: what stands in `data.json`, with all digits; what changed; what a kept design has."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearcad.designs.design import Design
+from gearcad.designs.reader import design_from_tables, read_spec
+from gearcad.notice import Notice
+from gearcad.page.panels.sheet import PINS, found_of, shown_sheet
+from gearcad.page.panels.sheet_content import cells_of, changed_cells, shown_sections
+from gearcad.page.panels.sheet_notices import shown_notices
+from gearcad.page.words import Language, Words
+from gearcad.sheet import sheet_of
+from gearcad.sheet.blocks import flattened
+
+TEMPLATES = Path(__file__).parents[2] / "templates"
+ENGLISH = Words.of(Language.ENGLISH)
+
+
+def starter(name: str) -> Design:
+    return read_spec(TEMPLATES / f"{name}.toml")
+
+
+def values(design: Design) -> dict[tuple[str, str], Any]:
+    return {place: cell.value for place, cell in cells_of(sheet_of(design).sections).items()}
+
+
+@pytest.mark.parametrize("name", ["spur", "volvo-13-44", "ring-22-70", "double-23-81", "rack"])
+def test_values_are_those_of_data_json_with_all_digits(name: str) -> None:
+    design = starter(name)
+    document = design.to_dict()
+    of = {each: flattened(document[each]) for each in ("gear", "pinion", "wheel", "rack", "pair") if each in document}
+    of["pair"] = of.get("pair", {}) | document.get("drive", {})
+    gears = list(design.gears)
+    compared = 0
+    for (key, column), value in values(design).items():
+        table, _, inner = key.partition(".")
+        if table == "gear":
+            expected = of[column or gears[0]].get(inner)
+            if expected != value:  # what belongs to something that is not there, and modifications that do nothing
+                assert value is None
+                continue
+        elif table == "pair" and column:
+            expected = document["pair"][inner][gears.index(column)]
+        elif table in of:
+            expected = of[table][inner]
+        else:
+            continue
+        assert value == expected
+        compared += 1
+    assert compared > 25
+
+
+def test_meshes_of_a_planetary_train_have_their_own_columns() -> None:
+    design = starter("planetary-24-21-66")
+    meshes = design.to_dict()["planetary"]["meshes"]
+    found = values(design)
+    for name, mesh in meshes.items():
+        assert found["pair.transverse_contact_ratio", name] == mesh["transverse_contact_ratio"]
+
+
+def test_what_a_step_changes_has_what_it_was_beside_it() -> None:
+    before, after = (cells_of(sheet_of(pair(centre)).sections) for centre in (91.5, 91.6))
+    changed = changed_cells(after, before)
+    assert changed["pair.centre_distance", ""] == "91.5000"
+    assert ("gear.teeth", "pinion") not in changed
+    assert changed_cells(after, after) == {}
+    assert changed_cells(after, {}) == {}
+
+
+def test_a_kept_design_stands_beside_with_the_difference_of_all_digits() -> None:
+    this, kept = (found_of(pair(centre)) for centre in (91.6, 91.5))
+    rows = shown_rows(shown_sheet(this, ENGLISH, kept=kept.cells))
+    centre = rows["pair.centre_distance"]["cells"]
+    assert centre == [{"text": "91.6000", "former": "", "kept": "91.5000", "difference": "+0.1"}]
+    assert "kept" not in rows["gear.teeth"]["cells"][0]
+    ratio = this.cells["pair.total_contact_ratio", ""].value - kept.cells["pair.total_contact_ratio", ""].value
+    assert rows["pair.total_contact_ratio"]["cells"][0]["difference"] == f"{ratio:+.4g}"
+
+
+def test_first_figures_of_a_pair_are_known() -> None:
+    rows = shown_rows(shown_sheet(found_of(pair(91.5)), ENGLISH))
+    assert len([key for key in PINS if key in rows]) >= 10
+
+
+def test_notices_lead_to_fields_of_the_spec() -> None:
+    keys = {"pinion.profile_shift", "wheel.profile_shift", "wheel.face_width"}
+    found = shown_notices([Notice("undercut", "undercut", "wheel"), Notice("unheard-of", "?", "")], keys)
+    assert found == [
+        {"text": "wheel: undercut", "keys": ["wheel.profile_shift", "pinion.profile_shift"]},
+        {"text": "?", "keys": []},
+    ]
+
+
+def test_a_hostile_name_stays_text() -> None:
+    name = "<img src=x onerror=alert(1)>"
+    section = sheet_of(starter("planetary-24-21-66")).sections[0]
+    shown = shown_sections([section._replace(columns=tuple(name for _ in section.columns))], ENGLISH)
+    assert set(shown[0]["columns"]) == {name}
+    text = (Path(__file__).parents[2] / "gearcad" / "page" / "components" / "gear_sheet.js").read_text(encoding="utf-8")
+    assert "innerHTML" not in text
+    assert "v-html" not in text
+
+
+def pair(centre: float) -> Design:
+    tables = {
+        "pair": {"name": "trial", "normal_module": 3.0, "face_width": 20.0, "centre_distance": centre},
+        "pinion": {"teeth": 20},
+        "wheel": {"teeth": 40, "profile_shift": "auto"},
+    }
+    return design_from_tables(tables, where=lambda key: key, default_name="trial")
+
+
+def shown_rows(sheet: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    return {row["key"]: row for section in sheet["sections"] for block in section["blocks"] for row in block["rows"]}
