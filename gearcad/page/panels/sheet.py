@@ -74,7 +74,7 @@ def view_words(words: Words) -> dict[str, str]:
 def found_of(design: Design) -> SheetFound:
     """What is to be shown of a design."""
     sheet = sheet_of(design)
-    keys = (field["key"] for table in fields_of(design) for group in table["groups"] for field in group["fields"])
+    keys = (field["key"] for table in fields_of(design, {}) for group in table["groups"] for field in group["fields"])
     return SheetFound(sheet, cells_of(sheet.sections), frozenset(keys))
 
 
