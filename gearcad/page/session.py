@@ -14,8 +14,10 @@ from gearcad.page.panels.bodies import BODIES, BodiesPanel
 from gearcad.page.panels.inputs import InputsPanel
 from gearcad.page.panels.section import SectionPanel
 from gearcad.page.panels.sheet import SheetPanel
+from gearcad.page.panels.text import TextPanel
+from gearcad.page.tabs import Tabs
 from gearcad.page.words import Language, Words, language_of
-from gearcad.page.workbench import Workbench
+from gearcad.page.workbench import TEXT, Workbench
 
 __all__ = ["Session"]
 
@@ -40,7 +42,11 @@ class Session:
             self._bar()
         with ui.element("main").classes("panels"):
             with ui.element("div").classes("left"):
-                self._inputs = InputsPanel(self.typed, self.step, words)
+                left = Tabs({"inputs": words["Inputs"], "text": words["Text"]})
+                with left.under("inputs"):
+                    self._inputs = InputsPanel(self.typed, self.step, words)
+                with left.under("text"):
+                    self._text = TextPanel(self.written, self.step, words)
             with ui.element("div").classes("middle"):
                 self._bodies = BodiesPanel(self.key)
                 self._section = SectionPanel()
@@ -80,6 +86,11 @@ class Session:
         self.bench.change({key: text})
         self.follow()
 
+    def written(self, text: str) -> None:
+        """Somebody typed into the text."""
+        self.bench.write(text, TEXT)
+        self.follow()
+
     def step(self, forth: bool) -> None:
         """Redo, or undo."""
         (self.bench.redo if forth else self.bench.undo)()
@@ -93,6 +104,7 @@ class Session:
     def follow(self, reveal: bool = False) -> None:
         """Show what the workbench has: inputs at once, all else as it is found."""
         self._inputs.follow(self.bench, reveal)
+        self._text.follow(self.bench)
         self._undo.set_enabled(self.bench.can_undo)
         self._redo.set_enabled(self.bench.can_redo)
         self._change += 1

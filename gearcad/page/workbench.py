@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -24,6 +25,8 @@ _MOST_STEPS = 1000
 _PAUSE = 1.0
 """Seconds after which what is typed into the same field is another step."""
 
+_AT = re.compile(r"\.toml line (\d+)")
+
 TEXT = "text"
 """Where one types who types into the text itself."""
 
@@ -37,6 +40,12 @@ class Fault(NamedTuple):
     line: str
     key: str = ""
     written: bool = True
+
+    @property
+    def at(self) -> int | None:
+        """The line of the text that it names."""
+        found = _AT.search(self.line)
+        return int(found[1]) if found else None
 
 
 class Workbench:

@@ -15,7 +15,7 @@ from gearcad.page.words import Language, Words, language_of
 from gearcad.sheet import gears, pairs, train
 from gearcad.shipped import PACKAGE
 
-_SAME = {"name"}
+_SAME = {"name", "Text"}
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ class InputsView(Element, component="spec_inputs.js"):
     def __init__(self, changed: Callable[[str, str], None], step: Callable[[bool], None], words: dict[str, str]) -> None:
         super().__init__()
         self._props["words"], self._props["tables"] = words, []
-        self.on("change", lambda event: changed(str(event.args["key"]), str(event.args["text"])))
+        self.on("typed", lambda event: changed(str(event.args["key"]), str(event.args["text"])))
         self.on("step", lambda event: step(bool(event.args["forth"])))
 
     def have(self, tables: list[dict[str, Any]]) -> None:

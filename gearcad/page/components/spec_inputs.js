@@ -43,6 +43,7 @@ export default {
       <div class="hint" role="status">{{ hint }}</div>
     </form>`,
   props: { tables: Array, words: Object },
+  emits: ["typed", "step"],
   data() {
     return { wanted: "", drafts: {}, given: {}, used: {}, changed: [], fault: null, focused: null, readonly: false };
   },
@@ -182,7 +183,7 @@ export default {
       const text = this.queue[key];
       delete this.queue[key];
       this.waiting = setTimeout(() => this.answered(), PATIENCE);
-      this.$emit("change", { key, text });
+      this.$emit("typed", { key, text });
     },
     answered() {
       clearTimeout(this.waiting);
