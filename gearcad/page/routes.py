@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fastapi import FastAPI, Response
 
+from gearcad.page.made import add_made
 from gearcad.page.panels.bodies import BODIES
 
 __all__ = ["add_routes"]
@@ -11,6 +12,7 @@ __all__ = ["add_routes"]
 
 def add_routes(app: FastAPI) -> None:
     """Answer them at this app."""
+    add_made(app)
 
     @app.get("/bodies/{key}/{_number}.glb")
     def bodies(key: str, _number: int) -> Response:

@@ -56,6 +56,9 @@ class Run:
     line: str = ""
     """The verdict as the command line says it, or the error."""
 
+    name: str = ""
+    """Of the design, as its files are called."""
+
     figures: Mapping[str, Any] = field(default_factory=dict)
     notices: tuple[str, ...] = ()
     files: tuple[str, ...] = ()

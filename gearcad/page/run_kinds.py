@@ -15,11 +15,14 @@ __all__ = ["ANALYSES", "DOWNLOADS", "RUNS", "RunKind"]
 
 @dataclass(frozen=True, kw_only=True)
 class RunKind:
-    """A job with its options under words; `report` is the file to read, and `takes` tells which designs it is for."""
+    """A job with its options; `report` is the file to read, `taken` the pattern of those to take along.
 
-    words: str
+    `takes` tells for which designs it is, of the kinds that the job accepts.
+    """
+
     job: Callable[[], Job[Any, Any]]
     report: str = ""
+    taken: str = "*"
     made: Callable[[Design], Design] = lambda design: design
     takes: Callable[[Design], bool] = lambda design: True
 
@@ -99,27 +102,27 @@ def _is_pair(design: Design) -> bool:
 
 
 ANALYSES = {
-    "check-2d": RunKind(words="check in the plane", job=_check("2d"), report="report.html"),
-    "check-3d": RunKind(words="check of solid bodies", job=_check("3d"), report="report.html"),
-    "rate": RunKind(words="rating", job=_rate, report="rate.html"),
-    "rate-fe": RunKind(words="rating with load distribution", job=_rate, report="rate.html", made=_with_bodies, takes=_is_pair),
-    "stiffness": RunKind(words="mesh stiffness", job=_stiffness, report="stiffness.html"),
-    "dynamics": RunKind(words="dynamics", job=_dynamics, report="dynamics.html"),
-    "planetary": RunKind(words="planetary train", job=_planetary, report="planetary.html"),
+    "check-2d": RunKind(job=_check("2d"), report="report.html"),
+    "check-3d": RunKind(job=_check("3d"), report="report.html"),
+    "rate": RunKind(job=_rate, report="rate.html"),
+    "rate-fe": RunKind(job=_rate, report="rate.html", made=_with_bodies, takes=_is_pair),
+    "stiffness": RunKind(job=_stiffness, report="stiffness.html"),
+    "dynamics": RunKind(job=_dynamics, report="dynamics.html"),
+    "planetary": RunKind(job=_planetary, report="planetary.html"),
 }
 """Jobs that solve, in the order in which one asks for them."""
 
 DOWNLOADS = {
-    "step": RunKind(words="STEP", job=_build("step")),
-    "stl": RunKind(words="STL", job=_build("stl")),
-    "3mf": RunKind(words="3MF", job=_build("3mf")),
-    "glb": RunKind(words="GLB", job=_build("glb")),
-    "dxf": RunKind(words="contours (DXF)", job=_build("dxf")),
-    "csv": RunKind(words="points (CSV)", job=_build("csv")),
-    "drawing-pdf": RunKind(words="drawing (PDF)", job=_draw("pdf")),
-    "drawing-dxf": RunKind(words="drawing (DXF)", job=_draw("dxf")),
-    "drawing-svg": RunKind(words="drawing (SVG)", job=_draw("svg")),
-    "data": RunKind(words="data (JSON)", job=_data),
+    "step": RunKind(job=_build("step"), taken="*.step"),
+    "stl": RunKind(job=_build("stl"), taken="*.stl"),
+    "3mf": RunKind(job=_build("3mf"), taken="*.3mf"),
+    "glb": RunKind(job=_build("glb"), taken="*.glb"),
+    "dxf": RunKind(job=_build("dxf"), taken="*.dxf"),
+    "csv": RunKind(job=_build("csv"), taken="*.csv"),
+    "drawing-pdf": RunKind(job=_draw("pdf"), taken="*.pdf"),
+    "drawing-dxf": RunKind(job=_draw("dxf"), taken="*.dxf"),
+    "drawing-svg": RunKind(job=_draw("svg"), taken="*.svg"),
+    "data": RunKind(job=_data, taken="data.json"),
 }
 """What is made to be taken along."""
 

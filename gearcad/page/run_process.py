@@ -101,6 +101,7 @@ def _run(asked: Asked, tell: _Teller) -> dict[str, Any]:
     result = job.run(design, tell.progress)
     files = job.write(result, Path(asked.into), tell.progress)
     return {
+        "name": design.name,
         "conclusion": job.conclusion(design.name, result),
         "figures": job.figures(job.document(result)),
         "notices": [str(notice) for notice in job.notices(result)],

@@ -89,7 +89,7 @@ def _take(run: Run, told: Mapping[str, Any], clock: Clock) -> Clock:
     else:
         result = told["result"]
         run.line, run.figures = result["conclusion"], dict(_flat(result["figures"]))
-        run.notices, run.files = tuple(result["notices"]), tuple(result["files"])
+        run.name, run.notices, run.files = result["name"], tuple(result["notices"]), tuple(result["files"])
         run.share, run.state = 1.0, State.DONE
     return clock
 

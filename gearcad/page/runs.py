@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import queue
+import secrets
 import shutil
 import tempfile
 import threading
@@ -17,7 +18,7 @@ from gearcad.page.run import Limits, Run, State
 from gearcad.page.run_process import Asked
 from gearcad.page.run_watch import do_run
 
-__all__ = ["Runs"]
+__all__ = ["Runs", "runs_of"]
 
 _LOOK = 0.2
 """Seconds between two looks at whether one that waits is wanted still."""
@@ -56,12 +57,22 @@ class _Turns:
 _TURNS = _Turns(max(available_cores(), 1))
 
 
+_OPEN: dict[str, Runs] = {}
+
+
+def runs_of(key: str) -> Runs | None:
+    """Those of an open session by their key, which nobody else knows."""
+    return _OPEN.get(key)
+
+
 class Runs:
     """Those of a session: one at a time, the others wait; `close` ends them and removes their files."""
 
     def __init__(self, limits: Limits | None = None) -> None:
         self.limits = limits or Limits()
         self.all: list[Run] = []
+        self.key = secrets.token_urlsafe(16)
+        _OPEN[self.key] = self
         self._folder = tempfile.TemporaryDirectory(prefix="gearcad-", ignore_cleanup_errors=True)
         self._calls: queue.SimpleQueue[Run | None] = queue.SimpleQueue()
         self._thread: threading.Thread | None = None
@@ -95,6 +106,7 @@ class Runs:
     def close(self) -> None:
         """End all, and remove what they have made."""
         self._closed = True
+        _OPEN.pop(self.key, None)
         for run in self.all:
             run.stop.set()
         self._calls.put(None)

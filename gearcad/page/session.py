@@ -12,6 +12,7 @@ from nicegui import background_tasks, run, ui
 from gearcad.page.panels import Panel
 from gearcad.page.panels.bodies import BODIES, BodiesPanel
 from gearcad.page.panels.inputs import InputsPanel
+from gearcad.page.panels.runs import RunsPanel
 from gearcad.page.panels.section import SectionPanel
 from gearcad.page.panels.sheet import SheetPanel
 from gearcad.page.panels.text import TextPanel
@@ -52,6 +53,7 @@ class Session:
                 self._section = SectionPanel()
             with ui.element("div").classes("right"):
                 sheet = SheetPanel(words)
+                self._runs = RunsPanel(bench, words)
         self._panels: tuple[Panel[Any], ...] = (self._section, sheet, self._bodies)
         ui.context.client.on_delete(self._leave)
         self.follow()
@@ -107,6 +109,7 @@ class Session:
         self._text.follow(self.bench)
         self._undo.set_enabled(self.bench.can_undo)
         self._redo.set_enabled(self.bench.can_redo)
+        self._runs.follow()
         self._change += 1
         if self._task is None or self._task.done():
             self._task = background_tasks.create(self._find())
@@ -125,3 +128,4 @@ class Session:
     def _leave(self) -> None:
         """The tab was closed."""
         BODIES.pop(self.key, None)
+        self._runs.close()

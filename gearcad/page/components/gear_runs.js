@@ -1,0 +1,72 @@
+// What can be run on the design, how far it is, and the figures of runs beside each other. Nothing is computed here.
+export default {
+  template: `
+    <section class="runs" :aria-label="words.title">
+      <div class="run-kinds">
+        <button v-for="kind in kinds" :key="kind.key" type="button" :title="kind.told" :disabled="!!kind.why" @click="$emit('start', { kind: kind.key })">
+          {{ kind.words }}<small v-if="kind.told">{{ kind.told }}</small>
+        </button>
+        <small class="limits">{{ limits }}</small>
+      </div>
+      <p v-if="line" class="fault" role="alert">{{ line }}</p>
+      <ol class="run-list">
+        <li v-for="run in shown" :key="run.number" :class="[run.state, { stale: run.stale }]">
+          <span class="number">{{ run.number + 1 }}</span>
+          <span class="what">{{ run.words }}<em v-if="run.stale">{{ words.stale }}</em></span>
+          <template v-if="run.state === 'running' || run.state === 'waiting'">
+            <progress :value="run.share > 0 ? run.share : null" max="1"></progress>
+            <span class="step" role="status">{{ run.state === "waiting" ? words.waiting : [run.step, run.left].filter(Boolean).join(", ") }}</span>
+            <button type="button" @click="$emit('cancel', { number: run.number })">{{ words.cancel }}</button>
+          </template>
+          <template v-else>
+            <span class="line">{{ run.line || said(run.state) }}</span>
+            <a v-if="run.report" :href="run.report" target="_blank" rel="noopener noreferrer">{{ words.report }}</a>
+            <a v-if="run.files" :href="run.files" download>{{ words.files }}</a>
+          </template>
+          <small v-for="notice in run.notices" :key="notice" class="notice">{{ notice }}</small>
+        </li>
+      </ol>
+      <div v-for="table in tables" :key="table.verb" class="run-table">
+        <label class="only"><input type="checkbox" v-model="differing" /> {{ words.differing }}</label>
+        <table>
+          <thead><tr>
+            <th scope="col">{{ table.words }}</th><th scope="col"></th>
+            <th v-for="run in table.runs" :key="run.number" scope="col" :class="{ stale: run.stale }">
+              {{ run.number + 1 }}<small v-for="change in run.changes" :key="change">{{ change }}</small>
+            </th>
+          </tr></thead>
+          <tbody>
+            <tr v-for="row in rowsOf(table)" :key="row.key" :class="{ differs: row.differs }" :title="`${row.words}\n${row.key}`">
+              <th scope="row"><i v-if="row.symbol">{{ row.symbol }}</i>{{ row.words }}</th><td class="unit">{{ row.unit }}</td>
+              <td v-for="(cell, at) in row.cells" :key="at">{{ cell }}</td>
+            </tr>
+          </tbody>
+        </table>
+      </div>
+    </section>`,
+  props: { words: Object, limits: String },
+  emits: ["start", "cancel"],
+  data() {
+    return { kinds: [], runs: [], tables: [], line: "", differing: false };
+  },
+  computed: {
+    shown() {
+      return [...this.runs].reverse();
+    },
+  },
+  methods: {
+    show(state) {
+      Object.assign(this, state);
+    },
+    tell(number, told) {
+      const run = this.runs.find((each) => each.number === number);
+      if (run) Object.assign(run, told);
+    },
+    said(state) {
+      return this.words[state] ?? state;
+    },
+    rowsOf(table) {
+      return this.differing ? table.rows.filter((row) => row.differs) : table.rows;
+    },
+  },
+};

@@ -1,0 +1,181 @@
+"""Runs: what takes longer than a keystroke is started here, and its figures stand beside those of former runs."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+from nicegui import background_tasks, run, ui
+
+from gearcad.designs.design import Design
+from gearcad.errors import GearcadError
+from gearcad.page.beside import changes_between, figures_beside, verb_of
+from gearcad.page.components.runs import RunsView
+from gearcad.page.fields import given_texts
+from gearcad.page.run import Run, State
+from gearcad.page.run_kinds import ANALYSES
+from gearcad.page.runs import Runs
+from gearcad.page.words import Words
+from gearcad.page.workbench import Workbench
+from gearcad.progress import about, about_memory
+
+__all__ = ["RunsPanel", "expected_of"]
+
+_REST = 1.0
+"""Seconds without a change after which it is worth telling what runs would take."""
+
+_LOOK = 0.25
+
+
+class RunsPanel:
+    """Follows the workbench; runs belong to the text with which they were started."""
+
+    def __init__(self, bench: Workbench, words: Words) -> None:
+        self._bench, self._words, self._runs = bench, words, Runs()
+        limits = self._runs.limits
+        told = f"{words['each run has at most']} {about(limits.seconds)}, {about_memory(limits.memory)}"
+        self._view = RunsView(self._start, self._cancel, _words(words), told)
+        self._expected: dict[str, str] = {}
+        self._design: Design | None = None
+        self._task: asyncio.Task[None] | None = None
+        self._line = ""
+        self._timer = ui.timer(_LOOK, self._look, active=False)
+        self._states: dict[int, State] = {}
+
+    def follow(self) -> None:
+        """Show which runs are of another design than that of the workbench, and what can be run on it."""
+        design = self._bench.design
+        if design is not self._design:
+            self._design, self._expected = design, {}
+            if self._task is not None:
+                self._task.cancel()
+            self._task = background_tasks.create(self._expect(design))
+        self._show()
+
+    def close(self) -> None:
+        """The tab was closed: its runs end, and their files go."""
+        self._runs.close()
+        if self._task is not None:
+            self._task.cancel()
+
+    async def _expect(self, design: Design) -> None:
+        await asyncio.sleep(_REST)
+        self._expected = await run.io_bound(expected_of, design) or {}
+        self._show()
+
+    def _start(self, kind: str) -> None:
+        bench = self._bench
+        self._line = ""
+        if kind not in ANALYSES or not ANALYSES[kind].accepts(bench.design):
+            return
+        if bench.fault is not None:
+            self._line = bench.fault.line
+        else:
+            try:
+                self._runs.start(kind, bench.text, bench.name, bench.folder, given_texts(bench.tables))
+            except GearcadError as error:
+                self._line = str(error)
+        self._timer.activate()
+        self._show()
+
+    def _cancel(self, number: int) -> None:
+        if 0 <= number < len(self._runs.all):
+            self._runs.cancel(self._runs.all[number])
+
+    def _look(self) -> None:
+        """While something is being done: how far it is."""
+        busy = self._runs.busy
+        states = {each.number: each.state for each in self._runs.all}
+        if states != self._states:
+            self._states = states
+            self._show()
+        for each in self._runs.all:
+            if each.state is State.RUNNING:
+                self._view.tell(each.number, {"step": each.step, "share": each.share, "left": each.left})
+        if not busy:
+            self._timer.deactivate()
+
+    def _show(self) -> None:
+        names = _names(self._words)
+        kinds = [
+            {"key": key, "words": names[key], "told": self._expected.get(key, "")}
+            for key, kind in ANALYSES.items()
+            if kind.accepts(self._bench.design)
+        ]
+        runs = [self._told(each, names) for each in self._runs.all]
+        self._view.show(kinds=kinds, runs=runs, tables=self._tables(names), line=self._line)
+
+    def _told(self, of: Run, names: dict[str, str]) -> dict[str, Any]:
+        report, address = ANALYSES[of.asked.kind].report, f"/made/{self._runs.key}/{of.number}"
+        return {
+            "number": of.number,
+            "words": names[of.asked.kind],
+            "state": of.state.value,
+            "step": of.step,
+            "share": of.share,
+            "left": of.left,
+            "line": of.line,
+            "notices": list(of.notices),
+            "stale": of.asked.text != self._bench.text,
+            "report": f"{address}/{report}" if report in of.files else "",
+            "files": address if of.files else "",
+        }
+
+    def _tables(self, names: dict[str, str]) -> list[dict[str, Any]]:
+        """Of each verb its figures, the newest run first."""
+        done = [each for each in reversed(self._runs.all) if each.state is State.DONE]
+        found = []
+        for verb in dict.fromkeys(map(verb_of, done)):
+            runs = [each for each in done if verb_of(each) == verb]
+            heads = [
+                {
+                    "number": each.number,
+                    "stale": each.asked.text != self._bench.text,
+                    "changes": changes_between(former.given, each.given) if former else [],
+                }
+                for each, former in zip(runs, [*runs[1:], None], strict=True)
+            ]
+            found.append({"verb": verb, "words": names[verb], "runs": heads, "rows": figures_beside(runs, self._words)})
+        return found
+
+
+def expected_of(design: Design) -> dict[str, str]:
+    """What each run that a design permits would take, or why it would not begin; nothing where nobody knows."""
+    found = {}
+    for key, kind in ANALYSES.items():
+        if kind.accepts(design):
+            try:
+                expected = kind.job().expected(kind.made(design))
+            except GearcadError as error:
+                found[key] = str(error)
+            else:
+                found[key] = f"{about(expected.seconds)}, {about_memory(expected.memory)}" if expected else ""
+    return found
+
+
+def _names(words: Words) -> dict[str, str]:
+    return {
+        "check": words["check"],
+        "check-2d": words["check in the plane"],
+        "check-3d": words["check of solid bodies"],
+        "rate": words["rating"],
+        "rate-fe": words["rating by the load distribution"],
+        "stiffness": words["mesh stiffness"],
+        "dynamics": words["dynamics"],
+        "planetary": words["planetary train"],
+    }
+
+
+def _words(words: Words) -> dict[str, str]:
+    return {
+        "title": words["runs"],
+        "stale": words["of another design"],
+        "waiting": words["waiting"],
+        "cancelled": words["cancelled"],
+        "failed": words["failed"],
+        "done": words["done"],
+        "cancel": words["cancel"],
+        "report": words["report"],
+        "files": words["files"],
+        "differing": words["only what differs"],
+    }
