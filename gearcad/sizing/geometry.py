@@ -17,6 +17,7 @@ from gearcad.geometry import BasicRack
 from gearcad.geometry.involute import inverse_involute, involute
 from gearcad.per_gear import PerGear, Role
 from gearcad.sizing.columns import Columns
+from gearcad.sizing.many_teeth import form_reach, involute_of, tip_thickness
 
 __all__ = ["ManyPairs", "distance_for", "shift_sum_at"]
 
@@ -142,10 +143,8 @@ class ManyPairs(Columns):
         return PerGear(*map(self._form_reach, self.diameters, self.shifts))
 
     def _form_reach(self, diameter: Floats, shift: Floats) -> Floats:
-        """r sin alpha_t - (h_fP - rho_fP (1 - sin alpha_n) - x) m_n/sin alpha_t."""
         straight = self.rack.dedendum - self.root_radius * (1 - math.sin(self.normal_angle))
-        sine = np.sin(self.transverse_angle)
-        return diameter / 2 * sine - self.normal_module * (straight - shift) / sine
+        return form_reach(diameter, self.transverse_angle, self.normal_module * (straight - shift))
 
     @property
     def root_radius(self) -> float:
@@ -186,23 +185,14 @@ class ManyPairs(Columns):
         return PerGear(*map(self._tip_thickness, *parts))
 
     def _tip_thickness(self, d: Floats, base: Floats, tip: Floats, shift: Floats) -> Floats:
-        """s_at = d_a (s_t/d + inv alpha_t - inv alpha_at), times cos beta_a."""
         thickness = self.transverse_module * (math.pi / 2 + 2 * shift * math.tan(self.normal_angle))
-        at_tip = np.arccos(np.minimum(base / tip, 1.0))
-        transverse = tip * (thickness / d + _inv(self.transverse_angle) - _inv(at_tip))
-        return transverse / np.hypot(1.0, np.tan(np.radians(self.helix_angle)) * tip / d)
+        return tip_thickness(d, base, tip, thickness, self.transverse_angle, self.helix_angle)
 
     @property
     def meshes(self) -> Bools:
         """Where the base circles are apart."""
         result: Bools = self.base_diameters.pinion + self.base_diameters.wheel < 2 * self.centre_distance
         return result
-
-
-def _inv(angle: Floats) -> Floats:
-    """Involute of an angle in radians."""
-    result: Floats = np.tan(angle) - angle
-    return result
 
 
 def shift_sum_at(
@@ -217,7 +207,7 @@ def shift_sum_at(
     nearest = normal_module / cosine * teeth / 2 * np.cos(transverse)
     with np.errstate(invalid="ignore"):
         working = np.arccos(np.where(nearest < distance, nearest / distance, np.nan))
-    result: Floats = teeth * (_inv(working) - _inv(transverse)) / (2 * math.tan(math.radians(pressure_angle)))
+    result: Floats = teeth * (involute_of(working) - involute_of(transverse)) / (2 * math.tan(math.radians(pressure_angle)))
     return result
 
 
