@@ -19,8 +19,8 @@ _ALIASES = {
 """What a newcomer would ask for."""
 
 
-_NONE = ("drawing_words",)
-"""Templates of drawings that nobody begins with."""
+_NONE = ("drawing_words", "page_words")
+"""Templates that nobody begins with."""
 
 
 def _files() -> dict[str, Path]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fastapi import FastAPI, Response
 
+from gearcad.page.given import add_given
 from gearcad.page.made import add_made
 from gearcad.page.panels.bodies import BODIES
 
@@ -13,6 +14,7 @@ __all__ = ["add_routes"]
 def add_routes(app: FastAPI) -> None:
     """Answer them at this app."""
     add_made(app)
+    add_given(app)
 
     @app.get("/bodies/{key}/{_number}.glb")
     def bodies(key: str, _number: int) -> Response:

@@ -9,8 +9,10 @@ from typing import Any
 
 from nicegui import background_tasks, run, ui
 
+from gearcad.page.links import DESIGN, linked_bench
 from gearcad.page.panels import Panel
 from gearcad.page.panels.bodies import BODIES, BodiesPanel
+from gearcad.page.panels.files import FilesPanel
 from gearcad.page.panels.inputs import InputsPanel
 from gearcad.page.panels.runs import RunsPanel
 from gearcad.page.panels.section import SectionPanel
@@ -52,8 +54,11 @@ class Session:
                 self._bodies = BodiesPanel(self.key)
                 self._section = SectionPanel()
             with ui.element("div").classes("right"):
-                sheet = SheetPanel(words)
-                self._runs = RunsPanel(bench, words)
+                right = Tabs({"data": words["Data"], "runs": words["Runs"]})
+                with right.under("data"):
+                    sheet = SheetPanel(words)
+                with right.under("runs"):
+                    self._runs = RunsPanel(bench, words)
         self._panels: tuple[Panel[Any], ...] = (self._section, sheet, self._bodies)
         ui.context.client.on_delete(self._leave)
         self.follow()
@@ -64,7 +69,8 @@ class Session:
         query, headers = ui.context.client.request.query_params, ui.context.client.request.headers
         words = Words.of(language_of(query.get("lang"), headers.get("accept-language", "")))
         handed = query.get("from", "")
-        return cls(_HANDED.pop(handed) if handed in _HANDED else Workbench(text, name, folder), words)
+        bench = _HANDED.pop(handed) if handed in _HANDED else linked_bench(query.get(DESIGN, ""), text, name, folder)
+        return cls(bench, words)
 
     def speak(self, language: Language) -> None:
         """Open the page in another language, with this workbench."""
@@ -75,7 +81,8 @@ class Session:
         ui.navigate.to(f"/?lang={language.value}&from={key}")
 
     def _bar(self) -> None:
-        ui.label(self.bench.name).classes("name")
+        self._name = ui.label().classes("name")
+        self._files = FilesPanel(self.key, self.bench, self.words, self.opened, lambda _text, _name: None)
         self._undo = ui.button(icon="undo", on_click=lambda: self.step(False)).props("flat dense round")
         self._redo = ui.button(icon="redo", on_click=lambda: self.step(True)).props("flat dense round")
         ui.slider(min=-0.5, max=0.5, step=0.002, value=0, on_change=lambda event: self.pose(event.value))
@@ -93,6 +100,11 @@ class Session:
         self.bench.write(text, TEXT)
         self.follow()
 
+    def opened(self, text: str, name: str) -> None:
+        """Somebody opened another spec."""
+        self.bench.open(text, name)
+        self.follow(reveal=True)
+
     def step(self, forth: bool) -> None:
         """Redo, or undo."""
         (self.bench.redo if forth else self.bench.undo)()
@@ -109,6 +121,8 @@ class Session:
         self._text.follow(self.bench)
         self._undo.set_enabled(self.bench.can_undo)
         self._redo.set_enabled(self.bench.can_redo)
+        self._name.set_text(self.bench.design.name)
+        self._files.follow()
         self._runs.follow()
         self._change += 1
         if self._task is None or self._task.done():
@@ -128,4 +142,5 @@ class Session:
     def _leave(self) -> None:
         """The tab was closed."""
         BODIES.pop(self.key, None)
+        self._files.close()
         self._runs.close()

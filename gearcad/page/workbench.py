@@ -104,6 +104,15 @@ class Workbench:
         self._take(text)
         return other
 
+    def open(self, text: str, name: str) -> None:
+        """Take another design, called `name` where its text says no other, as a step that can be undone."""
+        self.name = name
+        self.write(text)
+
+    def blame(self, line: str) -> None:
+        """Tell what could not be taken at all; text and design stay."""
+        self.fault = Fault(line, written=False)
+
     def undo(self) -> None:
         """Go a step back, if there is one."""
         self._go(self._back, self._forth)

@@ -36,7 +36,7 @@ export default {
             </th>
           </tr></thead>
           <tbody>
-            <tr v-for="row in rowsOf(table)" :key="row.key" :class="{ differs: row.differs }" :title="`${row.words}\n${row.key}`">
+            <tr v-for="row in rowsOf(table)" :key="row.key" :class="{ differs: row.differs }" :title="row.words + ' (' + row.key + ')'">
               <th scope="row"><i v-if="row.symbol">{{ row.symbol }}</i>{{ row.words }}</th><td class="unit">{{ row.unit }}</td>
               <td v-for="(cell, at) in row.cells" :key="at">{{ cell }}</td>
             </tr>

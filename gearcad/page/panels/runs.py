@@ -168,7 +168,7 @@ def _names(words: Words) -> dict[str, str]:
 
 def _words(words: Words) -> dict[str, str]:
     return {
-        "title": words["runs"],
+        "title": words["Runs"],
         "stale": words["of another design"],
         "waiting": words["waiting"],
         "cancelled": words["cancelled"],

@@ -1,0 +1,103 @@
+// Open, save, take along: a menu. A file that is opened goes to the server by a request of its own, which bounds its size.
+export default {
+  template: `
+    <details class="files" ref="menu" @keydown.esc="close">
+      <summary>{{ words.file }}</summary>
+      <div class="files-menu">
+        <section>
+          <h3>{{ words.open }}</h3>
+          <label class="pick">{{ words.browse }}<input type="file" accept=".toml,text/plain" @change.stop="give('spec', $event)" /></label>
+          <button v-for="name in specs" :key="name" type="button" @click="send('open', { name })">{{ name }}</button>
+          <details><summary>{{ words.starters }}</summary>
+            <button v-for="each in starters" :key="each.name" type="button" :title="each.words" @click="send('begin', { name: each.name })">
+              {{ each.name }}<small>{{ each.words }}</small></button>
+          </details>
+          <h3>{{ words.table }}</h3>
+          <label class="pick">{{ words.browse }}<input type="file" accept=".csv,.tsv,text/csv" @change.stop="give('table', $event)" /></label>
+          <button v-for="name in tables" :key="name" type="button" @click="send('table', { name })">{{ name }}</button>
+        </section>
+        <section>
+          <h3>{{ words.save }}</h3>
+          <button type="button" @click="send('spec', {})">{{ words.spec }}</button>
+          <form @submit.prevent="save(false)">
+            <input v-model="name" :aria-label="words.name" spellcheck="false" autocomplete="off" /><button>{{ words.store }}</button>
+          </form>
+          <p v-if="taken" class="fault" role="alert">{{ taken }} <button type="button" @click="save(true)">{{ words.replace }}</button></p>
+          <p v-if="saved" role="status">{{ saved }}</p>
+          <h3>{{ words.along }}</h3>
+          <div class="makes">
+            <button v-for="make in makes" :key="make.key" type="button" :disabled="!!making" @click="send('make', { kind: make.key })">{{ make.words }}</button>
+          </div>
+          <p v-if="making" role="status">{{ making }} <button type="button" @click="send('stop', {})">{{ words.cancel }}</button></p>
+          <h3>{{ words.link }}</h3>
+          <button type="button" :disabled="!link" @click="copy">{{ copied ? words.copied : words.copy }}</button>
+        </section>
+        <p v-if="line" class="fault" role="alert">{{ line }}</p>
+      </div>
+    </details>`,
+  props: { words: Object, address: String },
+  emits: ["asked"],
+  data() {
+    return {
+      specs: [], tables: [], starters: [], makes: [], making: "", name: "", taken: "", saved: "", line: "", link: "", copied: false,
+    };
+  },
+  mounted() {
+    this.$refs.menu.addEventListener("toggle", (event) => {
+      if (event.target === this.$refs.menu && this.$refs.menu.open) this.send("look", {});
+    });
+    this.outside = (event) => {
+      if (!this.$refs.menu.contains(event.target)) this.$refs.menu.open = false;
+    };
+    document.addEventListener("pointerdown", this.outside);
+  },
+  unmounted() {
+    document.removeEventListener("pointerdown", this.outside);
+  },
+  methods: {
+    show(state) {
+      Object.assign(this, state);
+    },
+    follow(link) {
+      // The address holds the design, for who loads the page anew, and the language that was asked for; no token.
+      const asked = new URLSearchParams(window.location.search);
+      const kept = new URLSearchParams();
+      if (asked.get("lang")) kept.set("lang", asked.get("lang"));
+      if (link) kept.set("design", link);
+      const query = kept.toString();
+      this.link = link ? `${window.location.origin}${window.location.pathname}?${query}` : "";
+      this.copied = false;
+      window.history.replaceState(window.history.state, "", window.location.pathname + (query ? `?${query}` : ""));
+    },
+    close() {
+      this.$refs.menu.open = false;
+    },
+    send(what, told) {
+      this.$emit("asked", { what, ...told });
+    },
+    save(replace) {
+      this.send("save", { name: this.name, replace });
+    },
+    async give(what, event) {
+      const file = event.target.files[0];
+      event.target.value = "";
+      if (!file) return;
+      const answer = await fetch(`${this.address}/${what}?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
+      this.line = answer.ok ? this.line : `${file.name}: ${await answer.text()}`;
+    },
+    async copy() {
+      try {
+        await navigator.clipboard.writeText(this.link);
+      } catch {
+        // Without https a page may not write there itself.
+        const held = document.createElement("textarea");
+        held.value = this.link;
+        document.body.append(held);
+        held.select();
+        document.execCommand("copy");
+        held.remove();
+      }
+      this.copied = true;
+    },
+  },
+};

@@ -1,0 +1,103 @@
+"""The folder of the page: what is in it is found by its name, and nothing else is read or written."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+
+import pytest
+
+from gearcad.designs.starters import starter_text
+from gearcad.errors import GearcadError, ParameterError, SpecError
+from gearcad.page.folder import LARGEST_SPEC, SPECS, TABLES, Folder, TakenError, text_of
+from gearcad.page.given import add_given, await_files
+
+PAIR = starter_text("fzg-c")[1]
+NO_NAMES = [
+    *("../secret.toml", "..", "", ".", "/etc/passwd", "sub/inner.toml", "sub\\inner.toml", ".hidden.toml", "led-out.toml"),
+    *("a\0b.toml", "mine.toml/", "MINE.toml ", "folder.toml", "notes.txt", "<b>.toml", "~/mine.toml", "C:\\mine.toml"),
+]
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Folder:
+    place = tmp_path / "inside"
+    (place / "sub").mkdir(parents=True)
+    (place / "folder.toml").mkdir()
+    (tmp_path / "secret.toml").write_text("secret", encoding="utf-8")
+    for name in ("mine.toml", "notes.txt", "results.csv", ".hidden.toml", "sub/inner.toml"):
+        (place / name).write_text(PAIR, encoding="utf-8")
+    (place / "led-out.toml").symlink_to(tmp_path / "secret.toml")
+    (place / "led-in.toml").symlink_to(place / "sub/inner.toml")
+    return Folder(place)
+
+
+def test_specs_and_tables_are_listed_and_read(folder: Folder) -> None:
+    assert folder.names(SPECS) == ["led-in.toml", "mine.toml"]
+    assert folder.names(TABLES) == ["results.csv"]
+    assert folder.spec("mine.toml") == PAIR
+    (folder.path / "large.toml").write_bytes(b"#" * (LARGEST_SPEC + 1))
+    with pytest.raises(ParameterError, match="must be smaller"):
+        folder.spec("large.toml")
+    assert Folder(folder.path / "nowhere").names(SPECS) == []
+
+
+@pytest.mark.parametrize("name", NO_NAMES)
+def test_nothing_else_is_read(folder: Folder, name: str) -> None:
+    with pytest.raises(ParameterError, match="must be one of those in the folder"):
+        folder.spec(name)
+
+
+@pytest.mark.parametrize("name", [*NO_NAMES[:8], "a" * 300, "con", "x/../y", "a:b", "a\nb", "-rf"])
+def test_nothing_is_written_elsewhere(folder: Folder, name: str) -> None:
+    before = sorted(folder.path.parent.rglob("*"))
+    with pytest.raises(GearcadError):
+        folder.save(name, "text", replace=False)
+    assert sorted(folder.path.parent.rglob("*")) == before
+
+
+def test_saving_asks_before_it_replaces(folder: Folder) -> None:
+    text = "# ä\r\n[gear]\r\n"
+    assert folder.save("other", text, replace=False) == "other.toml"
+    assert (folder.path / "other.toml").read_bytes() == text.encode()
+    for name in ("mine", "mine.toml", "MINE", " mine "):
+        with pytest.raises(TakenError, match="is there"):
+            folder.save(name, text, replace=False)
+    assert folder.save("mine.toml", text, replace=True) == "mine.toml"
+    assert folder.spec("mine.toml") == text
+
+
+def test_a_link_that_leads_out_is_replaced_and_not_followed(folder: Folder) -> None:
+    folder.save("led-out", "mine", replace=True)
+    assert (folder.path.parent / "secret.toml").read_text() == "secret"
+    assert folder.spec("led-out.toml") == "mine"
+    assert not [each for each in folder.path.iterdir() if each.name.startswith(".unfinished")]
+
+
+def test_what_a_browser_sends_as_a_spec_is_text_of_a_size() -> None:
+    assert text_of("\ufeff# ä".encode(), "a.toml") == "# ä"
+    with pytest.raises(SpecError, match="not UTF-8"):
+        text_of(b"\xff\xfe", "a.toml")
+    with pytest.raises(SpecError, match="more than 256 kB"):
+        text_of(b"#" * (LARGEST_SPEC + 1), "a.toml")
+
+
+def test_files_come_to_the_session_that_waits_for_them_up_to_a_size() -> None:
+    httpx, fastapi = pytest.importorskip("httpx"), pytest.importorskip("fastapi")
+    app, taken = fastapi.FastAPI(), []
+    add_given(app)
+    await_files("mine", {"spec": (10, lambda name, content: taken.append((name, content)))})
+
+    async def post(path: str, content: bytes) -> int:
+        async with httpx.AsyncClient(transport=httpx.ASGITransport(app), base_url="http://127.0.0.1") as asking:
+            status: int = (await asking.post(path, content=content)).status_code
+            return status
+
+    async def all_posts() -> list[int]:
+        asked = [("mine/spec", b"0123456789"), ("mine/spec", b"0123456789+"), ("mine/other", b""), ("yours/spec", b"")]
+        found = [await post(f"/given/{path}?name=../a.toml", content) for path, content in asked]
+        await_files("mine", None)
+        return [*found, await post("/given/mine/spec?name=a", b"")]
+
+    assert asyncio.run(all_posts()) == [200, 413, 404, 404, 404]
+    assert taken == [("../a.toml", b"0123456789")]
