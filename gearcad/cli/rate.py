@@ -43,17 +43,15 @@ def rate(spec: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
         click.get_current_context().exit(1)
 
 
-_KEYS = {"torque": "load.torque", "hardness": "material.hardness"}
-"""Keys of values that only the rating finds to be wrong."""
-
-
 @contextmanager
 def _blaming(spec: Path) -> Iterator[None]:
     """All that a rating goes by is in the spec: an InputError becomes a SpecError that names it, and the key."""
+    from gearcad.jobs.rate import KEYS
+
     try:
         yield
     except OutputError:
         raise
     except InputError as error:
-        key = _KEYS.get(error.parameter, error.parameter)
+        key = KEYS.get(error.parameter, error.parameter)
         raise SpecError(f"{spec}: {type(error)(key, error.value, error.permitted, error.unit)}", key) from error

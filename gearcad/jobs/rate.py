@@ -24,6 +24,9 @@ from gearcad.version import __version__
 
 __all__ = ["Rate", "load_words", "rate"]
 
+KEYS = {"torque": "load.torque", "hardness": "material.hardness"}
+"""Keys of values that only the rating finds to be wrong."""
+
 _NO_LOAD = "without it there is no stress"
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import secrets
 import socket
+import threading
 from pathlib import Path
 
 from gearcad.errors import ParameterError
@@ -35,11 +36,12 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
         from nicegui import app, ui
     except ImportError as error:
         raise ParameterError("open", name, 'needs NiceGUI: pip install "gearcad[page]"') from error
+    from gearcad.page.panels.strength import warm_up
     from gearcad.page.routes import add_routes
     from gearcad.page.session import Session
     from gearcad.page.workbench import Workbench
 
-    Workbench(text, name, folder)  # what is wrong with it is told here, not in the browser
+    first = Workbench(text, name, folder)  # what is wrong with it is told here, not in the browser
     port = _free_port(host or LOCAL, port)
     token = None if host is None else secrets.token_urlsafe(16)
     address = f"http://{host or LOCAL}:{port}/{f'?{TOKEN}={token}' if token else ''}"
@@ -51,6 +53,7 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
     add_routes(app)
     app.add_middleware(Access, hosts={f"{each}:{port}" for each in (LOCAL, "localhost", host) if each}, token=token)
     app.on_startup(lambda: print(address, flush=True))
+    app.on_startup(threading.Thread(target=warm_up, args=(first.design,), daemon=True).start)
     ui.run(
         root,
         host=host or LOCAL,

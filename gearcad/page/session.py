@@ -17,6 +17,7 @@ from gearcad.page.panels.inputs import InputsPanel
 from gearcad.page.panels.runs import RunsPanel
 from gearcad.page.panels.section import SectionPanel
 from gearcad.page.panels.sheet import SheetPanel
+from gearcad.page.panels.strength import StrengthPanel
 from gearcad.page.panels.text import TextPanel
 from gearcad.page.tabs import Tabs
 from gearcad.page.words import Language, Words, language_of
@@ -28,6 +29,9 @@ _HANDED: dict[str, Workbench] = {}
 """Workbenches that a tab leaves to the page that it opens next, in another language."""
 
 _MOST_HANDED = 100
+
+_REST = 0.3
+"""Seconds without a change after which what takes long is begun."""
 
 
 class Session:
@@ -41,6 +45,7 @@ class Session:
         self.key = secrets.token_urlsafe(12)
         self._change = 0
         self._task: asyncio.Task[None] | None = None
+        self._later: asyncio.Task[None] | None = None
         with ui.element("header").classes("bar"):
             self._bar()
         with ui.element("main").classes("panels"):
@@ -56,10 +61,11 @@ class Session:
             with ui.element("div").classes("right"):
                 right = Tabs({"data": words["Data"], "runs": words["Runs"]})
                 with right.under("data"):
+                    strength = StrengthPanel(words)
                     sheet = SheetPanel(words)
                 with right.under("runs"):
                     self._runs = RunsPanel(bench, words)
-        self._panels: tuple[Panel[Any], ...] = (self._section, sheet, self._bodies)
+        self._panels: tuple[Panel[Any], ...] = (self._section, sheet, strength, self._bodies)
         ui.context.client.on_delete(self._leave)
         self.follow()
 
@@ -134,10 +140,27 @@ class Session:
         while shown != self._change:
             shown, design = self._change, self.bench.design
             for panel in self._panels:
+                if panel.takes_long(design):
+                    panel.wait()
+                    continue
                 found = await run.io_bound(panel.find, design)
                 if shown != self._change:
                     break
                 panel.show(found)
+        if self._later is None or self._later.done():
+            self._later = background_tasks.create(self._find_later())
+
+    async def _find_later(self) -> None:
+        """What takes long, of the last design: when the hand rests, and without keeping anything else waiting."""
+        shown = 0
+        while shown != self._change:
+            shown, design = self._change, self.bench.design
+            await asyncio.sleep(_REST)
+            for panel in self._panels:
+                if shown == self._change and panel.takes_long(design):
+                    found = await run.io_bound(panel.find, design)
+                    if shown == self._change:
+                        panel.show(found)
 
     def _leave(self) -> None:
         """The tab was closed."""

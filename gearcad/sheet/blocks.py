@@ -34,10 +34,14 @@ class Block(NamedTuple):
 
 
 class Section(NamedTuple):
-    """Blocks with the same columns, by the names above them; none above a single column that needs no name."""
+    """Blocks with the same columns, by the names above them; none above a single column that needs no name.
+
+    `name` says of what they are, where others are alike: a mesh of a train.
+    """
 
     columns: tuple[str, ...]
     blocks: tuple[Block, ...]
+    name: str = ""
 
 
 class Sheet(NamedTuple):

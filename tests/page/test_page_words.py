@@ -12,7 +12,7 @@ from gearcad.designs.keys import FIELDS
 from gearcad.designs.planetary_keys import PLANETARY
 from gearcad.page.fields import part_title, table_title, words_of
 from gearcad.page.words import Language, Words, language_of
-from gearcad.sheet import gears, pairs, train
+from gearcad.sheet import gears, pairs, strength, train
 from gearcad.shipped import PACKAGE
 
 _SAME = {"name", "Text"}
@@ -70,8 +70,15 @@ def _words_of_symbols() -> set[str]:
 
 def _titles_of_sheets() -> set[str]:
     """Blocks of data sheets."""
-    single = {"Gear mesh", "Planetary train", "Train", "Material", "Load", "Mounting", "Rating"}
-    return single.union(gears._GEAR_BLOCKS, gears._RACK_BLOCKS, pairs._PAIR_BLOCKS, train._TITLES.values())
+    single = {"Gear mesh", "Safety", "Least safeties", "Planetary train", "Train", "Material", "Load", "Mounting", "Rating"}
+    return single.union(
+        gears._GEAR_BLOCKS,
+        gears._RACK_BLOCKS,
+        pairs._PAIR_BLOCKS,
+        train._TITLES.values(),
+        strength.FACTORS,
+        strength._SHORT.values(),
+    )
 
 
 def _own_words() -> set[str]:

@@ -10,7 +10,8 @@ import pytest
 from gearcad.designs.design import Design
 from gearcad.designs.reader import design_from_tables, read_spec
 from gearcad.notice import Notice
-from gearcad.page.panels.sheet import PINS, found_of, shown_sheet
+from gearcad.page.panels.figures import shown_figures
+from gearcad.page.panels.sheet import sheet_figures
 from gearcad.page.panels.sheet_content import cells_of, changed_cells, shown_sections
 from gearcad.page.panels.sheet_notices import shown_notices
 from gearcad.page.words import Language, Words
@@ -73,8 +74,8 @@ def test_what_a_step_changes_has_what_it_was_beside_it() -> None:
 
 
 def test_a_kept_design_stands_beside_with_the_difference_of_all_digits() -> None:
-    this, kept = (found_of(pair(centre)) for centre in (91.6, 91.5))
-    rows = shown_rows(shown_sheet(this, ENGLISH, kept=kept.cells))
+    this, kept = (sheet_figures(pair(centre)) for centre in (91.6, 91.5))
+    rows = shown_rows(shown_figures(this, ENGLISH, kept=kept))
     centre = rows["pair.centre_distance"]["cells"]
     assert centre == [{"text": "91.6000", "former": "", "kept": "91.5000", "difference": "+0.1"}]
     assert "kept" not in rows["gear.teeth"]["cells"][0]
@@ -83,17 +84,16 @@ def test_a_kept_design_stands_beside_with_the_difference_of_all_digits() -> None
 
 
 def test_first_figures_of_a_pair_are_known() -> None:
-    rows = shown_rows(shown_sheet(found_of(pair(91.5)), ENGLISH))
-    assert len([key for key in PINS if key in rows]) >= 10
+    found = sheet_figures(pair(91.5))
+    rows = shown_rows(shown_figures(found, ENGLISH))
+    assert len([key for key in found.pins if key in rows]) >= 10
 
 
 def test_notices_lead_to_fields_of_the_spec() -> None:
     keys = {"pinion.profile_shift", "wheel.profile_shift", "wheel.face_width"}
     found = shown_notices([Notice("undercut", "undercut", "wheel"), Notice("unheard-of", "?", "")], keys)
-    assert found == [
-        {"text": "wheel: undercut", "keys": ["wheel.profile_shift", "pinion.profile_shift"]},
-        {"text": "?", "keys": []},
-    ]
+    assert [each["keys"] for each in found] == [["wheel.profile_shift"], []]
+    assert [each["text"] for each in found] == ["wheel: undercut", "?"]
 
 
 def test_a_hostile_name_stays_text() -> None:

@@ -4,12 +4,14 @@ const NUMBER = /^(\D*\d+)([.]\d+)?(e[+-]?\d+)?$/;
 
 export default {
   template: `
-    <section class="gear-sheet" :aria-label="label" @keydown="walk">
+    <section class="gear-sheet" :aria-label="label" :aria-busy="waiting" @keydown="walk">
       <header>
         <h2 v-if="content.title" :class="content.verdict">{{ content.title }}</h2>
-        <p v-for="line in content.lines" :key="line">{{ line }}</p>
+        <p v-if="content.beside" class="kept">{{ words.kept }}: {{ content.beside }}</p>
+        <component :is="line.label ? 'details' : 'p'" v-for="line in content.lines" :key="line.label" class="told">
+          <summary v-if="line.label">{{ words[line.label] }}</summary>{{ line.text }}</component>
         <input v-if="content.sections.length" class="search" type="search" v-model="wanted" :placeholder="words.search" :aria-label="words.search" />
-        <p class="aside" role="status">{{ content.changes ? content.changes + " " + words.changed : "" }}</p>
+        <p class="aside" role="status">{{ content.changes ? words.changed + ": " + content.changes : "" }}</p>
       </header>
       <ul v-if="content.notices.length" class="notices" :aria-label="words.notices">
         <li v-for="notice in content.notices" :key="notice.text">{{ notice.text }}
@@ -40,7 +42,8 @@ export default {
   data() {
     const kept = this.remembered();
     return {
-      content: { title: "", verdict: "", lines: [], changes: 0, notices: [], sections: [], pins: [] },
+      waiting: false,
+      content: { title: "", verdict: "", lines: [], beside: "", changes: 0, notices: [], sections: [], pins: [] },
       folds: kept.folds ?? {},
       pins: kept.pins ?? {},
       wanted: "",
@@ -72,6 +75,10 @@ export default {
   methods: {
     show(content) {
       this.content = content;
+      this.waiting = false;
+    },
+    wait() {
+      this.waiting = true;
     },
     pinned(key) {
       return this.pins[key] ?? this.content.pins.includes(key);

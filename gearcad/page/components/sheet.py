@@ -21,3 +21,7 @@ class SheetView(Element, component="gear_sheet.js"):
 
     def show(self, content: dict[str, Any]) -> None:
         self.run_method("show", content)
+
+    def wait(self) -> None:
+        """Tell that what is shown is of an older design."""
+        self.run_method("wait")

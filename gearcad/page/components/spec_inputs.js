@@ -94,10 +94,12 @@ export default {
     this.phone.addEventListener("change", this.turned);
     this.turned();
     window.addEventListener("keydown", this.shortcut);
+    window.addEventListener("gear-focus", this.led);
   },
   unmounted() {
     this.phone.removeEventListener("change", this.turned);
     window.removeEventListener("keydown", this.shortcut);
+    window.removeEventListener("gear-focus", this.led);
     clearTimeout(this.waiting);
   },
   methods: {
@@ -129,6 +131,10 @@ export default {
       for (let around = place?.closest("details"); around; around = around.parentElement.closest("details")) around.open = true;
       if (scroll) place?.scrollIntoView({ block: "nearest" });
       return place;
+    },
+    // What is told elsewhere leads to the field that it is about.
+    led(event) {
+      this.go(event.detail.key);
     },
     go(key) {
       this.wanted = "";

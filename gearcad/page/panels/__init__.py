@@ -22,6 +22,13 @@ class Panel(ABC, Generic[Found]):
         A design that this panel has nothing to say of gets what says so; what gearcad raises is such a thing.
         """
 
+    def takes_long(self, design: Design) -> bool:
+        """Whether what is to be found of a design has to wait until the hand rests."""
+        return False
+
+    def wait(self) -> None:
+        """Tell that what is shown is of an older design, and another is being found."""
+
     @abstractmethod
     def show(self, found: Found) -> None:
         """Show it; what was found for an older design than the one that is being shown never comes here."""

@@ -51,8 +51,8 @@ def shown_sections(
             "columns": [words[name] for name in section.columns],
             "blocks": [
                 {
-                    "id": " ".join((*section.columns, block.title)),
-                    "title": words[_SAID.get(block.title, block.title)],
+                    "id": " ".join(filter(None, (section.name, *section.columns, block.title))),
+                    "title": ": ".join(filter(None, (section.name, words[_SAID.get(block.title, block.title)]))),
                     "folded": block.title in folded,
                     "rows": [_row(row, section, words, before, beside) for row in block.rows],
                 }

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Any
 
+from gearcad.designs.design import Design
 from gearcad.notice import Notice
+from gearcad.page.fields import fields_of
 
-__all__ = ["shown_notices"]
+__all__ = ["keys_of", "shown_notices"]
 
 _ABOUT = {
     "undercut": "profile_shift rack.addendum",
@@ -40,16 +42,24 @@ _MOST = 2
 """Fields that are named with a notice: more would hide it."""
 
 
-def shown_notices(notices: Collection[Notice], keys: Collection[str]) -> list[dict[str, Any]]:
+def keys_of(design: Design) -> frozenset[str]:
+    """Those of the fields that the specs of a kind have."""
+    return frozenset(field["key"] for table in fields_of(design, {}) for group in table["groups"] for field in group["fields"])
+
+
+def shown_notices(notices: Collection[Notice], keys: Collection[str]) -> tuple[dict[str, Any], ...]:
     """Each notice once, with those of the `keys` of a spec's fields that it is about."""
     found: dict[str, Any] = {}
     for notice in notices:
         found.setdefault(str(notice), {"text": str(notice), "keys": _keys(notice, keys)})
-    return list(found.values())
+    return tuple(found.values())
 
 
 def _keys(notice: Notice, keys: Collection[str]) -> list[str]:
-    """Of the table that the notice names, or of those of the gears in mesh."""
-    tables = [*notice.where.split(": "), "pair", "pinion", "wheel", "planetary"]
-    about = [f"{table}.{key}" for key in _ABOUT.get(notice.code, "").split() for table in tables]
-    return [key for key in dict.fromkeys(about) if key in keys][:_MOST]
+    """Of the table that the notice names; else of those of what is in mesh."""
+    fields = _ABOUT.get(notice.code, "").split()
+    for tables in (notice.where.split(": "), ("pair", "pinion", "wheel", "planetary")):
+        about = dict.fromkeys(f"{table}.{field}" for field in fields for table in tables)
+        if found := [key for key in about if key in keys]:
+            return found[:_MOST]
+    return []

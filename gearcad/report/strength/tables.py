@@ -9,12 +9,13 @@ from typing import Any, NamedTuple
 
 from gearcad import symbols
 from gearcad.material import Material
-from gearcad.per_gear import PerGear, Role
+from gearcad.per_gear import PerGear
 from gearcad.plots.paper import short
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import INFINITE, Part, StrengthRating
 from gearcad.report.check.tables import Row
 from gearcad.schema import symbols_of
+from gearcad.sheet.strength import LONGEST_LIFE, Quantity, factor_quantities, safety_quantities
 from gearcad.symbols import Symbol
 
 __all__ = [
@@ -31,30 +32,6 @@ __all__ = [
 
 _NONE = "–"  # an en dash where there is no value
 
-_TOLD = {
-    "permissible_torque": Symbol("T_1", "N·m", "", "torque on the pinion at the required safety"),
-    "life": Symbol("", "h", "", "life at the required safety"),
-    "damage": Symbol("D", "", "ISO 6336-6", "damage over the life at the required safety"),
-}
-
-_CYCLES = {Part.FLANK: "ISO 6336-2, 11", Part.ROOT: "ISO 6336-3, 12"}
-"""Where the standard counts load cycles."""
-
-_LONGEST_LIFE = 1e6
-"""Hours above which a life is told as more than that."""
-
-_GROUPS = {
-    "Load factors": "K_A K_gamma K_v K_Hbeta K_Fbeta K_Halpha K_Falpha",
-    "Contact stress": "Z_H Z_E Z_eps Z_beta Z_B Z_D sigma_H0 sigma_H",
-    "What the flanks bear": "sigma_Hlim Z_NT Z_L Z_v Z_R Z_W Z_X sigma_HG sigma_HP",
-    "Root stress": "Y_F Y_S Y_beta Y_B Y_DT sigma_F0 sigma_F",
-    "What the roots bear": "sigma_Flim Y_ST Y_NT Y_delta_relT Y_RrelT Y_X Y_M sigma_FG sigma_FP",
-}
-
-
-_OF_ONE = {"Z_B": Role.PINION, "Z_D": Role.WHEEL}
-"""Whose factor it is, of those that documents have by themselves."""
-
 
 class Group(NamedTuple):
     """Rows of factors that belong together."""
@@ -64,52 +41,14 @@ class Group(NamedTuple):
 
 
 def safety_rows(rating: StrengthRating, document: Mapping[str, Any]) -> list[Row]:
-    """Of flanks and roots: safety beside the required one, cycles, torque, life, damage; then of scuffing."""
-    rows = []
-    for part in Part:
-        safety = symbols.STRENGTH[f"S_{part.index}"]
-        rows.append(_row(safety, document["safety"][part.value], rating.names))
-        rows.append(
-            Row(
-                f"required safety of the {part.value}",
-                f"{safety.symbol}min",
-                (_text(document["required"][part.value]),),
-                "",
-                "",
-            )
-        )
-        torque = _TOLD["permissible_torque"]._replace(words=f"torque on the {rating.gear_names.pinion} at the required safety")
-        for told, key in ((torque, "permissible_torque"), (_TOLD["damage"], "damage")):
-            rows.append(_row(told, document[key][part.value], rating.names))
-        hours = {name: _hours(value) for name, value in document["life"][part.value].items()}
-        rows.append(_row(_TOLD["life"], hours, rating.names))
-        cycles = symbols.STRENGTH["N_L"]._replace(source=_CYCLES[part])
-        rows.append(_row(cycles, document["load_cycles"][part.value], rating.names))
-    for symbol, key in (("S_int", "integral"), ("S_B", "flash")):
-        rows.append(_row(symbols.STRENGTH[symbol], document["safety"]["scuffing"][key], rating.names))
-    return rows
+    """Of flanks and roots: safety beside the required one, torque, damage, life, cycles; then of scuffing."""
+    return [_row(each, rating.names) for each in safety_quantities(rating, document)]
 
 
 def factor_groups(rating: StrengthRating, document: Mapping[str, Any]) -> list[Group]:
     """All factors and stresses, each with its clause."""
-    values, verify = {**document["factors"], **document["stresses"]}, {each.rpartition(".")[2] for each in rating.verify}
-    sources = document["sources"]
-
-    def row(key: str) -> Row:
-        symbol = symbols.STRENGTH[key]
-        value, words = values[key], symbol.words
-        if key in _OF_ONE:
-            role = _OF_ONE[key]
-            value = _of_one(rating.names, role, value)
-            words = words.replace(role.value, rating.gear_names.pick(role))
-        symbol = symbol._replace(source=sources.get(key, symbol.source), words=words)
-        return _row(symbol, value, rating.names, key in verify)
-
-    found = [Group(title, [row(key) for key in keys.split() if key in values]) for title, keys in _GROUPS.items()]
-    written, details = symbols.LOAD_FACTOR_DETAILS, document["load_factors"] or {}
-    behind = [_row(written[key], value, rating.names) for key, value in details.items() if key in written]
-    found.insert(1, Group("Behind the load factors", behind))
-    return [group for group in found if group.rows]
+    groups = factor_quantities(rating, document)
+    return [Group(title, [_row(each, rating.names) for each in quantities]) for title, quantities in groups.items()]
 
 
 def option_rows(options: RatingOptions) -> list[Row]:
@@ -206,20 +145,16 @@ def _length(value: float | None) -> str:
     return _NONE if value is None else f"{value:.4f}"
 
 
-def _hours(value: float | str | None) -> float | str | None:
+def _row(of: Quantity, names: PerGear[str]) -> Row:
+    text = _hours if of.symbol.unit == "h" else _text
+    values = tuple(text(of.value[name]) for name in names) if isinstance(of.value, Mapping) else (text(of.value),)
+    source = f"{of.symbol.source} (verify)" if of.verify else of.symbol.source
+    return Row(of.symbol.words, of.symbol.symbol, values, of.symbol.unit, source)
+
+
+def _hours(value: float | str | None) -> str:
     """A life; beyond all machines no digits are told."""
-    return f"> {short(_LONGEST_LIFE)}" if isinstance(value, float) and value > _LONGEST_LIFE else value
-
-
-def _row(symbol: Symbol, value: Any, names: PerGear[str], verify: bool = False) -> Row:
-    values = tuple(_text(value[name]) for name in names) if isinstance(value, Mapping) else (_text(value),)
-    source = f"{symbol.source} (verify)" if verify else symbol.source
-    return Row(symbol.words, symbol.symbol, values, symbol.unit, source)
-
-
-def _of_one(names: PerGear[str], role: Role, value: float) -> dict[str, float | None]:
-    """A value of one gear; the other has none."""
-    return {name: value if each is role else None for each, name in names.items()}
+    return f"> {short(LONGEST_LIFE)}" if isinstance(value, float) and value > LONGEST_LIFE else _text(value)
 
 
 def _listed(value: Any) -> str:

@@ -45,7 +45,6 @@ def test_rows_are_found_and_walked_and_pinned_by_keys(tab: Any) -> None:
 
 
 def test_a_notice_leads_to_its_field(tab: Any) -> None:
-    tab.page.evaluate("window.addEventListener('gear-focus', (event) => { window.led = event.detail.key; })")
     tab.give("pinion.profile_shift", "-0.4")
     tab.page.locator(".gear-sheet .notices .key", has_text="pinion.profile_shift").first.click()
-    assert tab.page.evaluate("window.led") == "pinion.profile_shift"
+    tab.page.wait_for_function("document.activeElement.closest('[data-key]')?.dataset.key === 'pinion.profile_shift'")

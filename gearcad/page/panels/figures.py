@@ -1,0 +1,83 @@
+"""What a panel of figures shows - a data sheet, a rating - and how it follows: what changed, and what a kept design has."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Any, NamedTuple
+
+from gearcad.page.components.sheet import SheetView
+from gearcad.page.panels import Panel
+from gearcad.page.panels.sheet_content import Cells, cells_of, changed_cells, shown_sections
+from gearcad.page.words import Words
+from gearcad.sheet import Section
+
+__all__ = ["Figures", "FiguresPanel", "figures", "shown_figures"]
+
+
+class Figures(NamedTuple):
+    """Sections and all that stands in them, with labelled lines before them, and notices as `shown_notices` gives them.
+
+    `pins` are the keys of rows that stand on top at first, `folded` the titles of blocks that are shut at first. `title` is a
+    verdict, and `verdict` the class by which it is coloured.
+    """
+
+    sections: tuple[Section, ...]
+    cells: Cells
+    lines: tuple[tuple[str, str], ...] = ()
+    notices: tuple[dict[str, Any], ...] = ()
+    pins: Collection[str] = ()
+    folded: Collection[str] = ()
+    title: str = ""
+    verdict: str = ""
+
+
+def figures(sections: tuple[Section, ...], **others: Any) -> Figures:
+    """Those of sections."""
+    return Figures(sections, cells_of(sections), **others)
+
+
+class FiguresPanel(Panel[Figures]):
+    """Tables of figures: those that the last step changed beside what they were; below them those of what is `kept`."""
+
+    def __init__(self, label: str, store: str, words: Words) -> None:
+        self._words = words
+        own = {
+            "search": words["find a quantity"],
+            "pins": words["First figures"],
+            "notices": words["Warnings"],
+            "changed": words["values changed"],
+            "kept": words["kept"],
+            "difference": words["difference"],
+            "assumed": words["assumed"],
+            "verify": words["to verify"],
+        }
+        self._view = SheetView(label, store, own)
+        self._former: Cells = {}
+        self._changed: dict[tuple[str, str], str] = {}
+        self.kept: Figures | None = None
+
+    def show(self, found: Figures) -> None:
+        if found.cells != self._former:
+            self._changed = changed_cells(found.cells, self._former)
+            self._former = found.cells
+        self._view.show(shown_figures(found, self._words, self._changed, self.kept))
+
+    def wait(self) -> None:
+        self._view.wait()
+
+
+def shown_figures(
+    found: Figures, words: Words, changed: dict[tuple[str, str], str] | None = None, kept: Figures | None = None
+) -> dict[str, Any]:
+    """As the browser has them."""
+    beside = None if kept is None else kept.cells
+    return {
+        "title": found.title,
+        "verdict": found.verdict,
+        "lines": [{"label": label, "text": text} for label, text in found.lines],
+        "beside": "" if kept is None else kept.title,
+        "changes": len(changed or {}),
+        "notices": list(found.notices),
+        "pins": list(found.pins),
+        "sections": shown_sections(found.sections, words, folded=found.folded, changed=changed, kept=beside),
+    }

@@ -1,0 +1,163 @@
+"""What a rating comes to: safeties, and factors by what they are of, with their symbols; and its sections on a sheet."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from gearcad import symbols
+from gearcad.dynamics.planetary.strength import TrainStrength
+from gearcad.per_gear import PerGear, Role
+from gearcad.rating.strength import Part, StrengthRating
+from gearcad.sheet.blocks import ABSENT, Block, Row, Section
+from gearcad.symbols import Symbol
+
+__all__ = [
+    "FACTORS",
+    "LONGEST_LIFE",
+    "Quantity",
+    "factor_quantities",
+    "safety_quantities",
+    "strength_sections",
+    "train_strength_sections",
+]
+
+LONGEST_LIFE = 1e6
+"""Hours above which a life is told as more than that."""
+
+_TOLD = {
+    "permissible_torque": Symbol("T_1", "N·m", "", "torque on the pinion at the required safety"),
+    "life": Symbol("", "h", "", "life at the required safety"),
+    "damage": Symbol("D", "", "ISO 6336-6", "damage over the life at the required safety"),
+}
+
+_CYCLES = {Part.FLANK: "ISO 6336-2, 11", Part.ROOT: "ISO 6336-3, 12"}
+"""Where the standard counts load cycles."""
+
+_BEHIND = "Behind the load factors"
+
+_GROUPS = {
+    "Load factors": "K_A K_gamma K_v K_Hbeta K_Fbeta K_Halpha K_Falpha",
+    "Contact stress": "Z_H Z_E Z_eps Z_beta Z_B Z_D sigma_H0 sigma_H",
+    "What the flanks bear": "sigma_Hlim Z_NT Z_L Z_v Z_R Z_W Z_X sigma_HG sigma_HP",
+    "Root stress": "Y_F Y_S Y_beta Y_B Y_DT sigma_F0 sigma_F",
+    "What the roots bear": "sigma_Flim Y_ST Y_NT Y_delta_relT Y_RrelT Y_X Y_M sigma_FG sigma_FP",
+}
+
+FACTORS = (*_GROUPS, _BEHIND)
+"""Titles of the blocks of factors and stresses."""
+
+_OF_ONE = {"Z_B": Role.PINION, "Z_D": Role.WHEEL}
+"""Whose factor it is, of those that documents have by themselves."""
+
+
+_SHORT = {
+    "permissible_torque.flank": "torque for S_Hmin",
+    "permissible_torque.root": "torque for S_Fmin",
+    "damage.flank": "damage for S_Hmin",
+    "damage.root": "damage for S_Fmin",
+    "life.flank": "life for S_Hmin",
+    "life.root": "life for S_Fmin",
+}
+"""Words of rows that stand apart from the safety that they are of."""
+
+_WHOLE = 1e7
+"""Below this a number has no exponent."""
+
+
+class Quantity(NamedTuple):
+    """A number of the pair, or those of both gears under the names of documents; `verify`: whether it rests on one source."""
+
+    key: str
+    symbol: Symbol
+    value: Any
+    verify: bool = False
+
+
+def safety_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> Iterator[Quantity]:
+    """Of flanks and roots: safety beside the required one, torque, damage, life, cycles; then of scuffing."""
+    for part in Part:
+        name, safety = part.value, symbols.STRENGTH[f"S_{part.index}"]
+        yield Quantity(f"safety.{name}", safety, document["safety"][name])
+        required = Symbol(f"{safety.symbol}min", "", "", f"required safety of the {name}")
+        yield Quantity(f"required.{name}", required, document["required"][name])
+        torque = _TOLD["permissible_torque"]._replace(words=f"torque on the {rating.gear_names.pinion} at the required safety")
+        yield Quantity(f"permissible_torque.{name}", torque, document["permissible_torque"][name])
+        yield Quantity(f"damage.{name}", _TOLD["damage"], document["damage"][name])
+        yield Quantity(f"life.{name}", _TOLD["life"], document["life"][name])
+        cycles = symbols.STRENGTH["N_L"]._replace(source=_CYCLES[part])
+        yield Quantity(f"load_cycles.{name}", cycles, document["load_cycles"][name])
+    for symbol, key in (("S_int", "integral"), ("S_B", "flash")):
+        yield Quantity(f"safety.scuffing.{key}", symbols.STRENGTH[symbol], document["safety"]["scuffing"][key])
+
+
+def factor_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> dict[str, list[Quantity]]:
+    """All factors and stresses, each with its clause, by what they are of."""
+    values, verify = {**document["factors"], **document["stresses"]}, {each.rpartition(".")[2] for each in rating.verify}
+    sources = document["sources"]
+
+    def quantity(key: str) -> Quantity:
+        symbol, value = symbols.STRENGTH[key], values[key]
+        words = symbol.words
+        if key in _OF_ONE:
+            role = _OF_ONE[key]
+            value = {name: value if each is role else None for each, name in rating.names.items()}
+            words = words.replace(role.value, rating.gear_names.pick(role))
+        symbol = symbol._replace(source=sources.get(key, symbol.source), words=words)
+        return Quantity(f"factors.{key}", symbol, value, key in verify)
+
+    found = {title: [quantity(key) for key in keys.split() if key in values] for title, keys in _GROUPS.items()}
+    written, details = symbols.LOAD_FACTOR_DETAILS, document["load_factors"] or {}
+    behind = [Quantity(f"load_factors.{key}", written[key], value) for key, value in details.items() if key in written]
+    first, *others = found.items()
+    return {title: of for title, of in (first, (_BEHIND, behind), *others) if of}
+
+
+def strength_sections(rating: StrengthRating, name: str = "") -> tuple[Section, ...]:
+    """Safeties, then factors by what they are of, a column for each gear; of a mesh of a train with its `name`."""
+    document = rating.to_dict()
+    groups = {"Safety": list(safety_quantities(rating, document)), **factor_quantities(rating, document)}
+    before = f"{name}." if name else "strength."
+    blocks = tuple(
+        Block(title, tuple(_row(before, each, rating.names) for each in quantities)) for title, quantities in groups.items()
+    )
+    return (Section(tuple(rating.gear_names), blocks, name),)
+
+
+def train_strength_sections(strength: TrainStrength) -> tuple[Section, ...]:
+    """The least safeties of every gear, each with its mesh, then the sections of each mesh."""
+    rows = []
+    for name, gear in strength.members.items():
+        least = [gear.least(part) for part in Part]
+        texts = tuple(ABSENT if each is None else f"{_text(each.safety)} ({each.mesh})" for each in least)
+        values = tuple(None if each is None else each.safety for each in least)
+        rows.append(Row(f"least.{name}", Symbol("", "", "", name), values, texts))
+    sections = [Section(tuple(part.value for part in Part), (Block("Least safeties", tuple(rows)),))]
+    for name, rating in strength.meshes.items():
+        sections += strength_sections(rating, name)
+    return tuple(sections)
+
+
+def _row(before: str, of: Quantity, names: PerGear[str]) -> Row:
+    values = tuple(of.value[name] for name in names) if isinstance(of.value, Mapping) else (of.value,)
+    symbol = of.symbol._replace(words=_SHORT.get(of.key, of.symbol.words))
+    symbol = symbol._replace(source=f"{symbol.source} (verify)") if of.verify else symbol
+    text = _hours if of.symbol.unit == "h" else _text
+    return Row(f"{before}{of.key}", symbol, values, tuple(map(text, values)))
+
+
+def _hours(value: float | str | None) -> str:
+    """A life; beyond all machines no digits are told."""
+    return f"> {LONGEST_LIFE:.0f}" if isinstance(value, float) and LONGEST_LIFE < value < math.inf else _text(value)
+
+
+def _text(value: Any) -> str:
+    if value is None:
+        return ABSENT
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if not isinstance(value, float):
+        return str(value)
+    text = f"{value:.4g}"
+    return f"{float(text):.0f}" if "e+" in text and abs(value) < _WHOLE else text
