@@ -9,8 +9,10 @@ from typing import Any
 
 from nicegui import background_tasks, run, ui
 
+from gearcad.page.beside_design import BesideDesign
 from gearcad.page.links import DESIGN, linked_bench
 from gearcad.page.panels import Panel
+from gearcad.page.panels.beside import BesidePanel
 from gearcad.page.panels.bodies import BODIES, BodiesPanel
 from gearcad.page.panels.files import FilesPanel
 from gearcad.page.panels.inputs import InputsPanel
@@ -43,6 +45,7 @@ class Session:
     def __init__(self, bench: Workbench, words: Words) -> None:
         self.bench, self.words = bench, words
         self.key = secrets.token_urlsafe(12)
+        self.beside = BesideDesign(bench)
         self._change = 0
         self._task: asyncio.Task[None] | None = None
         self._later: asyncio.Task[None] | None = None
@@ -91,6 +94,7 @@ class Session:
         self._files = FilesPanel(self.key, self.bench, self.words, self.opened, lambda _text, _name: None)
         self._undo = ui.button(icon="undo", on_click=lambda: self.step(False)).props("flat dense round")
         self._redo = ui.button(icon="redo", on_click=lambda: self.step(True)).props("flat dense round")
+        BesidePanel(self.beside, self.words, self.kept)
         ui.slider(min=-0.5, max=0.5, step=0.002, value=0, on_change=lambda event: self.pose(event.value))
         for language in Language:
             spoken = ui.button(language.value, on_click=lambda _, language=language: self.speak(language)).props("flat dense")
@@ -110,6 +114,11 @@ class Session:
         """Somebody opened another spec."""
         self.bench.open(text, name)
         self.follow(reveal=True)
+
+    def kept(self) -> None:
+        """Another design is beside this one, or none; it may have changed places with it."""
+        self.follow(reveal=True)
+        background_tasks.create(self._compare())
 
     def step(self, forth: bool) -> None:
         """Redo, or undo."""
@@ -161,6 +170,17 @@ class Session:
                     found = await run.io_bound(panel.find, design)
                     if shown == self._change:
                         panel.show(found)
+
+    async def _compare(self) -> None:
+        """Let panels that compare have what they show of the kept design."""
+        kept = self.beside.design
+        for panel in self._panels:
+            if panel.compares:
+                found = None if kept is None else await run.io_bound(panel.find, kept)
+                if kept is not self.beside.design:
+                    return
+                panel.keep(found)
+        self.follow()
 
     def _leave(self) -> None:
         """The tab was closed."""

@@ -8,6 +8,9 @@ export default {
           <circle v-for="(diameter, kind) in gear.circles" :key="kind" :class="kind" :r="diameter / 2"><title>{{ kind }}</title></circle>
           <circle v-if="gear.pitch" class="pitch" :r="gear.pitch / 2" />
         </g>
+        <g v-for="gear in kept?.gears ?? []" :key="'kept ' + gear.name" class="kept" :transform="'translate(' + gear.x + ')'">
+          <path :d="outline(gear)" :transform="turned(gear)" />
+        </g>
         <g v-if="content.line" class="line" :transform="line">
           <line class="action" x1="0" :x2="content.line.length" />
           <line class="path" :x1="content.line.path[0]" :x2="content.line.path[4]" />
@@ -16,7 +19,7 @@ export default {
     </svg>`,
   props: { label: String },
   data() {
-    return { content: null, turn: 0, near: true };
+    return { content: null, kept: null, turn: 0, near: true };
   },
   computed: {
     box() {
@@ -44,6 +47,9 @@ export default {
   methods: {
     show(content) {
       this.content = content;
+    },
+    keep(content) {
+      this.kept = content;
     },
     pose(turn) {
       this.turn = turn;

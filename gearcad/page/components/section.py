@@ -19,5 +19,9 @@ class SectionView(Element, component="gear_section.js"):
     def show(self, content: dict[str, Any] | None) -> None:
         self.run_method("show", content)
 
+    def keep(self, content: dict[str, Any] | None) -> None:
+        """The same of a kept design, whose outlines are drawn as thin lines."""
+        self.run_method("keep", content)
+
     def pose(self, turn: float) -> None:
         self.run_method("pose", turn)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Generic, TypeVar
+from typing import ClassVar, Generic, TypeVar
 
 from gearcad.designs.design import Design
 
@@ -13,7 +13,12 @@ Found = TypeVar("Found")
 
 
 class Panel(ABC, Generic[Found]):
-    """A part of the page that follows the design. It is built where NiceGUI's elements are being put when it is made."""
+    """A part of the page that follows the design. It is built where NiceGUI's elements are being put when it is made.
+
+    One that `compares` shows a kept design beside it.
+    """
+
+    compares: ClassVar[bool] = False
 
     @abstractmethod
     def find(self, design: Design) -> Found:
@@ -32,3 +37,6 @@ class Panel(ABC, Generic[Found]):
     @abstractmethod
     def show(self, found: Found) -> None:
         """Show it; what was found for an older design than the one that is being shown never comes here."""
+
+    def keep(self, found: Found | None) -> None:
+        """Take what was found for the kept design, or that there is none, to be shown with what follows."""

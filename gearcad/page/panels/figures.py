@@ -37,7 +37,9 @@ def figures(sections: tuple[Section, ...], **others: Any) -> Figures:
 
 
 class FiguresPanel(Panel[Figures]):
-    """Tables of figures: those that the last step changed beside what they were; below them those of what is `kept`."""
+    """Tables of figures: those that the last step changed beside what they were; below them those of a kept design."""
+
+    compares = True
 
     def __init__(self, label: str, store: str, words: Words) -> None:
         self._words = words
@@ -54,13 +56,16 @@ class FiguresPanel(Panel[Figures]):
         self._view = SheetView(label, store, own)
         self._former: Cells = {}
         self._changed: dict[tuple[str, str], str] = {}
-        self.kept: Figures | None = None
+        self._kept: Figures | None = None
 
     def show(self, found: Figures) -> None:
         if found.cells != self._former:
             self._changed = changed_cells(found.cells, self._former)
             self._former = found.cells
-        self._view.show(shown_figures(found, self._words, self._changed, self.kept))
+        self._view.show(shown_figures(found, self._words, self._changed, self._kept))
+
+    def keep(self, found: Figures | None) -> None:
+        self._kept = found
 
     def wait(self) -> None:
         self._view.wait()

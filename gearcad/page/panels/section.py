@@ -22,7 +22,9 @@ _DIGITS = 4
 
 
 class SectionPanel(Panel[dict[str, Any] | None]):
-    """The mesh in its transverse section."""
+    """The mesh in its transverse section; that of a kept design as thin lines over it."""
+
+    compares = True
 
     def __init__(self) -> None:
         self._view = SectionView("transverse section of the mesh")
@@ -32,6 +34,9 @@ class SectionPanel(Panel[dict[str, Any] | None]):
 
     def show(self, found: dict[str, Any] | None) -> None:
         self._view.show(found)
+
+    def keep(self, found: dict[str, Any] | None) -> None:
+        self._view.keep(found)
 
     def pose(self, turn: float) -> None:
         """Turn the first gear by so many radians."""

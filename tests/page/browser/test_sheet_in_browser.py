@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+SHEET = '.gear-sheet[aria-label="data sheet"]'
+
 
 def value(tab: Any, key: str) -> Any:
     """The cells of a row outside the first figures."""
-    return tab.page.locator(f'.gear-sheet tr[data-row="{key}"]').last.locator(".value")
+    return tab.page.locator(f'{SHEET} tr[data-row="{key}"]').last.locator(".value")
 
 
 def test_what_changed_stands_beside_what_it_was(tab: Any) -> None:
@@ -17,11 +19,11 @@ def test_what_changed_stands_beside_what_it_was(tab: Any) -> None:
     cell.locator("del").wait_for()
     assert cell.locator("del").inner_text() == before
     assert cell.locator(".whole").inner_text() + cell.locator(".rest").inner_text() != before
-    assert "values changed" in tab.page.inner_text('.gear-sheet [role="status"]')
+    assert "values changed" in tab.page.inner_text(f'{SHEET} [role="status"]')
 
 
 def test_folding_stays_over_changes(tab: Any) -> None:
-    block = tab.page.locator(".gear-sheet details", has_text="Diameters").last
+    block = tab.page.locator(f"{SHEET} details", has_text="Diameters").last
     block.locator("summary").click()
     assert block.get_attribute("open") is None
     tab.give("pinion.teeth", "22")
@@ -29,13 +31,13 @@ def test_folding_stays_over_changes(tab: Any) -> None:
 
 
 def test_rows_are_found_and_walked_and_pinned_by_keys(tab: Any) -> None:
-    tab.page.fill(".gear-sheet .search", "root form")
-    rows = tab.page.locator(".gear-sheet tr[data-row]")
+    tab.page.fill(f"{SHEET} .search", "root form")
+    rows = tab.page.locator(f"{SHEET} tr[data-row]")
     assert rows.count() == 1
     rows.first.focus()
     tab.page.keyboard.press("Enter")
-    tab.page.fill(".gear-sheet .search", "")
-    first = tab.page.locator(".gear-sheet details").first
+    tab.page.fill(f"{SHEET} .search", "")
+    first = tab.page.locator(f"{SHEET} details").first
     assert first.locator('tr[data-row="gear.form_diameter"]').count() == 1
     first.locator("tr[data-row]").first.focus()
     tab.page.keyboard.press("ArrowDown")
@@ -46,5 +48,23 @@ def test_rows_are_found_and_walked_and_pinned_by_keys(tab: Any) -> None:
 
 def test_a_notice_leads_to_its_field(tab: Any) -> None:
     tab.give("pinion.profile_shift", "-0.4")
-    tab.page.locator(".gear-sheet .notices .key", has_text="pinion.profile_shift").first.click()
+    tab.page.locator(f"{SHEET} .notices .key", has_text="pinion.profile_shift").first.click()
     tab.page.wait_for_function("document.activeElement.closest('[data-key]')?.dataset.key === 'pinion.profile_shift'")
+
+
+def test_a_kept_design_stands_beside_changes_places_and_is_let_go(tab: Any) -> None:
+    page = tab.page
+    page.get_by_role("button", name="Beside").click()
+    page.get_by_text("keep this design").click()
+    page.wait_for_selector(".section .kept path", state="attached")
+    tab.give("pinion.profile_shift", "0.35")
+    row = page.locator(f'{SHEET} tr[data-row="gear.profile_shift"]').last
+    row.locator("xpath=following-sibling::tr[@class='kept']").wait_for()
+    assert "0.2000" in row.locator("xpath=following-sibling::tr[@class='kept']").inner_text()
+    assert "+0.15" in row.locator("xpath=following-sibling::tr[@class='difference']").inner_text()
+    page.get_by_role("button", name="swap").click()
+    page.wait_for_function("document.querySelector('[data-key=\"pinion.profile_shift\"] input').value === '0.2'")
+    row.locator("xpath=following-sibling::tr[@class='difference']").get_by_text("-0.15").wait_for()
+    page.get_by_role("button", name="let go").click()
+    page.wait_for_selector(".section .kept path", state="detached")
+    row.locator("xpath=following-sibling::tr[@class='kept']").wait_for(state="detached")
