@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import secrets
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from gearcad.page.panels.beside import BesidePanel
 from gearcad.page.panels.bodies import BODIES, BodiesPanel
 from gearcad.page.panels.files import FilesPanel
 from gearcad.page.panels.inputs import InputsPanel
+from gearcad.page.panels.limits import LimitsPanel
 from gearcad.page.panels.runs import RunsPanel
 from gearcad.page.panels.section import SectionPanel
 from gearcad.page.panels.sheet import SheetPanel
@@ -53,11 +55,13 @@ class Session:
             self._bar()
         with ui.element("main").classes("panels"):
             with ui.element("div").classes("left"):
-                left = Tabs({"inputs": words["Inputs"], "text": words["Text"]})
+                left = Tabs({"inputs": words["Inputs"], "text": words["Text"], "limits": words["Limits"]})
                 with left.under("inputs"):
                     self._inputs = InputsPanel(self.typed, self.step, words)
                 with left.under("text"):
                     self._text = TextPanel(self.written, self.step, words)
+                with left.under("limits"):
+                    limits = LimitsPanel(bench, self.change, words)
             with ui.element("div").classes("middle"):
                 self._bodies = BodiesPanel(self.key)
                 self._section = SectionPanel()
@@ -68,7 +72,7 @@ class Session:
                     sheet = SheetPanel(words)
                 with right.under("runs"):
                     self._runs = RunsPanel(bench, words)
-        self._panels: tuple[Panel[Any], ...] = (self._section, sheet, strength, self._bodies)
+        self._panels: tuple[Panel[Any], ...] = (self._section, sheet, strength, limits, self._bodies)
         ui.context.client.on_delete(self._leave)
         self.follow()
 
@@ -102,7 +106,11 @@ class Session:
 
     def typed(self, key: str, text: str) -> None:
         """Somebody typed into the field of a key."""
-        self.bench.change({key: text})
+        self.change({key: text})
+
+    def change(self, given: Mapping[str, str]) -> None:
+        """Write under keys of the spec what was typed or moved."""
+        self.bench.change(given)
         self.follow()
 
     def written(self, text: str) -> None:

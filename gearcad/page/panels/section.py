@@ -73,7 +73,7 @@ def _gear(name: str, gear: Gear, x: float, turn: float, ratio: float) -> dict[st
     outline = gear.profile.contour(_CHORD * gear.normal_module).round(_DIGITS)
     return {
         "name": name,
-        "x": x,
+        "x": float(x),  # plain: a derived centre distance is no number of JSON
         "turn": turn,
         "ratio": ratio,
         "teeth": gear.teeth,
