@@ -77,10 +77,10 @@ def test_a_kept_design_stands_beside_with_the_difference_of_all_digits() -> None
     this, kept = (sheet_figures(pair(centre)) for centre in (91.6, 91.5))
     rows = shown_rows(shown_figures(this, ENGLISH, kept=kept))
     centre = rows["pair.centre_distance"]["cells"]
-    assert centre == [{"text": "91.6000", "former": "", "kept": "91.5000", "difference": "+0.1"}]
+    assert centre == [{"text": "91.6000", "former": "", "kept": "91.5000", "difference": "+0.1000"}]
     assert "kept" not in rows["gear.teeth"]["cells"][0]
     ratio = this.cells["pair.total_contact_ratio", ""].value - kept.cells["pair.total_contact_ratio", ""].value
-    assert rows["pair.total_contact_ratio"]["cells"][0]["difference"] == f"{ratio:+.4g}"
+    assert rows["pair.total_contact_ratio"]["cells"][0]["difference"] == f"{ratio:+.4f}"
 
 
 def test_first_figures_of_a_pair_are_known() -> None:

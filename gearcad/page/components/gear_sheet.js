@@ -29,10 +29,12 @@ export default {
                 ><span class="rest" :style="{ minWidth: block.rest + 'ch' }" v-if="split(cell.text)[1] !== null">{{ split(cell.text)[1] }}</span>
               </td>
             </tr>
-            <tr v-for="line in others(row)" :key="line" :class="line">
-              <th scope="row" colspan="3">{{ words[line] }}</th>
-              <td v-for="(cell, number) in row.cells" :key="number" class="value" :colspan="span(block, row)"
-                ><span class="whole">{{ split(cell[line])[0] }}</span><span class="rest" :style="{ minWidth: block.rest + 'ch' }" v-if="split(cell[line])[1] !== null">{{ split(cell[line])[1] }}</span></td>
+            <tr v-if="row.cells.some((cell) => cell.kept)" class="kept">
+              <th scope="row" colspan="3">{{ words.kept }} <small>({{ words.difference }})</small></th>
+              <td v-for="(cell, number) in row.cells" :key="number" class="value" :colspan="span(block, row)">
+                <small v-if="cell.difference">({{ cell.difference }})</small><span class="whole">{{ split(cell.kept ?? "")[0] }}</span
+                ><span class="rest" :style="{ minWidth: block.rest + 'ch' }" v-if="split(cell.kept ?? '')[1] !== null">{{ split(cell.kept)[1] }}</span>
+              </td>
             </tr>
           </tbody>
         </table>
@@ -87,10 +89,6 @@ export default {
     split(text) {
       const found = NUMBER.exec(text);
       return found ? [found[1], (found[2] ?? "") + (found[3] ?? "")] : [text, null];
-    },
-    // Lines below a row: what the kept design has, and how far this one is from it.
-    others(row) {
-      return ["kept", "difference"].filter((line) => row.cells.some((cell) => cell[line]));
     },
     span(block, row) {
       return row.cells.length === 1 ? Math.max(block.columns.length, 1) : 1;

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
@@ -92,9 +93,14 @@ def _beside(cell: Cell, kept: Cell | None) -> dict[str, str]:
     """What the kept design has, where that is shown otherwise, and how much more this one has."""
     if kept is None or kept.text == cell.text:
         return {}
-    return {"kept": kept.text, "difference": _difference(cell.value, kept.value)}
+    return {"kept": kept.text, "difference": _difference(cell, kept)}
 
 
-def _difference(value: Any, kept: Any) -> str:
-    numbers = all(isinstance(each, int | float) and not isinstance(each, bool) for each in (value, kept))
-    return f"{value - kept:+.4g}" if numbers else ""
+def _difference(cell: Cell, kept: Cell) -> str:
+    """With as many decimals as are shown; "" where there is no difference of numbers."""
+    numbers = all(isinstance(each, int | float) and not isinstance(each, bool) for each in (cell.value, kept.value))
+    if not numbers or not all(math.isfinite(each.value) for each in (cell, kept)):
+        return ""
+    decimals = max(len(each.text.partition(".")[2]) for each in (cell, kept))
+    difference = cell.value - kept.value
+    return f"{difference:+.3e}" if any("e" in each.text for each in (cell, kept)) else f"{difference:+.{decimals}f}"
