@@ -26,7 +26,7 @@ from gearcad.output import UNWRITABLE, unwritable
 from gearcad.per_gear import PerGear
 from gearcad.symbols import PER_GEAR
 
-__all__ = ["Checked", "Record", "Status", "Task", "check_rows", "make_row"]
+__all__ = ["Checked", "Record", "Status", "Task", "check_rows", "flat_document", "make_row"]
 
 _HOPELESS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.ENOENT)
 """Errors of the target that every other row would meet too."""
@@ -120,7 +120,7 @@ def make_row(task: Task) -> Record:
         warnings=tuple(_warnings(document)),
         seconds=_since(began) if any(update.made for update in updates) else None,
         files=tuple(file for update in updates for part in update.parts for file in part.files),
-        values=dict(_flat(document)),
+        values=dict(flat_document(document)),
     )
 
 
@@ -215,13 +215,13 @@ _INPUTS_ALONE = ("drawing", "drawings")
 """Parts of documents that hold nothing but inputs, which have columns where they are given."""
 
 
-def _flat(document: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+def flat_document(document: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     """The document's values under dotted keys; what pinion and wheel each have under their names; warnings have a column."""
     for key, value in document.items():
         if not prefix and key in _INPUTS_ALONE:
             continue
         if isinstance(value, dict):
-            yield from _flat(value, f"{prefix}{key}.")
+            yield from flat_document(value, f"{prefix}{key}.")
         elif key in ("warnings", "notices", "verify") or not prefix:
             continue
         elif prefix == "pair." and key in PER_GEAR:

@@ -22,6 +22,7 @@ from gearcad.page.panels.runs import RunsPanel
 from gearcad.page.panels.section import SectionPanel
 from gearcad.page.panels.sheet import SheetPanel
 from gearcad.page.panels.strength import StrengthPanel
+from gearcad.page.panels.table import TablePanel
 from gearcad.page.panels.text import TextPanel
 from gearcad.page.tabs import Tabs
 from gearcad.page.words import Language, Words, language_of
@@ -66,12 +67,14 @@ class Session:
                 self._bodies = BodiesPanel(self.key)
                 self._section = SectionPanel()
             with ui.element("div").classes("right"):
-                right = Tabs({"data": words["Data"], "runs": words["Runs"]})
+                right = self._right = Tabs({"data": words["Data"], "runs": words["Runs"], "table": words["Table"]})
                 with right.under("data"):
                     strength = StrengthPanel(words)
                     sheet = SheetPanel(words)
                 with right.under("runs"):
                     self._runs = RunsPanel(bench, words)
+                with right.under("table"):
+                    self._table = TablePanel(words, bench.folder, self.opened)
         self._panels: tuple[Panel[Any], ...] = (self._section, sheet, strength, limits, self._bodies)
         ui.context.client.on_delete(self._leave)
         self.follow()
@@ -95,7 +98,7 @@ class Session:
 
     def _bar(self) -> None:
         self._name = ui.label().classes("name")
-        self._files = FilesPanel(self.key, self.bench, self.words, self.opened, lambda _text, _name: None)
+        self._files = FilesPanel(self.key, self.bench, self.words, self.opened, self.tabled)
         self._undo = ui.button(icon="undo", on_click=lambda: self.step(False)).props("flat dense round")
         self._redo = ui.button(icon="redo", on_click=lambda: self.step(True)).props("flat dense round")
         BesidePanel(self.beside, self.words, self.kept)
@@ -127,6 +130,11 @@ class Session:
         """Another design is beside this one, or none; it may have changed places with it."""
         self.follow(reveal=True)
         background_tasks.create(self._compare())
+
+    def tabled(self, text: str, name: str) -> None:
+        """Somebody opened a table of results."""
+        self._right.choose("table")
+        self._table.take(text, name)
 
     def step(self, forth: bool) -> None:
         """Redo, or undo."""

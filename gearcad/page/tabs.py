@@ -11,7 +11,10 @@ __all__ = ["Tabs"]
 
 
 class Tabs:
-    """A row of titles by their keys; what is put `under` a key is seen while its title is chosen, at first under the first."""
+    """A row of titles by their keys; what is put `under` a key is seen while its title is chosen, at first under the first.
+
+    `choose(key)` chooses.
+    """
 
     def __init__(self, titles: Mapping[str, str]) -> None:
         first = next(iter(titles))
@@ -22,6 +25,7 @@ class Tabs:
                 ui.tab(key, title)
         self._panes = {key: ui.element("div").classes("pane") for key in titles}
         row.set_value(first)
+        self.choose = row.set_value
 
     @contextmanager
     def under(self, key: str) -> Iterator[None]:

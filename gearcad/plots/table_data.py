@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TextIO
 
 from gearcad import symbols
 from gearcad.designs.cells import plain_text
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["Column", "Points", "read_points"]
+__all__ = ["Column", "Points", "opened_records", "read_points"]
 
 _STATUS = "status"
 _MAIN_TABLES = ("pair", "gear")
@@ -93,18 +93,30 @@ def read_points(path: Path | str, x: str, y: str, *, colour: str | None = None, 
 def _opened(path: Path) -> Iterator[tuple[list[str], Iterator[list[str]]]]:
     """The headings and the other records of the file; whatever is wrong with it becomes a SpecError."""
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            decimal_comma = _STATUS in file.readline().strip().split(";")
-            file.seek(0)
-            records = csv.reader(file, delimiter=";" if decimal_comma else ",")
-            headings = next(records, [])
-            if _STATUS not in headings:
-                raise SpecError(f"{path}: is no table of results, for it has no column {_STATUS}; {_WHAT}")
-            yield headings, (list(map(_with_point, cells)) for cells in records) if decimal_comma else records
+        with path.open(encoding="utf-8-sig", newline="") as file, opened_records(file, str(path)) as opened:
+            yield opened
     except OSError as error:
         raise SpecError(f"{path}: cannot be read ({error.strerror}); {_WHAT}") from error
-    except (UnicodeDecodeError, csv.Error) as error:
+    except UnicodeDecodeError as error:
         raise SpecError(f"{path}: is no table of results, for it is not CSV in UTF-8 ({error}); {_WHAT}") from error
+
+
+@contextmanager
+def opened_records(file: TextIO, name: str) -> Iterator[tuple[list[str], Iterator[list[str]]]]:
+    """The headings of the results in a file that messages call `name`, and its other records, with decimal points.
+
+    Raises SpecError for what is no table of results.
+    """
+    try:
+        decimal_comma = _STATUS in file.readline().strip().split(";")
+        file.seek(0)
+        records = csv.reader(file, delimiter=";" if decimal_comma else ",")
+        headings = next(records, [])
+        if _STATUS not in headings:
+            raise SpecError(f"{name}: is no table of results, for it has no column {_STATUS}; {_WHAT}")
+        yield headings, (list(map(_with_point, cells)) for cells in records) if decimal_comma else records
+    except csv.Error as error:
+        raise SpecError(f"{name}: is no table of results, for it is not CSV in UTF-8 ({error}); {_WHAT}") from error
 
 
 def _with_point(cell: str) -> str:

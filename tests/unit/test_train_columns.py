@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import gearcad
-from gearcad.batch.row import _flat, _warnings
+from gearcad.batch.row import _warnings, flat_document
 from gearcad.batch.study import plan_study, write_study
 from gearcad.designs import TrainDesign, design_from_tables, open_table, read_spec
 from gearcad.designs.columns import column_symbol
@@ -108,7 +108,7 @@ def test_every_column_is_explained(document: dict[str, object]) -> None:
     design = TrainDesign(name="t", train=replace(two_stages(), speed=2000.0))
     row = Data().document(design)
     row["dynamics"] |= dynamics_columns(document)
-    headings = dict(_flat(json.loads(json.dumps(row))))
+    headings = dict(flat_document(json.loads(json.dumps(row))))
     unexplained = [heading for heading in headings if (found := column_symbol(heading)) is None or not found[1].words]
     assert unexplained == []
     assert (column_symbol("dynamics.shaft_overload.input") or ("",))[0] == "input"
