@@ -10,7 +10,7 @@ from gearcad import symbols
 from gearcad.dynamics.planetary.strength import TrainStrength
 from gearcad.per_gear import PerGear, Role
 from gearcad.rating.strength import Part, StrengthRating
-from gearcad.sheet.blocks import ABSENT, Block, Row, Section
+from gearcad.sheet.blocks import ABSENT, Row, Section, block
 from gearcad.symbols import Symbol
 
 __all__ = [
@@ -115,13 +115,12 @@ def factor_quantities(rating: StrengthRating, document: Mapping[str, Any]) -> di
 
 
 def strength_sections(rating: StrengthRating, name: str = "") -> tuple[Section, ...]:
-    """Safeties, then factors by what they are of, a column for each gear; of a mesh of a train with its `name`."""
+    """Safeties, then factors by what they are of, a column for each gear, without what is not known; of a mesh its `name`."""
     document = rating.to_dict()
     groups = {"Safety": list(safety_quantities(rating, document)), **factor_quantities(rating, document)}
     before = f"{name}." if name else "strength."
-    blocks = tuple(
-        Block(title, tuple(_row(before, each, rating.names) for each in quantities)) for title, quantities in groups.items()
-    )
+    rows = {title: [_row(before, each, rating.names) for each in quantities] for title, quantities in groups.items()}
+    blocks = tuple(each for title, of in rows.items() for each in block(title, filter(_is_known, of)))
     return (Section(tuple(rating.gear_names), blocks, name),)
 
 
@@ -133,10 +132,14 @@ def train_strength_sections(strength: TrainStrength) -> tuple[Section, ...]:
         texts = tuple(ABSENT if each is None else f"{_text(each.safety)} ({each.mesh})" for each in least)
         values = tuple(None if each is None else each.safety for each in least)
         rows.append(Row(f"least.{name}", Symbol("", "", "", name), values, texts))
-    sections = [Section(tuple(part.value for part in Part), (Block("Least safeties", tuple(rows)),))]
+    sections = [Section(tuple(f"S_{part.index}" for part in Part), block("Least safeties", filter(_is_known, rows)))]
     for name, rating in strength.meshes.items():
         sections += strength_sections(rating, name)
     return tuple(sections)
+
+
+def _is_known(row: Row) -> bool:
+    return set(row.texts) != {ABSENT}
 
 
 def _row(before: str, of: Quantity, names: PerGear[str]) -> Row:

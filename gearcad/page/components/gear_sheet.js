@@ -1,6 +1,7 @@
 // Blocks of quantities as tables: words, symbol, unit, values. What changed by the last step stands beside what it was, and what a
 // kept design has in lines below. Rows are walked by the arrow keys; Enter puts one on top, or takes it from there.
 const NUMBER = /^(\D*\d+)([.]\d+)?(e[+-]?\d+)?$/;
+const FEW = 3;
 
 export default {
   template: `
@@ -11,29 +12,30 @@ export default {
         <component :is="line.label ? 'details' : 'p'" v-for="line in content.lines" :key="line.label" class="told">
           <summary v-if="line.label">{{ words[line.label] }}</summary>{{ line.text }}</component>
         <input v-if="content.sections.length" class="search" type="search" v-model="wanted" :placeholder="words.search" :aria-label="words.search" />
-        <p class="aside" role="status">{{ content.changes ? words.changed + ": " + content.changes : "" }}</p>
+        <p class="aside" role="status">{{ waiting ? words.waiting : content.changes ? words.changed + ": " + content.changes : "" }}</p>
       </header>
-      <ul v-if="content.notices.length" class="notices" :aria-label="words.notices">
-        <li v-for="notice in content.notices" :key="notice.text">{{ notice.text }}
-          <button v-for="key in notice.keys" :key="key" type="button" class="key" @click="focus(key)">{{ key }}</button></li>
-      </ul>
+      <details v-if="content.notices.length" class="notices" :open="noticesOpen" @toggle="fold({ id: 'notices', open: noticesOpen }, $event.target.open)">
+        <summary>{{ words.notices }} ({{ content.notices.length }})</summary>
+        <ul><li v-for="notice in content.notices" :key="notice.text">{{ notice.text }}
+          <button v-for="key in notice.keys" :key="key" type="button" class="key" @click="focus(key)">{{ key }}</button></li></ul>
+      </details>
       <details v-for="block in blocks" :key="block.id" :open="block.open" @toggle="fold(block, $event.target.open)">
         <summary>{{ block.title }}</summary>
-        <table>
-          <thead v-if="block.columns.length"><tr><th colspan="3"></th><th v-for="name in block.columns" :key="name" scope="col">{{ name }}</th></tr></thead>
-          <tbody v-for="row in block.rows" :key="row.key">
+        <table v-for="table in block.tables" :key="table.columns.join()">
+          <thead v-if="table.columns.length"><tr><th colspan="3"></th><th v-for="name in table.columns" :key="name" scope="col">{{ name }}</th></tr></thead>
+          <tbody v-for="row in table.rows" :key="row.key">
             <tr :data-row="row.key" :title="hint(row)" :tabindex="row === here(block) ? 0 : -1" @focus="at = block.id + row.key">
               <th scope="row">{{ row.words }}</th><td class="symbol">{{ row.symbol }}</td><td class="unit">{{ row.unit }}</td>
-              <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ changed: cell.former }" :colspan="span(block, row)">
+              <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ changed: cell.former }" :colspan="span(table, row)">
                 <del v-if="cell.former">{{ cell.former }}</del><span class="whole">{{ split(cell.text)[0] }}</span
-                ><span class="rest" :style="{ minWidth: block.rest + 'ch' }" v-if="split(cell.text)[1] !== null">{{ split(cell.text)[1] }}</span>
+                ><span class="rest" :style="{ minWidth: table.rest + 'ch' }" v-if="split(cell.text)[1] !== null">{{ split(cell.text)[1] }}</span>
               </td>
             </tr>
             <tr v-if="row.cells.some((cell) => cell.kept)" class="kept">
               <th scope="row" colspan="3">{{ words.kept }} <small>({{ words.difference }})</small></th>
-              <td v-for="(cell, number) in row.cells" :key="number" class="value" :colspan="span(block, row)">
+              <td v-for="(cell, number) in row.cells" :key="number" class="value" :colspan="span(table, row)">
                 <small v-if="cell.difference">({{ cell.difference }})</small><span class="whole">{{ split(cell.kept ?? "")[0] }}</span
-                ><span class="rest" :style="{ minWidth: block.rest + 'ch' }" v-if="split(cell.kept ?? '')[1] !== null">{{ split(cell.kept)[1] }}</span>
+                ><span class="rest" :style="{ minWidth: table.rest + 'ch' }" v-if="split(cell.kept ?? '')[1] !== null">{{ split(cell.kept)[1] }}</span>
               </td>
             </tr>
           </tbody>
@@ -53,6 +55,10 @@ export default {
     };
   },
   computed: {
+    // Few are read, many are opened by who wants them.
+    noticesOpen() {
+      return this.content.notices.length === 1 || (this.folds.notices ?? this.content.notices.length <= FEW);
+    },
     // What is pinned first, then all blocks; of a search only what is found.
     blocks() {
       const wanted = this.wanted.trim().toLowerCase();
@@ -61,17 +67,14 @@ export default {
       const pinned = new Map();
       for (const { columns, blocks } of this.content.sections)
         for (const { id, title, folded, rows } of blocks) {
-          for (const row of rows) if (this.pinned(row.key)) pinned.set(row.key, row);
-          found.push({ id, title, columns, rows: rows.filter(fits), open: !!wanted || (this.folds[id] ?? !folded) });
+          for (const row of rows) if (this.pinned(row.key)) pinned.set(row.key, { row, columns });
+          const open = !!wanted || (this.folds[id] ?? !folded);
+          found.push({ id, title, open, tables: [this.table(columns, rows.filter(fits))] });
         }
-      const widest = [...pinned.values()].reduce((most, row) => Math.max(most, row.cells.length), 0);
       const order = [...this.content.pins, ...[...pinned.keys()].filter((key) => !this.content.pins.includes(key))];
-      const columns = this.content.sections.find((section) => section.columns.length === widest)?.columns ?? [];
       const top = order.filter((key) => pinned.has(key)).map((key) => pinned.get(key));
-      if (!wanted && top.length) found.unshift({ id: "pins", title: this.words.pins, columns, rows: top, open: this.folds.pins ?? true });
-      const shown = found.filter((block) => block.rows.length);
-      for (const block of shown) block.rest = Math.max(0, ...block.rows.flatMap((row) => row.cells.map((cell) => (this.split(cell.text)[1] ?? "").length)));
-      return shown;
+      if (!wanted) found.unshift({ id: "pins", title: this.words.pins, open: this.folds.pins ?? true, tables: this.together(top) });
+      return found.filter((block) => block.tables.some((table) => table.rows.length));
     },
   },
   methods: {
@@ -82,6 +85,22 @@ export default {
     wait() {
       this.waiting = true;
     },
+    // Rows, and how much room what is behind their decimal points needs.
+    table(columns, rows) {
+      const rests = rows.flatMap((row) => row.cells.map((cell) => (this.split(cell.text)[1] ?? "").length));
+      return { columns, rows, rest: Math.max(0, ...rests) };
+    },
+    // Pinned rows in a table for each kind of columns; one number of all goes with those before it.
+    together(pinned) {
+      const tables = [];
+      for (const { row, columns } of pinned) {
+        const key = columns.join();
+        const same = tables.find((table) => table.key === key) ?? (row.cells.length === 1 ? tables.at(-1) : undefined);
+        if (same) same.rows.push(row);
+        else tables.push({ key, columns, rows: [row] });
+      }
+      return tables.map(({ columns, rows }) => this.table(columns, rows));
+    },
     pinned(key) {
       return this.pins[key] ?? this.content.pins.includes(key);
     },
@@ -90,15 +109,16 @@ export default {
       const found = NUMBER.exec(text);
       return found ? [found[1], (found[2] ?? "") + (found[3] ?? "")] : [text, null];
     },
-    span(block, row) {
-      return row.cells.length === 1 ? Math.max(block.columns.length, 1) : 1;
+    span(table, row) {
+      return row.cells.length === 1 ? Math.max(table.columns.length, 1) : 1;
     },
     hint(row) {
       return [`${row.words} ${row.symbol}`, row.source, row.key].filter(Boolean).join("\n");
     },
     // The row of a block that the tab key comes to.
     here(block) {
-      return block.rows.find((row) => block.id + row.key === this.at) ?? block.rows[0];
+      const rows = block.tables.flatMap((table) => table.rows);
+      return rows.find((row) => block.id + row.key === this.at) ?? rows[0];
     },
     walk(event) {
       const row = event.target.closest("tr[data-row]");

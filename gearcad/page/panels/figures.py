@@ -52,6 +52,7 @@ class FiguresPanel(Panel[Figures]):
             "difference": words["difference"],
             "assumed": words["assumed"],
             "verify": words["to verify"],
+            "waiting": words["being computed"],
         }
         self._view = SheetView(label, store, own)
         self._former: Cells = {}
@@ -77,12 +78,23 @@ def shown_figures(
     """As the browser has them."""
     beside = None if kept is None else kept.cells
     return {
-        "title": found.title,
+        "title": _headline(found.title, words),
         "verdict": found.verdict,
         "lines": [{"label": label, "text": text} for label, text in found.lines],
-        "beside": "" if kept is None else kept.title,
+        "beside": "" if kept is None else _headline(kept.title, words),
         "changes": len(changed or {}),
         "notices": list(found.notices),
         "pins": list(found.pins),
         "sections": shown_sections(found.sections, words, folded=found.folded, changed=changed, kept=beside),
     }
+
+
+def _headline(verdict: str, words: Words) -> str:
+    """A verdict, what it comes to in the language of the page."""
+    heads = {
+        "strength passed": words["strength passed"],
+        "strength NOT passed": words["strength NOT passed"],
+        "strength not judged": words["strength not judged"],
+    }
+    head = next((each for each in heads if verdict.startswith(each)), "")
+    return heads.get(head, "") + verdict.removeprefix(head)

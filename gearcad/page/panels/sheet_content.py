@@ -49,7 +49,7 @@ def shown_sections(
     before, beside = changed or {}, kept or {}
     return [
         {
-            "columns": [words[name] for name in section.columns],
+            "columns": [_name(name, words) for name in section.columns],
             "blocks": [
                 {
                     "id": " ".join(filter(None, (section.name, *section.columns, block.title))),
@@ -62,6 +62,12 @@ def shown_sections(
         }
         for section in sections
     ]
+
+
+def _name(name: str, words: Words) -> str:
+    """That of a column: of gears that are called as their tables, in the language of the page."""
+    known = words[name.capitalize()]
+    return name if known == name.capitalize() else known
 
 
 def _rows(section: Section) -> Iterator[Row]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 from typing import Any
 
@@ -58,7 +59,7 @@ def shown_notices(notices: Collection[Notice], keys: Collection[str]) -> tuple[d
 def _keys(notice: Notice, keys: Collection[str]) -> list[str]:
     """Of the table that the notice names; else of those of what is in mesh."""
     fields = _ABOUT.get(notice.code, "").split()
-    for tables in (notice.where.split(": "), ("pair", "pinion", "wheel", "planetary")):
+    for tables in (re.split(": |-", notice.where), ("pair", "pinion", "wheel", "planetary")):
         about = dict.fromkeys(f"{table}.{field}" for field in fields for table in tables)
         if found := [key for key in about if key in keys]:
             return found[:_MOST]
