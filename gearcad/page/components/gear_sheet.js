@@ -24,7 +24,7 @@ export default {
         <table v-for="table in block.tables" :key="table.columns.join()">
           <thead v-if="table.columns.length"><tr><th colspan="3"></th><th v-for="name in table.columns" :key="name" scope="col">{{ name }}</th></tr></thead>
           <tbody v-for="row in table.rows" :key="row.key">
-            <tr :data-row="row.key" :title="hint(row)" :tabindex="row === here(block) ? 0 : -1" @focus="at = block.id + row.key">
+            <tr :data-row="row.key" :title="hint(row)" :tabindex="row === here(block) ? 0 : -1" @focus="at = block.id + row.key" @dblclick="pin(row.key)">
               <th scope="row">{{ row.words }}</th><td class="symbol">{{ row.symbol }}</td><td class="unit">{{ row.unit }}</td>
               <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ changed: cell.former }" :colspan="span(table, row)">
                 <del v-if="cell.former">{{ cell.former }}</del><span class="whole">{{ split(cell.text)[0] }}</span
@@ -113,7 +113,7 @@ export default {
       return row.cells.length === 1 ? Math.max(table.columns.length, 1) : 1;
     },
     hint(row) {
-      return [`${row.words} ${row.symbol}`, row.source, row.key].filter(Boolean).join("\n");
+      return [`${row.words} ${row.symbol}`, row.source, row.key, this.pinned(row.key) ? this.words.unpin : this.words.pin].filter(Boolean).join("\n");
     },
     // The row of a block that the tab key comes to.
     here(block) {

@@ -52,6 +52,8 @@ class FiguresPanel(Panel[Figures]):
             "difference": words["difference"],
             "assumed": words["assumed"],
             "verify": words["to verify"],
+            "pin": words["Enter or double click: on top"],
+            "unpin": words["Enter or double click: not on top"],
             "waiting": words["being computed"],
         }
         self._view = SheetView(label, store, own)

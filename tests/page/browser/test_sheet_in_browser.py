@@ -69,3 +69,17 @@ def test_a_kept_design_stands_beside_changes_places_and_is_let_go(tab: Any) -> N
     page.get_by_role("button", name="let go").click()
     page.wait_for_selector(".section .kept path", state="detached")
     kept.wait_for(state="detached")
+
+
+def test_a_hostile_name_is_shown_as_text(tab: Any) -> None:
+    name = "<img src=x onerror=window.hacked=1>{{ 7*7 }}"
+    tab.page.get_by_role("button", name="Beside").click()
+    tab.page.get_by_text("keep this design").click()
+    tab.field("material.name").fill(name)
+    cell = tab.page.locator(f'{SHEET} tr[data-row="material.name"]').last
+    tab.page.wait_for_function(
+        "([row, name]) => document.querySelector(row)?.textContent.includes(name)",
+        arg=[f'{SHEET} tr[data-row="material.name"]', name],
+    )
+    assert cell.locator("img").count() == 0
+    assert tab.page.evaluate("window.hacked") is None
