@@ -22,10 +22,10 @@ class Kept(NamedTuple):
 
 
 class BesideDesign:
-    """What is `kept` beside the design of a workbench, if anything is."""
+    """What is `kept` beside the design of a workbench `bench`, if anything is."""
 
     def __init__(self, bench: Workbench) -> None:
-        self._bench, self.folder = bench, Folder(bench.folder)
+        self.bench, self.folder = bench, Folder(bench.folder)
         self.kept: Kept | None = None
 
     @property
@@ -45,14 +45,14 @@ class BesideDesign:
         """Edit what was kept, as a step that can be undone, and keep what was edited. Raises SpecError while that is none."""
         if (kept := self.kept) is not None:
             self.kept = self._present()
-            self._bench.open(kept.text, kept.name)
+            self.bench.open(kept.text, kept.name)
 
     def let_go(self) -> None:
         """Keep nothing."""
         self.kept = None
 
     def _present(self) -> Kept:
-        bench = self._bench
+        bench = self.bench
         if bench.fault is not None and bench.fault.written:
             raise SpecError(bench.fault.line, bench.fault.key)
         return Kept(bench.text, bench.name, bench.design)

@@ -26,12 +26,12 @@ from gearcad.page.panels.table import TablePanel
 from gearcad.page.panels.text import TextPanel
 from gearcad.page.tabs import Tabs
 from gearcad.page.words import Language, Words, language_of
-from gearcad.page.workbench import TEXT, Workbench
+from gearcad.page.workbench import TEXT
 
 __all__ = ["Session"]
 
-_HANDED: dict[str, Workbench] = {}
-"""Workbenches that a tab leaves to the page that it opens next, in another language."""
+_HANDED: dict[str, BesideDesign] = {}
+"""Workbenches, each with what is kept beside it, that a tab leaves to the page that it opens next, in another language."""
 
 _MOST_HANDED = 100
 
@@ -45,10 +45,10 @@ class Session:
     What was found for a design that is not the last any more is not shown.
     """
 
-    def __init__(self, bench: Workbench, words: Words) -> None:
-        self.bench, self.words = bench, words
+    def __init__(self, beside: BesideDesign, words: Words) -> None:
+        self.bench, self.beside, self.words = beside.bench, beside, words
+        bench = self.bench
         self.key = secrets.token_urlsafe(12)
-        self.beside = BesideDesign(bench)
         self._change = 0
         self._task: asyncio.Task[None] | None = None
         self._later: asyncio.Task[None] | None = None
@@ -78,6 +78,8 @@ class Session:
         self._panels: tuple[Panel[Any], ...] = (self._section, sheet, strength, limits, self._bodies)
         ui.context.client.on_delete(self._leave)
         self.follow()
+        if beside.kept is not None:
+            background_tasks.create(self._compare())
 
     @classmethod
     def of(cls, text: str, name: str, folder: Path) -> Session:
@@ -85,15 +87,16 @@ class Session:
         query, headers = ui.context.client.request.query_params, ui.context.client.request.headers
         words = Words.of(language_of(query.get("lang"), headers.get("accept-language", "")))
         handed = query.get("from", "")
-        bench = _HANDED.pop(handed) if handed in _HANDED else linked_bench(query.get(DESIGN, ""), text, name, folder)
-        return cls(bench, words)
+        if handed in _HANDED:
+            return cls(_HANDED.pop(handed), words)
+        return cls(BesideDesign(linked_bench(query.get(DESIGN, ""), text, name, folder)), words)
 
     def speak(self, language: Language) -> None:
         """Open the page in another language, with this workbench."""
         while len(_HANDED) >= _MOST_HANDED:
             _HANDED.pop(next(iter(_HANDED)))
         key = secrets.token_urlsafe(12)
-        _HANDED[key] = self.bench
+        _HANDED[key] = self.beside
         ui.navigate.to(f"/?lang={language.value}&from={key}")
 
     def _bar(self) -> None:

@@ -56,7 +56,7 @@ def test_a_kept_design_stands_beside_changes_places_and_is_let_go(tab: Any) -> N
     page = tab.page
     page.get_by_role("button", name="Beside").click()
     page.get_by_text("keep this design").click()
-    page.wait_for_selector(".section .kept path", state="attached")
+    page.wait_for_selector(".beside-kept")
     tab.give("pinion.profile_shift", "0.35")
     row = page.locator(f'{SHEET} tr[data-row="gear.profile_shift"]').last
     kept = row.locator("xpath=following-sibling::tr[@class='kept']")
@@ -66,8 +66,12 @@ def test_a_kept_design_stands_beside_changes_places_and_is_let_go(tab: Any) -> N
     page.get_by_role("button", name="swap").click()
     page.wait_for_function("document.querySelector('[data-key=\"pinion.profile_shift\"] input').value === '0.2'")
     kept.get_by_text("(-0.1500)").wait_for()
+    page.get_by_role("button", name="de", exact=True).click()
+    page.get_by_text("behalten (Unterschied)").first.wait_for()
+    page.get_by_role("button", name="en", exact=True).click()
+    kept.get_by_text("(-0.1500)").wait_for()
     page.get_by_role("button", name="let go").click()
-    page.wait_for_selector(".section .kept path", state="detached")
+    page.wait_for_selector(".beside-kept", state="hidden")
     kept.wait_for(state="detached")
 
 
