@@ -11,6 +11,7 @@ from typing import Any
 from nicegui import background_tasks, run, ui
 
 from gearcad.page.beside_design import BesideDesign
+from gearcad.designs.design import DesignKind
 from gearcad.page.links import DESIGN, linked_bench
 from gearcad.page.panels import Panel
 from gearcad.page.panels.beside import BesidePanel
@@ -61,6 +62,8 @@ class Session:
                     self._inputs = InputsPanel(self.typed, self.step, words)
                 with left.under("text"):
                     self._text = TextPanel(self.written, self.step, words)
+                if bench.design.kind is DesignKind.TRAIN:
+                    left.choose("text")
                 with left.under("limits"):
                     limits = LimitsPanel(bench, self.change, words)
             with ui.element("div").classes("middle"):

@@ -24,8 +24,13 @@ class Tabs:
             for key, title in titles.items():
                 ui.tab(key, title)
         self._panes = {key: ui.element("div").classes("pane") for key in titles}
+        self._row = row
         row.set_value(first)
         self.choose = row.set_value
+
+    def choose(self, key: str) -> None:
+        """Have what is under a key seen."""
+        self._row.set_value(key)
 
     @contextmanager
     def under(self, key: str) -> Iterator[None]:

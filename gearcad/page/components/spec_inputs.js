@@ -188,6 +188,7 @@ export default {
       if (key === undefined) return;
       const text = this.queue[key];
       delete this.queue[key];
+      clearTimeout(this.waiting);
       this.waiting = setTimeout(() => this.answered(), PATIENCE);
       this.$emit("typed", { key, text });
     },
@@ -203,8 +204,8 @@ export default {
       if ((event.ctrlKey || event.metaKey) && !event.altKey && (key === "z" || key === "y")) {
         if (typing && !ours) return;
         event.preventDefault();
+        while (Object.keys(this.queue).length) this.flush(); // what was typed last is what is undone
         this.drafts = {};
-        this.queue = {};
         this.$emit("step", { forth: key === "y" || event.shiftKey });
       } else if (key === "/" && !typing) {
         event.preventDefault();

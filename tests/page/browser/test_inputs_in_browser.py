@@ -1,0 +1,127 @@
+"""Inputs in a browser: by the keyboard alone, as text, in the shift diagram; in German, and on a phone."""
+
+from __future__ import annotations
+
+from typing import Any
+
+SHIFT = "pinion.profile_shift"
+
+PAUSE = 1200
+"""ms after which typing is another step."""
+
+
+def _has(tab: Any, key: str, value: str) -> None:
+    """Wait until the field of a key has a value."""
+    found = '([key, value]) => document.querySelector(`[data-key="${key}"] :is(input, select)`)?.value === value'
+    tab.page.wait_for_function(found, arg=[key, value])
+
+
+def _focused(tab: Any) -> str:
+    return str(tab.page.evaluate("document.activeElement.closest('[data-key]')?.dataset.key ?? ''"))
+
+
+def test_by_the_keyboard_alone(tab: Any) -> None:
+    keys = tab.page.keyboard
+    keys.press("/")
+    keys.type("pinion shift")
+    keys.press("Enter")
+    assert _focused(tab) == SHIFT
+    assert SHIFT in tab.page.inner_text(".inputs .hint")
+    keys.type("0.2")  # what was there is selected
+    _has(tab, SHIFT, "0.2")
+    for key in ("ArrowUp", "ArrowUp", "Shift+ArrowUp", "ArrowDown"):
+        keys.press(key)
+    _has(tab, SHIFT, "1.3")
+    tab.page.wait_for_timeout(PAUSE)
+    keys.press("ArrowDown")
+    for key, value in (("Control+z", "1.3"), ("Control+y", "1.2"), ("Control+z", "1.3"), ("Control+Shift+z", "1.2")):
+        keys.press(key)
+        _has(tab, SHIFT, value)
+        tab.page.wait_for_selector(f'[data-key="{SHIFT}"].changed')
+    keys.press("Escape")
+    assert _focused(tab) == ""
+
+
+def test_what_is_half_typed_stays(tab: Any) -> None:
+    teeth, module = "pinion.teeth", "pair.normal_module"
+    tab.field(teeth).press("Control+a")
+    tab.page.keyboard.type("2", delay=20)
+    tab.page.wait_for_selector(f'[data-key="{teeth}"] .fault')
+    tab.page.keyboard.type("4", delay=20)
+    tab.page.wait_for_selector(f'[data-key="{teeth}"] .fault', state="detached")
+    tab.field(module).fill("1.234,5")
+    tab.page.wait_for_selector(f'[data-key="{module}"] .fault')
+    tab.field(teeth).focus()
+    assert tab.field(module).input_value() == "1.234,5"
+    tab.field(module).fill("3,5")
+    tab.page.wait_for_selector(f'[data-key="{module}"] .fault', state="detached")
+    tab.field(teeth).focus()
+    _has(tab, module, "3.5")
+
+
+def test_a_key_is_taken_out_and_what_is_used_stands_there(tab: Any) -> None:
+    tab.field("pinion.face_width").fill("31")
+    _has(tab, "pinion.face_width", "31")
+    tab.page.locator('[data-key="pinion.face_width"] .out').click()
+    _has(tab, "pinion.face_width", "")
+    used = tab.field("pinion.face_width").get_attribute("placeholder")
+    assert used == tab.field("pair.face_width").input_value()
+
+
+def test_the_text_follows_and_is_followed(tab: Any) -> None:
+    tab.field("pinion.teeth").fill("22")
+    tab.page.click(".left .q-tab:nth-child(2)")
+    lines = tab.page.locator(".cm-line")
+    tab.page.wait_for_function("[...document.querySelectorAll('.cm-line')].some(line => /^teeth = 22/.test(line.textContent))")
+    place = next(at for at, line in enumerate(lines.all_inner_texts()) if line.startswith("teeth = 22"))
+    lines.nth(place).click()
+    tab.page.keyboard.press("Home")
+    tab.page.keyboard.type("teeth = # ")
+    tab.page.wait_for_selector(".cm-line.wrong-line")
+    fault = tab.page.inner_text(".spec-fault")
+    assert f".toml line {place + 1}, column" in fault
+    tab.page.keyboard.press("Control+z")
+    tab.page.wait_for_function("document.querySelector('.spec-fault').textContent === ''")
+    lines.nth(place).click()
+    tab.page.keyboard.press("Home")
+    for _ in "teeth = 2":
+        tab.page.keyboard.press("ArrowRight")
+    tab.page.keyboard.press("Delete")
+    tab.page.keyboard.type("3")
+    tab.page.click(".left .q-tab:nth-child(1)")
+    _has(tab, "pinion.teeth", "23")
+
+
+def test_the_design_is_moved_in_its_shift_diagram(tab: Any) -> None:
+    was = tab.field(SHIFT).input_value()
+    tab.page.click(".left .q-tab:nth-child(3)")
+    tab.page.wait_for_selector(".limits .limit.undercut path")
+    diagram = tab.page.locator(".limits > svg")
+    box = diagram.bounding_box()
+    x, y = box["x"] + box["width"] * 0.6, box["y"] + box["height"] * 0.8
+    tab.page.mouse.move(x, y)
+    tab.page.mouse.down()
+    tab.page.mouse.move(x + 10, y)
+    tab.page.mouse.up()
+    moved = tab.page.locator(".limits .slide output").first.inner_text()
+    tab.page.wait_for_function(
+        '([key, was]) => document.querySelector(`[data-key="${key}"] input`).value !== was', arg=[SHIFT, was]
+    )
+    _has(tab, SHIFT, moved.rstrip("0"))
+    diagram.focus()
+    tab.page.keyboard.press("ArrowRight")
+    _has(tab, SHIFT, f"{float(moved) + 0.01:.2f}".rstrip("0"))
+
+
+def test_german_by_the_switch_with_the_design_that_stands(tab: Any) -> None:
+    tab.field("pinion.teeth").fill("22")
+    _has(tab, "pinion.teeth", "22")
+    tab.page.get_by_role("button", name="de", exact=True).click()
+    tab.page.wait_for_function("document.querySelector('.inputs')?.textContent.includes('Zähnezahl')")
+    _has(tab, "pinion.teeth", "22")
+
+
+def test_a_phone_reads_only(tab: Any) -> None:
+    tab.page.set_viewport_size({"width": 390, "height": 844})
+    tab.page.wait_for_function("document.querySelector('[data-key=\"pinion.teeth\"] input').readOnly")
+    assert tab.field("rating.standard").is_disabled()
