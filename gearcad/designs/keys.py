@@ -28,6 +28,8 @@ __all__ = [
     "KEYS",
     "MAIN_TABLES",
     "MOVED",
+    "OF_GEAR_PAIRS",
+    "OF_RACK_PAIRS",
     "OF_SETS",
     "OF_SPECS",
     "PARTS",
@@ -68,6 +70,10 @@ MAIN_TABLES = {
     DesignKind.PLANETARY: ("planetary",),
 }
 """The tables without which a spec makes no gear, no rack, no pair of them, no train; the first is what bare keys are of."""
+
+OF_GEAR_PAIRS = ("centre_distance", "centre_distance_tolerance", "axial_offset", "profile_shift_split")
+OF_RACK_PAIRS = ("mounting_distance",)
+"""Keys of [pair] that only two gears have, and those that only a pinion and a rack have."""
 
 OF_SETS = ("sun", "planet", "ring", "planet_2", "sun_2", "ring_2")
 """The tables of the gears of a set of planets; `_2` is the second of its kind."""

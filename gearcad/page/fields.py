@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, fields, replace
 from enum import Enum
 from functools import cache
 from types import MappingProxyType
@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING, Any
 from gearcad.designs.auto import AUTO, CLEAR
 from gearcad.designs.cells import list_text, nested_text, texts_cell
 from gearcad.designs.design import Design, DesignKind
-from gearcad.designs.keys import BESIDE, FIELDS, MAIN_TABLES, OF_SETS, Fields
+from gearcad.designs.keys import BESIDE, FIELDS, MAIN_TABLES, OF_GEAR_PAIRS, OF_RACK_PAIRS, OF_SETS, SPEEDS, Fields
 from gearcad.errors import GearcadError
 from gearcad.geometry.basic_rack import NAMED_RACKS
+from gearcad.load import Load
 from gearcad.material import MaterialGroup, MaterialQuality
 from gearcad.ranges import Choice, Member, Range, Whole
-from gearcad.schema import FieldSchema
+from gearcad.schema import FieldSchema, schema_of
+from gearcad.symbols import Symbol
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -59,7 +61,7 @@ def fields_of(design: Design, tables: Mapping[str, Any]) -> list[dict[str, Any]]
             "folded": table in _LATER and table not in tables,
             "groups": list(_groups(table, fields, members)),
         }
-        for table, fields in _tables(design, tables).items()
+        for table, fields in _tables(design, tables, members).items()
     ]
 
 
@@ -78,13 +80,26 @@ def words_of(key: str, field: FieldSchema) -> str:
     return field.symbol.words or key.rpartition(".")[2].replace("_", " ")
 
 
-def _tables(design: Design, tables: Mapping[str, Any]) -> Fields:
+def _speeds(members: tuple[str, ...]) -> dict[str, FieldSchema]:
+    """Of a train's members, which can have speeds of their own beside that of the input."""
+    speed = schema_of(Load)["speed"]
+    return {
+        f"{SPEEDS}.{each}": replace(speed, name=each, required=False, symbol=Symbol("n", "rpm", "", each)) for each in members
+    }
+
+
+def _tables(design: Design, tables: Mapping[str, Any], members: tuple[str, ...]) -> Fields:
     if design.kind is DesignKind.PLANETARY:
         from gearcad.designs.planetary_keys import PLANETARY
 
-        return {table: PLANETARY[table] for table in PLANETARY if table not in OF_SETS or table in tables}
+        found = {table: PLANETARY[table] for table in PLANETARY if table not in OF_SETS or table in tables}
+        return found | {"planetary": {**found["planetary"], **_speeds(members)}}
     beside = [table for table in BESIDE if hasattr(design, table)]
-    return {table: FIELDS[table] for table in (*MAIN_TABLES[design.kind], *beside)}
+    found = {table: FIELDS[table] for table in (*MAIN_TABLES[design.kind], *beside)}
+    if "pair" in found:
+        others = OF_GEAR_PAIRS if design.kind is DesignKind.RACK_PAIR else OF_RACK_PAIRS
+        found["pair"] = {key: field for key, field in found["pair"].items() if key not in others}
+    return found
 
 
 def _groups(table: str, fields: Mapping[str, FieldSchema], members: tuple[str, ...]) -> Iterator[dict[str, Any]]:

@@ -10,8 +10,8 @@ from typing import Any
 
 from nicegui import background_tasks, run, ui
 
-from gearcad.page.beside_design import BesideDesign
 from gearcad.designs.design import DesignKind
+from gearcad.page.beside_design import BesideDesign
 from gearcad.page.links import DESIGN, linked_bench
 from gearcad.page.panels import Panel
 from gearcad.page.panels.beside import BesidePanel
@@ -53,6 +53,7 @@ class Session:
         self._change = 0
         self._task: asyncio.Task[None] | None = None
         self._later: asyncio.Task[None] | None = None
+        ui.query("html").props(f"lang={words.language.value}")
         with ui.element("header").classes("bar"):
             self._bar()
         with ui.element("main").classes("panels"):
@@ -105,13 +106,20 @@ class Session:
     def _bar(self) -> None:
         self._name = ui.label().classes("name")
         self._files = FilesPanel(self.key, self.bench, self.words, self.opened, self.tabled)
-        self._undo = ui.button(icon="undo", on_click=lambda: self.step(False)).props("flat dense round")
-        self._redo = ui.button(icon="redo", on_click=lambda: self.step(True)).props("flat dense round")
+        self._undo = self._button("undo", self.words["undo"], forth=False)
+        self._redo = self._button("redo", self.words["redo"], forth=True)
         BesidePanel(self.beside, self.words, self.kept)
         ui.slider(min=-0.5, max=0.5, step=0.002, value=0, on_change=lambda event: self.pose(event.value))
         for language in Language:
             spoken = ui.button(language.value, on_click=lambda _, language=language: self.speak(language)).props("flat dense")
+            spoken.props["title"] = spoken.props["aria-label"] = language.endonym
             spoken.set_enabled(language is not self.words.language)
+
+    def _button(self, icon: str, words: str, *, forth: bool) -> ui.button:
+        """One that undoes or redoes, and says so."""
+        button = ui.button(icon=icon, on_click=lambda: self.step(forth)).props("flat dense round")
+        button.props["title"] = button.props["aria-label"] = words
+        return button
 
     def typed(self, key: str, text: str) -> None:
         """Somebody typed into the field of a key."""

@@ -11,10 +11,7 @@ __all__ = ["Tabs"]
 
 
 class Tabs:
-    """A row of titles by their keys; what is put `under` a key is seen while its title is chosen, at first under the first.
-
-    `choose(key)` chooses.
-    """
+    """A row of titles by their keys; what is put `under` a key is seen while its title is chosen, at first under the first."""
 
     def __init__(self, titles: Mapping[str, str]) -> None:
         first = next(iter(titles))
@@ -26,7 +23,6 @@ class Tabs:
         self._panes = {key: ui.element("div").classes("pane") for key in titles}
         self._row = row
         row.set_value(first)
-        self.choose = row.set_value
 
     def choose(self, key: str) -> None:
         """Have what is under a key seen."""

@@ -21,6 +21,11 @@ class Language(StrEnum):
     ENGLISH = "en"
     GERMAN = "de"
 
+    @property
+    def endonym(self) -> str:
+        """What it is called by those who speak it."""
+        return {"en": "English", "de": "Deutsch"}[self.value]
+
 
 @dataclass(frozen=True)
 class Words:

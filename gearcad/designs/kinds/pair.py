@@ -22,7 +22,7 @@ from gearcad.designs.auto import (
 )
 from gearcad.designs.design import Described, DesignKind
 from gearcad.designs.files import Where
-from gearcad.designs.keys import MAIN_TABLES, SHARED
+from gearcad.designs.keys import MAIN_TABLES, OF_RACK_PAIRS, SHARED
 from gearcad.designs.khk import khk_reminder
 from gearcad.designs.kinds.geared import GearedDesign, require_tables
 from gearcad.designs.kinds.toothed import beside_teeth
@@ -63,7 +63,7 @@ class PairDesign(GearedDesign):
         require_tables(tables, where)
         _require_pair(tables, where)
         spec = PairSpec.of(tables, where)
-        if (key := "pair.mounting_distance") in spec.values:
+        if (key := f"pair.{OF_RACK_PAIRS[0]}") in spec.values:
             raise SpecError(f"{where(key)}: {key}: is of a pinion and a [rack]; did you mean centre_distance?", key)
         return spec
 

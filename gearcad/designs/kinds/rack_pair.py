@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Self
 from gearcad.designs.auto import AUTO, module_of
 from gearcad.designs.design import Described, DesignKind
 from gearcad.designs.files import Where
-from gearcad.designs.keys import FIELDS, MAIN_TABLES, SHARED
+from gearcad.designs.keys import FIELDS, MAIN_TABLES, OF_GEAR_PAIRS, SHARED
 from gearcad.designs.kinds.rack import require_tables_of_racks
 from gearcad.designs.kinds.toothed import ToothedDesign, beside_teeth
 from gearcad.designs.spec import Given, Spec
@@ -30,7 +30,6 @@ __all__ = ["RackPairDesign"]
 
 _BESIDE = ("material", "load", "rating", "drawing")
 _GEARS = ("pinion", "rack")
-_OF_GEAR_PAIRS = ("centre_distance", "centre_distance_tolerance", "axial_offset", "profile_shift_split")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +65,7 @@ class RackPairDesign(ToothedDesign):
             if table not in tables:
                 raise SpecError(f"{where('')}: [{table}] is missing: a pinion and a rack need [pair], [pinion] and [rack]")
         spec = _RackPairSpec.of(tables, where)
-        for key in _OF_GEAR_PAIRS:
+        for key in OF_GEAR_PAIRS:
             if f"pair.{key}" in spec.values:
                 wanted, full = "; did you mean mounting_distance?" if key == "centre_distance" else "", f"pair.{key}"
                 raise SpecError(f"{where(full)}: {full}: is of two gears, not of a pinion and a rack{wanted}", full)

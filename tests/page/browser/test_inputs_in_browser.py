@@ -116,9 +116,10 @@ def test_the_design_is_moved_in_its_shift_diagram(tab: Any) -> None:
 def test_german_by_the_switch_with_the_design_that_stands(tab: Any) -> None:
     tab.field("pinion.teeth").fill("22")
     _has(tab, "pinion.teeth", "22")
-    tab.page.get_by_role("button", name="de", exact=True).click()
+    tab.page.get_by_role("button", name="Deutsch").click()
     tab.page.wait_for_function("document.querySelector('.inputs')?.textContent.includes('Zähnezahl')")
     _has(tab, "pinion.teeth", "22")
+    assert tab.page.get_attribute("html", "lang") == "de"
 
 
 def test_a_phone_reads_only(tab: Any) -> None:
