@@ -31,6 +31,9 @@ _BETWEEN = 0.1
 _LARGEST_FILE = 2 << 30
 """Bytes that one file of a result can have."""
 
+_NICENESS = 5
+"""The page itself goes before."""
+
 _LONGEST_FAULT = 500
 
 
@@ -68,7 +71,9 @@ def _listen() -> None:
 
 
 def _bound() -> None:
-    """What the system itself can bound: the size of a file, and who goes first where memory ends."""
+    """What the system itself can bound: the size of a file, who waits, and who goes first where memory ends."""
+    with suppress(AttributeError, OSError):
+        os.nice(_NICENESS)
     with suppress(ImportError, ValueError, OSError):  # Windows has no limits
         import resource
 

@@ -18,17 +18,20 @@ from gearcad.page.run import Limits, Run, State
 from gearcad.page.run_process import Asked
 from gearcad.page.run_watch import do_run
 
-__all__ = ["Runs", "runs_of"]
+__all__ = ["Runs", "Turns", "close_all_runs", "runs_of"]
 
 _LOOK = 0.2
 """Seconds between two looks at whether one that waits is wanted still."""
+
+_PATIENCE = 5.0
+"""Seconds that files may take to go."""
 
 _MOST_WAITING = 4
 _MOST_KEPT = 40
 """Runs whose files a session keeps: the eldest lose theirs."""
 
 
-class _Turns:
+class Turns:
     """So many runs of all sessions at a time; sessions that wait are served in the order in which they came."""
 
     def __init__(self, count: int) -> None:
@@ -54,7 +57,7 @@ class _Turns:
                 self._changed.notify_all()
 
 
-_TURNS = _Turns(max(available_cores(), 1))
+_TURNS = Turns(max(available_cores(), 1))
 
 
 _OPEN: dict[str, Runs] = {}
@@ -63,6 +66,15 @@ _OPEN: dict[str, Runs] = {}
 def runs_of(key: str) -> Runs | None:
     """Those of an open session by their key, which nobody else knows."""
     return _OPEN.get(key)
+
+
+def close_all_runs() -> None:
+    """The server ends: so do the runs of all sessions, and their files go."""
+    closed = list(_OPEN.values())
+    for runs in closed:
+        runs.close()
+    for runs in closed:
+        runs.join(_PATIENCE)
 
 
 class Runs:
@@ -112,6 +124,11 @@ class Runs:
         self._calls.put(None)
         if self._thread is None:
             self._folder.cleanup()
+
+    def join(self, seconds: float) -> None:
+        """Wait until what was closed is gone."""
+        if self._thread is not None:
+            self._thread.join(seconds)
 
     def _work(self) -> None:
         """One after the other. The thread lives as long as the session: a process dies with the thread that has started it."""

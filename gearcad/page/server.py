@@ -38,6 +38,7 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
         raise ParameterError("open", name, 'needs NiceGUI: pip install "gearcad[page]"') from error
     from gearcad.page.panels.strength import warm_up
     from gearcad.page.routes import add_routes
+    from gearcad.page.runs import close_all_runs
     from gearcad.page.session import Session
     from gearcad.page.workbench import Workbench
 
@@ -52,7 +53,9 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
 
     add_routes(app)
     app.add_middleware(Access, hosts={f"{each}:{port}" for each in (LOCAL, "localhost", host) if each}, token=token)
+    app.on_shutdown(close_all_runs)
     app.on_startup(lambda: print(address, flush=True))
+    app.on_shutdown(close_all_runs)
     app.on_startup(threading.Thread(target=warm_up, args=(first.design,), daemon=True).start)
     ui.run(
         root,

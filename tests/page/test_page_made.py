@@ -59,7 +59,7 @@ def test_figures_stand_beside_each_other(runs: Runs) -> None:
     assert (verb_of(first), first.line) == ("rate", "reducer-21-43 at 200 N·m, 1450 rpm: strength passed")
     rows = {row["key"]: row for row in figures_beside([second, first], ENGLISH)}
     assert rows["S_H.pinion"]["cells"] == [f"{run.figures['S_H.pinion']:.5g}" for run in (second, first)]
-    assert rows["S_H.pinion"]["differs"] and rows["S_H.pinion"]["words"] == "safety of the flank against pitting, pinion"
+    assert rows["S_H.pinion"]["differs"] and rows["S_H.pinion"]["words"] == "pinion: safety of the flank against pitting"
     assert rows["passed"]["cells"] == ["yes", "yes"] and not rows["passed"]["differs"]
     assert rows["sigma_H.pinion"]["unit"] == "MPa"
 

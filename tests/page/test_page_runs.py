@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,7 +13,7 @@ import pytest
 from gearcad.designs.starters import starter_text
 from gearcad.errors import ParameterError
 from gearcad.page.run import Limits, Run, State
-from gearcad.page.runs import Runs
+from gearcad.page.runs import Runs, Turns, close_all_runs
 
 ENOUGH = 60.0
 PAIR = starter_text("fzg-c")[1]
@@ -119,6 +120,33 @@ def test_a_closed_session_ends_its_run_and_removes_its_files() -> None:
     assert not folder.exists()
     with pytest.raises(ParameterError):
         _start(runs, "data")
+
+
+def test_sessions_take_turns_in_the_order_in_which_they_came() -> None:
+    turns, told, never = Turns(1), list[str](), threading.Event()
+
+    def session(name: str, count: int) -> None:
+        for _ in range(count):
+            with turns.taken(never) as has:
+                assert has
+                told.append(name)
+                time.sleep(0.05)
+
+    threads = [threading.Thread(target=session, args=given) for given in (("a", 4), ("b", 1), ("c", 1))]
+    for thread in threads:
+        thread.start()
+        time.sleep(0.01)
+    for thread in threads:
+        thread.join()
+    assert told == ["a", "b", "c", "a", "a", "a"]
+
+
+def test_the_end_of_the_server_ends_all_and_leaves_nothing() -> None:
+    runs = [Runs(), Runs()]
+    started = [_start(each, "check-3d") for each in runs]
+    close_all_runs()
+    assert {run.state for run in started} == {State.CANCELLED}
+    assert not any(run.folder.parent.exists() for run in started)
 
 
 def test_only_so_many_wait(runs: Runs) -> None:

@@ -6,13 +6,13 @@ export default {
         <button v-for="kind in kinds" :key="kind.key" type="button" :title="kind.told" :disabled="!!kind.why" @click="$emit('start', { kind: kind.key })">
           {{ kind.words }}<small v-if="kind.told">{{ kind.told }}</small>
         </button>
-        <small class="limits">{{ limits }}</small>
+        <small class="run-limits">{{ limits }}</small>
       </div>
       <p v-if="line" class="fault" role="alert">{{ line }}</p>
       <ol class="run-list">
-        <li v-for="run in shown" :key="run.number" :class="[run.state, { stale: run.stale }]">
+        <li v-for="run in shown" :key="run.number" :class="[run.state, { stale: stale.includes(run.number) }]">
           <span class="number">{{ run.number + 1 }}</span>
-          <span class="what">{{ run.words }}<em v-if="run.stale">{{ words.stale }}</em></span>
+          <span class="what">{{ run.words }}<em v-if="stale.includes(run.number)">{{ words.stale }}</em></span>
           <template v-if="run.state === 'running' || run.state === 'waiting'">
             <progress :value="run.share > 0 ? run.share : null" max="1"></progress>
             <span class="step" role="status">{{ run.state === "waiting" ? words.waiting : [run.step, run.left].filter(Boolean).join(", ") }}</span>
@@ -31,7 +31,7 @@ export default {
         <table>
           <thead><tr>
             <th scope="col">{{ table.words }}</th><th scope="col"></th>
-            <th v-for="run in table.runs" :key="run.number" scope="col" :class="{ stale: run.stale }">
+            <th v-for="run in table.runs" :key="run.number" scope="col" :class="{ stale: stale.includes(run.number) }">
               {{ run.number + 1 }}<small v-for="change in run.changes" :key="change">{{ change }}</small>
             </th>
           </tr></thead>
@@ -47,7 +47,7 @@ export default {
   props: { words: Object, limits: String },
   emits: ["start", "cancel"],
   data() {
-    return { kinds: [], runs: [], tables: [], line: "", differing: false };
+    return { kinds: [], runs: [], tables: [], stale: [], line: "", differing: false };
   },
   computed: {
     shown() {

@@ -20,7 +20,7 @@ class RunsView(Element, component="gear_runs.js"):
         self.on("cancel", lambda event: cancel(int(event.args.get("number", -1))))
 
     def show(self, **state: Any) -> None:
-        """`kinds` that can be started, `runs` in their order, `tables` of figures, the `line` of what could not be started."""
+        """`kinds` that can be started, `runs` in their order, `stale` numbers, `tables` of figures, a fault's `line`."""
         self.run_method("show", state)
 
     def tell(self, number: int, told: dict[str, Any]) -> None:

@@ -17,7 +17,7 @@ from gearcad.page.run_kinds import ANALYSES
 from gearcad.page.runs import Runs
 from gearcad.page.words import Words
 from gearcad.page.workbench import Workbench
-from gearcad.progress import about, about_memory
+from gearcad.progress import Expected, about, about_memory
 
 __all__ = ["RunsPanel", "expected_of"]
 
@@ -32,13 +32,14 @@ class RunsPanel:
 
     def __init__(self, bench: Workbench, words: Words) -> None:
         self._bench, self._words, self._runs = bench, words, Runs()
-        limits = self._runs.limits
-        told = f"{words['each run has at most']} {about(limits.seconds)}, {about_memory(limits.memory)}"
-        self._view = RunsView(self._start, self._cancel, _words(words), told)
+        limits = Expected(self._runs.limits.seconds, self._runs.limits.memory)
+        self._view = RunsView(self._start, self._cancel, _words(words), f"{words['each run has at most']} {_told(limits)}")
         self._expected: dict[str, str] = {}
         self._design: Design | None = None
         self._task: asyncio.Task[None] | None = None
-        self._line = ""
+        self._names = _names(words)
+        self._kinds: list[dict[str, Any]] = []
+        self._stale: list[int] = []
         self._timer = ui.timer(_LOOK, self._look, active=False)
         self._states: dict[int, State] = {}
 
@@ -46,11 +47,12 @@ class RunsPanel:
         """Show which runs are of another design than that of the workbench, and what can be run on it."""
         design = self._bench.design
         if design is not self._design:
-            self._design, self._expected = design, {}
+            self._design = design
             if self._task is not None:
                 self._task.cancel()
             self._task = background_tasks.create(self._expect(design))
-        self._show()
+            self._show_kinds()
+        self._show_stale()
 
     def close(self) -> None:
         """The tab was closed: its runs end, and their files go."""
@@ -61,22 +63,22 @@ class RunsPanel:
     async def _expect(self, design: Design) -> None:
         await asyncio.sleep(_REST)
         self._expected = await run.io_bound(expected_of, design) or {}
-        self._show()
+        self._show_kinds()
 
     def _start(self, kind: str) -> None:
-        bench = self._bench
-        self._line = ""
+        bench, line = self._bench, ""
         if kind not in ANALYSES or not ANALYSES[kind].accepts(bench.design):
             return
         if bench.fault is not None:
-            self._line = bench.fault.line
+            line = bench.fault.line
         else:
             try:
                 self._runs.start(kind, bench.text, bench.name, bench.folder, given_texts(bench.tables))
             except GearcadError as error:
-                self._line = str(error)
+                line = str(error)
+        self._view.show(line=line)
         self._timer.activate()
-        self._show()
+        self._look()
 
     def _cancel(self, number: int) -> None:
         if 0 <= number < len(self._runs.all):
@@ -88,40 +90,49 @@ class RunsPanel:
         states = {each.number: each.state for each in self._runs.all}
         if states != self._states:
             self._states = states
-            self._show()
+            self._show_runs()
         for each in self._runs.all:
             if each.state is State.RUNNING:
-                self._view.tell(each.number, {"step": each.step, "share": each.share, "left": each.left})
+                self._view.tell(each.number, {"step": each.step, "share": each.share, "left": _left(each)})
         if not busy:
             self._timer.deactivate()
 
-    def _show(self) -> None:
-        names = _names(self._words)
+    def _show_kinds(self) -> None:
         kinds = [
-            {"key": key, "words": names[key], "told": self._expected.get(key, "")}
+            {"key": key, "words": self._names[key], "told": self._expected.get(key, "")}
             for key, kind in ANALYSES.items()
             if kind.accepts(self._bench.design)
         ]
-        runs = [self._told(each, names) for each in self._runs.all]
-        self._view.show(kinds=kinds, runs=runs, tables=self._tables(names), line=self._line)
+        if kinds != self._kinds:
+            self._kinds = kinds
+            self._view.show(kinds=kinds)
 
-    def _told(self, of: Run, names: dict[str, str]) -> dict[str, Any]:
+    def _show_runs(self) -> None:
+        self._view.show(runs=[self._told(each) for each in self._runs.all], tables=self._tables())
+        self._show_stale()
+
+    def _show_stale(self) -> None:
+        stale = [each.number for each in self._runs.all if each.asked.text != self._bench.text]
+        if stale != self._stale:
+            self._stale = stale
+            self._view.show(stale=stale)
+
+    def _told(self, of: Run) -> dict[str, Any]:
         report, address = ANALYSES[of.asked.kind].report, f"/made/{self._runs.key}/{of.number}"
         return {
             "number": of.number,
-            "words": names[of.asked.kind],
+            "words": self._names[of.asked.kind],
             "state": of.state.value,
             "step": of.step,
             "share": of.share,
-            "left": of.left,
+            "left": _left(of),
             "line": of.line,
             "notices": list(of.notices),
-            "stale": of.asked.text != self._bench.text,
             "report": f"{address}/{report}" if report in of.files else "",
             "files": address if of.files else "",
         }
 
-    def _tables(self, names: dict[str, str]) -> list[dict[str, Any]]:
+    def _tables(self) -> list[dict[str, Any]]:
         """Of each verb its figures, the newest run first."""
         done = [each for each in reversed(self._runs.all) if each.state is State.DONE]
         found = []
@@ -130,12 +141,11 @@ class RunsPanel:
             heads = [
                 {
                     "number": each.number,
-                    "stale": each.asked.text != self._bench.text,
                     "changes": changes_between(former.given, each.given) if former else [],
                 }
                 for each, former in zip(runs, [*runs[1:], None], strict=True)
             ]
-            found.append({"verb": verb, "words": names[verb], "runs": heads, "rows": figures_beside(runs, self._words)})
+            found.append({"verb": verb, "words": self._names[verb], "runs": heads, "rows": figures_beside(runs, self._words)})
         return found
 
 
@@ -149,8 +159,21 @@ def expected_of(design: Design) -> dict[str, str]:
             except GearcadError as error:
                 found[key] = str(error)
             else:
-                found[key] = f"{about(expected.seconds)}, {about_memory(expected.memory)}" if expected else ""
+                found[key] = _told(expected) if expected else ""
     return found
+
+
+def _told(expected: Expected) -> str:
+    return f"≈ {_figure(about(expected.seconds))}, {about_memory(expected.memory)}"
+
+
+def _left(of: Run) -> str:
+    return f"≈ {_figure(of.left)}" if of.left else ""
+
+
+def _figure(words: str) -> str:
+    """What is known roughly, without the words around it."""
+    return words.removeprefix("about ").removesuffix(" left")
 
 
 def _names(words: Words) -> dict[str, str]:
