@@ -1,0 +1,115 @@
+"""Runs, files and tables in a browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from gearcad.designs.starters import starter_text
+
+VOLVO = starter_text("volvo-13-44")
+RESULTS = (
+    "name,status,gear.teeth,gear.normal_module,gear.face_width,gear.reference_diameter,<img src=x onerror=alert(1)>\n"
+    "small,ok,20,2,20,40.0,1\nlarge,ok,30,2,20,60.0,2\n<img src=x onerror=alert(1)>,ok,40,2,20,80.0,3\n"
+)
+
+
+def _open(tab: Any, kind: str, path: Path) -> None:
+    """Give a file to the menu: that of a spec, or of a table."""
+    tab.page.click(".files > summary")
+    tab.page.wait_for_selector(".files-menu .makes button")
+    tab.page.set_input_files(f".files-menu input[type=file] >> nth={('spec', 'table').index(kind)}", path)
+
+
+def _wait_for_name(tab: Any, name: str) -> None:
+    tab.page.wait_for_function("name => document.querySelector('.bar .name').textContent === name", arg=name)
+
+
+def test_a_run_is_followed_its_figures_stay_and_its_report_can_do_nothing(tab: Any) -> None:
+    page = tab.page
+    page.click(".right >> text=Runs")
+    page.click(".run-kinds button:has-text('rating') >> nth=0")
+    page.wait_for_selector(".run-list li.done")
+    assert page.inner_text(".run-list .line") == "reducer-21-43 at 200 N·m, 1450 rpm: strength passed"
+    tab.give("pinion.teeth", "22")
+    page.wait_for_selector(".run-list li.done.stale")
+    page.click(".run-kinds button:has-text('rating') >> nth=0")
+    page.wait_for_selector(".run-list li.done:not(.stale)")
+    assert page.inner_text(".run-table thead small") == "pinion.teeth 21 → 22"
+    assert page.locator(".run-table tr.differs").count() > 3
+    with page.context.expect_page() as opened:
+        page.click(".run-list a >> nth=0")
+    report = opened.value
+    assert report.inner_text("h1").startswith("reducer-21-43")
+    assert report.evaluate("self.origin") == "null"
+
+
+def test_a_check_is_cancelled_at_once(tab: Any) -> None:
+    page = tab.page
+    page.click(".right >> text=Runs")
+    page.click(".run-kinds button:has-text('solid bodies')")
+    page.wait_for_function("() => /\\w/.test(document.querySelector('.run-list .step')?.textContent ?? '')", timeout=60_000)
+    page.click(".run-list button")
+    page.wait_for_selector(".run-list li.cancelled", timeout=5_000)
+
+
+def test_a_spec_goes_round_with_its_comments_and_the_address_holds_it(tab: Any, folder: Path) -> None:
+    page = tab.page
+    (folder / "given").mkdir(exist_ok=True)
+    (folder / "given" / VOLVO[0]).write_text(VOLVO[1], encoding="utf-8")
+    _open(tab, "spec", folder / "given" / VOLVO[0])
+    _wait_for_name(tab, "volvo-13-44")
+    with page.expect_download() as taken:
+        page.click("text=download the spec")
+    assert taken.value.suggested_filename == "volvo-13-44.toml"
+    assert Path(taken.value.path()).read_text(encoding="utf-8") == VOLVO[1]
+    page.fill(".files-menu form input", "mine")
+    page.click(".files-menu form button")
+    page.wait_for_selector("text=mine.toml")
+    assert (folder / "mine.toml").read_text(encoding="utf-8") == VOLVO[1]
+    page.click(".files-menu form button")
+    page.wait_for_selector(".files-menu .fault:has-text('is there')")
+    page.wait_for_function("() => window.location.search.includes('design=')")
+    page.wait_for_timeout(600)
+    page.reload()
+    _wait_for_name(tab, "volvo-13-44")
+
+
+def test_files_are_taken_along(tab: Any) -> None:
+    page = tab.page
+    page.click(".files > summary")
+    with page.expect_download() as taken:
+        page.click(".makes button:has-text('data')")
+    assert taken.value.suggested_filename == "reducer-21-43.json"
+
+
+def test_names_that_are_none_are_told(tab: Any) -> None:
+    page = tab.page
+    page.on("dialog", lambda dialog: tab.errors.append(dialog.message))
+    page.click(".files > summary")
+    page.wait_for_selector(".files-menu .makes button")
+    for name in ("<img src=x onerror=alert(1)>", "../../up", "con"):
+        page.fill(".files-menu form input", name)
+        page.click(".files-menu form button")
+        page.wait_for_selector(f".files-menu .fault:has-text('{name}')")
+        assert "must be a plain file name" in page.inner_text(".files-menu .fault")
+
+
+def test_a_row_of_results_is_opened_and_its_words_are_only_words(tab: Any, tmp_path: Path) -> None:
+    page = tab.page
+    page.on("dialog", lambda dialog: tab.errors.append(dialog.message))
+    (tmp_path / "results.csv").write_text(RESULTS, encoding="utf-8")
+    _open(tab, "table", tmp_path / "results.csv")
+    page.wait_for_selector(".results tbody tr >> nth=2")
+    page.fill(".results .axes label:last-child input", "<img src=x onerror=alert(1)>")
+    page.keyboard.press("Enter")
+    page.wait_for_selector(".results thead th:nth-child(4)")
+    chart = page.locator(".chart canvas").bounding_box()
+    left, right, top, bottom = 64, 16, 64, 48  # around the axes, in whose middle is the second row
+    page.mouse.move(chart["x"] + (chart["width"] + left - right) / 2, chart["y"] + (chart["height"] + top - bottom) / 2)
+    page.wait_for_selector(".chart >> text=<img src=x")
+    page.click(".results tbody tr >> nth=1")
+    _wait_for_name(tab, "large")
+    assert tab.field("gear.teeth").input_value() == "30"
+    page.click(".results tbody tr >> nth=2")
+    page.wait_for_selector(".results .fault:has-text('must be a plain file name')")
