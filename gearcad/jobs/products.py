@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from gearcad.solids.files.rack_products import RackPairProduct, RackProduct
     from gearcad.solids.files.train_products import TrainProduct
 
-__all__ = ["AssemblyProduct", "PartProduct", "products_of", "require_bodies"]
+__all__ = ["AssemblyProduct", "PartProduct", "given_speeds", "products_of", "require_bodies"]
 
 PartProduct: TypeAlias = "GearProduct | RackProduct"
 AssemblyProduct: TypeAlias = "PairProduct | RackPairProduct | TrainProduct"
@@ -40,7 +40,7 @@ def products_of(design: ToothedDesign, options: FileOptions) -> tuple[Mapping[st
 def _train_product(design: PlanetaryDesign, options: FileOptions) -> TrainProduct:
     from gearcad.solids.files.train_products import TrainProduct
 
-    return TrainProduct(design.train, options, _given_speeds(design))
+    return TrainProduct(design.train, options, given_speeds(design))
 
 
 def _with_rack(
@@ -71,7 +71,7 @@ def _require_body(name: str, gear: Gear) -> None:
         raise error.within(name) from error
 
 
-def _given_speeds(design: PlanetaryDesign) -> dict[str, float]:
+def given_speeds(design: PlanetaryDesign) -> dict[str, float]:
     """The speeds (rpm) of a train that its design has."""
     of_load = {design.train.input: design.load.speed} if design.load is not None and design.load.speed else {}
     return {**design.speeds, **of_load}

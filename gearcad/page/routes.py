@@ -6,7 +6,7 @@ from fastapi import FastAPI, Response
 
 from gearcad.page.given import add_given
 from gearcad.page.made import add_made
-from gearcad.page.panels.bodies import BODIES
+from gearcad.page.panels.bodies import SURFACES
 
 __all__ = ["add_routes"]
 
@@ -16,7 +16,7 @@ def add_routes(app: FastAPI) -> None:
     add_made(app)
     add_given(app)
 
-    @app.get("/bodies/{key}/{_number}.glb")
-    def bodies(key: str, _number: int) -> Response:
-        content = BODIES.get(key)
-        return Response(content or b"", 200 if content else 404, media_type="model/gltf-binary")
+    @app.get("/bodies/{key}/{surface}")
+    def bodies(key: str, surface: str) -> Response:
+        content = SURFACES.get(key, {}).get(surface)
+        return Response(content or b"", 200 if content else 404, media_type="application/octet-stream")

@@ -15,10 +15,11 @@ from gearcad.page.beside_design import BesideDesign
 from gearcad.page.links import DESIGN, linked_bench
 from gearcad.page.panels import Panel
 from gearcad.page.panels.beside import BesidePanel
-from gearcad.page.panels.bodies import BODIES, BodiesPanel
+from gearcad.page.panels.bodies import SURFACES, BodiesPanel
 from gearcad.page.panels.files import FilesPanel
 from gearcad.page.panels.inputs import InputsPanel
 from gearcad.page.panels.limits import LimitsPanel
+from gearcad.page.panels.roll import RollPanel
 from gearcad.page.panels.runs import RunsPanel
 from gearcad.page.panels.section import SectionPanel
 from gearcad.page.panels.sheet import SheetPanel
@@ -68,8 +69,9 @@ class Session:
                 with left.under("limits"):
                     limits = LimitsPanel(bench, self.change, words)
             with ui.element("div").classes("middle"):
-                self._bodies = BodiesPanel(self.key)
-                self._section = SectionPanel()
+                bodies = BodiesPanel(self.key, words)
+                roll = RollPanel(words)
+                section = SectionPanel(words)
             with ui.element("div").classes("right"):
                 right = self._right = Tabs({"data": words["Data"], "runs": words["Runs"], "table": words["Table"]})
                 with right.under("data"):
@@ -79,7 +81,7 @@ class Session:
                     self._runs = RunsPanel(bench, words)
                 with right.under("table"):
                     self._table = TablePanel(words, bench.folder, self.opened)
-        self._panels: tuple[Panel[Any], ...] = (self._section, sheet, strength, limits, self._bodies)
+        self._panels: tuple[Panel[Any], ...] = (section, roll, sheet, strength, limits, bodies)
         ui.context.client.on_delete(self._leave)
         self.follow()
         if beside.kept is not None:
@@ -109,7 +111,6 @@ class Session:
         self._undo = self._button("undo", self.words["undo"], forth=False)
         self._redo = self._button("redo", self.words["redo"], forth=True)
         BesidePanel(self.beside, self.words, self.kept)
-        ui.slider(min=-0.5, max=0.5, step=0.002, value=0, on_change=lambda event: self.pose(event.value))
         for language in Language:
             spoken = ui.button(language.value, on_click=lambda _, language=language: self.speak(language)).props("flat dense")
             spoken.props["title"] = spoken.props["aria-label"] = language.endonym
@@ -154,11 +155,6 @@ class Session:
         """Redo, or undo."""
         (self.bench.redo if forth else self.bench.undo)()
         self.follow(reveal=True)
-
-    def pose(self, turn: float) -> None:
-        """Turn the first gear by so many radians."""
-        self._bodies.pose(turn)
-        self._section.pose(turn)
 
     def follow(self, reveal: bool = False) -> None:
         """Show what the workbench has: inputs at once, all else as it is found."""
@@ -214,6 +210,6 @@ class Session:
 
     def _leave(self) -> None:
         """The tab was closed."""
-        BODIES.pop(self.key, None)
+        SURFACES.pop(self.key, None)
         self._files.close()
         self._runs.close()

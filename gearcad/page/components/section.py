@@ -10,18 +10,11 @@ __all__ = ["SectionView"]
 
 
 class SectionView(Element, component="gear_section.js"):
-    """Draws what `gearcad.page.panels.section` finds; `label` says to those who cannot see it what it is."""
+    """Draws what `gearcad.page.panels.section_content` finds; `label` says to those who cannot see it what it is."""
 
-    def __init__(self, label: str) -> None:
+    def __init__(self, label: str, words: dict[str, str]) -> None:
         super().__init__()
-        self._props["label"] = label
+        self._props["label"], self._props["words"] = label, words
 
-    def show(self, content: dict[str, Any] | None) -> None:
-        self.run_method("show", content)
-
-    def keep(self, content: dict[str, Any] | None) -> None:
-        """The same of a kept design, whose outlines are drawn as thin lines."""
-        self.run_method("keep", content)
-
-    def pose(self, turn: float) -> None:
-        self.run_method("pose", turn)
+    def show(self, content: dict[str, Any] | None, kept: dict[str, Any] | None) -> None:
+        self.run_method("show", content, kept)

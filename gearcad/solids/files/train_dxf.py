@@ -19,7 +19,7 @@ from gearcad.solids.train_layout import Standing, TrainLayout
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
 
-__all__ = ["write_train_dxf"]
+__all__ = ["section_angle", "write_train_dxf"]
 
 _SHADES = (1, 5, 3, 30, 6, 4, 2, 40)
 """Colours (AutoCAD index) of the layers, in turn."""
@@ -42,7 +42,7 @@ def write_train_dxf(layout: TrainLayout, path: Path | str, *, accuracy: float = 
     with drawing(path, colours) as document:
         for standing in layout.standing:
             key = standing.body.key
-            placed = _draw(document, standing, contours[key], _turn(layout, standing), layers[key], circles=circles)
+            placed = _draw(document, standing, contours[key], section_angle(layout, standing), layers[key], circles=circles)
             least, most = extent_of(placed)
             rim = standing.body.gear.body.rim_diameter or 0.0
             place = np.array(standing.offset[:2])
@@ -52,7 +52,7 @@ def write_train_dxf(layout: TrainLayout, path: Path | str, *, accuracy: float = 
         document.modelspace().reset_extents((*low, 0.0), (*high, 0.0))
 
 
-def _turn(layout: TrainLayout, standing: Standing) -> float:
+def section_angle(layout: TrainLayout, standing: Standing) -> float:
     """How far (rad) the section of a gear is turned in the plane that cuts its mesh."""
     gear = standing.body.gear
     height = gear.face_width / 2

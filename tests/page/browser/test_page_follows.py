@@ -6,12 +6,12 @@ from typing import Any
 
 
 def test_teeth_are_followed_by_all_panels(tab: Any) -> None:
-    outline = tab.page.get_attribute(".section .pinion .teeth", "d")
+    outline = tab.page.get_attribute(".gear-section", "data-teeth")
     tab.give("pinion.teeth", "22")
-    assert tab.page.get_attribute(".section .pinion .teeth", "d") != outline
+    assert tab.page.get_attribute(".gear-section", "data-teeth") != outline
     tab.page.keyboard.press("Escape")
     tab.give("pinion.teeth", "21")
-    assert tab.page.get_attribute(".section .pinion .teeth", "d") == outline
+    assert tab.page.get_attribute(".gear-section", "data-teeth") == outline
 
 
 def test_wrong_input_is_told_at_its_field_and_the_last_good_design_stays(tab: Any) -> None:
@@ -20,5 +20,5 @@ def test_wrong_input_is_told_at_its_field_and_the_last_good_design_stays(tab: An
     tab.page.wait_for_selector('[data-key="pinion.teeth"] .fault')
     line = tab.page.inner_text('[data-key="pinion.teeth"] .fault')
     assert "pinion.teeth = 2: must be a whole number from 3 to 2000" in line
-    outline = tab.page.get_attribute(".section .pinion .teeth", "d")
+    outline = tab.page.get_attribute(".gear-section", "data-teeth")
     assert outline and tab.shown() == before

@@ -1,0 +1,104 @@
+"""The transverse section that the page draws: flanks touch where it says, with the numbers that the browser gets."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gearcad.arrays import Floats
+from gearcad.designs.reader import read_spec
+from gearcad.page.panels.section_content import section_of
+from gearcad.page.panels.section_parts import plain
+from gearcad.shipped import templates
+
+CHORD = 2e-4
+"""Of the outlines, in normal modules."""
+
+ROLLS = np.linspace(-0.2, 0.2, 10)
+
+
+def _content(name: str) -> tuple[dict[str, Any], float]:
+    design = read_spec(templates() / f"{name}.toml")
+    content = section_of(design)
+    assert content is not None
+    return content, next(iter(design.gears.values())).normal_module  # type: ignore[attr-defined]
+
+
+def _turned(points: Floats, angle: float) -> Floats:
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return points @ np.array([[cosine, sine], [-sine, cosine]])
+
+
+def _stand(content: dict[str, Any], number: int, height: float, roll: float, side: int) -> float:
+    """As the script of the section has it."""
+    body, slack = content["bodies"][number], content["meshes"][0]["slack"]
+    return float(np.interp(height, *np.transpose(body["turns"]))) + body["ratio"] * roll + (side * slack if number else 0.0)
+
+
+def _outline(body: dict[str, Any], stand: float) -> Floats:
+    tooth = np.reshape(body["tooth"], (-1, 2))
+    if "teeth" in body:
+        count = abs(body["teeth"])
+        return np.concatenate([_turned(tooth, stand + 2 * math.pi * n / count) for n in range(count)]) + body["place"]
+    drift = stand  # of the lowest section, where the ends of the rack are of no account
+    middles = (np.arange(round(body["length"] / body["pitch"])) + 0.5) * body["pitch"]
+    points = np.concatenate([tooth + np.array([middle + drift, 0.0]) for middle in middles])
+    return _turned(points, body["angle"]) + body["place"]
+
+
+def _off(outline: Floats, point: Floats) -> float:
+    """Distance of a point from a chain of straight pieces."""
+    ends, steps = outline[:-1] - point, np.diff(outline, axis=0)
+    share = np.clip(-(ends * steps).sum(-1) / np.maximum((steps**2).sum(-1), 1e-30), 0, 1)
+    return float(np.hypot(*(ends + share[:, None] * steps).T).min())
+
+
+@pytest.mark.parametrize("name", ["reducer-21-43", "volvo-13-44", "fzg-c", "double-23-81", "ring-22-70", "rack"])
+@pytest.mark.parametrize("side", [1, -1], ids=["left", "right"])
+def test_flanks_touch_where_it_says(name: str, side: int) -> None:
+    content, module = _content(name)
+    (mesh,) = content["meshes"]
+    low, high = content["heights"]
+    for roll, height in zip(ROLLS, np.linspace(low, high, len(ROLLS)), strict=True):
+        stands = [_stand(content, number, height, roll, side) for number in (0, 1)]
+        outlines = [_outline(body, stand) for body, stand in zip(content["bodies"], stands, strict=True)]
+        first = mesh["first"] + side * mesh["base"] * stands[0]
+        start, *_, end = mesh["path"]
+        numbers = range(math.ceil((start - first) / mesh["pitch"]), math.floor((end - first) / mesh["pitch"]) + 1)
+        assert numbers
+        for number in numbers:
+            point = _turned(np.array([mesh["base"], first + number * mesh["pitch"]]), -mesh["angle"]) * [1, side]
+            for outline in outlines:
+                assert _off(outline, point) < 1.5 * CHORD * module
+
+
+@pytest.mark.parametrize("name", ["reducer-21-43", "ring-22-70"])
+def test_the_pitch_point_is_where_the_pitch_circles_touch(name: str) -> None:
+    content, _ = _content(name)
+    (mesh,), (pinion, wheel) = content["meshes"], content["bodies"]
+    point = _turned(np.array([mesh["base"], mesh["path"][2]]), -mesh["angle"])
+    assert point == pytest.approx([pinion["circles"]["pitch"] / 2, 0.0], abs=1e-9)
+    assert abs(point[0] - wheel["place"][0]) == pytest.approx(wheel["circles"]["pitch"] / 2, abs=1e-9)
+
+
+def test_a_train_turns_as_willis_says() -> None:
+    content, _ = _content("planetary-24-21-66")
+    ratios = {body["name"]: body["ratio"] for body in content["bodies"]}
+    assert ratios["sun"] == 1.0
+    assert ratios["ring"] == 0.0
+    assert {body["orbit"] for body in content["bodies"] if "planet" not in body["name"]} == {0.0}
+    assert content["bodies"][2]["orbit"] == pytest.approx(24 / (24 + 66), abs=1e-12)
+
+
+def test_kinds_without_teeth_have_no_section() -> None:
+    assert section_of(read_spec(templates() / "train-1-stage.toml")) is None
+
+
+def test_plain_numbers_are_sent() -> None:
+    content, _ = _content("double-23-81")
+    assert json.dumps(plain(content)) == json.dumps(content)
+    assert {type(value) for body in plain(content)["bodies"] for value in body["place"]} == {float}
