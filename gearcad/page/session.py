@@ -22,6 +22,7 @@ from gearcad.page.panels.limits import LimitsPanel
 from gearcad.page.panels.roll import RollPanel
 from gearcad.page.panels.runs import RunsPanel
 from gearcad.page.panels.section import SectionPanel
+from gearcad.page.panels.shares import SharesPanel
 from gearcad.page.panels.sheet import SheetPanel
 from gearcad.page.panels.strength import StrengthPanel
 from gearcad.page.panels.table import TablePanel
@@ -75,13 +76,14 @@ class Session:
             with ui.element("div").classes("right"):
                 right = self._right = Tabs({"data": words["Data"], "runs": words["Runs"], "table": words["Table"]})
                 with right.under("data"):
+                    shares = SharesPanel(words)
                     strength = StrengthPanel(words)
                     sheet = SheetPanel(words)
                 with right.under("runs"):
                     self._runs = RunsPanel(bench, words)
                 with right.under("table"):
                     self._table = TablePanel(words, bench.folder, self.opened)
-        self._panels: tuple[Panel[Any], ...] = (section, roll, sheet, strength, limits, bodies)
+        self._panels: tuple[Panel[Any], ...] = (section, roll, sheet, strength, limits, bodies, shares)
         ui.context.client.on_delete(self._leave)
         self.follow()
         if beside.kept is not None:

@@ -1,0 +1,74 @@
+"""Bodies and section in a browser: they turn together, are cut and measured, and leave no memory behind."""
+
+from __future__ import annotations
+
+from typing import Any
+
+CHANGES = 30
+
+_NO_WEBGL = """
+const get = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+  return kind.startsWith("webgl") ? null : get.call(this, kind, ...rest);
+};
+"""
+
+
+def _memory(tab: Any) -> tuple[str | None, ...]:
+    tab.page.wait_for_function("() => document.querySelector('.scene').dataset.geometries > 0")
+    tab.page.wait_for_timeout(300)  # until what was asked for is drawn
+    return tuple(tab.page.get_attribute(".scene", f"data-{kind}") for kind in ("geometries", "textures", "programs"))
+
+
+def test_the_section_follows_the_roll_angle(tab: Any) -> None:
+    slider = tab.page.locator(".gear-roll input")
+    slider.focus()
+    tab.page.keyboard.press("ArrowRight")
+    turned = float(slider.input_value())
+    assert turned > 0
+    tab.page.wait_for_function(
+        "turn => Math.abs(document.querySelector('.gear-section canvas').dataset.turn - turn) < 1e-9", arg=turned
+    )
+
+
+def test_space_lets_the_gears_turn_and_stops_them(tab: Any) -> None:
+    tab.page.locator(".gear-section canvas").focus()
+    tab.page.keyboard.press(" ")
+    tab.page.wait_for_function("() => document.querySelector('.gear-section canvas').dataset.turn > 0.01")
+    tab.page.keyboard.press(" ")
+    assert tab.page.get_attribute(".gear-roll button", "aria-pressed") == "false"
+
+
+def test_memory_stays_where_it_is_over_many_changes(tab: Any) -> None:
+    before = _memory(tab)
+    for change in range(CHANGES):
+        tab.give("pinion.teeth", str(22 - change % 2))
+    assert _memory(tab) == before
+
+
+def test_bodies_are_cut_and_made_whole(tab: Any) -> None:
+    before = _memory(tab)
+    tab.page.select_option(".scene select", "z")
+    tab.page.wait_for_function("() => document.querySelector('.scene').dataset.geometries > 4")
+    assert "12.50 mm" in tab.page.inner_text(".scene .tools")
+    tab.page.select_option(".scene select", "")
+    assert _memory(tab)[0] == before[0]
+
+
+def test_two_points_are_measured(tab: Any) -> None:
+    tab.page.get_by_role("button", name="measure").click()
+    tab.page.get_by_role("button", name="front").click()
+    box = tab.page.locator(".scene canvas").bounding_box()
+    for share in (0.45, 0.75):  # both on the end faces, which are 25 and 24 mm high
+        tab.page.mouse.click(box["x"] + share * box["width"], box["y"] + 0.62 * box["height"])
+    assert "±" in tab.page.inner_text(".scene .measured")
+
+
+def test_without_webgl_it_says_so_and_all_else_works(browser: Any, address: str) -> None:
+    context = browser.new_context()
+    page = context.new_page()
+    page.add_init_script(_NO_WEBGL)
+    page.goto(address)
+    page.wait_for_selector(".gear-section[data-teeth='21 43']")
+    assert "no WebGL" in page.inner_text(".scene .nothing")
+    context.close()
