@@ -20,7 +20,7 @@ export default {
         <button type="button" @click="near = false; fit()">{{ words.fit }}</button>
         <button type="button" v-if="content.meshes.length" @click="near = true; fit()">{{ words.mesh }}</button>
         <select v-if="slack" v-model="flanks" :title="words.flanks" :aria-label="words.flanks"><option v-for="each in ['left', 'right', 'both']" :value="each">{{ words[each] }}</option></select>
-        <label v-if="content.heights[1] > content.heights[0]" :title="words.height">z <input type="range" min="0" max="1" step="0.005" v-model.number="share" :aria-label="words.height" /> {{ height.toFixed(2) }}</label>
+        <label v-if="helical" :title="words.height">z <input type="range" min="0" max="1" step="0.005" v-model.number="share" :aria-label="words.height" /> {{ height.toFixed(2) }}</label>
       </div>
       <p class="told" v-if="told" :style="toldAt">{{ told }}</p>
       <p class="nothing" v-if="empty">{{ words.nothing }}</p>
@@ -32,6 +32,9 @@ export default {
   computed: {
     slack() {
       return this.content.meshes.some((mesh) => mesh.slack !== null);
+    },
+    helical() {
+      return this.content.bodies.some(({ turns }) => turns.some(([, turn]) => turn !== turns[0][1]));
     },
     height() {
       const [low, high] = this.content.heights;
@@ -66,8 +69,11 @@ export default {
       this.$el.dataset.teeth = content ? content.bodies.map((body) => body.teeth ?? 0).join(" ") : "";
       this.draw();
     },
+    // The mesh of a planet goes round with it, and so does the eye that looks at it.
     roll(event) {
-      this.turn = event.detail.turn;
+      const orbit = (this.near && this.content?.meshes[0]?.orbit) || 0;
+      const [x, y] = turned([this.view.x, this.view.y], orbit * (event.detail.turn - this.turn));
+      [this.turn, this.view] = [event.detail.turn, { ...this.view, x, y }];
       this.draw();
     },
     // ---------------------------------------------------------------- where things stand
@@ -90,10 +96,11 @@ export default {
       if (!this.content || !width) return;
       const mesh = this.near && this.content.meshes[0];
       if (mesh) {
-        const [x, y] = this.origin(mesh, 0);
+        const [x, y] = this.origin(mesh, this.turn);
+        const towards = mesh.towards + (mesh.orbit ?? 0) * this.turn;
         const reach = Math.max(mesh.path[4] - mesh.path[0], mesh.pitch) * 1.5;
         const pitch = mesh.base / Math.cos(mesh.angle);
-        this.view = { x: x + pitch * Math.cos(mesh.towards), y: y + pitch * Math.sin(mesh.towards), scale: Math.min(width, height) / reach };
+        this.view = { x: x + pitch * Math.cos(towards), y: y + pitch * Math.sin(towards), scale: Math.min(width, height) / reach };
       } else {
         const extent = this.extent();
         this.view = { x: extent.x, y: extent.y, scale: 0.94 * Math.min(width / extent.width, height / extent.height) };
@@ -155,7 +162,7 @@ export default {
       const points = body.teeth ? this.chain(pen, body, place, turn) : this.teeth(body, place, turn);
       points.forEach((point, n) => (n ? pen.lineTo(...point) : pen.moveTo(...point)));
       if (colour && body.teeth) this.back(pen, body, place);
-      else pen.closePath();
+      else if (!body.teeth || this.whole) pen.closePath();
       pen.strokeStyle = colour ?? this.colours.kept;
       pen.setLineDash(colour ? [] : [5, 3]);
       pen.lineWidth = colour ? 1.4 : 1;
