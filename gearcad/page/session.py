@@ -83,7 +83,7 @@ class Session:
                     self._runs = RunsPanel(bench, words)
                 with right.under("table"):
                     self._table = TablePanel(words, bench.folder, self.opened)
-        self._panels: tuple[Panel[Any], ...] = (section, roll, sheet, strength, limits, bodies, shares)
+        self._panels: tuple[Panel[Any], ...] = (section, roll, bodies, sheet, strength, limits, shares)
         ui.context.client.on_delete(self._leave)
         self.follow()
         if beside.kept is not None:
