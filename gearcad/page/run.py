@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -18,12 +19,18 @@ _SHARE_OF_MEMORY = 0.5
 _MOST_MEMORY = 16e9
 
 
+def _most_memory() -> float:
+    """Half of what the machine has; endless where the system does not tell what a process takes."""
+    told = Path("/proc/self/statm").exists()
+    return min(_SHARE_OF_MEMORY * machine_memory(), _MOST_MEMORY) if told else math.inf
+
+
 @dataclass(frozen=True, kw_only=True)
 class Limits:
-    """What one run may take: seconds, and bytes of memory where the system tells what a process has (Linux)."""
+    """What one run may take: seconds, and bytes of memory (Linux)."""
 
     seconds: float = 3600.0
-    memory: float = field(default_factory=lambda: min(_SHARE_OF_MEMORY * machine_memory(), _MOST_MEMORY))
+    memory: float = field(default_factory=_most_memory)
 
 
 class State(Enum):

@@ -12,6 +12,7 @@ from nicegui import background_tasks, run, ui
 
 from gearcad.designs.design import DesignKind
 from gearcad.page.beside_design import BesideDesign
+from gearcad.page.handed import Handed, hand_over, take_over
 from gearcad.page.links import DESIGN, linked_bench
 from gearcad.page.panels import Panel
 from gearcad.page.panels.beside import BesidePanel
@@ -27,16 +28,12 @@ from gearcad.page.panels.sheet import SheetPanel
 from gearcad.page.panels.strength import StrengthPanel
 from gearcad.page.panels.table import TablePanel
 from gearcad.page.panels.text import TextPanel
+from gearcad.page.runs import Runs
 from gearcad.page.tabs import Tabs
 from gearcad.page.words import Language, Words, language_of
 from gearcad.page.workbench import TEXT
 
 __all__ = ["Session"]
-
-_HANDED: dict[str, BesideDesign] = {}
-"""Workbenches, each with what is kept beside it, that a tab leaves to the page that it opens next, in another language."""
-
-_MOST_HANDED = 100
 
 _REST = 0.3
 """Seconds without a change after which what takes long is begun."""
@@ -48,7 +45,7 @@ class Session:
     What was found for a design that is not the last any more is not shown.
     """
 
-    def __init__(self, beside: BesideDesign, words: Words) -> None:
+    def __init__(self, beside: BesideDesign, words: Words, runs: Runs | None = None) -> None:
         self.bench, self.beside, self.words = beside.bench, beside, words
         bench = self.bench
         self.key = secrets.token_urlsafe(12)
@@ -80,7 +77,7 @@ class Session:
                     strength = StrengthPanel(words)
                     sheet = SheetPanel(words)
                 with right.under("runs"):
-                    self._runs = RunsPanel(bench, words)
+                    self._runs = RunsPanel(bench, words, runs)
                 with right.under("table"):
                     self._table = TablePanel(words, bench.folder, self.opened)
         self._panels: tuple[Panel[Any], ...] = (section, roll, bodies, sheet, strength, limits, shares)
@@ -94,17 +91,13 @@ class Session:
         """The page that the browser asks for, with the workbench that it had in the other language, if it comes from there."""
         query, headers = ui.context.client.request.query_params, ui.context.client.request.headers
         words = Words.of(language_of(query.get("lang"), headers.get("accept-language", "")))
-        handed = query.get("from", "")
-        if handed in _HANDED:
-            return cls(_HANDED.pop(handed), words)
+        if (found := take_over(query.get("from", ""))) is not None:
+            return cls(found.beside, words, found.runs)
         return cls(BesideDesign(linked_bench(query.get(DESIGN, ""), text, name, folder)), words)
 
     def speak(self, language: Language) -> None:
         """Open the page in another language, with this workbench."""
-        while len(_HANDED) >= _MOST_HANDED:
-            _HANDED.pop(next(iter(_HANDED)))
-        key = secrets.token_urlsafe(12)
-        _HANDED[key] = self.beside
+        key = hand_over(Handed(self.beside, self._runs.hand_over()))
         ui.navigate.to(f"/?lang={language.value}&from={key}")
 
     def _bar(self) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 from nicegui import background_tasks, ui
 
 from gearcad.designs.starters import starter_text, starters
-from gearcad.errors import GearcadError
+from gearcad.errors import GearcadError, printable
 from gearcad.page.components.files import FilesView
 from gearcad.page.folder import LARGEST_SPEC, LARGEST_TABLE, SPECS, TABLES, Folder, TakenError, text_of
 from gearcad.page.given import await_files
@@ -110,16 +110,16 @@ class FilesPanel:
     def _given_spec(self, name: str, content: bytes) -> None:
         with self._client:
             try:
-                self._take(text_of(content, name), _stem(name))
+                self._take(text_of(content, printable(name)), _stem(printable(name)))
             except GearcadError as error:
                 self._view.show(line=str(error))
 
     def _given_table(self, name: str, content: bytes) -> None:
         with self._client:
             try:
-                self._tabled(content.decode("utf-8-sig"), name)
+                self._tabled(content.decode("utf-8-sig"), printable(name))
             except UnicodeDecodeError:
-                self._view.show(line=f"{name}: is no table of results, for it is not CSV in UTF-8")
+                self._view.show(line=f"{printable(name)}: is no table of results, for it is not CSV in UTF-8")
             except GearcadError as error:
                 self._view.show(line=str(error))
 

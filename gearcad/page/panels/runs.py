@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 from typing import Any
 
 from nicegui import background_tasks, run, ui
@@ -30,8 +31,8 @@ _LOOK = 0.25
 class RunsPanel:
     """Follows the workbench; runs belong to the text with which they were started."""
 
-    def __init__(self, bench: Workbench, words: Words) -> None:
-        self._bench, self._words, self._runs = bench, words, Runs()
+    def __init__(self, bench: Workbench, words: Words, runs: Runs | None = None) -> None:
+        self._bench, self._words, self._runs = bench, words, runs or Runs()
         limits = Expected(self._runs.limits.seconds, self._runs.limits.memory)
         self._view = RunsView(self._start, self._cancel, _words(words), f"{words['each run has at most']} {_told(limits)}")
         self._expected: dict[str, str] = {}
@@ -42,6 +43,9 @@ class RunsPanel:
         self._stale: list[int] = []
         self._timer = ui.timer(_LOOK, self._look, active=False)
         self._states: dict[int, State] = {}
+        self._handed = False
+        if runs is not None:
+            self._timer.activate()
 
     def follow(self) -> None:
         """Show which runs are of another design than that of the workbench, and what can be run on it."""
@@ -54,9 +58,15 @@ class RunsPanel:
             self._show_kinds()
         self._show_stale()
 
+    def hand_over(self) -> Runs:
+        """Its runs, which go on in the panel that gets them."""
+        self._handed = True
+        return self._runs
+
     def close(self) -> None:
-        """The tab was closed: its runs end, and their files go."""
-        self._runs.close()
+        """The tab was closed: its runs end, and their files go, unless they were handed over."""
+        if not self._handed:
+            self._runs.close()
         if self._task is not None:
             self._task.cancel()
 
@@ -164,7 +174,8 @@ def expected_of(design: Design) -> dict[str, str]:
 
 
 def _told(expected: Expected) -> str:
-    return f"≈ {_figure(about(expected.seconds))}, {about_memory(expected.memory)}"
+    memory = f", {about_memory(expected.memory)}" if math.isfinite(expected.memory) else ""
+    return f"≈ {_figure(about(expected.seconds))}{memory}"
 
 
 def _left(of: Run) -> str:

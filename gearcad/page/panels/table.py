@@ -53,7 +53,7 @@ class TablePanel:
     async def _take(self, text: str, name: str) -> None:
         with self._client:
             try:
-                table = await run.io_bound(read_results, text, name)
+                table = await run.io_bound(_read, text, name)
             except GearcadError as error:
                 self._view.show(line=str(error))
                 return
@@ -62,26 +62,27 @@ class TablePanel:
             self._table = table
             told = f"{len(table.rows)} {self._words['designs']}"
             self._view.show(name=name, told=told, line="", columns=list(table.numbers), rows=[], opened=None)
-            self._draw(first_columns(table))
+            await self._draw(table, first_columns(table))
 
     def _choose(self, chosen: Mapping[str, Any]) -> None:
         """Draw other columns; what is no column leaves all as it is."""
         if self._table is not None:
             columns = [str(chosen.get(axis) or "") for axis in _AXES]
             known = all(column in self._table.numbers for column in columns if column)
-            self._draw(columns if known and columns[0] and columns[1] else self._columns)
+            background_tasks.create(self._draw(self._table, columns if known and all(columns[:2]) else self._columns))
 
-    def _draw(self, columns: Sequence[str]) -> None:
-        assert self._table is not None
-        self._columns = list(columns)
+    async def _draw(self, table: ResultsTable, columns: Sequence[str]) -> None:
         drawn = [column for column in columns if column]
-        self._points = [[*values, number] for number, values in self._table.points(*drawn)]
+        points = await run.io_bound(_points, table, drawn)
+        if points is None or table is not self._table:
+            return
+        self._columns, self._points = list(columns), points
         self._chart.set_visibility(True)
         self._chart.options.clear()
         self._chart.options.update(chart_of(drawn, self._points))
         self._chart.update()
         self._view.show(chosen=dict(zip(_AXES, columns, strict=True)), heads=drawn)
-        self._list(self._points)
+        self._list(points)
 
     def _brush(self, told: Any) -> None:
         """List the rows under the brush; without one all."""
@@ -118,6 +119,18 @@ class TablePanel:
             if text is not None:  # or the server ends
                 self._view.show(line="", opened=number)
                 self._opened(text, table.called(number))
+
+
+def _points(table: ResultsTable, columns: Sequence[str]) -> list[list[float]]:
+    """Values of each row that has all of them, and its number behind."""
+    return [[*values, number] for number, values in table.points(*columns)]
+
+
+def _read(text: str, name: str) -> ResultsTable:
+    """The table, with its columns of numbers found."""
+    table = read_results(text, name)
+    _ = table.numbers
+    return table
 
 
 def first_columns(table: ResultsTable) -> list[str]:
