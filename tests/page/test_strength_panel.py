@@ -16,6 +16,7 @@ from gearcad.load import Load
 from gearcad.page.panels.figures import Figures, shown_figures
 from gearcad.page.panels.strength import strength_figures, warm_up
 from gearcad.page.words import Language, Words
+from gearcad.page.workbench import Workbench
 from gearcad.rating.options import RatingOptions
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
@@ -76,6 +77,13 @@ def test_without_a_load_one_line_says_what_to_give() -> None:
 def test_what_cannot_be_rated_says_why() -> None:
     assert "a single gear carries nothing" in strength_figures(starter("spur")).notices[0]["text"]
     assert "gearcad dynamics" in strength_figures(starter("train-1-stage")).notices[0]["text"]
+
+
+def test_what_only_the_document_of_a_rating_finds_to_be_wrong_is_a_line_too(tmp_path: Path) -> None:
+    bench = Workbench((TEMPLATES / "reducer-21-43.toml").read_text(encoding="utf-8"), "trial", tmp_path)
+    bench.change({"pinion.material.root_endurance_limit": "0.001"})
+    assert bench.fault is None
+    assert "N·m in size" in strength_figures(bench.design).notices[0]["text"]
 
 
 def test_finite_elements_are_left_to_a_run() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gearcad.designs.design import Design
+from gearcad.errors import GearcadError
 from gearcad.page.panels.figures import Figures, FiguresPanel, figures
 from gearcad.page.panels.sheet_notices import keys_of, shown_notices
 from gearcad.page.words import Words
@@ -37,7 +38,10 @@ class SheetPanel(FiguresPanel):
 
 def sheet_figures(design: Design) -> Figures:
     """Those of the sheet of a design."""
-    sheet = sheet_of(design)
+    try:
+        sheet = sheet_of(design)
+    except GearcadError as error:
+        return Figures((), {}, notices=({"text": str(error), "keys": []},))
     return figures(
         sheet.sections,
         lines=(("", f"{sheet.name}: {sheet.title}"),),

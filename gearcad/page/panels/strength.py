@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from gearcad.designs.design import Design, DesignKind
 from gearcad.errors import GearcadError, InputError
 from gearcad.page.panels.figures import Figures, FiguresPanel, figures
 from gearcad.page.panels.sheet_notices import keys_of, shown_notices
 from gearcad.page.words import Words
 from gearcad.sheet.strength import FACTORS, strength_sections, train_strength_sections
+
+if TYPE_CHECKING:
+    from gearcad.dynamics.planetary.strength import TrainStrength
+    from gearcad.rating.strength import StrengthRating
 
 __all__ = ["StrengthPanel", "strength_figures", "warm_up"]
 
@@ -16,6 +22,7 @@ _PINNED = (
     " permissible_torque.flank permissible_torque.root life.flank life.root"
 )
 """What one looks at first."""
+
 _PINS = [f"strength.{key}" for key in _PINNED.split()]
 
 _ON_REQUEST = (
@@ -54,29 +61,30 @@ def _takes_long(design: Design) -> bool:
 def strength_figures(design: Design) -> Figures:
     """Those of the rating of a design; without one a line that says why, or what to give."""
     from gearcad.jobs.rate import KEYS, Rate
-    from gearcad.rating.strength import StrengthRating
 
     options = getattr(design, "rating", None)
     if options is not None and options.face_load_factor == "fe":
         return _without(_ON_REQUEST, ["rating.face_load_factor"])
     try:
-        found = Rate(report=False).run(design)
+        return _rated(Rate(report=False).run(design), design)
     except GearcadError as error:
         key = KEYS.get(error.parameter, error.parameter) if isinstance(error, InputError) else ""
         return _without(str(error), [key] if key in keys_of(design) else [])
-    one = isinstance(found, StrengthRating)
-    sections = strength_sections(found) if isinstance(found, StrengthRating) else train_strength_sections(found)
-    told = {
-        "": (f"{found.options.standard.value}, {found.options.accuracy.value}",),
-        "assumed": found.assumed,
-        "verify": found.verify,
-    }
+
+
+def _rated(found: StrengthRating | TrainStrength, design: Design) -> Figures:
+    """What a rating comes to; of a train of all its meshes."""
+    from gearcad.dynamics.planetary.strength import TrainStrength
+
+    train = isinstance(found, TrainStrength)
+    standards = f"{found.options.standard.value}, {found.options.accuracy.value}"
+    told = {"": (standards,), "assumed": found.assumed, "verify": found.verify}
     return figures(
-        sections,
+        train_strength_sections(found) if isinstance(found, TrainStrength) else strength_sections(found),
         lines=tuple((label, "; ".join(each)) for label, each in told.items() if each),
         notices=shown_notices(found.notices, keys_of(design)),
-        pins=_PINS if one else (),
-        folded=("Safety", *FACTORS) if one else FACTORS,
+        pins=() if train else _PINS,
+        folded=FACTORS if train else ("Safety", *FACTORS),
         title=found.verdict,
         verdict=_VERDICTS[found.passed],
     )
