@@ -20,6 +20,7 @@ class BesidePanel:
 
     def __init__(self, beside: BesideDesign, words: Words, changed: Callable[[], None]) -> None:
         self._beside, self._words, self._changed = beside, words, changed
+        self._files: list[str] | None = None
         with ui.element("div").classes("beside"):
             with ui.button(words["Beside"]).props("flat dense no-caps"), ui.menu().on("show", self._list) as self._menu:
                 self._list()
@@ -31,11 +32,15 @@ class BesidePanel:
         self._show("")
 
     def _list(self) -> None:
-        """What can be kept: the present design, and the specs in the folder."""
+        """What can be kept: the present design, and the specs in the folder; an open menu stays unless these are others."""
+        files = self._beside.folder.names(SPECS)
+        if files == self._files:
+            return
+        self._files = files
         self._menu.clear()
         with self._menu:
             ui.menu_item(self._words["keep this design"], lambda: self._do(self._beside.keep))
-            for file in self._beside.folder.names(SPECS):
+            for file in files:
                 ui.menu_item(file, partial(self._do, partial(self._beside.open, file)))
 
     def _do(self, what: Callable[[], None]) -> None:
