@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fastapi import FastAPI, Response
+from fastapi import FastAPI, Request, Response
 
 from gearcad.page.given import add_given
 from gearcad.page.made import add_made
@@ -12,11 +12,21 @@ __all__ = ["add_routes"]
 
 
 def add_routes(app: FastAPI) -> None:
-    """Answer them at this app."""
+    """Answer them at this app, and what is not there, or goes wrong, by a line."""
     add_made(app)
     add_given(app)
+    app.add_exception_handler(404, _missing)
+    app.add_exception_handler(Exception, _broken)
 
     @app.get("/bodies/{key}/{surface}")
     def bodies(key: str, surface: str) -> Response:
         content = SURFACES.get(key, {}).get(surface)
         return Response(content or b"", 200 if content else 404, media_type="application/octet-stream")
+
+
+def _missing(_request: Request, _error: Exception) -> Response:
+    return Response("no such page\n", 404, media_type="text/plain")
+
+
+def _broken(_request: Request, error: Exception) -> Response:
+    return Response(f"failed ({type(error).__name__})\n", 500, media_type="text/plain")

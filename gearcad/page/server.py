@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import logging
 import secrets
 import socket
 import threading
@@ -10,6 +11,8 @@ from pathlib import Path
 
 from gearcad.errors import ParameterError
 from gearcad.page.access import TOKEN, Access
+from gearcad.page.ending import ending
+from gearcad.page.fences import Fences
 
 __all__ = ["LOCAL", "PORT", "serve"]
 
@@ -22,20 +25,33 @@ PORT = 8765
 _TRIED = 100
 """Ports that are tried."""
 
+_EVERYWHERE = ("0.0.0.0", "::", "")
+
 _RECONNECT = 30.0
 """Seconds that a tab may be away, as where a laptop sleeps, and find its page as it was."""
+
+_MOST_SESSIONS = 32
+"""Tabs at a time."""
+
+_LARGEST_MESSAGE = 1 << 20
+"""Bytes that a browser may send at once over its connection: four times the largest spec."""
+
+_GRACE = 1
+"""Seconds that answers have to end when the server does."""
 
 
 def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | None, browser: bool) -> None:
     """Serve the page of a spec's text until Ctrl-C; files that it names are seen from `folder`.
 
     At `host` others may ask, who have the token in the address that is printed. Raises ParameterError where nothing can listen,
-    or NiceGUI is missing, SpecError for a text that makes nothing.
+    or NiceGUI is missing, SpecError for a text that makes nothing. The process ends with the server.
     """
     try:
-        from nicegui import app, ui
+        from nicegui import app, core, ui
     except ImportError as error:
         raise ParameterError("open", name, 'needs NiceGUI: pip install "gearcad[page]"') from error
+    from fastapi import Response
+
     from gearcad.page.panels.strength import warm_up
     from gearcad.page.routes import add_routes
     from gearcad.page.runs import close_all_runs
@@ -44,36 +60,61 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
 
     first = Workbench(text, name, folder)  # what is wrong with it is told here, not in the browser
     port = _free_port(host or LOCAL, port)
-    token = None if host is None else secrets.token_urlsafe(16)
+    token = None if host is None else secrets.token_urlsafe(32)
+    hosts = {f"{each}:{port}" for each in (host or LOCAL, "localhost")}
     address = f"http://{host or LOCAL}:{port}/{f'?{TOKEN}={token}' if token else ''}"
 
-    def root() -> None:
+    @ui.page("/")
+    def page() -> Response | None:
+        if len(Session.open) >= _MOST_SESSIONS:
+            return Response(f"{_MOST_SESSIONS} pages are open: close one\n", 503, media_type="text/plain")
         ui.add_css(Path(__file__).parent / "page.css")
         Session.of(text, name, folder)
+        return None
 
+    for logger in ("nicegui", "uvicorn.error"):
+        logging.getLogger(logger).addFilter(_in_one_line)
+    core.sio.eio.cors_allowed_origins = sorted(f"http://{each}" for each in hosts)
     add_routes(app)
-    app.add_middleware(Access, hosts={f"{each}:{port}" for each in (LOCAL, "localhost", host) if each}, token=token)
-    app.on_shutdown(close_all_runs)
+    app.add_middleware(Fences)
+    app.add_middleware(Access, hosts=hosts, token=token)
     app.on_startup(lambda: print(address, flush=True))
-    app.on_shutdown(close_all_runs)
     app.on_startup(threading.Thread(target=warm_up, args=(first.design,), daemon=True).start)
-    ui.run(
-        root,
-        host=host or LOCAL,
-        port=port,
-        title=f"{name} - gearcad",
-        show=address if browser else False,
-        dark=None,
-        favicon="⚙",
-        reload=False,
-        reconnect_timeout=_RECONNECT,
-        show_welcome_message=False,
-        tailwind=False,
-    )
+    app.on_shutdown(Session.leave_all)
+    app.on_shutdown(close_all_runs)
+    with ending():
+        ui.run(
+            host=host or LOCAL,
+            port=port,
+            title=f"{name} - gearcad",
+            show=address if browser else False,
+            dark=None,
+            favicon="⚙",
+            reload=False,
+            reconnect_timeout=_RECONNECT,
+            show_welcome_message=False,
+            tailwind=False,
+            server_header=False,
+            ws_max_size=_LARGEST_MESSAGE,
+            timeout_graceful_shutdown=_GRACE,
+        )
+
+
+def _in_one_line(record: logging.LogRecord) -> bool:
+    """What goes wrong in one session is told in a line, and no more; the others go on."""
+    if record.exc_info and record.exc_info[1] is not None:
+        error = record.exc_info[1]
+        record.msg, record.args = f"a page failed ({type(error).__name__}: {error})", ()
+    elif isinstance(record.msg, Exception):
+        record.msg = f"a page failed ({type(record.msg).__name__}: {record.msg})"
+    record.exc_info = record.exc_text = None
+    return True
 
 
 def _free_port(host: str, port: int | None) -> int:
     """The port that is asked for, or the first from PORT on at which nobody listens. Raises ParameterError."""
+    if host in _EVERYWHERE:
+        raise ParameterError("host", host, "must be the one address at which others find this machine")
     for each in range(PORT, PORT + _TRIED) if port is None else (port,):
         with socket.socket() as tried:
             tried.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

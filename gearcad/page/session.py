@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import asyncio
 import secrets
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import ClassVar
 
-from nicegui import background_tasks, run, ui
+from nicegui import background_tasks, ui
 
 from gearcad.designs.design import DesignKind
 from gearcad.page.beside_design import BesideDesign
+from gearcad.page.components.bar import BarView
+from gearcad.page.following import Following
 from gearcad.page.handed import Handed, hand_over, take_over
 from gearcad.page.links import DESIGN, linked_bench
-from gearcad.page.panels import Panel
 from gearcad.page.panels.beside import BesidePanel
 from gearcad.page.panels.bodies import SURFACES, BodiesPanel
 from gearcad.page.panels.files import FilesPanel
@@ -35,28 +35,25 @@ from gearcad.page.workbench import TEXT
 
 __all__ = ["Session"]
 
-_REST = 0.3
-"""Seconds without a change after which what takes long is begun."""
-
 
 class Session:
     """Builds the page in the browser, and lets every panel follow the design.
 
-    What was found for a design that is not the last any more is not shown.
+    `open` are all that somebody has open.
     """
+
+    open: ClassVar[set[Session]] = set()
 
     def __init__(self, beside: BesideDesign, words: Words, runs: Runs | None = None) -> None:
         self.bench, self.beside, self.words = beside.bench, beside, words
         bench = self.bench
         self.key = secrets.token_urlsafe(12)
-        self._change = 0
-        self._task: asyncio.Task[None] | None = None
-        self._later: asyncio.Task[None] | None = None
+        following = self._following = Following(lambda: bench.design, words["failed, and the page goes on"])
         ui.query("html").props(f"lang={words.language.value}")
         with ui.element("header").classes("bar"):
             self._bar()
         with ui.element("main").classes("panels"):
-            with ui.element("div").classes("left"):
+            with _region("left", words["Inputs"]):
                 left = Tabs({"inputs": words["Inputs"], "text": words["Text"], "limits": words["Limits"]})
                 with left.under("inputs"):
                     self._inputs = InputsPanel(self.typed, self.step, words)
@@ -65,26 +62,30 @@ class Session:
                 if bench.design.kind is DesignKind.TRAIN:
                     left.choose("text")
                 with left.under("limits"):
-                    limits = LimitsPanel(bench, self.change, words)
-            with ui.element("div").classes("middle"):
-                bodies = BodiesPanel(self.key, words)
-                roll = RollPanel(words)
-                section = SectionPanel(words)
-            with ui.element("div").classes("right"):
+                    limits = following.with_line(LimitsPanel(bench, self.change, words))
+            with _region("middle", words["Gears"]):
+                with ui.element("div").classes("view"):
+                    bodies = following.with_line(BodiesPanel(self.key, words))
+                with ui.element("div").classes("rolling"):
+                    roll = following.with_line(RollPanel(words))
+                with ui.element("div").classes("view"):
+                    section = following.with_line(SectionPanel(words))
+            with _region("right", words["Results"]):
                 right = self._right = Tabs({"data": words["Data"], "runs": words["Runs"], "table": words["Table"]})
                 with right.under("data"):
-                    shares = SharesPanel(words)
-                    strength = StrengthPanel(words)
-                    sheet = SheetPanel(words)
+                    shares = following.with_line(SharesPanel(words))
+                    strength = following.with_line(StrengthPanel(words))
+                    sheet = following.with_line(SheetPanel(words))
                 with right.under("runs"):
                     self._runs = RunsPanel(bench, words, runs)
                 with right.under("table"):
                     self._table = TablePanel(words, bench.folder, self.opened)
-        self._panels: tuple[Panel[Any], ...] = (section, roll, bodies, sheet, strength, limits, shares)
-        ui.context.client.on_delete(self._leave)
+        following.begin((section, roll, bodies, sheet, strength, limits, shares))
+        self.open.add(self)
+        ui.context.client.on_delete(self.leave)
         self.follow()
         if beside.kept is not None:
-            background_tasks.create(self._compare())
+            background_tasks.create(following.compare(lambda: beside.design))
 
     @classmethod
     def of(cls, text: str, name: str, folder: Path) -> Session:
@@ -101,19 +102,22 @@ class Session:
         ui.navigate.to(f"/?lang={language.value}&from={key}")
 
     def _bar(self) -> None:
-        self._name = ui.label().classes("name")
-        self._files = FilesPanel(self.key, self.bench, self.words, self.opened, self.tabled)
-        self._undo = self._button("undo", self.words["undo"], forth=False)
-        self._redo = self._button("redo", self.words["redo"], forth=True)
-        BesidePanel(self.beside, self.words, self.kept)
+        words = self.words
+        self._name = ui.label().classes("name").props("role=heading aria-level=1")
+        self._files = FilesPanel(self.key, self.bench, words, self.opened, self.tabled)
+        self._undo = self._button("undo", words["undo"], forth=False)
+        self._redo = self._button("redo", words["redo"], forth=True)
+        BesidePanel(self.beside, words, self.kept)
+        ui.element("div").classes("rest")
         for language in Language:
-            spoken = ui.button(language.value, on_click=lambda _, language=language: self.speak(language)).props("flat dense")
+            spoken = ui.button(language.value, on_click=lambda _, language=language: self.speak(language))
             spoken.props["title"] = spoken.props["aria-label"] = language.endonym
-            spoken.set_enabled(language is not self.words.language)
+            spoken.props("flat dense").classes("language").set_enabled(language is not words.language)
+        BarView(words)
 
     def _button(self, icon: str, words: str, *, forth: bool) -> ui.button:
         """One that undoes or redoes, and says so."""
-        button = ui.button(icon=icon, on_click=lambda: self.step(forth)).props("flat dense round")
+        button = ui.button(icon=icon, on_click=lambda: self.step(forth)).props("flat dense round size=sm")
         button.props["title"] = button.props["aria-label"] = words
         return button
 
@@ -139,7 +143,7 @@ class Session:
     def kept(self) -> None:
         """Another design is beside this one, or none; it may have changed places with it."""
         self.follow(reveal=True)
-        background_tasks.create(self._compare())
+        background_tasks.create(self._following.compare(lambda: self.beside.design))
 
     def tabled(self, text: str, name: str) -> None:
         """Somebody opened a table of results."""
@@ -160,51 +164,23 @@ class Session:
         self._name.set_text(self.bench.design.name)
         self._files.follow()
         self._runs.follow()
-        self._change += 1
-        if self._task is None or self._task.done():
-            self._task = background_tasks.create(self._find())
+        self._following.follow()
 
-    async def _find(self) -> None:
-        """Until all panels show the last design; each change begins anew with the quickest of them."""
-        shown = 0
-        while shown != self._change:
-            shown, design = self._change, self.bench.design
-            for panel in self._panels:
-                if panel.takes_long(design):
-                    panel.wait()
-                    continue
-                found = await run.io_bound(panel.find, design)
-                if shown != self._change:
-                    break
-                panel.show(found)
-        if self._later is None or self._later.done():
-            self._later = background_tasks.create(self._find_later())
-
-    async def _find_later(self) -> None:
-        """What takes long, of the last design: when the hand rests, and without keeping anything else waiting."""
-        shown = 0
-        while shown != self._change:
-            shown, design = self._change, self.bench.design
-            await asyncio.sleep(_REST)
-            for panel in self._panels:
-                if shown == self._change and panel.takes_long(design):
-                    found = await run.io_bound(panel.find, design)
-                    if shown == self._change:
-                        panel.show(found)
-
-    async def _compare(self) -> None:
-        """Let panels that compare have what they show of the kept design."""
-        kept = self.beside.design
-        for panel in self._panels:
-            if panel.compares:
-                found = None if kept is None else await run.io_bound(panel.find, kept)
-                if kept is not self.beside.design:
-                    return
-                panel.keep(found)
-        self.follow()
-
-    def _leave(self) -> None:
-        """The tab was closed."""
+    def leave(self) -> None:
+        """The tab was closed: what it has made goes, and what it runs ends."""
+        self.open.discard(self)
+        self._following.end()
         SURFACES.pop(self.key, None)
         self._files.close()
         self._runs.close()
+
+    @classmethod
+    def leave_all(cls) -> None:
+        """The server ends."""
+        for each in tuple(cls.open):
+            each.leave()
+
+
+def _region(place: str, label: str) -> ui.element:
+    """A part of the page that is found by its name."""
+    return ui.element("section").classes(place).props(f'aria-label="{label}"')

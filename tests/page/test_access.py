@@ -1,0 +1,96 @@
+"""Who may ask the server of the page, and what browsers are told with every answer."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+import pytest
+
+from gearcad.page.access import Access
+from gearcad.page.fences import Fences
+
+HERE = "127.0.0.1:8765"
+TOKEN = "t" * 43
+
+
+async def _app(scope: Any, _receive: Any, send: Any) -> None:
+    headers = [(b"content-type", b"text/html"), (b"x-nicegui-content", b"page")]
+    await send({"type": "http.response.start", "status": 200, "headers": headers})
+    await send({"type": "http.response.body", "body": b"<script>1</script>", "more_body": True})
+    await send({"type": "http.response.body", "body": b"<script src=a></script>"})
+
+
+def ask(
+    app: Any, headers: dict[str, str], *, path: str = "/", query: str = "", kind: str = "http"
+) -> tuple[int, dict[str, str], str]:
+    """Status (1008 for a websocket that is refused), headers and text of an answer."""
+    told: list[Any] = []
+
+    async def send(message: Any) -> None:
+        told.append(message)
+
+    async def receive() -> Any:
+        return {"type": "http.request"}
+
+    pairs = [(name.encode(), value.encode()) for name, value in headers.items()]
+    asyncio.run(app({"type": kind, "path": path, "query_string": query.encode(), "headers": pairs}, receive, send))
+    if told[0]["type"] == "websocket.close":
+        return told[0]["code"], {}, ""
+    answered = {name.decode(): value.decode() for name, value in told[0]["headers"]}
+    return told[0]["status"], answered, b"".join(each.get("body", b"") for each in told[1:]).decode()
+
+
+@pytest.mark.parametrize(
+    ("headers", "status"),
+    [
+        ({"host": HERE}, 200),
+        ({"host": HERE, "origin": f"http://{HERE}"}, 200),
+        ({"host": "localhost:8765"}, 200),
+        ({"host": HERE, "sec-fetch-site": "cross-site", "sec-fetch-mode": "navigate", "sec-fetch-dest": "document"}, 200),
+        ({}, 403),
+        ({"host": "127.0.0.1"}, 403),
+        ({"host": "rebound.example:8765"}, 403),
+        ({"host": HERE, "origin": "http://evil.example"}, 403),
+        ({"host": HERE, "origin": f"https://{HERE}"}, 403),
+        ({"host": HERE, "origin": f"http://evil.example@{HERE}"}, 403),
+        ({"host": HERE, "origin": "http://127.0.0.1:9999"}, 403),
+        ({"host": HERE, "origin": "null"}, 403),
+        ({"host": HERE, "sec-fetch-site": "cross-site", "sec-fetch-mode": "no-cors", "sec-fetch-dest": "image"}, 403),
+        ({"host": HERE, "sec-fetch-site": "cross-site", "sec-fetch-mode": "navigate", "sec-fetch-dest": "iframe"}, 403),
+    ],
+)
+def test_only_the_page_itself_may_ask(headers: dict[str, str], status: int) -> None:
+    app = Access(_app, {HERE, "localhost:8765"})
+    assert ask(app, headers)[0] == status
+    assert ask(app, headers, kind="websocket")[0] == (200 if status == 200 else 1008)
+
+
+def test_a_token_comes_once_in_the_address_then_as_a_cookie() -> None:
+    app = Access(_app, {HERE}, TOKEN)
+    host = {"host": HERE}
+    assert ask(app, host)[0] == 403
+    assert ask(app, host, query="token=wrong")[0] == 403
+    assert ask(app, host, path="/bodies/a/1.glb", query=f"token={TOKEN}")[0] == 403
+    assert ask(app, host | {"cookie": f"gearcad_8765={TOKEN[:-1]}"})[0] == 403
+    assert ask(app, host | {"cookie": 'gearcad_8765="\\'})[0] == 403
+    status, headers, body = ask(app, host, query=f'lang=de&token={TOKEN}&x="><script>')
+    assert status == 200
+    assert TOKEN not in body and "<script>" not in body and 'url=/?lang=de&amp;x=%22%3E%3Cscript%3E"' in body
+    cookie, *options = headers["set-cookie"].split("; ")
+    assert options == ["HttpOnly", "SameSite=Strict", "Path=/"]
+    assert ask(app, host | {"cookie": cookie})[0] == 200
+    assert ask(app, host | {"cookie": cookie}, kind="websocket")[0] == 200
+    assert ask(app, {"host": HERE, "origin": "http://evil.example", "cookie": cookie})[0] == 403
+
+
+def test_pages_run_their_own_scripts_only() -> None:
+    status, headers, body = ask(Fences(_app), {"host": HERE})
+    policy = dict(each.split(" ", 1) for each in headers["content-security-policy"].split("; "))
+    nonce = policy["script-src"].split("'nonce-")[1].split("'")[0]
+    assert status == 200 and body.count(f'<script nonce="{nonce}"') == 2 == body.count("<script")
+    assert int(headers["content-length"]) == len(body)
+    assert "unsafe-inline" not in policy["script-src"]
+    assert policy["connect-src"] == "'self'" and policy["frame-ancestors"] == policy["default-src"] == "'none'"
+    assert headers["referrer-policy"] == "no-referrer" and headers["x-content-type-options"] == "nosniff"
+    assert nonce not in ask(Fences(_app), {"host": HERE})[2]
