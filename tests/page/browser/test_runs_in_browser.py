@@ -110,6 +110,7 @@ def test_a_row_of_results_is_opened_and_its_words_are_only_words(tab: Any, tmp_p
     page.wait_for_selector(".chart >> text=<img src=x")
     page.click(".results tbody tr >> nth=1")
     _wait_for_name(tab, "large")
-    assert tab.field("gear.teeth").input_value() == "30"
+    page.wait_for_selector('[data-key="gear.teeth"] input')
+    page.wait_for_function("""() => document.querySelector('[data-key="gear.teeth"] input').value === '30'""")
     page.click(".results tbody tr >> nth=2")
     page.wait_for_selector(".results .fault:has-text('must be a plain file name')")
