@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import asyncio
 from typing import Any
 
 import pytest
 
 from gearcad.page.access import Access
 from gearcad.page.fences import Fences
+from tests.support.awaited import awaited
 
 HERE = "127.0.0.1:8765"
 TOKEN = "t" * 43
@@ -34,7 +34,7 @@ def ask(
         return {"type": "http.request"}
 
     pairs = [(name.encode(), value.encode()) for name, value in headers.items()]
-    asyncio.run(app({"type": kind, "path": path, "query_string": query.encode(), "headers": pairs}, receive, send))
+    awaited(app({"type": kind, "path": path, "query_string": query.encode(), "headers": pairs}, receive, send))
     if told[0]["type"] == "websocket.close":
         return told[0]["code"], {}, ""
     answered = {name.decode(): value.decode() for name, value in told[0]["headers"]}

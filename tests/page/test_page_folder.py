@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from pathlib import Path
 
 import pytest
@@ -11,6 +10,7 @@ from gearcad.designs.starters import starter_text
 from gearcad.errors import GearcadError, ParameterError, SpecError
 from gearcad.page.folder import LARGEST_SPEC, SPECS, TABLES, Folder, TakenError, text_of
 from gearcad.page.given import add_given, await_files
+from tests.support.awaited import awaited
 
 PAIR = starter_text("fzg-c")[1]
 NO_NAMES = [
@@ -99,5 +99,5 @@ def test_files_come_to_the_session_that_waits_for_them_up_to_a_size() -> None:
         await_files("mine", None)
         return [*found, await post("/given/mine/spec?name=a", b"")]
 
-    assert asyncio.run(all_posts()) == [200, 413, 404, 404, 404]
+    assert awaited(all_posts()) == [200, 413, 404, 404, 404]
     assert taken == [("../a.toml", b"0123456789")]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import zipfile
 from collections.abc import Callable, Iterator
 from io import BytesIO
@@ -16,6 +15,7 @@ from gearcad.page.beside import changes_between, figures_beside, verb_of
 from gearcad.page.run import State
 from gearcad.page.runs import Runs
 from gearcad.page.words import Language, Words
+from tests.support.awaited import awaited
 
 pytest.importorskip("nicegui")
 pytest.importorskip("httpx")
@@ -51,7 +51,7 @@ def client() -> Callable[[str], Any]:
         async with httpx.AsyncClient(transport=httpx.ASGITransport(app), base_url="http://127.0.0.1") as asking:
             return await asking.get(path)
 
-    return lambda path: asyncio.run(get(path))
+    return lambda path: awaited(get(path))
 
 
 def test_figures_stand_beside_each_other(runs: Runs) -> None:
