@@ -1,0 +1,38 @@
+"""How Sphinx builds the manual: `sphinx-build -W docs output/manual`. Nothing is fetched, neither to build nor to read it."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from gearcad import __version__
+
+project = "gearcad"
+author = "The gearcad authors"
+version = release = __version__
+copyright = "The gearcad authors"  # a name that Sphinx has chosen
+
+extensions = [
+    "myst_parser",
+    "sphinx_copybutton",
+    "manual.mathml",
+    "manual.made",
+]
+exclude_patterns = ["README.md", "manual", "figures/*.py"]
+nitpicky = True
+smartquotes = False
+
+myst_enable_extensions = ["attrs_block", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+html_math_renderer = "mathml"
+
+html_theme = "furo"
+html_title = f"gearcad {version}"
+html_static_path = ["static"]
+html_css_files = ["manual.css"]
+html_copy_source = False
+html_show_sphinx = False
+html_theme_options = {"top_of_page_buttons": []}
+
+copybutton_prompt_text = r">>> |\.\.\. |\$ "
+copybutton_prompt_is_regexp = True
