@@ -38,6 +38,8 @@ gearcad.errors.ParameterError: load = 60: must be a Load
     planetary(train, load)         speeds, torques, assembly, load sharing, stiffness and modes of a planetary train
     modify(pair, load)             tip relief and crowning for the load
 
+`gearcad.plots` draws gears and results, a call for each picture; a notebook shows them without one.
+
 A class for each in `gearcad.jobs` writes the files of a result: `gearcad.jobs.check.Check().write(result, folder)`.
 """
 
@@ -115,8 +117,8 @@ __all__ = [
 ]
 
 _ROOMS = (
-    *("batch", "check", "contact", "designs", "dynamics", "jobs", "meshing", "planetary", "rating", "sizing", "solids"),
-    "stiffness",
+    *("batch", "check", "contact", "designs", "dynamics", "jobs", "meshing", "planetary", "plots", "rating", "sizing"),
+    *("solids", "stiffness"),
 )
 
 if not TYPE_CHECKING:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from gearcad.arrays import Floats
 from gearcad.errors import SolverError, require_whole
 from gearcad.notice import Notice, texts
+from gearcad.reprs import Pictured
 
 __all__ = ["FourierSeries", "MeshCycle"]
 
@@ -44,7 +45,7 @@ class FourierSeries(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class MeshCycle:
+class MeshCycle(Pictured):
     """Mesh stiffness of a pair over one base pitch, along the line of action in the transverse section.
 
     `roll_angle` (n,) in degrees of the pinion, 0 at the pitch point of the middle pair, rises over exactly one base pitch; both

@@ -1,12 +1,23 @@
-"""How our types show themselves in a Python session: one line, with only what was given; and how large counts are written."""
+"""How our types show themselves: in a Python session one line, with only what was given, in a notebook a small picture;
+and how large counts are written.
+"""
 
 from __future__ import annotations
 
 from dataclasses import MISSING, fields
 from enum import Enum
+from importlib import import_module
 from typing import Any
 
-__all__ = ["concise", "grouped"]
+__all__ = ["Pictured", "concise", "grouped"]
+
+
+class Pictured:
+    """A result that a notebook shows as its first picture, which `plots` draws when it is asked for."""
+
+    def _repr_html_(self) -> str:
+        html: str = import_module("gearcad.plots.first").shown_in_notebook(self)
+        return html
 
 
 def concise(self: Any) -> str:

@@ -1,5 +1,13 @@
-"""The version of gearcad: what makes a file says which it was."""
+"""The version of gearcad: what makes a file says which it was.
+
+A build, or an installation of a checkout, writes it to `_version.py`, from the tag of the repository.
+"""
+
+from importlib import import_module
 
 __all__ = ["__version__"]
 
-__version__ = "0.1.0"
+try:
+    __version__: str = import_module("gearcad._version").__version__
+except ModuleNotFoundError:
+    __version__ = "0.2.0.dev0"  # a checkout that was never installed

@@ -28,6 +28,7 @@ from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
 from gearcad.rating.rate import Rating
 from gearcad.rating.strength import Part
+from gearcad.reprs import Pictured
 from gearcad.stiffness import StiffnessMethod
 from gearcad.verdict import Verdict
 
@@ -42,7 +43,7 @@ class MeanLag(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class CheckResult(ABC):
+class CheckResult(Pictured, ABC):
     """A task, and everything that its check found out."""
 
     task: CheckTask

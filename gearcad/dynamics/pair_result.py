@@ -18,6 +18,7 @@ from gearcad.geometry import GearPair
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.notice import Notice, texts
 from gearcad.per_gear import PerGear
+from gearcad.reprs import Pictured
 
 __all__ = ["ContactStudy", "PairStudy"]
 
@@ -27,7 +28,7 @@ _STANDS_STILL = 1e6
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class PairStudy:
+class PairStudy(Pictured):
     """A pair as mounted, its mesh cycle and inertias (kg·m²), and the study of both as a train of one mesh.
 
     `method` is the title of what found the cycle. With `bearings` the charts are those of six degrees of freedom; the natural
@@ -118,7 +119,7 @@ class PairStudy:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class ContactStudy:
+class ContactStudy(Pictured):
     """A pair as mounted, its contact model, the Campbell study of it and the time history at one speed.
 
     `idle` says what of the options is without effect.

@@ -54,6 +54,7 @@ from gearcad.dynamics.trains.system import System
 from gearcad.dynamics.trains.train import Train, TrainModel
 from gearcad.notice import Notice, texts
 from gearcad.rating.dynamic_factor import DynamicFactor
+from gearcad.reprs import Pictured
 
 __all__ = ["Course", "ModalStudy", "TrainStudy"]
 
@@ -168,7 +169,7 @@ def _mode_arrays(modes: NaturalModes) -> dict[str, Floats]:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class TrainStudy:
+class TrainStudy(Pictured):
     """What was found out about a train: `up` and, where flanks may part, `down` are charts over the same rising speeds.
 
     `on_bearings` are the modes of the system of the charts, where its gears travel as well; `method_b` is K_v by

@@ -17,6 +17,7 @@ from gearcad.errors import ParameterError
 from gearcad.geometry import GearPair
 from gearcad.notice import Notice, texts
 from gearcad.per_gear import Role
+from gearcad.reprs import Pictured
 
 __all__ = ["SUFFIX", "CycleFigures", "Proposal", "Robustness"]
 
@@ -72,7 +73,7 @@ class Robustness(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Proposal:
+class Proposal(Pictured):
     """Modifications for a design at a torque (N·m on the pinion), and what they do; `pair` is the design's with them."""
 
     design: PairDesign

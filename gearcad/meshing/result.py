@@ -15,6 +15,7 @@ from gearcad.meshing.bodies.other_sides import SideDeviations
 from gearcad.meshing.bodies.quality import Quality
 from gearcad.meshing.plan import MeshPlan
 from gearcad.notice import Notice
+from gearcad.reprs import Pictured
 
 __all__ = ["COARSE", "Deck", "Gate", "JudgedMesh", "MeshResult"]
 
@@ -140,7 +141,7 @@ class Deck(Protocol):
 
 
 @dataclass(frozen=True)
-class MeshResult:
+class MeshResult(Pictured):
     """The meshes of a design by the names of their files - one a gear, or that of the pair in mesh - and what was found of each
     gear's; decks by the names of their files.
     """

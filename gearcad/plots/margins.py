@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from io import BytesIO
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
 
@@ -21,6 +23,9 @@ _MOST_TICKS = 9
 
 _START = {"left": 0.12, "right": 0.98, "bottom": 0.14, "top": 0.84}
 """Where axes stand as they are measured: about where most of them will."""
+
+_NOTEBOOK = 100
+"""Dots per inch of what a notebook shows."""
 
 
 class FittedFigure(Figure):
@@ -40,6 +45,26 @@ class FittedFigure(Figure):
         if _tick_spaces(self) != measured:  # other numbers stand along the axes
             _fit(self, renderer)
         super().draw(renderer)
+
+    def add_subplot(self, *arguments: Any, **options: Any) -> Axes:
+        """As any figure does; plain axes are such as a notebook shows."""
+        if not {"projection", "polar", "axes_class"} & options.keys():
+            options["axes_class"] = _ShownAxes
+        return super().add_subplot(*arguments, **options)  # type: ignore[no-any-return]
+
+    def _repr_png_(self) -> bytes:
+        file = BytesIO()
+        self.savefig(file, format="png", dpi=_NOTEBOOK)
+        return file.getvalue()
+
+
+class _ShownAxes(Axes):
+    """Axes that a notebook shows as the figure that they are on."""
+
+    def _repr_png_(self) -> bytes:
+        figure = self.get_figure(root=True)
+        assert isinstance(figure, FittedFigure)  # which has made them
+        return figure._repr_png_()
 
 
 class _Room(NamedTuple):

@@ -15,7 +15,7 @@ from gearcad.plots.paper import DARK, GEARS, new_figure
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["plot_body_mesh", "plot_section_mesh"]
+__all__ = ["plot_body_mesh", "plot_mesh", "plot_section_mesh"]
 
 
 _FILLS = {"pinion": GEARS.pinion[1], "wheel": GEARS.wheel[1], "gear": GEARS.pinion[1]}
@@ -35,6 +35,11 @@ _EDGE_ON = 1e-9
 
 _DIM = 0.45
 """Brightness of what light does not reach."""
+
+
+def plot_mesh(mesh: ElementMesh, ax: Axes | None = None) -> Axes:
+    """All elements of a section, or the surface of a body."""
+    return (plot_body_mesh if mesh.element.shape.dimension == 3 else plot_section_mesh)(mesh, ax)
 
 
 def plot_section_mesh(mesh: ElementMesh, ax: Axes | None = None, *, window: tuple[float, float, float] | None = None) -> Axes:

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gearcad.arrays import Floats
+from gearcad.errors import GeometryError
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.helix import twist
-from gearcad.plots.paper import DARK, GEARS, MARKED, new_figure
+from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, new_figure, prepared
 from gearcad.rating.rim import outer_diameter
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["fill_gear", "pair_inches", "plot_pair"]
+__all__ = ["fill_gear", "pair_inches", "plot_backlash", "plot_pair"]
 
 
 _CHORD = 2e-3
@@ -27,6 +30,9 @@ _WIDTH, _LEAST, _MOST = 6.6, 2.2, 5.0
 
 _MARGIN = 0.4
 """Around the gears, in normal modules."""
+
+_MOVED, _PLACES = 0.06, 61
+"""How far the centre distance changes where backlash is drawn, in normal modules, and at how many places."""
 
 
 def pair_inches(pair: GearPair) -> tuple[float, float]:
@@ -66,6 +72,28 @@ def plot_pair(pair: GearPair, ax: Axes | None = None) -> Axes:
         axes.set_xlim(-pair.pinion.tip_diameter / 2 - margin, pair.centre_distance + pair.wheel.tip_diameter / 2 + margin)
         axes.set_ylim(*(side * (max(pair.pinion.tip_diameter, pair.wheel.tip_diameter) / 2 + margin) for side in (-1, 1)))
     axes.set_axis_off()
+    return axes
+
+
+def plot_backlash(pair: GearPair, ax: Axes | None = None) -> Axes:
+    """Backlash at the working circles and along the base normal over the centre distance, where the pair can be mounted."""
+    axes = prepared(ax, "change of the centre distance in µm", "backlash in µm")
+    moved, found = [], []
+    reach, side = _MOVED * pair.pinion.normal_module, -1 if pair.internal else 1
+    for change in np.linspace(-reach, reach, _PLACES).tolist():
+        with suppress(GeometryError):
+            at = replace(pair, centre_distance=pair.centre_distance + side * change)
+            moved.append(1000 * change)
+            found.append((1000 * at.circumferential_backlash, 1000 * at.normal_backlash))
+    for values, words, colour in zip(
+        np.transpose(found), ("circumferential, at the working circles", "along the base normal"), SERIES, strict=False
+    ):
+        axes.plot(moved, values, color=colour, label=words)
+    axes.axvline(0, color=MARKED, linewidth=0.8)
+    nominal = (pair.circumferential_backlash, pair.normal_backlash)
+    axes.plot([0, 0], [1000 * each for each in nominal], "o", color=DARK, label=f"at {abs(pair.centre_distance):.7g} mm")
+    axes.set_ylim(bottom=0)
+    legend_above(axes, 3)
     return axes
 
 

@@ -22,7 +22,7 @@ _FEWEST, _MOST = 1e2, 1e11
 _ABOVE, _BELOW = 1.12, 0.88
 
 
-def plot_life(rating: StrengthRating, part: Part, ax: Axes | None = None) -> Axes:
+def plot_life(rating: StrengthRating, part: Part = Part.FLANK, ax: Axes | None = None) -> Axes:
     """Strength over load cycles in logarithms, with the loads: stress and cycles of each gear."""
     axes = prepared(ax, "load cycles of a tooth", f"{'contact' if part is Part.FLANK else 'root'} stress in MPa")
     axes.set_xscale("log")

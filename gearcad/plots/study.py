@@ -14,14 +14,14 @@ from gearcad.errors import ParameterError, format_number
 from gearcad.output import staged_files
 from gearcad.plots.labels import axis_label, plain, wrapped
 from gearcad.plots.paper import new_figure, prepared
-from gearcad.plots.table_data import Column, Points
+from gearcad.plots.table_data import Column, Points, read_points
 
 if TYPE_CHECKING:
     import numpy as np
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-__all__ = ["plot_contours", "plot_scatter", "require_picture", "save_plot"]
+__all__ = ["plot_contours", "plot_results", "plot_scatter", "require_picture", "save_plot"]
 
 _INCHES = (6.4, 4.4)
 _DOTS_PER_INCH = 150
@@ -59,6 +59,17 @@ _SAME = 1e-9
 
 Draw = Callable[[Points, "Axes"], "Axes"]
 """A function that draws points on axes."""
+
+
+def plot_results(
+    results: Path | str, x: str, y: str, *, colour: str | None = None, contour: str | None = None, ax: Axes | None = None
+) -> Axes:
+    """Draw columns of the results.csv of a batch by their keys: y over x, and a third as colours or as contours.
+
+    A key may lack its beginning where that is clear. Raises SpecError for the file, ParameterError for a key.
+    """
+    points = read_points(results, x, y, colour=colour, contour=contour)
+    return (plot_scatter if contour is None else plot_contours)(points, ax)
 
 
 # ---------------------------------------------------------------------- scatter

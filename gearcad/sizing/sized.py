@@ -13,6 +13,7 @@ from gearcad.geometry.shift import profile_shift_sum
 from gearcad.per_gear import PerGear
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import StrengthRating
+from gearcad.reprs import Pictured
 from gearcad.sizing.rated import Rated
 from gearcad.sizing.refine import least_width
 from gearcad.sizing.task import SizeTask
@@ -153,7 +154,7 @@ _FIGURES = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sizing:
+class Sizing(Pictured):
     """What a search found: the best, a pair for each combination of teeth, module and helix angle; and what became of the rest.
 
     Of `considered` variants `removed` has how many each condition took, in the order in which it was asked; `rated` were rated.

@@ -15,6 +15,7 @@ from gearcad.load import Load
 from gearcad.material import Materials, materials_document
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.notice import Notice, texts
+from gearcad.reprs import Pictured
 
 __all__ = ["MeanAtTorque", "StiffnessComparison"]
 
@@ -29,7 +30,7 @@ class MeanAtTorque(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class StiffnessComparison:
+class StiffnessComparison(Pictured):
     """A pair as mounted, its load, and its mesh cycle by each method; `left_out` says why the others have none.
 
     `titles` are those of all methods that there are, by name, in their order.

@@ -24,6 +24,7 @@ from gearcad.planetary.phases import MeshPhases
 from gearcad.planetary.poses import TrainPose
 from gearcad.planetary.power import PowerFlow
 from gearcad.planetary.speeds import Speeds
+from gearcad.reprs import Pictured
 
 __all__ = ["PARTS", "PlanetaryStudy"]
 
@@ -45,7 +46,7 @@ PARTS = {
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class PlanetaryStudy:
+class PlanetaryStudy(Pictured):
     """A planetary train at its load: geometry in mesh, speeds, torques, forces, sharing, stiffness, natural modes, rating.
 
     A part is None where something that it needs is not given or cannot be had; `why_not` {part: reason} says which.
@@ -74,6 +75,9 @@ class PlanetaryStudy:
     response: PlanetaryResponse | None
     rating: TrainRating | None
     why_not: Mapping[str, str] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return f"<PlanetaryStudy of {self.name!r}>"
 
     @property
     def name(self) -> str:

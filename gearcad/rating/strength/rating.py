@@ -19,13 +19,14 @@ from gearcad.rating.scuffing import Risk, Scuffing
 from gearcad.rating.strength.duty import LoadCase
 from gearcad.rating.strength.part import Part, PartStrength
 from gearcad.rating.tolerances import GearTolerances
+from gearcad.reprs import Pictured
 from gearcad.verdict import Verdict, together
 
 __all__ = ["StrengthRating"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class StrengthRating:
+class StrengthRating(Pictured):
     """The full rating of a pair by ISO 6336 or DIN 3990: of each flank and root stress, strength and safety.
 
     `nominal` is the rating by geometry and torque alone, with K_A. `load_factors` are those of the load, of a spectrum those of
