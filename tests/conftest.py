@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -30,22 +31,51 @@ settings.register_profile(
 settings.load_profile("repeatable")
 
 
+def pytest_sessionstart() -> None:
+    """What is collected lives until the end: the garbage collector need not look at it while that grows."""
+    gc.disable()
+
+
 def pytest_collection_finish() -> None:
-    """What is collected lives until the end: the garbage collector need not look at it each time."""
+    """Nor each time after it."""
+    gc.enable()
     gc.freeze()
 
 
 @pytest.fixture(scope="module")
-def one_worker() -> Iterator[None]:
-    """Runs of a table with `jobs=1` share one worker: it need not start anew for tests of what becomes of rows."""
+def kept_workers() -> Iterator[None]:
+    """Runs of tables share their workers, one for each job: these need not start anew for tests of what becomes of rows."""
     from gearcad.batch import pool, worker
 
-    kept = worker._Worker()
+    made: dict[worker._Worker, object] = {}
+    idle: list[worker._Worker] = []
+    keeper = ThreadPoolExecutor(1)  # a worker dies with the thread that started it, and those of a run end with that
+
+    def start() -> worker._Worker:
+        new = worker._Worker()
+        made[new] = new._running()
+        return new
+
+    def own_worker() -> None:
+        try:
+            worker._here.worker = idle.pop()
+        except IndexError:
+            worker._here.worker = keeper.submit(start).result()
+
+    def close_workers() -> None:
+        """Those that lost their process have one of a thread that ends."""
+        for each in [each for each, process in made.items() if each._process is not process]:
+            del made[each]
+            each.close()
+        idle[:] = made
+
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pool, "own_worker", lambda: setattr(worker._here, "worker", kept))
-        patch.setattr(pool, "close_workers", lambda: None)
+        patch.setattr(pool, "own_worker", own_worker)
+        patch.setattr(pool, "close_workers", close_workers)
         yield
-    kept.close()
+    for each in made:
+        each.close()
+    keeper.shutdown()
 
 
 _PICTURED = (

@@ -21,6 +21,8 @@ from gearcad.jobs.data import Data
 from gearcad.jobs.job import Job
 from gearcad.solids import FileOptions, Format
 
+pytestmark = pytest.mark.usefixtures("kept_workers")
+
 DATA = (Data(),)
 POINTS = (Build(formats=(Format.CSV,)),)
 
@@ -34,7 +36,7 @@ def make(folder: Path, lines: tuple[str, ...], wanted: tuple[Job[Any, Any], ...]
 
 
 @pytest.fixture(scope="module")
-def mixed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def mixed(kept_workers: None, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Gears and pairs in one table, made with their tool-path points."""
     folder = tmp_path_factory.mktemp("mixed")
     summary = make(folder, MIXED, POINTS, jobs=2)
@@ -314,8 +316,8 @@ def test_row_that_takes_its_worker_with_it_costs_that_row_only(tmp_path: Path, m
 def test_row_without_end_is_stopped_at_its_time_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(run_module, "make_row", jobs.make_row_or_die)
     table = write_table(tmp_path / "table.csv", ("name,teeth,normal_module,face_width", "a,20,1,5", "hang-1,20,1,5"))
-    summary = run_table(table, tmp_path / "out", DATA, jobs=1, time_limit=3.0)  # far more than the first row takes
-    assert (summary.ok, summary.errors) == (1, (f"{table} row 3 (hang-1): was stopped at its time limit of 3 s",))
+    summary = run_table(table, tmp_path / "out", DATA, jobs=1, time_limit=1.5)  # far more than the first row takes
+    assert (summary.ok, summary.errors) == (1, (f"{table} row 3 (hang-1): was stopped at its time limit of 1.5 s",))
 
 
 def test_want_of_memory_fails_the_row(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -102,7 +102,7 @@ def test_local_cluster_makes_the_same_files(tmp_path: Path, expected: dict[str, 
     with start_batch(table, "-o", tmp_path / "out", *OPTIONS, "--cluster", "local", "-j", "2") as process:
         while process.poll() is None:
             ports |= open_ports([psutil.Process(process.pid), *below(process)])
-            time.sleep(0.2)
+            time.sleep(0.5)
         assert (process.returncode, process.communicate()[1]) == (0, "")
     assert snapshot(tmp_path / "out") == expected
     assert len(ports) > 3 and {address for address, _ in ports} == {"127.0.0.1"}

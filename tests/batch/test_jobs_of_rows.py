@@ -14,7 +14,7 @@ from gearcad.designs.columns import column_symbol
 from gearcad.jobs import VERBS, job_of
 from gearcad.jobs.stiffness import Stiffness
 
-pytestmark = pytest.mark.usefixtures("one_worker")
+pytestmark = pytest.mark.usefixtures("kept_workers")
 
 LINES = (
     "name,gear.teeth,gear.normal_module,gear.face_width,"

@@ -9,6 +9,8 @@ from gearcad import SpecError
 from gearcad.batch import run_table
 from gearcad.jobs.data import Data
 
+pytestmark = pytest.mark.usefixtures("kept_workers")
+
 DATA = (Data(),)
 
 PLAIN = "must be a plain file name"

@@ -17,7 +17,7 @@ from gearcad.jobs.data import Data
 from gearcad.jobs.job import Job
 from gearcad.solids import FileOptions, Format
 
-pytestmark = pytest.mark.usefixtures("one_worker")
+pytestmark = pytest.mark.usefixtures("kept_workers")
 
 POINTS = (Build(formats=(Format.CSV,)),)
 DATA = (Data(),)
@@ -34,7 +34,7 @@ def files_of(folder: Path, name: str) -> set[str]:
 
 
 @pytest.fixture(scope="module")
-def first_run(one_worker: None, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def first_run(kept_workers: None, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("first")
     assert make(folder).ok == 3
     assert made_now(folder / "out") == ["spur", "left", "right"]

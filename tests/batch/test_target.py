@@ -20,6 +20,8 @@ from gearcad.jobs.build import Build
 from gearcad.jobs.data import Data
 from gearcad.solids import Format
 
+pytestmark = pytest.mark.usefixtures("kept_workers")
+
 DATA = (Data(),)
 POINTS = (Build(formats=(Format.CSV,)),)
 

@@ -17,7 +17,7 @@ from support.processes import PATIENCE, batch_command, run_batch
 import gearcad
 from gearcad.cli import main
 
-pytestmark = pytest.mark.usefixtures("one_worker")
+pytestmark = pytest.mark.usefixtures("kept_workers")
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
 

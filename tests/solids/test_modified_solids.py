@@ -93,8 +93,12 @@ def test_each_modification_is_measured_on_the_solid(name: str, amount: str) -> N
     _measure(gear, solid)
 
 
+_LIKE_OTHERS = ("spur", "right hand", "chamfered, spur")
+"""What the kernel reads of them it reads of the others too, and reading takes it most of the time."""
+
+
 @pytest.mark.parametrize("shape", ["linear", pytest.param("parabolic", marks=pytest.mark.long)])
-@pytest.mark.parametrize("name", GEARS)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name in _LIKE_OTHERS)) for name in GEARS])
 def test_all_modifications_after_step(name: str, shape: str, tmp_path: Path) -> None:
     gear = modified(GEARS[name], tip_relief_shape=shape, root_relief_shape=shape, end_relief_shape=shape)
     solid = gear_solid(gear)
@@ -112,7 +116,7 @@ def test_the_volume_taken_off(name: str, amount: str) -> None:
     assert removed == pytest.approx(removed_volume(gear), abs=VOLUME_TOLERANCE * exact.Volume())
 
 
-@pytest.mark.parametrize("share", [0.3, 1.0, 1.7])
+@pytest.mark.parametrize("share", [0.3, 1.0, pytest.param(1.7, marks=pytest.mark.long)])
 @pytest.mark.parametrize(
     "name",
     ["chamfered", *(pytest.param(name, marks=pytest.mark.long) for name in ("chamfered, spur", "chamfered to the root"))],
@@ -142,7 +146,9 @@ def test_reliefs_that_meet_in_one_line() -> None:
     assert more == plain.teeth * (2 * 3 * 2 - 2 * 2)  # fillet and two parts of the flank, in two halves, for fillet and flank
 
 
-@pytest.mark.parametrize("gap", [1e-4, 1e-6, 1e-7, 1e-8])
+@pytest.mark.parametrize(
+    "gap", [pytest.param(1e-4, marks=pytest.mark.long), 1e-6, 1e-7, pytest.param(1e-8, marks=pytest.mark.long)]
+)
 def test_reliefs_that_all_but_meet(gap: float, tmp_path: Path) -> None:
     """A stretch between two breaks that is narrower than the kernel can tell is left out."""
     plain = GEARS["undercut"]

@@ -141,8 +141,11 @@ def make_row_or_die(task: Task) -> Record:
 
 def make_row_of_another_gearcad(task: Task) -> Record:
     """Make the row with a gearcad whose source differs."""
-    manifest._gearcad_hash = lambda: "other"
-    return make_row(task)
+    ours, manifest._gearcad_hash = manifest._gearcad_hash, lambda: "other"
+    try:
+        return make_row(task)
+    finally:
+        manifest._gearcad_hash = ours
 
 
 def kill_before_write(number: int, inside: Path) -> None:
