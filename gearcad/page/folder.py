@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 from pathlib import Path
 
 from gearcad.designs.design import require_plain_name
 from gearcad.designs.files import spec_text
+from gearcad.designs.keys import MAIN_TABLES
 from gearcad.errors import ParameterError, SpecError
 from gearcad.output import staged_files
 
@@ -20,12 +22,20 @@ SPECS, TABLES = (".toml",), (".csv", ".tsv")
 
 _MOST_LISTED = 500
 
+_KINDS = "|".join(sorted({tables[0] for tables in MAIN_TABLES.values()}))
+_MAIN = re.compile(rf"^\s*(?:\[\s*(?:{_KINDS})\s*[].]|(?:{_KINDS})\s*\.)".encode(), re.MULTILINE)
+"""A line of a spec, and of no other TOML that lies beside one."""
+
 
 class Folder:
     """Files right in `path`, by their names. What a browser sends is looked up among these, and never used as a path."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
+
+    def specs(self) -> list[str]:
+        """Its specs, whether they make gears or not; no other TOML."""
+        return [name for name in self.names(SPECS) if self._is_spec(name)]
 
     def names(self, suffixes: Collection[str]) -> list[str]:
         """Files with these suffixes, in the order of their names; none that a link finds elsewhere."""
@@ -63,6 +73,13 @@ class Folder:
         with staged_files(self.path) as staging:
             (staging / file).write_bytes(text.encode("utf-8"))
         return file
+
+    def _is_spec(self, name: str) -> bool:
+        try:
+            with (self.path / name).open("rb") as file:
+                return _MAIN.search(file.read(LARGEST_SPEC)) is not None
+        except OSError:
+            return False
 
     def _has(self, path: Path) -> bool:
         return not path.name.startswith(".") and path.is_file() and path.resolve().is_relative_to(self.path.resolve())

@@ -10,6 +10,7 @@ from gearcad.designs.starters import starter_text
 from gearcad.errors import GearcadError, ParameterError, SpecError
 from gearcad.page.folder import LARGEST_SPEC, SPECS, TABLES, Folder, TakenError, text_of
 from gearcad.page.given import add_given, await_files
+from gearcad.shipped import templates
 from tests.support.awaited import awaited
 
 PAIR = starter_text("fzg-c")[1]
@@ -30,6 +31,29 @@ def folder(tmp_path: Path) -> Folder:
     (place / "led-out.toml").symlink_to(tmp_path / "secret.toml")
     (place / "led-in.toml").symlink_to(place / "sub/inner.toml")
     return Folder(place)
+
+
+def test_only_specs_are_offered_among_other_toml() -> None:
+    offered = Folder(templates()).specs()
+    assert {"spur.toml", "fzg-c.toml", "rack.toml", "train-pairs.toml", "planetary-alm.toml"} <= set(offered)
+    assert not {each for each in offered if each.startswith(("drawing_", "page_"))}
+
+
+@pytest.mark.parametrize(
+    ("text", "is_spec"),
+    [
+        ("# of ours\n[pair]", True),
+        (' [ gear ]  # and "no end', True),
+        ('planetary.name = "x"', True),
+        ("[project]\nname = 'gearcad'", False),
+        ('gear = "Zahnrad"\n[gearbox]', False),
+        ('[data]\nrack = { en = "rack" }', False),
+        ("# [gear]", False),
+    ],
+)
+def test_a_spec_is_known_by_what_it_is_of(tmp_path: Path, text: str, is_spec: bool) -> None:
+    (tmp_path / "it.toml").write_text(text, encoding="utf-8")
+    assert Folder(tmp_path).specs() == ["it.toml"] * is_spec
 
 
 def test_specs_and_tables_are_listed_and_read(folder: Folder) -> None:

@@ -10,7 +10,10 @@ import pytest
 from gearcad import symbols
 from gearcad.designs.keys import FIELDS, SPEEDS
 from gearcad.designs.planetary_keys import PLANETARY
+from gearcad.designs.train_keys import MAIN, PARTS, TRAIN
 from gearcad.page.fields import part_title, table_title, words_of
+from gearcad.page.panels import bodies_content, sheet_words
+from gearcad.page.panels import strength as rating
 from gearcad.page.words import Language, Words, language_of
 from gearcad.sheet import gears, pairs, strength, train
 from gearcad.shipped import PACKAGE
@@ -65,7 +68,10 @@ def _words_of_inputs() -> set[str]:
 def _words_of_symbols() -> set[str]:
     """What is derived and computed."""
     tables = [value for name in symbols.__all__ if isinstance(value := getattr(symbols, name), dict)]
-    return {symbol.words for table in tables for symbol in table.values() if isinstance(symbol, symbols.Symbol)}
+    of_trains = (symbols.TRAIN, *symbols.TRAIN_PARTS.values())
+    found = [symbol for table in (*tables, *of_trains) for symbol in table.values() if isinstance(symbol, symbols.Symbol)]
+    found += [field.symbol for table in (MAIN, *PARTS) for field in TRAIN[table].values()]
+    return {symbol.words for symbol in found}
 
 
 def _titles_of_sheets() -> set[str]:
@@ -78,6 +84,7 @@ def _titles_of_sheets() -> set[str]:
         train._TITLES.values(),
         strength.FACTORS,
         strength._SHORT.values(),
+        (*sheet_words._KINDS, *sheet_words._VALUES, *sheet_words._QUANTITIES, rating._NO_RATING, bodies_content._NO_BODIES),
     )
 
 

@@ -14,12 +14,13 @@ from gearcad.page.panels.figures import shown_figures
 from gearcad.page.panels.sheet import sheet_figures
 from gearcad.page.panels.sheet_content import cells_of, changed_cells, shown_sections
 from gearcad.page.panels.sheet_notices import shown_notices
+from gearcad.page.panels.sheet_words import called, quantity_in
 from gearcad.page.words import Language, Words
 from gearcad.sheet import sheet_of
 from gearcad.sheet.blocks import flattened
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
-ENGLISH = Words.of(Language.ENGLISH)
+ENGLISH, GERMAN = (Words.of(each) for each in Language)
 
 
 def starter(name: str) -> Design:
@@ -94,6 +95,32 @@ def test_notices_lead_to_fields_of_the_spec() -> None:
     found = shown_notices([Notice("undercut", "undercut", "wheel"), Notice("unheard-of", "?", "")], keys)
     assert [each["keys"] for each in found] == [["wheel.profile_shift"], []]
     assert [each["text"] for each in found] == ["wheel: undercut", "?"]
+
+
+@pytest.mark.parametrize(
+    ("name", "line"),
+    [
+        ("volvo-13-44", "volvo-13-44: schrägverzahntes Radpaar, z = 13 / 44"),
+        ("ring-22-70", "ring-22-70: geradverzahntes Innenradpaar, z = 22 / -70"),
+        ("planetary-24-21-66", "planetary-24-21-66: Planetengetriebe der Bauart A, z = 24 / -66 / 21"),
+        ("train-2-stage", "train-2-stage: Getriebezug, 4 Drehmassen"),
+    ],
+)
+def test_a_sheet_says_in_the_words_of_the_page_what_a_design_is(name: str, line: str) -> None:
+    found = sheet_figures(starter(name))
+    assert shown_figures(found, GERMAN)["lines"] == [{"label": "", "text": line}]
+    assert shown_figures(found, ENGLISH)["lines"][0]["text"] == f"{name}: {sheet_of(starter(name)).title}"
+
+
+def test_words_among_the_values_names_and_units_are_those_of_the_page() -> None:
+    sheet = shown_figures(sheet_figures(starter("planetary-24-21-66")), GERMAN)
+    rows = shown_rows(sheet)
+    assert rows["gear.undercut"]["cells"][0]["text"] == "nein"
+    assert rows["gear.helix_angle"]["unit"] == "°"
+    assert ["Sonnenrad-Planetenrad", "Hohlrad-Planetenrad"] in [section["columns"] for section in sheet["sections"]]
+    assert called(GERMAN, "sun-shaft") == "sun-shaft"
+    assert quantity_in(GERMAN, "single contact factor of the planet") == "Einzeleingriffsfaktor (Planetenrad)"
+    assert quantity_in(ENGLISH, "single contact factor of the planet") == "single contact factor of the planet"
 
 
 def test_a_hostile_name_stays_text() -> None:

@@ -74,9 +74,18 @@ def test_without_a_load_one_line_says_what_to_give() -> None:
     assert not found.cells
 
 
-def test_what_cannot_be_rated_says_why() -> None:
-    assert "a single gear carries nothing" in strength_figures(starter("spur")).notices[0]["text"]
-    assert "gearcad dynamics" in strength_figures(starter("train-1-stage")).notices[0]["text"]
+@pytest.mark.parametrize("name", ["spur", "train-1-stage"])
+def test_what_carries_nothing_has_no_rating_and_no_warning(name: str) -> None:
+    shown = shown_figures(strength_figures(starter(name)), Words.of(Language.GERMAN))
+    assert shown["lines"] == [{"label": "", "text": "Für diese Art von Auslegung gibt es keinen Tragfähigkeitsnachweis."}]
+    assert not shown["notices"]
+
+
+def test_why_nothing_is_judged_stands_apart_from_the_verdict() -> None:
+    found = strength_figures(starter("double-23-81"))
+    shown = shown_figures(found, Words.of(Language.GERMAN))
+    assert shown["title"] == "Tragfähigkeit nicht beurteilt"
+    assert found.title == f"strength not judged: {shown['reason']}"
 
 
 def test_what_only_the_document_of_a_rating_finds_to_be_wrong_is_a_line_too(tmp_path: Path) -> None:

@@ -22,7 +22,7 @@ export default {
           <form @submit.prevent="save(false)">
             <input v-model="name" :aria-label="words.name" spellcheck="false" autocomplete="off" /><button>{{ words.store }}</button>
           </form>
-          <p v-if="taken" class="fault" role="alert">{{ taken }} <button type="button" @click="save(true)">{{ words.replace }}</button></p>
+          <p v-if="taken" class="fault" role="alert"><span lang="en">{{ taken }}</span> <button type="button" @click="save(true)">{{ words.replace }}</button></p>
           <p v-if="saved" role="status">{{ saved }}</p>
           <h3>{{ words.along }}</h3>
           <div class="makes">
@@ -32,7 +32,7 @@ export default {
           <h3>{{ words.link }}</h3>
           <button type="button" :disabled="!link" @click="copy">{{ copied ? words.copied : words.copy }}</button>
         </section>
-        <p v-if="line" class="fault" role="alert">{{ line }}</p>
+        <p v-if="line" class="fault" role="alert" lang="en">{{ line }}</p>
       </div>
     </details>`,
   props: { words: Object, address: String },

@@ -8,7 +8,7 @@ export default {
         </button>
         <small class="run-limits">{{ limits }}</small>
       </div>
-      <p v-if="line" class="fault" role="alert">{{ line }}</p>
+      <p v-if="line" class="fault" role="alert" lang="en">{{ line }}</p>
       <ol class="run-list">
         <li v-for="run in shown" :key="run.number" :class="[run.state, { stale: stale.includes(run.number) }]">
           <span class="number">{{ run.number + 1 }}</span>
@@ -19,11 +19,11 @@ export default {
             <button type="button" @click="$emit('cancel', { number: run.number })">{{ words.cancel }}</button>
           </template>
           <template v-else>
-            <span class="line">{{ run.line || said(run.state) }}</span>
+            <span class="line" :lang="run.line ? 'en' : null">{{ run.line || said(run.state) }}</span>
             <a v-if="run.report" :href="run.report" target="_blank" rel="noopener noreferrer">{{ words.report }}</a>
             <a v-if="run.files" :href="run.files" download>{{ words.files }}</a>
           </template>
-          <small v-for="notice in run.notices" :key="notice" class="notice">{{ notice }}</small>
+          <small v-for="notice in run.notices" :key="notice" class="notice" lang="en">{{ notice }}</small>
         </li>
       </ol>
       <div v-for="table in tables" :key="table.verb" class="run-table">

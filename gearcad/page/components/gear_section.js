@@ -178,9 +178,8 @@ export default {
     chain(pen, body, place, turn) {
       const count = Math.abs(body.teeth);
       const pitch = (2 * Math.PI) / count;
-      const { clientWidth: width, clientHeight: height } = pen.canvas;
       const [x, y] = [this.view.x - place[0], this.view.y - place[1]];
-      const [away, reach] = [Math.hypot(x, y), Math.hypot(width, height) / 2 / this.view.scale];
+      const [away, reach] = [Math.hypot(x, y), this.reach()];
       let [first, last] = [0, count - 1];
       const half = away > reach ? Math.asin(reach / away) : Math.PI;
       this.whole = half + pitch >= Math.PI;
@@ -214,10 +213,9 @@ export default {
     },
     // A rack as far as it is seen: its teeth drift along it over the height, its ends do not.
     teeth(body, place, travel) {
-      const { clientWidth: width, clientHeight: height } = this.$refs.canvas;
       const drift = at(body.turns, this.height) - body.turns[0][1];
       const shift = travel - drift;
-      const reach = Math.hypot(width, height) / this.view.scale;
+      const reach = 2 * this.reach();
       const along = turned([this.view.x - place[0], this.view.y - place[1]], -body.angle)[0] - shift;
       const [from, to] = [Math.max(0, along - reach), Math.min(body.length, along + reach)];
       const points = [[from, -body.height]];
@@ -229,16 +227,33 @@ export default {
       points.push([to, -body.height]);
       return points.map(([u, v]) => turned([u + shift, v], body.angle)).map(([u, v]) => this.to([u + place[0], v + place[1]]));
     },
+    // Circles, and lines of a rack, as far as they are seen: dashes that nobody sees take their time all the same.
     circles(pen, body) {
       pen.strokeStyle = this.colours.soft;
       pen.lineWidth = 0.8;
+      const place = this.place(body, this.turn);
+      const [x, y] = turned([this.view.x - place[0], this.view.y - place[1]], -(body.angle ?? 0));
+      const [away, reach] = [Math.hypot(x, y), this.reach()];
+      const half = away > reach ? Math.asin(reach / away) : Math.PI;
+      const first = Math.atan2(y, x) - half;
       for (const [kind, size] of Object.entries(body.circles)) {
+        const radius = (size / 2) * this.view.scale;
+        if (body.teeth && Math.abs(away - size / 2) > reach) continue;
         pen.setLineDash(DASHES[kind]);
+        pen.lineDashOffset = body.teeth ? first * radius : (x - reach) * this.view.scale;
         pen.beginPath();
-        if (body.teeth) pen.arc(...this.to(this.place(body, this.turn)), (size / 2) * this.view.scale, 0, 2 * Math.PI);
-        else for (const u of [-1e4, 1e4]) pen.lineTo(...this.to(turned([u, size], body.angle).map((each, n) => each + body.place[n])));
+        if (body.teeth) pen.arc(...this.to(place), radius, -first, -first - 2 * half, true);
+        else
+          for (const u of [x - reach, x + reach])
+            pen.lineTo(...this.to(turned([u, size], body.angle).map((each, n) => each + place[n])));
         pen.stroke();
       }
+      pen.lineDashOffset = 0;
+    },
+    // How far the corners of the view are from its middle (mm).
+    reach() {
+      const { clientWidth: width, clientHeight: height } = this.$refs.canvas;
+      return Math.hypot(width, height) / 2 / this.view.scale;
     },
     // Lines of action and paths of contact of both flanks; T1 on the pinion's base circle is where lengths begin.
     mesh(pen, mesh) {

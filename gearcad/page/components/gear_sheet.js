@@ -8,15 +8,16 @@ export default {
     <section class="gear-sheet" :aria-label="label" :aria-busy="waiting" @keydown="walk">
       <header>
         <h2 v-if="content.title" :class="content.verdict">{{ content.title }}</h2>
+        <p v-if="content.reason" class="told" lang="en">{{ content.reason }}</p>
         <p v-if="content.beside" class="kept">{{ words.kept }}: {{ content.beside }}</p>
         <component :is="line.label ? 'details' : 'p'" v-for="line in content.lines" :key="line.label" class="told">
-          <summary v-if="line.label">{{ words[line.label] }}</summary>{{ line.text }}</component>
+          <summary v-if="line.label">{{ words[line.label] }}</summary><span :lang="line.label ? 'en' : null">{{ line.text }}</span></component>
         <input v-if="content.sections.length" class="search" type="search" v-model="wanted" :placeholder="words.search" :aria-label="words.search" />
         <p class="aside" role="status">{{ waiting ? words.waiting : content.changes ? words.changed + ": " + content.changes : "" }}</p>
       </header>
       <details v-if="content.notices.length" class="notices" :open="noticesOpen" @toggle="fold({ id: 'notices', open: noticesOpen }, $event.target.open)">
         <summary>{{ words.notices }} ({{ content.notices.length }})</summary>
-        <ul><li v-for="notice in content.notices" :key="notice.text">{{ notice.text }}
+        <ul><li v-for="notice in content.notices" :key="notice.text"><span lang="en">{{ notice.text }}</span>
           <button v-for="key in notice.keys" :key="key" type="button" class="key" @click="focus(key)">{{ key }}</button></li></ul>
       </details>
       <details v-for="block in blocks" :key="block.id" :open="block.open" @toggle="fold(block, $event.target.open)">
@@ -47,7 +48,7 @@ export default {
     const kept = this.remembered();
     return {
       waiting: false,
-      content: { title: "", verdict: "", lines: [], beside: "", changes: 0, notices: [], sections: [], pins: [] },
+      content: { title: "", reason: "", verdict: "", lines: [], beside: "", changes: 0, notices: [], sections: [], pins: [] },
       folds: kept.folds ?? {},
       pins: kept.pins ?? {},
       wanted: "",
@@ -90,12 +91,12 @@ export default {
       const rests = rows.flatMap((row) => row.cells.map((cell) => (this.split(cell.text)[1] ?? "").length));
       return { columns, rows, rest: Math.max(0, ...rests) };
     },
-    // Pinned rows in a table for each kind of columns; one number of all goes with those before it.
+    // Pinned rows in a table for each kind of columns; one number of all goes with those of several gears before it.
     together(pinned) {
       const tables = [];
       for (const { row, columns } of pinned) {
         const key = columns.join();
-        const same = tables.find((table) => table.key === key) ?? (row.cells.length === 1 ? tables.at(-1) : undefined);
+        const same = tables.find((table) => table.key === key) ?? (!columns.length && tables.at(-1)?.columns.length > 1 ? tables.at(-1) : undefined);
         if (same) same.rows.push(row);
         else tables.push({ key, columns, rows: [row] });
       }

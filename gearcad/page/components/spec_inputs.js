@@ -10,7 +10,7 @@ export default {
       <div class="find">
         <input class="search" type="search" ref="search" v-model="wanted" :placeholder="words.search + '  /'" :aria-label="words.search"
                @keydown.esc="wanted = ''; $event.target.blur()" @keydown.enter.prevent="next($event)" />
-        <button v-if="faultAbove" type="button" class="fault" role="alert" @click="go(fault.key)">{{ fault.line }}</button>
+        <button v-if="faultAbove" type="button" class="fault" role="alert" lang="en" @click="go(fault.key)">{{ fault.line }}</button>
       </div>
       <p v-if="!shownTables.length" class="none">{{ tables.length ? words.nothing : words.textOnly }}</p>
       <details v-for="table in shownTables" :key="table.table" :open="wanted !== '' || !table.folded" class="table">
@@ -36,7 +36,7 @@ export default {
             <span v-else />
             <span class="unit">{{ field.unit }}</span>
             <datalist v-if="field.offered.length" :id="'of-' + field.key"><option v-for="word in field.offered" :key="word" :value="word" /></datalist>
-            <span v-if="isWrong(field)" class="fault" role="alert">{{ fault.line }}</span>
+            <span v-if="isWrong(field)" class="fault" role="alert" lang="en">{{ fault.line }}</span>
           </div>
         </component>
       </details>

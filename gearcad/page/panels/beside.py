@@ -9,7 +9,6 @@ from nicegui import ui
 
 from gearcad.errors import GearcadError
 from gearcad.page.beside_design import BesideDesign
-from gearcad.page.folder import SPECS
 from gearcad.page.words import Words
 
 __all__ = ["BesidePanel"]
@@ -33,7 +32,7 @@ class BesidePanel:
 
     def _list(self) -> None:
         """What can be kept: the present design, and the specs in the folder; an open menu stays unless these are others."""
-        files = self._beside.folder.names(SPECS)
+        files = self._beside.folder.specs()
         if files == self._files:
             return
         self._files = files

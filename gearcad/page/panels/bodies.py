@@ -22,7 +22,7 @@ class BodiesPanel(Panel[Bodies]):
     """The gears in mesh, as solid bodies; `key` is that of the session."""
 
     def __init__(self, key: str, words: Words) -> None:
-        self._key, self._number = key, 0
+        self._key, self._words, self._number = key, words, 0
         self._shown: Bodies | None = None
         self._view = BodiesView(words["the gears in mesh"], _own(words))
 
@@ -37,7 +37,7 @@ class BodiesPanel(Panel[Bodies]):
         SURFACES[self._key] = {**former, **found.surfaces}
         self._shown = found
         bodies: list[dict[str, Any]] = [plain(body._asdict()) for body in found.bodies]
-        self._view.show(self._number, f"/bodies/{self._key}", bodies, found.error, found.why_not)
+        self._view.show(self._number, f"/bodies/{self._key}", bodies, found.error, self._words[found.why_not])
 
 
 def _own(words: Words) -> dict[str, str]:

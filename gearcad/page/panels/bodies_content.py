@@ -28,6 +28,8 @@ from gearcad.solids.train_layout import TrainLayout
 
 __all__ = ["Bodies", "Body", "Surface", "bodies_of", "surface_of"]
 
+_NO_BODIES = "This kind of design has no bodies."
+
 _CHORD = 0.01
 """Error of facets, in normal modules: bodies are looked at."""
 
@@ -70,7 +72,7 @@ class Bodies(NamedTuple):
 def bodies_of(design: Design) -> Bodies:
     """Those of a design with teeth."""
     if not isinstance(design, ToothedDesign):
-        return Bodies(why_not=f"a {design.kind.words} has no bodies of its own")
+        return Bodies(why_not=_NO_BODIES)
     try:
         require_bodies(design, FileOptions())
         stood = list(_standing(design))

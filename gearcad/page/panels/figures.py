@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from gearcad.page.components.sheet import SheetView
 from gearcad.page.panels import Panel
 from gearcad.page.panels.sheet_content import Cells, cells_of, changed_cells, shown_sections
+from gearcad.page.panels.sheet_words import title_in
 from gearcad.page.words import Words
 from gearcad.sheet import Section
 
@@ -17,6 +18,7 @@ __all__ = ["Figures", "FiguresPanel", "figures", "shown_figures"]
 class Figures(NamedTuple):
     """Sections and all that stands in them, with labelled lines before them, and notices as `shown_notices` gives them.
 
+    `name` is that of the design, if `what` it is is told. Lines without a label are words of the page or names of standards.
     `pins` are the keys of rows that stand on top at first, `folded` the titles of blocks that are shut at first. `title` is a
     verdict, and `verdict` the class by which it is coloured.
     """
@@ -29,6 +31,8 @@ class Figures(NamedTuple):
     folded: Collection[str] = ()
     title: str = ""
     verdict: str = ""
+    name: str = ""
+    what: str = ""
 
 
 def figures(sections: tuple[Section, ...], **others: Any) -> Figures:
@@ -79,11 +83,14 @@ def shown_figures(
 ) -> dict[str, Any]:
     """As the browser has them."""
     beside = None if kept is None else kept.cells
+    title, reason = _headline(found.title, words)
+    told = [{"label": "", "text": f"{found.name}: {title_in(words, found.what)}"}] if found.what else []
     return {
-        "title": _headline(found.title, words),
+        "title": title,
+        "reason": reason,
         "verdict": found.verdict,
-        "lines": [{"label": label, "text": text} for label, text in found.lines],
-        "beside": "" if kept is None else _headline(kept.title, words),
+        "lines": told + [{"label": label, "text": text if label else words[text]} for label, text in found.lines],
+        "beside": "" if kept is None else _headline(kept.title, words)[0],
         "changes": len(changed or {}),
         "notices": list(found.notices),
         "pins": list(found.pins),
@@ -91,12 +98,12 @@ def shown_figures(
     }
 
 
-def _headline(verdict: str, words: Words) -> str:
-    """A verdict, what it comes to in the language of the page."""
+def _headline(verdict: str, words: Words) -> tuple[str, str]:
+    """What a verdict comes to, in the language of the page, and why."""
     heads = {
         "strength passed": words["strength passed"],
         "strength NOT passed": words["strength NOT passed"],
         "strength not judged": words["strength not judged"],
     }
     head = next((each for each in heads if verdict.startswith(each)), "")
-    return heads.get(head, "") + verdict.removeprefix(head)
+    return heads.get(head, ""), verdict.removeprefix(head).removeprefix(": ")

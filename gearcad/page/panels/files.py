@@ -96,7 +96,7 @@ class FilesPanel:
     def _show(self) -> None:
         design = self._bench.design
         self._view.show(
-            specs=self._folder.names(SPECS),
+            specs=self._folder.specs(),
             tables=self._folder.names(TABLES),
             starters=[{"name": name, "words": words} for name, words in starters().items() if _is_spec(name)],
             makes=[{"key": key, "words": self._names[key]} for key, kind in DOWNLOADS.items() if kind.accepts(design)],
@@ -124,7 +124,7 @@ class FilesPanel:
                 self._view.show(line=str(error))
 
     def _save(self, name: str, *, replace: bool) -> None:
-        self._view.show(saved=self._folder.save(name, self._bench.text, replace=replace), specs=self._folder.names(SPECS))
+        self._view.show(saved=self._folder.save(name, self._bench.text, replace=replace), specs=self._folder.specs())
 
     def _make(self, kind: str) -> None:
         bench = self._bench

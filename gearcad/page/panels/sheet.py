@@ -44,7 +44,8 @@ def sheet_figures(design: Design) -> Figures:
         return Figures((), {}, notices=({"text": str(error), "keys": []},))
     return figures(
         sheet.sections,
-        lines=(("", f"{sheet.name}: {sheet.title}"),),
+        name=sheet.name,
+        what=sheet.title,
         notices=shown_notices(sheet.notices, keys_of(design)),
         pins=_PINS,
         folded=_FOLDED,

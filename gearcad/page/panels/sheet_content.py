@@ -6,6 +6,7 @@ import math
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
+from gearcad.page.panels.sheet_words import called, quantity_in, value_in
 from gearcad.page.words import Words
 from gearcad.sheet import Row, Section
 
@@ -49,11 +50,11 @@ def shown_sections(
     before, beside = changed or {}, kept or {}
     return [
         {
-            "columns": [_name(name, words) for name in section.columns],
+            "columns": [called(words, name) for name in section.columns],
             "blocks": [
                 {
                     "id": " ".join(filter(None, (section.name, *section.columns, block.title))),
-                    "title": ": ".join(filter(None, (section.name, words[_SAID.get(block.title, block.title)]))),
+                    "title": ": ".join(filter(None, (called(words, section.name), _title(block.title, words)))),
                     "folded": block.title in folded,
                     "rows": [_row(row, section, words, before, beside) for row in block.rows],
                 }
@@ -64,10 +65,10 @@ def shown_sections(
     ]
 
 
-def _name(name: str, words: Words) -> str:
-    """That of a column: of gears that are called as their tables, in the language of the page."""
-    known = words[name.capitalize()]
-    return name if known == name.capitalize() else known
+def _title(title: str, words: Words) -> str:
+    """That of a block: what it is about, or the gear that it is of."""
+    known = words[_SAID.get(title, title)]
+    return called(words, title) if known == title else known
 
 
 def _rows(section: Section) -> Iterator[Row]:
@@ -84,22 +85,26 @@ def _places(row: Row, section: Section) -> Iterator[tuple[tuple[str, str], Cell]
 def _row(row: Row, section: Section, words: Words, changed: Mapping[tuple[str, str], str], kept: Cells) -> dict[str, Any]:
     return {
         "key": row.key,
-        "words": words[row.symbol.words],
+        "words": quantity_in(words, row.symbol.words),
         "symbol": row.symbol.symbol,
-        "unit": row.symbol.unit,
+        "unit": "°" if row.symbol.unit == "deg" else row.symbol.unit,
         "source": row.symbol.source,
         "cells": [
-            {"text": cell.text, "former": changed.get(place, ""), **_beside(cell, kept.get(place))}
+            {
+                "text": value_in(words, cell.text),
+                "former": value_in(words, changed.get(place, "")),
+                **_beside(cell, kept.get(place), words),
+            }
             for place, cell in _places(row, section)
         ],
     }
 
 
-def _beside(cell: Cell, kept: Cell | None) -> dict[str, str]:
+def _beside(cell: Cell, kept: Cell | None, words: Words) -> dict[str, str]:
     """What the kept design has, where that is shown otherwise, and how much more this one has."""
     if kept is None or kept.text == cell.text:
         return {}
-    return {"kept": kept.text, "difference": _difference(cell, kept)}
+    return {"kept": value_in(words, kept.text), "difference": _difference(cell, kept)}
 
 
 def _difference(cell: Cell, kept: Cell) -> str:

@@ -29,6 +29,8 @@ _ON_REQUEST = (
     'face_load_factor = "fe": K_Hbeta is that of the load distribution of solid bodies, which takes its time: run "rate" for it'
 )
 
+_NO_RATING = "This kind of design has no rating."
+
 _VERDICTS = {True: "passed", False: "failed", None: ""}
 
 
@@ -62,6 +64,8 @@ def strength_figures(design: Design) -> Figures:
     """Those of the rating of a design; without one a line that says why, or what to give."""
     from gearcad.jobs.rate import KEYS, Rate
 
+    if design.kind not in Rate.accepts:
+        return Figures((), {}, lines=(("", _NO_RATING),))
     options = getattr(design, "rating", None)
     if options is not None and options.face_load_factor == "fe":
         return _without(_ON_REQUEST, ["rating.face_load_factor"])

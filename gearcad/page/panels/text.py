@@ -25,7 +25,7 @@ class TextPanel:
             keymap={key: lambda forth=forth: step(forth) for key, forth in keys.items()},
         ).classes("spec-text")
         self._editor.props["aria-label"] = words["text of the spec"]
-        self._fault = ui.label().classes("spec-fault").props("role=alert")
+        self._fault = ui.label().classes("spec-fault").props("role=alert lang=en")
         self._shown = ""
 
     def _typed(self, text: str) -> None:

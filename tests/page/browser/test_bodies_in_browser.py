@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
+from gearcad.designs.starters import starter_text
+from gearcad.page.links import pack
+
 CHANGES = 30
+
+NEARER = 15
+"""Steps by which the section is looked at from near: each a quarter nearer."""
+
+QUICK = 10_000
+"""Milliseconds until a picture of the page is there, on a loaded machine."""
 
 _NO_WEBGL = """
 const get = HTMLCanvasElement.prototype.getContext;
@@ -72,3 +81,14 @@ def test_without_webgl_it_says_so_and_all_else_works(browser: Any, address: str)
     page.wait_for_selector(".gear-section[data-teeth='21 43']")
     assert "no WebGL" in page.inner_text(".scene .nothing")
     context.close()
+
+
+def test_a_rack_is_drawn_at_once_however_near_one_looks(tab: Any) -> None:
+    """Dashes far beyond the view once took half a minute."""
+    tab.page.goto(f"{tab.address}?lang=en&design={pack('rack', starter_text('rack')[1])}")
+    tab.page.wait_for_selector(".scene[data-shown]")
+    canvas = tab.page.locator(".gear-section canvas")
+    canvas.focus()
+    for _ in range(NEARER):
+        tab.page.keyboard.press("+")
+    tab.page.screenshot(timeout=QUICK)
