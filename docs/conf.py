@@ -17,6 +17,8 @@ extensions = [
     "sphinx_copybutton",
     "manual.mathml",
     "manual.made",
+    "manual.table_pages",
+    "manual.command_pages",
 ]
 exclude_patterns = ["README.md", "manual", "figures/*.py"]
 nitpicky = True

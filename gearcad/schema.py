@@ -67,6 +67,7 @@ class FieldSchema:
     required: bool
     optional: bool
     marks: tuple[Any, ...]
+    default: Any
 
     @cached_property
     def whole(self) -> bool:
@@ -217,7 +218,15 @@ def _schema(field: Any, hint: Any) -> FieldSchema:
         required=field.default is MISSING and field.default_factory is MISSING,
         optional=type(None) in members or getattr(field.default, "derived", False),
         marks=tuple(each for each in said if each is not permitted and each is not words),
+        default=_default(field),
     )
+
+
+def _default(field: Any) -> Any:
+    """The default of a dataclass's field; None where it has none."""
+    if field.default is not MISSING:
+        return field.default
+    return None if field.default_factory is MISSING else field.default_factory()
 
 
 def symbols_of(kind: type[DataclassInstance]) -> dict[str, Symbol]:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from gearcad import picture, read
 
-PAIR = Path(__file__).parents[2] / "templates" / "volvo-13-44.toml"
+PAIR = Path(__file__).parents[2] / "templates" / "reducer-21-43.toml"
 
 
 def draw_pair(path: Path) -> None:

@@ -6,6 +6,7 @@ Each module of `docs/figures` has FIGURES: the name of a file, and the function 
 
 from __future__ import annotations
 
+import logging
 import sys
 from collections.abc import Callable, Iterator
 from importlib.util import module_from_spec, spec_from_file_location
@@ -34,6 +35,7 @@ def figures() -> Iterator[tuple[str, Callable[[Path], object], Path]]:
 
 def make(*names: str) -> None:
     """Make the figures of these names, or of none: those that are missing or older than the code."""
+    logging.getLogger("ezdxf").setLevel(logging.WARNING)  # Sphinx lets all loggers tell what they do
     MADE.mkdir(exist_ok=True)
     newest = max(source.stat().st_mtime for source in Path(gearcad.__file__).parent.rglob("*.py"))
     for name, draw, source in figures():

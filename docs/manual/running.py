@@ -27,6 +27,10 @@ _WIDTH = "100"
 """Columns of the screen that pages show."""
 
 
+_PROGRESS = re.compile(r"^\[ *\d+(?: %|/\d+)\].*\n", re.MULTILINE)
+"""Lines that tell how far a job is: no two runs have the same, and pages leave them out."""
+
+
 @dataclass(frozen=True)
 class Fault:
     """Where a page is wrong: the line, what it shows and what came out, or what went wrong."""
@@ -90,7 +94,7 @@ def _run(command: str) -> tuple[int, str]:
     plain = re.sub(r"\s+# .*", "", command)
     if plain.startswith("gearcad ") and not re.search(r"[|<>;&$*]", re.sub(r"\"[^\"]*\"|'[^']*'", "", plain)):
         result = CliRunner().invoke(main, shlex.split(plain)[1:], prog_name="gearcad")
-        return result.exit_code, result.output
+        return result.exit_code, _PROGRESS.sub("", result.output)
     done = subprocess.run(command, shell=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     return done.returncode, done.stdout
 

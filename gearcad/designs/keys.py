@@ -119,7 +119,10 @@ class _OfSpecs:
 def names_of_materials(*owners: str) -> dict[str, FieldSchema]:
     """Keys of [material] that name that of one gear."""
     name = schema_of(BESIDE["material"])["name"]
-    return {owner: replace(name, name=owner, symbol=Symbol("", "", "ISO 6336-5", f"material of {owner}")) for owner in owners}
+    return {
+        owner: replace(name, name=owner, symbol=Symbol("", "", "ISO 6336-5", f"material of {owner}"), default=None)
+        for owner in owners
+    }
 
 
 def flat_fields(kind: type[DataclassInstance]) -> Iterator[tuple[str, FieldSchema]]:

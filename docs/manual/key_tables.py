@@ -1,0 +1,55 @@
+"""The tables of keys that the manual shows: every key of a spec once, in the table that first has it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+
+from gearcad.designs.keys import FIELDS, SHARED
+from gearcad.designs.planetary_keys import PLANETARY, PRE_STAGE
+from gearcad.designs.train_keys import TRAIN
+from gearcad.schema import FieldSchema
+
+__all__ = ["key_tables"]
+
+_PARTS = ("rack", "cutter", "double_helix", "body", "modification")
+_BESIDE = ("material", "load", "mounting", "rating", "check", "mesh", "dynamics", "drawing")
+
+
+@cache
+def key_tables() -> Mapping[str, Mapping[str, FieldSchema]]:
+    """The keys of each table, and what they say of themselves."""
+    gear = FIELDS["gear"]
+    own_drawing = {key: each for key, each in gear.items() if key.startswith("drawing.")}
+    mates = FIELDS["pinion"]
+    found = {
+        "gear": {key: each for key, each in gear.items() if key.partition(".")[0] not in (*_PARTS, "drawing")},
+        **{f"gear.{part}": {key: each for key, each in gear.items() if key.partition(".")[0] == part} for part in _PARTS},
+        "pair": {key: each for key, each in FIELDS["pair"].items() if key not in SHARED},
+        "rack": {key: each for key, each in FIELDS["rack"].items() if key.partition(".")[0] not in ("material", "drawing")},
+        **{table: dict(FIELDS[table]) for table in _BESIDE},
+        "part_drawing": own_drawing,
+        "train": dict(TRAIN["train"]),
+        **{f"train.{part}": dict(TRAIN[part]) for part in ("inertia", "shaft", "mesh")},
+        **_planetary(mates),
+    }
+    found["material"] |= {key: each for key, each in PLANETARY["material"].items() if key not in FIELDS["material"]}
+    transient = {key: each for key, each in found["dynamics"].items() if key.startswith("transient.")}
+    found["dynamics"] = {key: each for key, each in found["dynamics"].items() if key not in transient}
+    found["dynamics.transient"] = {key.removeprefix("transient."): each for key, each in transient.items()}
+    return found
+
+
+def _planetary(mates: Mapping[str, FieldSchema]) -> dict[str, dict[str, FieldSchema]]:
+    main = {key: each for key, each in PLANETARY["planetary"].items() if key not in SHARED}
+    carrier = {key.removeprefix("carrier."): each for key, each in main.items() if key.startswith("carrier.")}
+    own = {key: each for key, each in PRE_STAGE.items() if FIELDS["pair"].get(key) != each}
+    stage = {key: each for key, each in own.items() if key.endswith(".on") or key.partition(".")[0] not in ("pinion", "wheel")}
+    return {
+        "planetary": {key: each for key, each in main.items() if key.partition(".")[0] not in ("carrier", "pre_stage")},
+        "planetary.carrier": carrier,
+        "planetary.pre_stage": stage,
+        "planetary.central": {key: each for key, each in PLANETARY["sun"].items() if mates.get(key) != each},
+        "planetary.rim": {key: each for key, each in PLANETARY["planet"].items() if mates.get(key) != each},
+        "planetary.load": dict(PLANETARY["load"]),
+    }
