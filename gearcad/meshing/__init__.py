@@ -5,9 +5,10 @@ from __future__ import annotations
 TYPE_CHECKING = False  # as in guard.py
 if TYPE_CHECKING:
     from gearcad.meshing.bodies import Element, ElementMesh, Faces
+    from gearcad.meshing.options import MeshOptions
     from gearcad.meshing.section import MeshSizes, SectorMesh, mesh_sector
 
-__all__ = ["Element", "ElementMesh", "Faces", "MeshSizes", "SectorMesh", "mesh_sector"]
+__all__ = ["Element", "ElementMesh", "Faces", "MeshOptions", "MeshSizes", "SectorMesh", "mesh_sector"]
 
 if not TYPE_CHECKING:
     from gearcad.lazy import lazily
@@ -18,5 +19,6 @@ if not TYPE_CHECKING:
         (
             "bodies",
             "section",
+            "options",
         ),
     )

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
+from matplotlib.transforms import Bbox, BboxBase
 
 from gearcad.arrays import Floats
 
@@ -118,8 +119,20 @@ def _rooms(figure: Figure, renderer: RendererBase) -> Iterator[_Room]:
         taken = axes.get_tightbbox(renderer, for_layout_only=True)
         if taken is not None:
             grid = place.get_position(figure).transformed(figure.transFigure)
+            if axes.get_aspect() != "auto":
+                grid = _filled(axes, grid)
             left, bottom, right, top = np.maximum([*np.subtract(grid.min, taken.min), *np.subtract(taken.max, grid.max)], 0)
             yield _Room(place.colspan, place.rowspan, np.array([left, right]), np.array([top, bottom]))
+
+
+def _filled(axes: Axes, grid: BboxBase) -> Bbox:
+    """The place of axes of a fixed aspect, as if they filled it: what they leave empty is elsewhere once they are moved.
+
+    Sides of the `grid` where a colour bar stands remain as they are.
+    """
+    own, room = axes.bbox, axes.get_position(original=True).transformed(axes.figure.transFigure)
+    alone = np.isclose(room.get_points(), grid.get_points(), rtol=0, atol=1.0)
+    return Bbox(np.where(alone, own.get_points(), grid.get_points()))
 
 
 def _margins(spans: list[range], needed: list[Floats]) -> tuple[float, float, float]:
