@@ -14,11 +14,13 @@ copyright = "The gearcad authors"  # a name that Sphinx has chosen
 
 extensions = [
     "myst_parser",
+    "sphinx.ext.autodoc",
     "sphinx_copybutton",
     "manual.mathml",
     "manual.made",
     "manual.table_pages",
     "manual.command_pages",
+    "manual.python_pages",
 ]
 exclude_patterns = ["README.md", "manual", "figures/*.py"]
 nitpicky = True
@@ -28,8 +30,14 @@ myst_enable_extensions = ["attrs_block", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 html_math_renderer = "mathml"
 
+default_role = "literal"  # docstrings have code between single backquotes
+add_module_names = False
+autodoc_member_order = "bysource"
+autodoc_typehints_format = "short"
+autodoc_preserve_defaults = True
+
 html_theme = "furo"
-html_title = f"gearcad {version}"
+html_title = f"gearcad {version.partition('+')[0]}"
 html_static_path = ["static"]
 html_css_files = ["manual.css"]
 html_copy_source = False

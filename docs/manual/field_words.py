@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import is_dataclass
 from enum import Enum
 from typing import Any
 
@@ -11,7 +12,7 @@ from gearcad.geometry.basic_rack import NAMED_RACKS
 from gearcad.ranges import Choice, Member, Range, Whole
 from gearcad.schema import ELSEWHERE, FieldSchema
 
-__all__ = ["clause", "default", "permitted"]
+__all__ = ["clause", "default", "fields_default", "fields_permitted", "permitted"]
 
 _IN_PAIRS = {"profile_shift": (AUTO,), "tip_alteration": (AUTO, CLEAR)}
 """Words that gears of pairs take at these keys, beside numbers."""
@@ -25,6 +26,20 @@ def permitted(key: str, field: FieldSchema) -> str:
     words = tuple(f"`{word}`" for word in field.words)
     words += tuple(f"`{word}` (pairs)" for word in _IN_PAIRS.get(key, ()))
     return ", or ".join(filter(None, (_kind(field), ", ".join(words))))
+
+
+def fields_permitted(key: str, field: FieldSchema) -> str:
+    """The same of a field in Python, whose parts are objects."""
+    objects = [f"`{each.__name__}`" for each in field.members if isinstance(each, type) and is_dataclass(each)]
+    return ", ".join(objects) if objects else permitted("", field)
+
+
+def fields_default(field: FieldSchema) -> str:
+    """The default of a field in Python."""
+    if is_dataclass(field.default) and not isinstance(field.default, type):
+        made = field.default == type(field.default)()
+        return f"`{type(field.default).__name__}()`" if made else f"`{field.default!r}`"
+    return default("", field.name, field)
 
 
 def _kind(field: FieldSchema) -> str:
@@ -102,7 +117,7 @@ def default(table: str, key: str, field: FieldSchema) -> str:
     value = field.default
     if getattr(value, "derived", False):
         return "derived"
-    if value is None or value == () or value == "":
+    if value is None or value in ((), "", {}):
         return "none"
     return _value(value)
 

@@ -14,7 +14,7 @@ from manual.key_tables import key_tables
 from manual.result_tables import result_tables
 from manual.tables import Cell, table, text
 
-__all__ = ["setup"]
+__all__ = ["meaning", "setup", "unit"]
 
 
 class Keys(Directive):
@@ -29,8 +29,8 @@ class Keys(Directive):
         rows = [
             (
                 [nodes.literal(text=key)],
-                [*_meaning(field.symbol, key), *_source(field.symbol)],
-                text(_unit(field.symbol.unit)),
+                [*meaning(field.symbol, key), *_source(field.symbol)],
+                text(unit(field.symbol.unit)),
                 text(permitted(key, field)),
                 text(default(name, key, field)),
             )
@@ -51,18 +51,19 @@ class Results(Directive):
             raise self.error(f"no table of results is called {name}")
         quantities = result_tables()[name]
         rows = [
-            ([nodes.literal(text=key)], _meaning(symbol, key), text(_unit(symbol.unit)), text(clause(symbol.source)))
+            ([nodes.literal(text=key)], meaning(symbol, key), text(unit(symbol.unit)), text(clause(symbol.source)))
             for key, symbol in quantities.items()
         ]
         ids = [re.sub(r"[^a-z0-9]+", "-", f"result-{name}-{key}".lower()) for key in quantities]
         return [table("results", ("Key", "Meaning", "Unit", "Source"), rows, ids)]
 
 
-def _unit(unit: str) -> str:
-    return "°" if unit == "deg" else unit
+def unit(name: str) -> str:
+    """A unit as one writes it."""
+    return "°" if name == "deg" else name
 
 
-def _meaning(symbol: Symbol, key: str) -> Cell:
+def meaning(symbol: Symbol, key: str) -> Cell:
     """Words, and the symbol with its index below the line."""
     words = symbol.words or key.rpartition(".")[2].replace("_", " ")
     return [*text(words), *([nodes.Text(", "), *_symbol(symbol.symbol)] if symbol.symbol else [])]
