@@ -35,7 +35,7 @@ distributed = pytest.importorskip("distributed")
 
 DATA = (Data(),)
 OPTIONS = ("--format", "csv,stl", "--quiet")
-ROWS = 60
+ROWS = 150
 MANY = (GEARS[0], *(f"row {number:03d},{12 + number % 50},1,2,{number % 3}" for number in range(ROWS)))
 
 _SCHEDULER = """
@@ -165,20 +165,20 @@ def many(tmp_path: Path) -> Path:
 
 def test_ctrl_c_ends_the_run_on_the_cluster_too(address: str, many: Path, tmp_path: Path) -> None:
     folder = tmp_path / "out"
-    with start_batch(many, "-o", folder, "--format", "dxf", "--cluster", address, "--quiet") as process:
+    with start_batch(many, "-o", folder, "--format", "stl", "--cluster", address, "--quiet") as process:
         wait_until(lambda: len(list(folder.glob("row*"))) > 10, "rows that are finished")
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=PATIENCE)
     assert (process.returncode, errors.strip()) == (130, "Aborted!")
     assert {line["status"] for line in read_results(folder)} == {"ok", "not run"}
-    assert run_table(many, folder, (Build(formats=(Format.DXF,)),), cluster=address).ok == ROWS
+    assert run_table(many, folder, (Build(formats=(Format.STL,)),), cluster=address).ok == ROWS
     assert lies(folder) == [] and not list(folder.glob(".*"))
 
 
 def run_here(table: Path, folder: Path, address: str) -> tuple[list[Summary], threading.Thread]:
     """A run in a thread, so that something can happen to the cluster meanwhile."""
     found: list[Summary] = []
-    formats = (Build(formats=(Format.DXF,)),)
+    formats = (Build(formats=(Format.STL,)),)
     thread = threading.Thread(target=lambda: found.append(run_table(table, folder, formats, cluster=address)))
     thread.start()
     wait_until(lambda: len(list(folder.glob("row*"))) > 10, "rows that are finished")
@@ -214,7 +214,7 @@ def test_scheduler_that_dies_ends_the_run_with_what_there_is(
     assert summary.ok >= 1 and summary.failed == 0 and summary.ok + summary.not_run == ROWS
     assert {line["status"] for line in read_results(tmp_path / "out")} == {"ok", "not run"}
     assert "Traceback" not in capfd.readouterr().err
-    assert run_table(many, tmp_path / "out", (Build(formats=(Format.DXF,)),), jobs=2).ok == ROWS
+    assert run_table(many, tmp_path / "out", (Build(formats=(Format.STL,)),), jobs=2).ok == ROWS
 
 
 # ---------------------------------------------------------------------- clusters that cannot be used

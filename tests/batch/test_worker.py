@@ -21,11 +21,22 @@ from gearcad.batch.worker import WorkerLostError, close_workers, isolated
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 
 
-@pytest.fixture(autouse=True)
-def _no_worker_is_left() -> Iterator[None]:
-    yield
+def no_worker_is_left() -> None:
     close_workers()
     assert wait_for_end(psutil.Process().children(recursive=True), PATIENCE) == []
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _they_end() -> Iterator[None]:
+    yield
+    no_worker_is_left()
+
+
+@pytest.fixture
+def none_yet() -> Iterator[None]:
+    no_worker_is_left()
+    yield
+    no_worker_is_left()
 
 
 def call(function: Any, argument: Any = None, time_limit: float = PATIENCE) -> Any:
@@ -155,6 +166,7 @@ def test_death_between_calls_costs_nothing() -> None:
 # ---------------------------------------------------------------------- the end of a run
 
 
+@pytest.mark.usefixtures("none_yet")
 def test_close_ends_a_call_in_progress() -> None:
     ended: list[Exception] = []
 
@@ -172,7 +184,10 @@ def test_close_ends_a_call_in_progress() -> None:
     assert len(ended) == 1 and not thread.is_alive()
 
 
-@pytest.mark.parametrize("seconds", [0.001, 0.02, 0.1, 0.2, 0.3, 0.4, 0.6])
+@pytest.mark.usefixtures("none_yet")
+@pytest.mark.parametrize(
+    "seconds", [0.001, 0.1, 0.3, 0.6, *(pytest.param(each, marks=pytest.mark.long) for each in (0.02, 0.2, 0.4))]
+)
 def test_ctrl_c_leaves_no_process_and_no_thread_whenever_it_comes(seconds: float) -> None:
     """While workers start, while they work, while calls are waiting."""
     before = threading.active_count()
@@ -201,6 +216,7 @@ isolated(getattr(jobs, sys.argv[1]), 600, 600)
 """
 
 
+@pytest.mark.usefixtures("none_yet")
 @pytest.mark.parametrize("busy_with", ["wait", "work", "hold_the_interpreter"])
 def test_death_of_the_parent_ends_the_worker_in_the_middle_of_its_work(busy_with: str) -> None:
     if busy_with == "hold_the_interpreter" and sys.platform != "linux":

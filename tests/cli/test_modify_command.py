@@ -13,6 +13,7 @@ from threadpoolctl import threadpool_limits
 
 from gearcad import Material
 from gearcad.cli import main
+from gearcad.contact.optimum.start import _Sampling
 from gearcad.contact.shared.bodies import BodyModel
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidSizes, solid_pair
@@ -54,6 +55,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 3)
     monkeypatch.setattr("gearcad.contact.optimum.search._STARTS", 1)
+    monkeypatch.setattr("gearcad.contact.optimum.start._HELICAL", _Sampling(12, 16, 0))
     return tmp_path
 
 

@@ -64,7 +64,7 @@ def _flank_points(solid: cadquery.Shape, width: float, most: int = 40, grid: int
     return np.array([(p.X(), p.Y(), p.Z()) for p in points])
 
 
-_LONG = ("alm 161", "z 300")
+_LONG = ("alm 161", "z 300", "volvo wheel", "z 8 undercut", "twist 180", "m 20")
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name in _LONG)) for name in GEARS])

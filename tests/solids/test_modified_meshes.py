@@ -97,8 +97,14 @@ def test_no_triangle_leaves_the_modified_teeth_by_more_than_the_chord_error(name
     assert LEAST < worst <= CHORD_ERROR
 
 
-@pytest.mark.parametrize("share", [0.3, 1.0, 1.7])
-@pytest.mark.parametrize("name", ["chamfered", "chamfered, spur", "chamfered to the root"])
+@pytest.mark.parametrize(
+    ("name", "share"),
+    [
+        pytest.param(name, share, marks=[pytest.mark.long] * ((row + column) % 3 == 1))
+        for row, name in enumerate(("chamfered", "chamfered, spur", "chamfered to the root"))
+        for column, share in enumerate((0.3, 1.0, 1.7))
+    ],
+)
 def test_an_end_relief_that_begins_inside_on_or_beyond_the_cone(name: str, share: float) -> None:
     plain = GEARS[name]
     gear = modified(plain, end_relief_length=min(share * plain.body.end_chamfer, plain.face_width / 2))

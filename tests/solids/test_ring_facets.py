@@ -278,7 +278,7 @@ def _check_random(gear: Gear, share: float) -> None:
 
 def test_random_rings_are_closed_within_the_chord_error_and_have_their_volume() -> None:
     rng = np.random.default_rng(3)
-    for _ in range(40):
+    for _ in range(20):
         _check_random(random_ring(rng), float(rng.choice([1, 0.3])))
 
 

@@ -89,11 +89,10 @@ def distance_to_section(gear: Gear, points: Floats) -> Floats:
     for curve in gear.profile.curves:
         s = np.linspace(0, 1, 801)
         s = s[cKDTree(curve.points(s)).query(flat)[1]]
-        for _ in range(6):
-            low, high = np.clip(s - 1e-6, 0, 1), np.clip(s + 1e-6, 0, 1)
-            step = curve.points(high) - curve.points(low)
-            speed = np.hypot(*step.T) / (high - low)
-            heading, off = curve.direction(s), flat - curve.points(s)
+        for _ in range(4):
+            here, beside = curve.points(s), np.where(s < 0.5, 1e-6, -1e-6)
+            speed = np.hypot(*(curve.points(s + beside) - here).T) / np.abs(beside)
+            heading, off = curve.direction(s), flat - here
             along = off[:, 0] * np.cos(heading) + off[:, 1] * np.sin(heading)
             s = np.clip(s + along / np.maximum(speed, 1e-12), 0, 1)
         nearest = np.minimum(nearest, np.hypot(*(flat - curve.points(s)).T))

@@ -175,7 +175,7 @@ def test_tip_edge_may_cut_the_fillet_though_it_leaves_the_involute_in_time() -> 
     assert _touching_error(pair) > 0.003
     # A shorter tip is all it takes: the warning goes exactly when the outlines stop overlapping.
     low, high = wheel.tip_diameter - 0.4, float(wheel.tip_diameter)
-    for _ in range(30):
+    for _ in range(12):
         middle = (low + high) / 2
         cut = bool(replace(pair, wheel=replace(wheel, tip_diameter=middle)).warnings)
         low, high = (low, middle) if cut else (middle, high)
