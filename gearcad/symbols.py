@@ -172,6 +172,7 @@ PLANETARY = {
     "set_type": Symbol("", "", "", "type of the set, A to D"),
     "basic_ratio": Symbol("i_0", "", "", "basic ratio, carrier at rest"),
     "positions": Symbol("q", "", "", "places where planets fit"),
+    "free_tip_distance": Symbol("", "mm", "", "distance between planets' tips"),
     "ratio": Symbol("i", "", "", "ratio, speed of input over output"),
     "efficiency": Symbol("η", "", "", "efficiency from input to output"),
     "efficiency_back": Symbol("η", "", "", "efficiency from output to input"),

@@ -74,7 +74,7 @@ def _columns(symbol: Symbol, values: Iterable[str], width: int, *, with_source: 
     """One line of 76 characters, or some more with the source behind."""
     numbers = "".join(f"{value:>{width}}" for value in values)
     line = f"  {symbol.words:<37}{symbol.symbol:<6} {symbol.unit:<6}{numbers}"
-    return f"{line:<80}{symbol.source}".rstrip() if with_source else line.rstrip()
+    return f"{line:<{max(80, len(line) + 2)}}{symbol.source}".rstrip() if with_source else line.rstrip()
 
 
 def _train_lines(sheet: Sheet) -> Iterator[_Line]:

@@ -12,7 +12,7 @@ from gearcad.geometry.limits import at_least, at_most
 from gearcad.planetary.members import Central, Rim
 from gearcad.planetary.train_data import EQUAL, TrainData
 
-__all__ = ["Span", "check_heights", "check_neighbours", "least_gap", "most_planets", "teeth_spans", "with_room"]
+__all__ = ["Span", "check_heights", "check_neighbours", "free_distance", "least_gap", "most_planets", "teeth_spans", "with_room"]
 
 _APART = 1e-9
 """Overlap of face widths (mm) that is rounding."""
@@ -46,12 +46,19 @@ def with_room(train: TrainData) -> list[int]:
     return [number for number in range(1, most_planets(train) + 1) if train.adjusted or train.positions % number == 0]
 
 
+def free_distance(train: TrainData) -> float | None:
+    """Between the tips of neighbouring planets (mm), the least; None of a planet alone."""
+    if train.planets == 1:
+        return None
+    return _apart(train, least_gap(train)) - max(rim.gear.tip_diameter for rim in train.rims)
+
+
 def check_neighbours(train: TrainData) -> None:
     """2 a sin(gap/2) is above tip diameter and tip distance of each rim. Raises GeometryError."""
     if train.planets == 1:
         return
     gap = least_gap(train)
-    apart = 2 * float(train.centre_distance) * math.sin(math.radians(gap.angle) / 2)
+    apart = _apart(train, gap)
     rim = max(train.rims, key=lambda each: _wanted(train, each))
     if apart > _wanted(train, rim):
         return
@@ -65,6 +72,11 @@ def check_neighbours(train: TrainData) -> None:
         raise GeometryError("planets", train.planets, f"must be at most {most}{teeth}: {why}{free}")
     permitted = f"must be farther apart: {why}{free}; at equal angles {most} have room{teeth}"
     raise GeometryError("planet_angles", train.planet_angles, permitted)
+
+
+def _apart(train: TrainData, gap: Gap) -> float:
+    """Distance (mm) of the axes of neighbours."""
+    return 2 * float(train.centre_distance) * math.sin(math.radians(gap.angle) / 2)
 
 
 def _wanted(train: TrainData, rim: Rim) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from gearcad.notice import texts
+from gearcad.planetary.clearances import free_distance
 from gearcad.planetary.members import Carrier, Central, Rim
 from gearcad.planetary.train_data import TrainData
 from gearcad.planetary.train_notices import train_notices
@@ -26,6 +27,7 @@ def train_document(train: TrainData) -> dict[str, Any]:
         "set_type": train.set_type.value,
         **{key: getattr(train, key) for key in _GIVEN},
         "centre_distance": float(train.centre_distance),
+        "free_tip_distance": free_distance(train),
         "planet_angles": list(train.angles),
         "members": {part.name: _fields(part) for part in parts},
         "meshes": {mesh.name: mesh.pair.to_dict() for mesh in train.meshes},

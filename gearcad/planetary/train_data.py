@@ -53,7 +53,7 @@ class TrainData:
     planet_angles: Annotated[
         tuple[float, ...] | Literal["equal", "permitted"], Range("deg", -360.0, 360.0), Words("angles of the planets", "ψ")
     ] = EQUAL
-    tip_distance: Annotated[float, Range("mm", 0.0, None), Words("least distance between planets' tips")] = 0.0
+    tip_distance: Annotated[float, Range("mm", 0.0, None), Words("distance planets' tips must keep")] = 0.0
 
     @cached_property
     def meshes(self) -> tuple[SetMesh, SetMesh]:

@@ -75,6 +75,7 @@ def test_neighbours_keep_their_tips_apart() -> None:
     train = simple_train((24, 21, -66), (0.3, 0.2, -0.7), 3)
     tip = train.rims[0].gear.tip_diameter
     free = 2 * train.centre_distance * math.sin(math.pi / 3) - tip
+    assert train.to_dict()["free_tip_distance"] == pytest.approx(free, rel=1e-12)
     assert replace(train, tip_distance=free - 1e-6).planets == 3
     with pytest.raises(GeometryError, match=r"planets = 3: must be at most 2: .* 1 and 2 are 79.5564 mm apart"):
         replace(train, tip_distance=free + 1e-6)
@@ -89,7 +90,8 @@ def test_both_are_told_where_neither_room_nor_teeth_let_the_planets_stand() -> N
 
 
 def test_one_planet_has_no_neighbours() -> None:
-    assert thesis_train(planets=1, tip_distance=1000.0).unbalance == 1.0
+    train = thesis_train(planets=1, tip_distance=1000.0)
+    assert train.unbalance == 1.0 and train.to_dict()["free_tip_distance"] is None
 
 
 def test_teeth_at_the_same_height_stand_clear() -> None:
