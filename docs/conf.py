@@ -5,6 +5,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+from pygments.lexers.special import TextLexer
+from sphinx.application import Sphinx
+
 from gearcad import __version__
 
 project = "gearcad"
@@ -21,6 +24,7 @@ extensions = [
     "manual.table_pages",
     "manual.command_pages",
     "manual.python_pages",
+    "manual.validated",
 ]
 exclude_patterns = ["README.md", "manual", "figures/*.py"]
 nitpicky = True
@@ -46,3 +50,7 @@ html_theme_options = {"top_of_page_buttons": []}
 
 copybutton_prompt_text = r">>> |\.\.\. |\$ "
 copybutton_prompt_is_regexp = True
+
+
+def setup(app: Sphinx) -> None:
+    app.add_lexer("csv", TextLexer)  # Pygments has none for design tables

@@ -11,6 +11,9 @@ from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+from support.published import published
+
+__all__ = ["published"]  # a fixture of all tests
 
 # Several test processes share the cores, and numpy is not imported yet: one thread each, or they fight.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

@@ -12,7 +12,16 @@ from gearcad.geometry.limits import at_least, at_most
 from gearcad.planetary.members import Central, Rim
 from gearcad.planetary.train_data import EQUAL, TrainData
 
-__all__ = ["Span", "check_heights", "check_neighbours", "free_distance", "least_gap", "most_planets", "teeth_spans", "with_room"]
+__all__ = [
+    "Span",
+    "check_heights",
+    "check_neighbours",
+    "free_distance",
+    "least_gap",
+    "most_planets",
+    "teeth_spans",
+    "with_room",
+]
 
 _APART = 1e-9
 """Overlap of face widths (mm) that is rounding."""

@@ -15,7 +15,10 @@ from gearcad.symbols import Symbol
 
 __all__ = ["planetary_sections"]
 
-_TRAIN_KEYS = "set_type planets input output fixed ratio basic_ratio centre_distance planet_angles positions free_tip_distance tip_distance".split()
+_TRAIN_KEYS = (
+    "set_type planets input output fixed ratio basic_ratio centre_distance planet_angles positions"
+    " free_tip_distance tip_distance"
+).split()
 _OF_TRAIN = symbols_of(PlanetaryTrain) | symbols.PLANETARY
 _OF_MEMBER = symbols_of(Central) | symbols_of(Rim) | symbols_of(Carrier) | symbols.PLANETARY_MEMBER
 

@@ -41,11 +41,11 @@ def test_what_knows_no_styles_has_the_same_text(spec: str, width: int) -> None:
 
 
 def test_clauses_stand_apart_from_any_number_of_gears() -> None:
-    for spec, gears in (("volvo-13-44", 2), ("planetary-24-21-66", 3), ("planetary-alm", 6)):
+    for spec, count in (("volvo-13-44", 2), ("planetary-24-21-66", 3), ("planetary-alm", 6)):
         text = sheet(read_spec(TEMPLATES / f"{spec}.toml"), 160)
         (line,) = [line for line in text.splitlines() if line.startswith("  tip diameter")]
         *_, symbol_and_values = line.partition("d_a")
-        assert len([float(value) for value in symbol_and_values.split()[1:-1]]) == gears and line.split()[-1] == "4.5"
+        assert len([float(value) for value in symbol_and_values.split()[1:-1]]) == count and line.split()[-1] == "4.5"
 
 
 def test_pair_shows_both_gears_side_by_side_then_the_pair() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from support.published import Published
 
 from gearcad.material import MaterialGroup as G
 from gearcad.rating.factors import (
@@ -56,11 +57,13 @@ PRINTED = {
     "Y_RrelT, NT, Rz 10": (root_surface_factor(10.0, G.NITRIDING_STEEL), 0.99436, 1e-5),
 }
 
+SOURCE = "FVA Workbench, STplus and KISSsoft reports and rounded worked examples, as quoted in public"
+
 
 @pytest.mark.parametrize("name", PRINTED)
-def test_printed_values(name: str) -> None:
+def test_printed_values(name: str, published: Published) -> None:
     found, printed, tolerance = PRINTED[name]
-    assert found == pytest.approx(printed, abs=tolerance)
+    published(name, found, printed, tolerance, SOURCE)
 
 
 @pytest.mark.parametrize(

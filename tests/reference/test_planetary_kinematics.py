@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from support.published import Published
 from support.sets import alm_train, unchecked_set
 
 from gearcad.planetary import TrainLoad
@@ -220,6 +221,9 @@ CASES = [
 """Own computation; torques agreed with powers balanced mesh by mesh on 3972 random sets."""
 
 
+ALM = "Alm, master's thesis on a planetary train: its own statics"
+
+
 def named(role: str) -> str:
     return "carrier" if role == "c" else role
 
@@ -253,8 +257,11 @@ def test_basic_ratio_and_positions(kind: str) -> None:
 
 @pytest.mark.parametrize(("in_phase", "ratio"), [(False, -124.28070175438597), (True, -101.01960784313727)])
 def test_ratio_of_the_thesis(in_phase: bool, ratio: float) -> None:
-    """Printed there: -124.28."""
     assert alm_train(in_phase=in_phase).ratio == pytest.approx(ratio, rel=1e-14)
+
+
+def test_ratio_as_printed(published: Published) -> None:
+    published("i", alm_train().ratio, "-124.28", 0.005, ALM)
 
 
 def test_efficiency_of_the_set_of_the_thesis() -> None:
@@ -272,12 +279,12 @@ def test_force_of_the_pre_stage_of_the_thesis(in_phase: bool, force: float) -> N
     assert found.stages["pre_stage"].normal == pytest.approx(force, abs=1e-3)
 
 
-def test_forces_in_the_set_of_the_thesis() -> None:
+def test_forces_in_the_set_of_the_thesis(published: Published) -> None:
     """Normal forces of the thesis's own statics. On the pin 4772 N inwards; along the circle what the carrier's torque asks:
     1600/13.8947 N·m on three pins at 69 mm, which is 556.3 N."""
     train = alm_train()
     found = forces(train, power_flow(train, TrainLoad(torque=1600.0)))
-    assert found.meshes["ring_4-rim_3"].normal == pytest.approx(5374.64, abs=0.01)
-    assert found.meshes["ring_5-rim_3p"].normal == pytest.approx(6063.69, abs=0.01)
-    assert found.pin.radial == pytest.approx(-4772, abs=0.5)
+    published("normal force of mesh 3-4, N", found.meshes["ring_4-rim_3"].normal, 5374.64, 0.01, ALM)
+    published("normal force of mesh 3'-5, N", found.meshes["ring_5-rim_3p"].normal, 6063.69, 0.01, ALM)
+    published("radial force on a pin, N", found.pin.radial, "-4772", 0.5, ALM)
     assert found.pin.tangential == pytest.approx(1600 / 13.894736842105257 / (3 * 0.069), rel=1e-12)

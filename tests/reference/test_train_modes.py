@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from support.published import Published
 from support.trains import SHORT, one_stage, two_stages
 
 from gearcad.dynamics.trains.lines import lines_of, system
@@ -29,13 +30,17 @@ ELEMENTS = 2e-12
 DECIMALS_3 = 6e-4
 """Computed values of the reference with three decimals (1/s)."""
 
+OSINSKI = "Osinski, choice of the dynamic model of a gear drive, table 1"
 
-def test_isolated_pair() -> None:
+
+def test_isolated_pair(published: Published) -> None:
     modes = natural_modes(one_stage("isolated"))
     assert modes.rigid == 1 and modes.circular[0] == 0
     assert modes.circular[1] == pytest.approx(math.sqrt(7.05e8 * (0.0507**2 / 0.0058 + 0.1353**2 / 0.2228)), rel=1e-12)
     assert modes.circular[1] == pytest.approx(19245.076, abs=DECIMALS_3)
-    assert modes.circular[1] == pytest.approx(19251, rel=4e-4)  # as printed: base radii of three figures
+    published(
+        "isolated pair, 1/s", modes.circular[1], "19251", 4e-4 * 19251, OSINSKI
+    )  # base radii are printed with three figures
     assert modes.rpm[1, 0] == pytest.approx(19245.076 * 60 / (2 * math.pi * 18), rel=1e-7)
     assert modes.inertias == ("pinion", "wheel") and modes.shafts == ()
 
@@ -62,12 +67,13 @@ def test_shafts_with_mass() -> None:
         assert exact.circular[place] == pytest.approx(printed, rel=within)
 
 
-def test_component_modes_of_the_paper() -> None:
+def test_component_modes_of_the_paper(published: Published) -> None:
     train = one_stage("modes")
     modes = natural_modes(train)
     assert modes.circular == pytest.approx([1641.941, 12752.092, 19861.483], abs=DECIMALS_3)
-    assert modes.circular[1:] == pytest.approx([12750, 19863], rel=2e-4)
-    assert modes.rpm[1, 0] == pytest.approx(6750, rel=3e-3)
+    for number, printed in ((1, 12750), (2, 19863)):
+        published(f"component modes, {number + 1}, 1/s", modes.circular[number], f"{printed}", 2e-4 * printed, OSINSKI)
+    published("component modes, 2, rpm", modes.rpm[1, 0], "6750", 3e-3 * 6750, OSINSKI)
     # Below 19861 1/s the train itself has four: 10077 is not among these.
     assert modes.missed == 1
     lines = lines_of(train)

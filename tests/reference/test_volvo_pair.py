@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.cases import case, diameters, half_unit, volvo_pair
+from support.published import Published
 
 from gearcad import BasicRack, Gear, GearPair, GeometryError
 
@@ -80,7 +81,7 @@ def test_without_tip_alteration(pair: GearPair) -> None:
 
 
 @pytest.mark.parametrize("name", case("s001_pair")["expected_printed"])
-def test_printed_to_its_digits(pair: GearPair, name: str) -> None:
+def test_printed_to_its_digits(pair: GearPair, name: str, published: Published) -> None:
     printed = case("s001_pair")["expected_printed"][name]
     found = {
         "rb1": pair.pinion.base_diameter / 2,
@@ -89,7 +90,7 @@ def test_printed_to_its_digits(pair: GearPair, name: str) -> None:
         "beta_b": pair.pinion.base_helix_angle,
         "M2": 220 * pair.gear_ratio,
     }[name]
-    assert found == pytest.approx(float(printed), abs=half_unit(printed), rel=0)
+    published(name, found, printed, half_unit(printed), case("s001_pair")["source"])
 
 
 def test_printed_shifts_overlap_by_rounding_only() -> None:
@@ -157,7 +158,7 @@ def test_contact_lines(pair: GearPair, shortened: bool) -> None:
     assert at_phases == pytest.approx(expected["sum_L_at_phase"], abs=DIAMETER, rel=0)
 
 
-def test_radii_of_curvature_at_the_pitch_point(pair: GearPair) -> None:
+def test_radii_of_curvature_at_the_pitch_point(pair: GearPair, published: Published) -> None:
     path = pair.path_of_contact
     whole = pair.centre_distance * math.sin(math.radians(pair.working_transverse_pressure_angle))
     transverse = [path.C, whole - path.C]
@@ -165,15 +166,16 @@ def test_radii_of_curvature_at_the_pitch_point(pair: GearPair) -> None:
     assert transverse == pytest.approx(CONTACT["rho_t"], abs=DIAMETER, rel=0)
     assert normal == pytest.approx(CONTACT["rho_n"], abs=DIAMETER, rel=0)
     printed = case("s001_forces_contact")["expected_printed"]
-    for found, texts in ((transverse, printed["rho_t"]), (normal, printed["rho_n"])):
-        assert found == pytest.approx([float(text) for text in texts], abs=half_unit("0.01"), rel=0)
+    for section, radii in (("rho_t", transverse), ("rho_n", normal)):
+        for number, (found, text) in enumerate(zip(radii, printed[section], strict=True), start=1):
+            published(f"{section}{number}", found, text, half_unit("0.01"), case("s001_forces_contact")["source"])
 
 
-def test_one_whole_line(pair: GearPair) -> None:
+def test_one_whole_line(pair: GearPair, published: Published) -> None:
     whole = pair.common_width.width / math.cos(math.radians(pair.pinion.base_helix_angle))
     assert whole == pytest.approx(CONTACT["L_full"], abs=DIAMETER, rel=0)
     printed = case("s001_forces_contact")["expected_printed"]["L_long"]
-    assert whole == pytest.approx(float(printed), abs=half_unit(printed), rel=0)
+    published("L_long", whole, printed, half_unit(printed), case("s001_forces_contact")["source"])
 
 
 def test_printed_contact_lines_are_impossible(pair: GearPair) -> None:
