@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
+import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -29,6 +32,9 @@ from gearcad.sizing import SizeTask, search_pairs
 FOLDER = Path(__file__).parent
 SPEC = FOLDER.parent / "templates" / "volvo-13-44.toml"
 """What `gearcad new volvo` writes."""
+
+_PATIENCE = 60_000
+"""Milliseconds."""
 
 FZG_C = SPEC.with_name("fzg-c.toml")
 
@@ -101,6 +107,32 @@ def draw_sheet(path: Path) -> None:
         path.write_bytes(Path(folder, "drawing-wheel.svg").read_bytes())
 
 
+def show_page(path: Path) -> None:
+    """The page of `gearcad open`, as Chromium shows it on a small screen."""
+    from playwright.sync_api import sync_playwright
+
+    server = subprocess.Popen(
+        [sys.executable, "-m", "gearcad", "open", str(SPEC), "--no-browser"], stdout=subprocess.PIPE, text=True
+    )
+    assert server.stdout is not None  # Popen was asked for a pipe
+    address = server.stdout.readline().strip()
+    try:
+        with sync_playwright() as playwright:
+            options = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+            browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=options)
+            page = browser.new_page(viewport={"width": 1280, "height": 800}, color_scheme="light", locale="en-GB")
+            page.goto(address)
+            page.wait_for_function("() => document.querySelector('.scene')?.dataset.geometries > 0", timeout=_PATIENCE)
+            page.get_by_text("strength passed").or_(page.get_by_text("strength not judged")).first.wait_for()
+            page.wait_for_timeout(1000)  # until what has come is drawn
+            page.screenshot(path=path, timeout=_PATIENCE)
+            browser.close()
+    finally:
+        server.terminate()
+        server.wait()
+    Image.open(path).convert("RGB").quantize(256, method=Image.Quantize.MAXCOVERAGE).save(path, optimize=True)
+
+
 def main() -> None:
     picture(read_spec(SPEC), FOLDER / "pair.png", size=(1400, 700))
     picture(read_spec(SPEC), FOLDER / "mesh.png", view="mesh", size=(1400, 700))
@@ -110,6 +142,7 @@ def main() -> None:
     picture_kinds(FOLDER / "kinds.png")
     plot_train(FOLDER / "train.png")
     plot_sizes(FOLDER / "size.png")
+    show_page(FOLDER / "page.png")
 
 
 if __name__ == "__main__":

@@ -10,10 +10,13 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
+from gearcad.errors import require_number
 from gearcad.machine import machine_memory
 from gearcad.page.run_process import Asked
 
-__all__ = ["Limits", "Run", "State"]
+__all__ = ["GIGABYTE", "Limits", "Run", "State"]
+
+GIGABYTE = 1e9
 
 _SHARE_OF_MEMORY = 0.5
 _MOST_MEMORY = 16e9
@@ -31,6 +34,11 @@ class Limits:
 
     seconds: float = 3600.0
     memory: float = field(default_factory=_most_memory)
+
+    def __post_init__(self) -> None:
+        require_number("time_limit", self.seconds, "s", above=0)
+        if not math.isinf(self.memory):
+            require_number("memory_limit", self.memory / GIGABYTE, "GB", above=0)
 
 
 class State(Enum):

@@ -18,7 +18,7 @@ from typing import Any
 from gearcad.batch.worker import ONE_THREAD
 from gearcad.errors import format_number
 from gearcad.guard import death
-from gearcad.page.run import Limits, Run, State
+from gearcad.page.run import GIGABYTE, Limits, Run, State
 from gearcad.progress import Clock, Expected
 
 __all__ = ["do_run"]
@@ -72,7 +72,7 @@ def _excess(process: subprocess.Popen[bytes], end: float, limits: Limits) -> str
     if time.monotonic() > end:
         return f"was stopped at its time limit of {format_number(limits.seconds)} s"
     if _memory_of(process.pid) > limits.memory:
-        return f"was stopped at its memory limit of {limits.memory / 1e9:.3g} GB"
+        return f"was stopped at its memory limit of {limits.memory / GIGABYTE:.3g} GB"
     return ""
 
 

@@ -11,6 +11,7 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import ClassVar
 
 from gearcad.batch.pool import available_cores
 from gearcad.errors import ParameterError
@@ -78,10 +79,15 @@ def close_all_runs() -> None:
 
 
 class Runs:
-    """Those of a session: one at a time, the others wait; `close` ends them and removes their files."""
+    """Those of a session: one at a time, the others wait; `close` ends them and removes their files.
+
+    `permitted` is what each run of any session may take.
+    """
+
+    permitted: ClassVar[Limits] = Limits()
 
     def __init__(self, limits: Limits | None = None) -> None:
-        self.limits = limits or Limits()
+        self.limits = limits or self.permitted
         self.all: list[Run] = []
         self.key = secrets.token_urlsafe(16)
         _OPEN[self.key] = self

@@ -9,7 +9,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
+from gearcad.cli import main
 from gearcad.designs.starters import starter_text
 from gearcad.errors import ParameterError
 from gearcad.page.run import Limits, Run, State
@@ -156,3 +158,23 @@ def test_only_so_many_wait(runs: Runs) -> None:
     for run in asked:
         runs.cancel(run)
     assert {_ended(run).state for run in asked} == {State.CANCELLED}
+
+
+@pytest.mark.parametrize(
+    ("option", "given", "line"),
+    [
+        ("--time-limit", "nan", "time_limit = nan s: must be a number above 0 s"),
+        ("--time-limit", "-3", "time_limit = -3 s: must be a number above 0 s"),
+        ("--memory-limit", "0", "memory_limit = 0 GB: must be a number above 0 GB"),
+    ],
+)
+def test_limits_that_are_none_are_told_before_anything_is_served(option: str, given: str, line: str) -> None:
+    told = CliRunner().invoke(main, ["open", option, given, "--no-browser"])
+    assert (told.exit_code, told.stderr) == (2, f"Error: {line}\n")
+
+
+def test_limits_are_those_of_all_sessions(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Runs, "permitted", Limits(seconds=7.0, memory=3e9))
+    runs = Runs()
+    runs.close()
+    assert (runs.limits.seconds, runs.limits.memory) == (7.0, 3e9)
