@@ -20,6 +20,7 @@ class TextPanel:
         keys = {"Mod-z": False, "Mod-y": True, "Mod-Shift-z": True}
         self._editor = ui.codemirror(
             language="TOML",
+            theme="githubLight",
             indent="  ",
             on_change=lambda event: self._typed(event.value),
             keymap={key: lambda forth=forth: step(forth) for key, forth in keys.items()},
