@@ -37,6 +37,7 @@ gearcad.errors.ParameterError: load = 60: must be a Load
     dynamics(pair, load)           natural frequencies, K_v over speed; of trains too
     planetary(train, load)         speeds, torques, assembly, load sharing, stiffness and modes of a planetary train
     modify(pair, load)             tip relief and crowning for the load
+    identify(teeth, ...)           the standard gears that measured diameters, spans or pins may be of
 
 `gearcad.plots` draws gears and results, a call for each picture; a notebook shows them without one.
 
@@ -117,23 +118,23 @@ __all__ = [
 ]
 
 _ROOMS = (
-    *("batch", "check", "contact", "designs", "dynamics", "jobs", "meshing", "planetary", "plots", "rating", "sizing"),
-    *("solids", "stiffness"),
+    *("batch", "check", "contact", "designs", "dynamics", "identify", "jobs", "meshing", "planetary", "plots", "rating"),
+    *("sizing", "solids", "stiffness"),
 )
 
 if not TYPE_CHECKING:
     import sys
 
-    from gearcad.jobs import VERBS
+    from gearcad.jobs import VERBS, WITHOUT_DESIGN
     from gearcad.lazy import Entrance, lazily
 
-    __all__ += VERBS
+    __all__ += (*VERBS, *WITHOUT_DESIGN)
     __getattr__ = lazily(
         __name__,
         __all__,
         ("errors", "notice", "per_gear", "geometry", "load", "material", "mounting", "planetary"),
         _ROOMS,
-        {"read": "designs.read_spec", **{verb: f"jobs.{verb}.{verb}" for verb in VERBS}},
+        {"read": "designs.read_spec", **{verb: f"jobs.{verb}.{verb}" for verb in (*VERBS, *WITHOUT_DESIGN)}},
     )
     sys.modules[__name__].__class__ = Entrance
 

@@ -11,9 +11,9 @@ from typing import Any
 from gearcad.errors import InputError
 from gearcad.geometry.derived import derive
 from gearcad.geometry.feasibility import check_given, check_tool
+from gearcad.geometry.gauged import inspection_of
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.inspection import Inspection
-from gearcad.geometry.internal_inspection import InternalInspection
 from gearcad.geometry.internal_profile import InternalProfile
 from gearcad.geometry.modification import FlankForm, check_flanks
 from gearcad.geometry.picture import gear_html
@@ -139,22 +139,8 @@ class Gear(GearData):
     @cached_property
     def inspection(self) -> Inspection:
         """Measuring the teeth, with any gauge; the properties below are those of the gauges suggested."""
-        kind = InternalInspection if self.internal else Inspection
         middle = self.reference_diameter + 2 * self.profile_shift * self.normal_module
-        return kind(
-            teeth=self.teeth,
-            normal_module=self.normal_module,
-            pressure_angle=self.rack.pressure_angle,
-            helix_angle=self.helix_angle,
-            transverse_pressure_angle=self.transverse_pressure_angle,
-            base_helix_angle=self.base_helix_angle,
-            base_diameter=self.base_diameter,
-            normal_tooth_thickness=self.normal_tooth_thickness,
-            base_half_angle=self.base_half_angle,
-            middle_diameter=min(max(middle, self.form_diameter), self.tip_form_diameter),
-            addendum=(self.tip_diameter - self.reference_diameter) / 2,
-            lead=self.lead,
-        )
+        return inspection_of(self, min(max(middle, self.form_diameter), self.tip_form_diameter))
 
     @property
     def span_teeth(self) -> int | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from gearcad.jobs.verbs import VERBS
+from gearcad.jobs.verbs import VERBS, WITHOUT_DESIGN
 from gearcad.lazy import lazily
 
 TYPE_CHECKING = False  # as in guard.py
@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
     from gearcad.jobs.job import Job
 
-__all__ = ["VERBS", "job_of"]
+__all__ = ["VERBS", "WITHOUT_DESIGN", "job_of"]
 
-__getattr__ = lazily(__name__, __all__, (), ("job", "subject", *VERBS))
+__getattr__ = lazily(__name__, __all__, (), ("job", "subject", *VERBS, *WITHOUT_DESIGN))
 
 
 def job_of(verb: str) -> type[Job[Any, Any]]:

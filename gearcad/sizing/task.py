@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 from gearcad.errors import ParameterError, is_finite_number
 from gearcad.geometry import ISO53_A, BasicRack
+from gearcad.geometry.iso54 import ISO_54_I, ISO_54_II
 from gearcad.load import Load
 from gearcad.material import Material, MaterialGroup
 from gearcad.per_gear import PerGear, naming
@@ -24,11 +25,6 @@ from gearcad.reprs import concise
 from gearcad.schema import Words, require_fields
 
 __all__ = ["ISO_54_I", "ISO_54_II", "MOST_VARIANTS", "Criterion", "SizeTask"]
-
-ISO_54_I = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50)
-"""Normal modules (mm) that ISO 54 prefers."""
-
-ISO_54_II = (1.125, 1.375, 1.75, 2.25, 2.75, 3.5, 4.5, 5.5, 6.5, 7, 9, 11, 14, 18, 22, 28, 36, 45)
 
 _TIP_THICKNESS, _HARD_TIP_THICKNESS = 0.2, 0.4
 """Least normal thickness of a tip, in normal modules; that of case-hardened teeth, which would be brittle."""

@@ -1,0 +1,102 @@
+"""What came of a search: candidates, how good they are, and what else to measure where several are left."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from gearcad.identify.candidate import Candidate
+from gearcad.identify.measured import Measured, Reading
+from gearcad.notice import Notice, texts
+
+__all__ = ["Deciding", "Identification"]
+
+_CERTAIN = 0.95
+"""The least probability of what is called certain."""
+
+_LEAST_FIT = 0.002
+"""The least probability that a chi-square as great as the best would have by chance, of readings that fit."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Deciding:
+    """Something else to measure, what each candidate would have there, and how far apart that is.
+
+    With `less` it is two readings, of which the difference counts. `apart` is the least distance between the first candidate
+    and another, in units of what a reading of `place.uncertainty` and the fits leave open.
+    """
+
+    place: Reading
+    less: Reading | None
+    predicted: tuple[float, ...]
+    apart: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """As identify.json has it."""
+        said, less = self.place.to_dict(), None if self.less is None else self.less.to_dict()
+        for each in (said, less or {}):
+            each.pop("value", None)
+        return {**said, "less": less, "predicted": list(self.predicted), "apart": self.apart}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Identification:
+    """Candidates, the most probable first; what would decide between those that are left; and the chance of such residuals."""
+
+    measured: Measured
+    candidates: tuple[Candidate, ...]
+    deciding: tuple[Deciding, ...]
+    chance: float
+
+    @property
+    def best(self) -> Candidate:
+        return self.candidates[0]
+
+    @property
+    def fits(self) -> bool:
+        """Whether the best has residuals as uncertainties make them."""
+        return self.chance >= _LEAST_FIT
+
+    @property
+    def certain(self) -> bool:
+        """Whether the best fits, and all others together are improbable."""
+        return self.fits and self.best.probability >= _CERTAIN
+
+    @property
+    def rivals(self) -> tuple[Candidate, ...]:
+        """Those that are left beside the best."""
+        return () if self.certain else tuple(each for each in self.candidates[1:] if each.probability >= (1 - _CERTAIN) / 5)
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What to know before a gear is made by this."""
+        found = list(self.measured.notices)
+        if not self.fits:
+            worst = max(range(len(self.measured.readings)), key=lambda each: abs(self.best.residuals[each]))
+            label = self.measured.label(self.measured.readings[worst])
+            off = f"the {label} is {self.best.residuals[worst]:+.1f} uncertainties off"
+            found.append(Notice("no-fit", f"no candidate fits: {off}; count and measure again"))
+        for each in self.best.off_involute:
+            text = f"the {self.measured.label(each)} would not touch the involute of the first candidate"
+            found.append(Notice("off-involute", text))
+        return tuple(found)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The notices in words."""
+        return texts(self.notices)
+
+    def to_dict(self) -> dict[str, Any]:
+        """What identify.json holds."""
+        return {
+            "kind": "identify",
+            "teeth": self.measured.teeth,
+            "mate_teeth": self.measured.mate_teeth,
+            "readings": [each.to_dict() for each in self.measured.readings],
+            "certain": self.certain,
+            "chance": self.chance,
+            "candidates": [each.to_dict() for each in self.candidates],
+            "deciding": [each.to_dict() for each in self.deciding],
+            "warnings": list(self.warnings),
+            "notices": [each.to_dict() for each in self.notices],
+        }
