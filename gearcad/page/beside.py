@@ -11,6 +11,7 @@ from gearcad.errors import format_number
 from gearcad.page.run import Run
 from gearcad.page.run_kinds import RUNS
 from gearcad.page.words import Words
+from gearcad.verdict import Verdict
 
 __all__ = ["changes_between", "figures_beside", "verb_of"]
 
@@ -60,6 +61,17 @@ def _text(value: Any, words: Words) -> str:
         return ""
     if isinstance(value, bool):
         return words["yes"] if value else words["no"]
+    if (verdict := _verdicts(words).get(value)) is not None:
+        return verdict
     if isinstance(value, float):
         return f"{value:.{_DIGITS}g}" if math.isfinite(value) else ""
     return format_number(value) if isinstance(value, int) else str(value)
+
+
+def _verdicts(words: Words) -> dict[str, str]:
+    """What a computation or a rating comes to."""
+    return {
+        Verdict.PASSED.value: words["passed"],
+        Verdict.FAILED.value: words["not passed"],
+        Verdict.NOT_JUDGED.value: words["not judged"],
+    }

@@ -3,8 +3,8 @@ export default {
   template: `
     <section class="runs" :aria-label="words.title">
       <div class="run-kinds">
-        <button v-for="kind in kinds" :key="kind.key" type="button" :title="kind.told" :disabled="!!kind.why" @click="$emit('start', { kind: kind.key })">
-          {{ kind.words }}<small v-if="kind.told">{{ kind.told }}</small>
+        <button v-for="kind in kinds" :key="kind.key" type="button" :title="kind.why || kind.told" :disabled="!!kind.why" @click="$emit('start', { kind: kind.key })">
+          {{ kind.words }}<small v-if="kind.told">{{ kind.told }}</small><small v-if="kind.why" lang="en">{{ kind.why }}</small>
         </button>
         <small class="run-limits">{{ limits }}</small>
       </div>
@@ -20,8 +20,10 @@ export default {
           </template>
           <template v-else>
             <span class="line" :lang="run.line ? 'en' : null">{{ run.line || said(run.state) }}</span>
-            <a v-if="run.report" :href="run.report" target="_blank" rel="noopener noreferrer">{{ words.report }}</a>
-            <a v-if="run.files" :href="run.files" download>{{ words.files }}</a>
+            <span v-if="run.files" class="links">
+              <a v-if="run.report" :href="run.report" target="_blank" rel="noopener noreferrer">{{ words.report }}</a>
+              <a :href="run.files" download>{{ words.files }}</a>
+            </span>
           </template>
           <small v-for="notice in run.notices" :key="notice" class="notice" lang="en">{{ notice }}</small>
         </li>

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from nicegui import background_tasks, run, ui
 
@@ -20,12 +20,19 @@ from gearcad.page.words import Words
 from gearcad.page.workbench import Workbench
 from gearcad.progress import Expected, about, about_memory
 
-__all__ = ["RunsPanel", "expected_of"]
+__all__ = ["Outlook", "RunsPanel", "expected_of"]
 
 _REST = 1.0
 """Seconds without a change after which it is worth telling what runs would take."""
 
 _LOOK = 0.25
+
+
+class Outlook(NamedTuple):
+    """What a run would take, or why it would not begin."""
+
+    told: str = ""
+    why: str = ""
 
 
 class RunsPanel:
@@ -34,8 +41,8 @@ class RunsPanel:
     def __init__(self, bench: Workbench, words: Words, runs: Runs | None = None) -> None:
         self._bench, self._words, self._runs = bench, words, runs or Runs()
         limits = Expected(self._runs.limits.seconds, self._runs.limits.memory)
-        self._view = RunsView(self._start, self._cancel, _words(words), f"{words['each run has at most']} {_told(limits)}")
-        self._expected: dict[str, str] = {}
+        self._view = RunsView(self._start, self._cancel, _words(words), f"{words['each run has at most']} {_size(limits)}")
+        self._expected: dict[str, Outlook] = {}
         self._design: Design | None = None
         self._task: asyncio.Task[None] | None = None
         self._names = _names(words)
@@ -109,7 +116,7 @@ class RunsPanel:
 
     def _show_kinds(self) -> None:
         kinds = [
-            {"key": key, "words": self._names[key], "told": self._expected.get(key, "")}
+            {"key": key, "words": self._names[key], **self._expected.get(key, Outlook())._asdict()}
             for key, kind in ANALYSES.items()
             if kind.accepts(self._bench.design)
         ]
@@ -159,23 +166,23 @@ class RunsPanel:
         return found
 
 
-def expected_of(design: Design) -> dict[str, str]:
-    """What each run that a design permits would take, or why it would not begin; nothing where nobody knows."""
+def expected_of(design: Design) -> dict[str, Outlook]:
+    """What is known beforehand of each run that is for designs of this kind."""
     found = {}
     for key, kind in ANALYSES.items():
         if kind.accepts(design):
             try:
                 expected = kind.job().expected(kind.made(design))
             except GearcadError as error:
-                found[key] = str(error)
+                found[key] = Outlook(why=str(error))
             else:
-                found[key] = _told(expected) if expected else ""
+                found[key] = Outlook(f"≈ {_size(expected)}" if expected else "")
     return found
 
 
-def _told(expected: Expected) -> str:
+def _size(expected: Expected) -> str:
     memory = f", {about_memory(expected.memory)}" if math.isfinite(expected.memory) else ""
-    return f"≈ {_figure(about(expected.seconds))}{memory}"
+    return f"{_figure(about(expected.seconds))}{memory}"
 
 
 def _left(of: Run) -> str:
