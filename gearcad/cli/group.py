@@ -34,7 +34,7 @@ class Commands(click.Group):
 
     def list_commands(self, _ctx: click.Context) -> list[str]:
         """In the order of use, not of the alphabet."""
-        return ["new", *job_commands(), "size", "identify", "study", "batch", "plot", "open"]
+        return ["new", *job_commands(), "size", "identify", "study", "batch", "plot", "open", "completion"]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """That of the module of its name, which is imported now: a command is as quick to start as what it needs."""

@@ -11,8 +11,15 @@ from gearcad.cli.group import debug_option, require_new_file
 __all__ = ["new"]
 
 
+def _names(_ctx: click.Context, _parameter: click.Parameter, begun: str) -> list[str]:
+    """What a shell completes."""
+    from gearcad.designs.starters import starters
+
+    return [name for name in starters() if name.startswith(begun)]
+
+
 @click.command()
-@click.argument("kind", required=False)
+@click.argument("kind", required=False, shell_complete=_names)
 @click.option("-o", "--output", metavar="FILE", help="Where to write it; - prints it.  [default: its own name here]")
 @click.option("--force", is_flag=True, help="Replace a file that exists.")
 @debug_option

@@ -40,7 +40,7 @@ def test_page_has_help_options_and_an_example(command: str) -> None:
     assert command in SHOWN_ONLY or any(text.startswith(f"gearcad {command}") for text in run)
 
 
-@pytest.mark.parametrize("command", [each for each in COMMANDS if each not in ("new", "data", *SHOWN_ONLY)])
+@pytest.mark.parametrize("command", [each for each in COMMANDS if each not in ("new", "data", "completion", *SHOWN_ONLY)])
 def test_page_names_every_file_that_its_example_writes(command: str) -> None:
     """What the example prints at its end, as `test_manual.py` finds it."""
     page = _page(command)

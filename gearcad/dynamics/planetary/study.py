@@ -102,9 +102,11 @@ def study_planetary(
         "stiffness", (), lambda: train_stiffness(train, loads if _carries(load) else None, method=method, material=material)
     )
     on_stages = stage_loads(train, flow) if flow is not None else {}
-    cycles = {} if flow is None else _stage_cycles(train, on_stages, method, material)
+    cycles = None
+    if flow is not None:
+        cycles = found.part("stiffness", ("stiffness",), lambda: _stage_cycles(train, on_stages, method, material))
     secant = {name: each.mean for name, each in (stiffness or {}).items()}
-    of_stages = {name: cycle.mean for name, cycle in cycles.items()}
+    of_stages = {name: cycle.mean for name, cycle in (cycles or {}).items()}
     tell("load sharing")
     sharing = found.part("sharing", ("power", "stiffness"), lambda: share_load(train, _loaded(train, load), secant, others))
     torsion = found.part(
@@ -117,7 +119,7 @@ def study_planetary(
         "running",
         ("power", "stiffness"),
         lambda: run_train(
-            train, _loaded(train, load), _courses(train, _there(stiffness), cycles, _there(flow)), given_speeds=others
+            train, _loaded(train, load), _courses(train, _there(stiffness), _there(cycles), _there(flow)), given_speeds=others
         ),
     )
     tell("masses")
@@ -151,7 +153,7 @@ def study_planetary(
         loads=loads,
         stage_loads=on_stages,
         stiffness=stiffness,
-        stage_cycles=cycles,
+        stage_cycles=cycles or {},
         sharing=sharing,
         torsion=torsion,
         running=running,

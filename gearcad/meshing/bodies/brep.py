@@ -18,6 +18,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.errors import SolverError
 from gearcad.meshing.bodies.mesh import Cells
+from gearcad.meshing.gmsh_library import load_gmsh
 
 __all__ = ["BrepFace", "EdgeLengths", "Filled", "RadialLengths", "Stage", "Surface", "fill_brep"]
 
@@ -140,8 +141,7 @@ def fill_brep(
 @contextmanager
 def _gmsh() -> Iterator[Any]:
     """gmsh, which is one for the whole process, from its begin to its end."""
-    import gmsh
-
+    gmsh = load_gmsh()
     gmsh.initialize(interruptible=False)  # the other way works in the main thread only
     try:
         gmsh.option.set_number("General.Terminal", 0)

@@ -13,6 +13,7 @@ from gearcad.errors import SolverError
 from gearcad.meshing.bodies import ElementMesh
 from gearcad.meshing.bodies.mesh import Cells
 from gearcad.meshing.files.gmsh_kinds import KINDS, ORDERS, nodes_of_parts
+from gearcad.meshing.gmsh_library import load_gmsh
 
 __all__ = ["write_with_gmsh"]
 
@@ -22,8 +23,7 @@ def write_with_gmsh(mesh: ElementMesh, path: Path) -> None:
 
     Groups count from 1, the parts first. Raises SolverError where gmsh cannot write the file.
     """
-    import gmsh
-
+    gmsh = load_gmsh()
     with _model(gmsh):
         _add_parts(gmsh.model, mesh)
         _add_sides(gmsh.model, mesh)

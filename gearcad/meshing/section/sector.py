@@ -11,6 +11,7 @@ import numpy as np
 from gearcad.arrays import Floats, Wholes
 from gearcad.errors import SolverError
 from gearcad.geometry import Gear
+from gearcad.meshing.gmsh_library import load_gmsh
 from gearcad.meshing.section.outline import HalfLengths, MeshSizes, SectorSides, Side, Stretch, sector_outline
 
 __all__ = ["MeshSizes", "SectorMesh", "fill_polygon", "mesh_sector"]
@@ -64,8 +65,7 @@ def fill_polygon(outline: Floats, growth: float | None = None) -> tuple[Floats, 
     Triangles have edges as the outline has near them; or, in a circle about the origin, longer ones by `growth` times the
     distance. Raises SolverError if gmsh fails.
     """
-    import gmsh
-
+    gmsh = load_gmsh()
     count = len(outline)
     gmsh.initialize(interruptible=False)  # the other way works in the main thread only
     try:
