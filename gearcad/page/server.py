@@ -7,6 +7,7 @@ import logging
 import secrets
 import socket
 import threading
+import time
 from pathlib import Path
 
 from gearcad.errors import ParameterError
@@ -35,6 +36,9 @@ _MOST_SESSIONS = 32
 
 _LARGEST_MESSAGE = 1 << 20
 """Bytes that a browser may send at once over its connection: four times the largest spec."""
+
+_LOOKED = 0.02
+"""Seconds between two looks whether it listens."""
 
 _GRACE = 1
 """Seconds that answers have to end when the server does."""
@@ -78,7 +82,7 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
     add_routes(app)
     app.add_middleware(Fences)
     app.add_middleware(Access, hosts=hosts, token=token)
-    app.on_startup(lambda: print(address, flush=True))
+    app.on_startup(threading.Thread(target=_tell, args=(address, host or LOCAL, port), daemon=True).start)
     app.on_startup(threading.Thread(target=warm_up, args=(first.design,), daemon=True).start)
     app.on_shutdown(Session.leave_all)
     app.on_shutdown(close_all_runs)
@@ -98,6 +102,16 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
             ws_max_size=_LARGEST_MESSAGE,
             timeout_graceful_shutdown=_GRACE,
         )
+
+
+def _tell(address: str, host: str, port: int) -> None:
+    """Print the address when somebody answers there."""
+    while True:
+        with socket.socket() as asking:
+            if asking.connect_ex((host, port)) == 0:
+                break
+        time.sleep(_LOOKED)
+    print(address, flush=True)
 
 
 def _in_one_line(record: logging.LogRecord) -> bool:

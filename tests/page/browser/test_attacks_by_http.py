@@ -1,0 +1,150 @@
+"""What other programs and other sites' pages may ask the server of the page for: nothing."""
+
+from __future__ import annotations
+
+import http.client
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+from support.page_server import serve
+
+SOCKET = "/_nicegui_ws/socket.io/?EIO=4"
+UPGRADE = {
+    "Connection": "Upgrade",
+    "Upgrade": "websocket",
+    "Sec-WebSocket-Version": "13",
+    "Sec-WebSocket-Key": "x3JJHMbDL1EzLkh9GBhXDw==",
+}
+EVIL = "http://evil.example"
+ELSEWHERE = "127.0.0.2"
+"""An address of this machine that is not where the page is by itself."""
+
+LARGE = b"4" + b"x" * (1 << 21)
+
+
+def ask(address: str, path: str = "/", method: str = "GET", body: bytes | None = None, **headers: str) -> tuple[int, str, str]:
+    """Status, cookie and text of an answer; a keyword is a header."""
+    connection = http.client.HTTPConnection(urlsplit(address).netloc, timeout=30)
+    connection.request(method, path, body, {name.replace("_", "-"): value for name, value in headers.items()})
+    answer = connection.getresponse()
+    text = "" if answer.status == 101 else answer.read().decode("utf-8", "replace")
+    connection.close()
+    return answer.status, answer.getheader("Set-Cookie", ""), text
+
+
+@pytest.mark.parametrize(
+    "headers", [{"Origin": EVIL}, {"Origin": "null"}, {"Host": "rebound.example:8765"}, {"Sec-Fetch-Site": "cross-site"}]
+)
+def test_other_sites_reach_neither_page_nor_connection(address: str, headers: dict[str, str]) -> None:
+    assert ask(address, **headers)[0] == 403
+    assert ask(address, f"{SOCKET}&transport=polling", **headers)[0] == 403
+    assert ask(address, f"{SOCKET}&transport=polling&sid=x", "POST", b"40", **headers)[0] == 403
+    assert ask(address, f"{SOCKET}&transport=websocket", **(UPGRADE | headers))[0] == 403
+
+
+def test_the_page_itself_reaches_its_connection(address: str) -> None:
+    ours = {"Origin": address.rstrip("/")}
+    assert ask(address, f"{SOCKET}&transport=polling", **ours)[0] == 200
+    assert ask(address, f"{SOCKET}&transport=websocket", **(UPGRADE | ours))[0] == 101
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/../../etc/passwd",
+        "/bodies/x/../../../etc/passwd",
+        "/bodies/%2e%2e/%2fetc%2fpasswd",
+        "/made/x/0/..%2f..%2freducer-21-43.toml",
+        "/made/x/0/reducer-21-43.toml",
+        "/_nicegui/3.0.0/static/..%2f..%2f..%2fpyproject.toml",
+        "/_nicegui/3.0.0/components/..%2f..%2f/etc/passwd",
+        "/reducer-21-43.toml",
+    ],
+)
+def test_no_path_leads_to_a_file(address: str, path: str) -> None:
+    status, _, text = ask(address, path)
+    assert status in (400, 404)
+    assert "root:" not in text and "normal_module" not in text and "[project]" not in text
+
+
+def test_what_is_too_large_is_refused_and_the_page_goes_on(address: str) -> None:
+    opened = ask(address, f"{SOCKET}&transport=polling")[2]
+    sid = opened.split('"sid":"')[1].split('"')[0]
+    with ThreadPoolExecutor(1) as polling:
+        polling.submit(ask, address, f"{SOCKET}&transport=polling&sid={sid}")  # who is refused is told so there, too
+        assert ask(address, f"{SOCKET}&transport=polling&sid={sid}", "POST", LARGE)[0] == 400
+    assert ask(address, "/given/nobody/spec?name=a.toml", "POST", LARGE)[0] == 404
+    assert ask(address, f"/?design={'A' * 20_000}")[0] == 200
+    assert ask(address)[0] == 200
+
+
+def test_others_need_the_token_and_ctrl_c_leaves_nothing(folder: Path, tmp_path: Path) -> None:
+    server, printed = serve(folder / "reducer-21-43.toml", "--host", ELSEWHERE, temporary=tmp_path)
+    try:
+        address, token = printed.split("?token=")
+        assert ask(address)[0] == ask(address, "/?token=wrong")[0] == ask(address, f"{SOCKET}&transport=polling")[0] == 403
+        status, cookie, text = ask(address, f"/?token={token}")
+        assert status == 200 and token not in text
+        assert ask(address, Cookie=cookie.split(";")[0])[0] == 200
+        assert ask(address, Cookie=cookie.split("=")[0] + "=" + "x" * len(token))[0] == 403
+        assert list(tmp_path.glob("gearcad-*"))
+    finally:
+        server.send_signal(signal.SIGINT)
+        status = server.wait(20)
+    assert status == 0
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.long
+def test_sigterm_ends_a_run_with_all_that_was_its_own(browser: object, folder: Path, tmp_path: Path) -> None:
+    server, address = serve(folder / "reducer-21-43.toml", temporary=tmp_path)
+    page = browser.new_page()  # type: ignore[attr-defined]
+    page.goto(address)
+    page.wait_for_selector(".scene[data-shown]")
+    page.click(".right >> text=Runs")
+    page.click(".run-kinds button:has-text('solid bodies')")
+    page.wait_for_function("() => /\\w/.test(document.querySelector('.run-list .step')?.textContent ?? '')", timeout=60_000)
+    children = _children(server.pid)
+    assert children
+    server.terminate()
+    assert server.wait(20) == 0
+    page.close()
+    deadline = time.monotonic() + 10
+    while time.monotonic() < deadline and any(map(_runs, children)):
+        time.sleep(0.1)
+    assert not any(map(_runs, children))
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.long
+def test_no_more_pages_than_the_server_has_room_for(folder: Path) -> None:
+    server, address = serve(folder / "spur.toml")
+    try:
+        statuses = [ask(address)[0] for _ in range(33)]
+    finally:
+        server.terminate()
+        server.wait(20)
+    assert statuses == [200] * 32 + [503]
+
+
+def _children(process: int) -> list[int]:
+    """Processes that it has started, and that these have."""
+    listed = subprocess.run(["ps", "-e", "-o", "pid=,ppid="], capture_output=True, text=True, check=True).stdout
+    parents = {int(line.split()[0]): int(line.split()[1]) for line in listed.splitlines()}
+    direct = [each for each, parent in parents.items() if parent == process]
+    return direct + [each for child in direct for each in _children(child)]
+
+
+def _runs(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return sys.platform != "linux" or "\nState:\tZ" not in Path(f"/proc/{process}/status").read_text(encoding="utf-8")

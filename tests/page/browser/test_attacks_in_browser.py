@@ -1,0 +1,155 @@
+"""What a hostile design, a hasty hand and other tabs do to a page: nothing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import psutil
+import pytest
+from support.page_server import Tab, serve
+
+from gearcad.page.links import pack
+
+SCRIPT = "<img src=x onerror=alert(1)><script>alert(1)</script>"
+TEETH = "pinion.teeth"
+
+SPEC = f"""# {SCRIPT}
+[pair]
+name = "hostile"
+normal_module = 3.0
+centre_distance = 97.0
+face_width = 25.0
+[pinion]
+name = "{SCRIPT}"
+teeth = 21
+profile_shift = 0.2
+[wheel]
+name = "{SCRIPT}"
+teeth = 43
+[material]
+name = "{SCRIPT}"
+[drawing]
+title = "{SCRIPT}"
+number = "{SCRIPT}"
+owner = "{SCRIPT}"
+"""
+
+GROWTH = 40.0
+"""MB that a server may grow by over 1,000 changes: caches of results fill up to their bounds."""
+
+HEAP = 10.0
+"""MB that a page may grow by over them."""
+
+
+def _minds_dialogs(tab: Tab) -> None:
+    tab.page.on("dialog", lambda dialog: (tab.errors.append(f"dialog: {dialog.message}"), dialog.dismiss()))
+
+
+def _waits_for_teeth(tab: Tab, teeth: int) -> None:
+    tab.page.wait_for_function(
+        "teeth => document.querySelector('.gear-section').dataset.teeth.startsWith(`${teeth} `)", arg=teeth, timeout=120_000
+    )
+
+
+def _hurry(tab: Tab, changes: int) -> None:
+    """Type numbers of teeth one after the other, as fast as the browser takes them; the last are 22."""
+    field = tab.field(TEETH)
+    for change in range(changes):
+        field.fill(str(23 + change % 5))
+    field.fill("22")
+
+
+def test_script_in_a_design_is_only_words(tab: Tab) -> None:
+    _minds_dialogs(tab)
+    page = tab.page
+    page.goto(f"{tab.address}?design={pack('hostile', SPEC)}")
+    page.wait_for_selector(".scene[data-shown]")
+    for place in ("left", "right"):
+        for title in (2, 3, 1):
+            page.click(f".{place} .q-tab:nth-child({title})")
+    page.wait_for_function("script => document.body.textContent.includes(script)", arg=SCRIPT)
+    assert page.locator("img[src=x]").count() == 0
+
+
+def test_script_in_a_field_is_told_as_it_is(tab: Tab) -> None:
+    _minds_dialogs(tab)
+    tab.field("pair.normal_module").fill(SCRIPT)
+    tab.page.wait_for_selector('[data-key="pair.normal_module"] .fault')
+    assert SCRIPT in tab.page.inner_text('[data-key="pair.normal_module"] .fault')
+    assert tab.page.locator("img[src=x]").count() == 0
+
+
+def test_no_script_that_gets_into_the_page_is_run(tab: Tab) -> None:
+    """The policy of the page holds where everything else has failed."""
+    _minds_dialogs(tab)
+    tab.page.evaluate("script => document.querySelector('.right').insertAdjacentHTML('beforeend', script)", SCRIPT)
+    tab.page.evaluate(
+        "() => { const one = document.createElement('script'); one.textContent = 'window.ran = 1'; document.body.append(one); }"
+    )
+    tab.page.wait_for_timeout(300)
+    assert tab.page.evaluate("window.ran") is None
+    assert len(tab.errors) >= 2 and all("Content Security Policy" in error or "404" in error for error in tab.errors)
+    tab.errors.clear()
+
+
+def test_the_last_of_rapid_changes_is_shown(tab: Tab) -> None:
+    _hurry(tab, 40)
+    _waits_for_teeth(tab, 22)
+    assert tab.field(TEETH).input_value() == "22"
+
+
+def test_two_tabs_do_not_see_each_other(tab: Tab, browser: Any) -> None:
+    context = browser.new_context()
+    other = Tab(context.new_page(), tab.address)
+    other.page.goto(tab.address)
+    other.page.wait_for_selector(".scene[data-shown]")
+    tab.give(TEETH, "22")
+    assert other.field(TEETH).input_value() == "21"
+    assert str(other.page.get_attribute(".gear-section", "data-teeth")).startswith("21 ")
+    context.close()
+    assert not other.errors
+
+
+@pytest.mark.long
+def test_the_token_is_not_in_history(browser: Any, folder: Path) -> None:
+    server, printed = serve(folder / "spur.toml", "--host", "127.0.0.2")
+    context = browser.new_context()
+    page = context.new_page()
+    try:
+        page.goto(printed)
+        page.wait_for_selector(".scene[data-shown]")
+        assert "token" not in page.url
+        assert "token" not in page.evaluate("document.referrer") + page.content()
+    finally:
+        context.close()
+        server.terminate()
+        server.wait(20)
+
+
+@pytest.mark.long
+def test_memory_is_flat_over_a_thousand_changes(browser: Any, folder: Path) -> None:
+    server, address = serve(folder / "reducer-21-43.toml")
+    context = browser.new_context(viewport={"width": 1280, "height": 800})
+    tab = Tab(context.new_page(), address)
+    try:
+        tab.page.goto(address)
+        tab.page.wait_for_selector(".scene[data-shown]")
+        measured = context.new_cdp_session(tab.page)
+        memory = []
+        for changes in (200, 1000):
+            _hurry(tab, changes)
+            _waits_for_teeth(tab, 22)
+            tab.page.wait_for_timeout(3000)  # until what takes long is found, too
+            measured.send("HeapProfiler.collectGarbage")
+            heap = measured.send("Runtime.getHeapUsage")["usedSize"] / 1e6
+            memory.append((psutil.Process(server.pid).memory_info().rss / 1e6, heap))
+    finally:
+        context.close()
+        server.terminate()
+        server.wait(20)
+    (server_before, heap_before), (server_after, heap_after) = memory
+    print(f"server {server_before:.0f} -> {server_after:.0f} MB, page {heap_before:.1f} -> {heap_after:.1f} MB")
+    assert server_after - server_before < GROWTH
+    assert heap_after - heap_before < HEAP
+    assert not tab.errors

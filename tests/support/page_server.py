@@ -1,0 +1,70 @@
+"""A server of the page, a browser without a window, and a tab of it that minds what went wrong."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+_ARGUMENTS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+"""Everybody is root somewhere, and machines without a graphics card draw all the same."""
+
+
+def serve(spec: Path, *options: str, temporary: Path | None = None) -> tuple[subprocess.Popen[str], str]:
+    """A server of a spec at a port of its own, and its address; its temporary files are in a folder."""
+    command = [sys.executable, "-m", "gearcad", "open", str(spec), "--no-browser", *options]
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}  # NiceGUI looks
+    if temporary is not None:
+        environment["TMPDIR"] = str(temporary)
+    server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=spec.parent, env=environment)
+    assert server.stdout is not None
+    address = server.stdout.readline().strip()
+    assert address.startswith("http://"), f"no address but {address!r}"
+    return server, address
+
+
+@contextmanager
+def launched() -> Iterator[Any]:
+    """Chromium, until the end."""
+    from playwright.sync_api import sync_playwright
+
+    os.environ.setdefault("NODE_OPTIONS", "--no-deprecation")
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=_ARGUMENTS)
+        yield chromium
+        chromium.close()
+
+
+class Tab:
+    """A tab that has the page, and what went wrong in it."""
+
+    def __init__(self, page: Any, address: str) -> None:
+        self.page, self.address = page, address
+        self.errors: list[str] = []
+        self.foreign: list[str] = []
+        page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("request", lambda request: None if self._ours(request.url) else self.foreign.append(request.url))
+
+    def _ours(self, url: str) -> bool:
+        return url.startswith((self.address, self.address.replace("http", "ws", 1), "data:", "blob:"))
+
+    def field(self, key: str) -> Any:
+        """The input of a key."""
+        return self.page.locator(f'[data-key="{key}"] :is(input, select)').first
+
+    def shown(self) -> str:
+        """What is told from the bodies that the scene shows now."""
+        return str(self.page.get_attribute(".scene", "data-shown"))
+
+    def give(self, key: str, text: str) -> None:
+        """Type into a field, and wait until the bodies are those of the design that comes of it."""
+        before = self.shown()
+        self.field(key).fill(text)
+        self.page.wait_for_function("former => document.querySelector('.scene').dataset.shown !== former", arg=before)
