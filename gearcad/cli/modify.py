@@ -60,6 +60,7 @@ def modify(
     with job_progress(shown=not quiet) as progress:
         proposal = job.run(design, progress)
     text = edit_spec(spec.read_bytes().decode("utf-8-sig"), proposal.changes, proposal.notes)
+    text = text.replace(f"go to output/{design.name}/", f"go to output/{proposal.name}/")  # as starters say behind a name
     with staged_files(path.parent) as staging:
         (staging / path.name).write_text(text, encoding="utf-8", newline="")
     if as_json:

@@ -22,6 +22,7 @@ from gearcad.designs import read_spec
 SPEC = """\
 # Coarse bodies, quickly solved.
 [pair]
+name = "pair"  # the results go to output/pair/
 normal_module = 2.0
 helix_angle = 15.0            # right hand
 face_width = 10.0
@@ -77,6 +78,7 @@ def test_the_written_spec_does_what_the_proposal_says(here: Path) -> None:
     assert conditions == [(12.5, 0, 0), (25, 0, 0), (37.5, 0, 0), (50, 0, 0), (50, 10, 0), (50, -10, 0), (50, 0, 10)]
     text = Path("pair-modified.toml").read_text(encoding="utf-8")
     assert "# of a time when nobody asked why" in text
+    assert "# the results go to output/pair-modified/" in text
     assert sorted(path.name for path in here.iterdir()) == ["pair-modified.toml", "pair.toml"]
     design = read_spec("pair-modified.toml")
     assert design.name == "pair-modified"
@@ -146,7 +148,7 @@ def test_it_prints_before_and_after_and_warns(here: Path, monkeypatch: pytest.Mo
             (),
             "kind = 'gear': must be a pair: flanks are modified for",
         ),
-        (SPEC.replace("[pair]", f'[pair]\nname = "{"n" * 95}"'), (), "must be a plain file name of at most 100 characters"),
+        (SPEC.replace('"pair"', f'"{"n" * 95}"'), (), "must be a plain file name of at most 100 characters"),
         ("teeth = 20\n", (), "pair.toml line 1: teeth: unknown table; permitted are [gear], [pair]"),
     ],
 )

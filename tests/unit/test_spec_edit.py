@@ -110,17 +110,14 @@ def test_a_name_comes_first_in_its_table() -> None:
     assert edit_spec("[pair]\nnormal_module = 2\n", {"pair.name": "b"}) == '[pair]\nname = "b"\nnormal_module = 2\n'
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "[wheel]\nteeth = 20\n",
-        "[[pinion]]\nteeth = 20\n",
-    ],
-    ids=["no such table", "several of its name"],
-)
-def test_what_cannot_be_edited_is_said_and_not_spoilt(text: str) -> None:
+def test_a_table_that_is_not_there_comes_to_the_end() -> None:
+    edited = edit_spec("[wheel]\nteeth = 20\n", {KEY: 7.0})
+    assert edited == "[wheel]\nteeth = 20\n\n[pinion]\nmodification.tip_relief = 7.0\n"
+
+
+def test_what_cannot_be_edited_is_said_and_not_spoilt() -> None:
     with pytest.raises(SpecError, match=r"write by hand: pinion\.modification\.tip_relief = 7\.0"):
-        edit_spec(text, {KEY: 7.0})
+        edit_spec("[[pinion]]\nteeth = 20\n", {KEY: 7.0})
 
 
 def test_a_table_in_one_line_gets_its_keys_without_notes() -> None:
