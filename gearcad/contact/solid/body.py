@@ -18,7 +18,7 @@ import numpy as np
 
 from gearcad.arrays import Floats, Wholes
 from gearcad.contact.shared.chain import Cuts
-from gearcad.contact.solid.around import Around, RingAround, SidesAround
+from gearcad.contact.solid.around import Around, ring_around, sides_around
 from gearcad.contact.solid.condensation import Forward
 from gearcad.contact.solid.half_turn import PARITIES
 from gearcad.contact.solid.hub import rigid_motions
@@ -31,7 +31,7 @@ from gearcad.threads import cores, on_all_cores, one_thread
 __all__ = ["Moved", "SolidBody", "SolidSector", "assemble_body"]
 
 
-_AT_ONCE, _FEWEST = 128, 8
+_AT_ONCE, _FEWEST = 72, 8
 """The most loads for which the body is solved at once, on all cores - more take more memory - and the fewest on each."""
 
 
@@ -49,6 +49,16 @@ class _Joints(NamedTuple):
     hub: tuple[Floats, Floats]
 
 
+class _Closed(NamedTuple):
+    """The body put together: how what is beside tooth 0 follows that; of both parities the dofs of the hub that follow the
+    bore, and what solves for the cut behind and these; the torque on half the hub that is held, by odd displacements of that cut.
+    """
+
+    around: Around
+    factors: list[tuple[Wholes, Callable[[Floats], Floats]]]
+    reaction: Floats
+
+
 @dataclass(frozen=True)
 class SolidBody:
     """A body of equal sectors: tooth 0, and `neighbours` on each side whose displacements are wanted too.
@@ -63,18 +73,6 @@ class SolidBody:
     cuts: Cuts
     neighbours: int
     tell: Share = field(default=unheard, compare=False, repr=False)
-
-    @cached_property
-    def _around(self) -> Around:
-        span = self.sector.span
-        if self.held:
-            return SidesAround(span, self.rest // 2, self.neighbours, self.cuts, self.sector.cut_radii)
-        return RingAround(span, self.rest, self.neighbours)
-
-    def _matrix(self, parity: int) -> Floats:
-        """Of tooth 0 and what stands beside it, on the cut behind and the hub."""
-        result: Floats = self.sector.span.matrices[parity] + self._around.matrix(parity)
-        return result
 
     def solve(self, loads: Floats, wanted: Wholes | None = None, *, at: Wholes | None = None) -> Moved:
         """Displacements of the nodes `wanted` (n,) of each tooth, and torques, by loads (3 k, m) in N at nodes (k,) of tooth 0.
@@ -99,7 +97,7 @@ class SolidBody:
                 self.tell(over / len(torques))
 
         with one_thread():  # the cores are taken by what is side by side
-            self._prepare()
+            _ = self._closed  # or threads would make it at the same time
             on_all_cores(work, _some_at_a_time(len(torques)))
         turn = sector.polar_turn_at(wanted)
         for each in found:
@@ -112,32 +110,29 @@ class SolidBody:
             for name in vars(each).keys() - {own.name for own in fields(each)}:
                 del vars(each)[name]
 
-    def _prepare(self) -> None:
-        """Make what threads would else make at the same time."""
-        _ = self._factors, self._reaction
-
     @cached_property
-    def _factors(self) -> list[tuple[Wholes, Callable[[Floats], Floats]]]:
-        """Of both parities: the dofs of the hub that follow the bore, and what solves for the cut behind and these."""
+    def _closed(self) -> _Closed:
         import scipy.linalg
 
-        span = self.sector.span
-        found: list[tuple[Wholes, Callable[[Floats], Floats]]] = []
-        for parity in (0, 1):
+        span, sides = self.sector.span, (self.rest // 2, self.neighbours, self.cuts, self.sector.cut_radii)
+        around, beside = sides_around(span, *sides) if self.held else ring_around(span, self.rest, self.neighbours)
+        factors: list[tuple[Wholes, Callable[[Floats], Floats]]] = []
+        for parity, matrix in enumerate(beside):
+            matrix += span.matrices[parity]
             ours = np.flatnonzero(span.hub_parities == PARITIES[parity]) if self.sector.free else np.empty(0, int)
             every = np.r_[np.arange(span.cut), span.cut + ours]
-            matrix = self._matrix(parity)[np.ix_(every, every)]
+            chosen = matrix[np.ix_(every, every)]
             if len(ours):  # forces for dofs: it is not definite
-                found.append((ours, partial(scipy.linalg.lu_solve, scipy.linalg.lu_factor(matrix))))
+                factors.append((ours, partial(scipy.linalg.lu_solve, scipy.linalg.lu_factor(chosen))))
             else:
-                found.append((ours, partial(scipy.linalg.cho_solve, scipy.linalg.cho_factor(matrix, lower=True))))
-        return found
+                factors.append((ours, partial(scipy.linalg.cho_solve, scipy.linalg.cho_factor(chosen, lower=True))))
+        return _Closed(around, factors, beside[1][-1, : span.cut].copy())
 
     def _joints(self, solved: Forward, arriving: tuple[Floats, Floats]) -> _Joints:
         span = self.sector.span
         cuts, hubs = [], []
-        given = self.sector.hub_forward[0].dot(solved)
-        for (ours, solve), right, own in zip(self._factors, arriving, given, strict=True):
+        given = self.sector.hub_forward.dot(solved)
+        for (ours, solve), right, own in zip(self._closed.factors, arriving, given, strict=True):
             both = solve(np.concatenate([right, -own[ours]]))
             hub = np.zeros((len(span.hub_parities), right.shape[1]))
             hub[ours] = both[span.cut :]
@@ -152,19 +147,14 @@ class SolidBody:
             per_sector = (sector.cut_turn.T @ sector.mesh.to_turning(turn).ravel()) @ sector.hub_forces
             result: Floats = (self.rest + 1) * per_sector[0] * joints.hub[1][0]
             return result
-        own = sector.hub_forward[0].dot(solved)[1][0]
-        reaction: Floats = -2 * (own + self._reaction @ joints.cuts[1])
+        own = sector.hub_forward.dot(solved)[1][0]
+        reaction: Floats = -2 * (own + self._closed.reaction @ joints.cuts[1])
         return reaction
-
-    @cached_property
-    def _reaction(self) -> Floats:
-        """On half the hub that is held, by odd displacements (n,) of the cut behind."""
-        return self._matrix(1)[-1, : self.sector.span.cut].copy()
 
     def _teeth(self, solved: Forward, joints: _Joints, nodes: Wholes) -> Iterator[tuple[int, Floats]]:
         """Every tooth, and the displacements (3 n, m) of nodes of it, in polar axes at the cuts."""
         sector, reversal = self.sector, self.sector.span.reversal
-        even, odd = (self._around.cuts(joints.cuts[p], joints.hub[p], p) for p in (0, 1))
+        even, odd = (self._closed.around.cuts(joints.cuts[p], joints.hub[p], p) for p in (0, 1))
         ahead = [one + two for one, two in zip(even, odd, strict=True)]
         behind = [reversal.rows(one - two) for one, two in zip(even, odd, strict=True)]
         hub = joints.hub[0] + joints.hub[1]
@@ -180,7 +170,7 @@ class SolidBody:
         if not self.sector.free:
             return solved
         even = (self.sector.hub_parities == PARITIES[0])[:, None]
-        ours = self.sector.hub_forward[0].times(-hub * even, -hub * ~even)
+        ours = self.sector.hub_forward.times(-hub * even, -hub * ~even)
         return ours if solved is None else solved.plus(ours)
 
 

@@ -101,15 +101,11 @@ class _Orbits:
 
 @dataclass(frozen=True)
 class Condensed:
-    """The elimination, and what it leaves: `matrices` for even and odd motions on the dofs of the cut behind.
-
-    Those of the cut ahead are these after the turn, or their opposites. The energy of a motion is the sum over both of u.T F u.
-    """
+    """The elimination: fronts of the half, and for even and odd motions those on top of it."""
 
     orbits: _Orbits
     half: tuple[Front, ...]
     top: tuple[Front, Front]
-    matrices: tuple[Floats, Floats]
 
     @property
     def cut(self) -> Wholes:
@@ -183,8 +179,13 @@ class Condensed:
         return found[::-1]
 
 
-def condense(turn: HalfTurn, halves: Halves, cut: Wholes, matrices_of: Callable[[Box], Floats], tell: Share) -> Condensed:
+def condense(
+    turn: HalfTurn, halves: Halves, cut: Wholes, matrices_of: Callable[[Box], Floats], tell: Share
+) -> tuple[Condensed, tuple[Floats, Floats]]:
     """Eliminate all nodes but those of the cut behind, `cut` (n,), and what the turn makes of them.
+
+    Second the matrices for even and odd motions that are left on the dofs of the cut behind. Those of the cut ahead are these
+    after the turn, or their opposites. The energy of a motion is the sum over both of u.T F u.
 
     `matrices_of` gives the matrices (m, 60, 60) of the hexahedra of a box; nodes that no part has are held. Raises SolverError
     for a matrix that is not positive definite.
@@ -229,7 +230,7 @@ def condense(turn: HalfTurn, halves: Halves, cut: Wholes, matrices_of: Callable[
         return Front(node_dofs(halves.between), node_dofs(cut), own, across), rest
 
     (even, of_even), (odd, of_odd) = on_all_cores(eliminated, given)
-    return Condensed(orbits, tuple(elimination.fronts), (even, odd), (of_even, of_odd))
+    return Condensed(orbits, tuple(elimination.fronts), (even, odd)), (of_even, of_odd)
 
 
 def _orbits(turn: HalfTurn, halves: Halves, cut: Wholes) -> _Orbits:

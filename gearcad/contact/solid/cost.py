@@ -31,7 +31,7 @@ within a third for some 5 to 30 thousand nodes; the smallest meshes, which are m
 _SPAN, _DOUBLED = 5.0, 3.0
 """Steps of putting one more tooth on both sides of a row, and of doubling a row."""
 
-_FRONTS, _ROWS_OF_CUTS, _COPIES, _AT_ONCE = 2.2, 12.0, 1.6, 128
+_FRONTS, _ROWS_OF_CUTS, _COPIES, _AT_ONCE = 2.2, 8.0, 1.6, 72
 """Numbers in memory: copies of what is kept, matrices of a cut, and copies of all dofs for so many loads at once."""
 
 _READ = 0.35

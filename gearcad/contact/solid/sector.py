@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -24,6 +24,14 @@ from gearcad.meshing.section.swept import SweptMesh
 from gearcad.progress import Share, unheard
 
 __all__ = ["SolidSector"]
+
+
+class _Made(NamedTuple):
+    """What comes of the condensation: itself, its `forward` of the hub's forces, and the sector as a row."""
+
+    condensed: Condensed
+    hub_forward: Forward
+    span: Span
 
 
 @dataclass(frozen=True)
@@ -116,9 +124,37 @@ class SolidSector:
         """The turn that leaves the sector as it is."""
         return HalfTurn(self.mesh)
 
-    @cached_property
+    @property
     def condensed(self) -> Condensed:
         """The sector with its hub held, condensed to its cuts."""
+        return self._made.condensed
+
+    @property
+    def hub_forward(self) -> Forward:
+        """What `backward` needs of the hub's forces."""
+        return self._made.hub_forward
+
+    @property
+    def span(self) -> Span:
+        """The sector alone as a row of sectors: on its cuts and its hub."""
+        return self._made.span
+
+    @cached_property
+    def _made(self) -> _Made:
+        condensed, at_cut = self._condense()
+        solved, arriving = condensed.forward(self.hub_forces, np.arange(self.mesh.nodes))
+        own = np.zeros((1, 1)) if self.free else self.hub_turn[None] @ self.hub_forces / 2
+        inner, matrices = solved.dot(solved), []
+        for parity in (0, 1):
+            across = arriving[parity]
+            others = self.hub_parities != PARITIES[parity]
+            hub = own - inner[parity]
+            across[:, others] = hub[others] = hub[:, others] = 0.0
+            matrices.append(np.block([[at_cut[parity], across], [across.T, hub]]))
+        span = Span((matrices[0], matrices[1]), 1, self._reversal, self.seen_by, self.hub_parities)
+        return _Made(condensed, solved, span)
+
+    def _condense(self) -> tuple[Condensed, tuple[Floats, Floats]]:
         section, layers = self.mesh.section, [matrices for _, matrices in self._layers(self.mesh.section.quads)]
         held = np.empty(0, int) if self.free else self.mesh.side(Side.HELD)
 
@@ -142,21 +178,6 @@ class SolidSector:
         return matrices
 
     @cached_property
-    def span(self) -> Span:
-        """The sector alone as a row of sectors: on its cuts and its hub."""
-        solved, arriving = self.hub_forward
-        own = np.zeros((1, 1)) if self.free else self.hub_turn[None] @ self.hub_forces / 2
-        inner = solved.dot(solved)
-        matrices = []
-        for parity in (0, 1):
-            across = arriving[parity]
-            others = self.hub_parities != PARITIES[parity]
-            hub = own - inner[parity]
-            across[:, others] = hub[others] = hub[:, others] = 0.0
-            matrices.append(np.block([[self.condensed.matrices[parity], across], [across.T, hub]]))
-        return Span((matrices[0], matrices[1]), 1, self._reversal, self.seen_by, self.hub_parities)
-
-    @cached_property
     def _reversal(self) -> Reversal:
         nodes = self.half_turn.nodes[self.ahead[::3] // 3]  # of the cut behind, at whose places the nodes ahead come
         behind = self.behind[::3] // 3
@@ -177,11 +198,6 @@ class SolidSector:
         nodes = self.mesh.section.points[[self.mesh.section.ahead[0], self.mesh.section.behind[0]]]
         ahead, behind = np.arctan2(nodes[:, 1], nodes[:, 0])
         return partial(_seen, float(ahead - behind))
-
-    @cached_property
-    def hub_forward(self) -> tuple[Forward, tuple[Floats, Floats]]:
-        """What `backward` needs of the hub's forces, and those that arrive at the cuts."""
-        return self.condensed.forward(self.hub_forces, np.arange(self.mesh.nodes))
 
     @cached_property
     def hub_forces(self) -> Floats:

@@ -122,6 +122,12 @@ class Span:
         far[:, self.cut :] = far[:, self.cut :] @ self.seen(-aside)
         return far
 
+    def pushed(self, ends: Floats, aside: float) -> Floats:
+        """Forces (n, m) at the cut ahead by displacements of the cut behind and the hub (n + hub, m): as by `inward`."""
+        n, (even, odd) = self.cut, self.matrices
+        given = np.concatenate([ends[:n] / 2, self.seen(-aside) @ ends[n:]])
+        return self.reversal.rows(even[:n] @ given - odd[:n] @ given)
+
     def repeated(self, times: int) -> Span:
         """So many of this row."""
         if times == 1:
@@ -148,7 +154,7 @@ class Inside:
         import scipy.linalg
 
         reversal, n = self.side.reversal, self.side.cut
-        force = self.side.inward(self.aside) @ ends
+        force = self.side.pushed(ends, self.aside)
         if self.hub is not None:
             force += self.hub[parity] @ ends[n:]
             return -np.asarray(scipy.linalg.cho_solve((self.lower[parity], True), force, check_finite=False), float)
