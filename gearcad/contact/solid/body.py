@@ -51,7 +51,8 @@ class _Joints(NamedTuple):
 
 class _Closed(NamedTuple):
     """The body put together: how what is beside tooth 0 follows that; of both parities the dofs of the hub that follow the
-    bore, and what solves for the cut behind and these; the torque on half the hub that is held, by odd displacements of that cut.
+    bore, and what solves for the cut behind and these; the torque on half the hub that is held, by odd displacements of that
+    cut.
     """
 
     around: Around
