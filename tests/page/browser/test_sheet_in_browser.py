@@ -4,6 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from gearcad.designs.starters import starter_text
+from gearcad.page.links import pack
+
+LEAST_WIDTH = 100
+"""Pixels in which the words of a quantity can be read."""
+
 SHEET = '.gear-sheet[aria-label="data sheet"]'
 
 
@@ -87,3 +93,12 @@ def test_a_hostile_name_is_shown_as_text(tab: Any) -> None:
     )
     assert cell.locator("img").count() == 0
     assert tab.page.evaluate("window.hacked") is None
+
+
+def test_words_keep_their_room_beside_six_gears(tab: Any) -> None:
+    tab.page.goto(f"{tab.address}?lang=en&design={pack('planetary-alm', starter_text('planetary-alm')[1])}")
+    words = tab.page.locator(f'{SHEET} tr[data-row="gear.normal_module"] th').first
+    words.wait_for()
+    assert words.bounding_box()["width"] >= LEAST_WIDTH
+    right = tab.page.locator(".right")
+    assert right.evaluate("each => each.scrollWidth <= each.clientWidth")
