@@ -34,7 +34,7 @@ settings.register_profile(
 settings.load_profile("repeatable")
 
 
-def pytest_sessionstart() -> None:
+def pytest_collectstart() -> None:
     """What is collected lives until the end: the garbage collector need not look at it while that grows."""
     gc.disable()
 

@@ -101,7 +101,7 @@ def _shortest_curve(gear: Gear) -> float:
 DRAWN = (gear_inputs(), MODIFICATIONS, RIMS, WIDTHS, st.sampled_from([Element.HEX20, Element.HEX8]))
 
 
-@settings(max_examples=70)
+@settings(max_examples=40)
 @given(*DRAWN)
 def test_bodies_are_good_meshes(
     inputs: dict[str, Any], drawn: dict[str, float] | None, rim: float, width: float | None, element: Element

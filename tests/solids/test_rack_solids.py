@@ -150,7 +150,7 @@ def check_random(inputs: dict[str, Any]) -> None:
     check_facets(rack, 0.005 * rack.normal_module)
 
 
-@settings(max_examples=15)
+@settings(max_examples=10)
 @given(rack_inputs())
 def test_random_racks(inputs: dict[str, Any]) -> None:
     check_random(inputs)

@@ -177,7 +177,14 @@ def loads(sector: SolidSector) -> Any:
 
 
 @pytest.mark.parametrize(
-    ("cuts", "held"), [(None, 0), (Cuts.FIXED, 3), (Cuts.SLIDING, 5), (Cuts.FREE, 3), (Cuts.FREE, 5), (Cuts.FIXED, 5)]
+    ("cuts", "held"),
+    [
+        (None, 0),
+        (Cuts.FIXED, 3),
+        (Cuts.SLIDING, 5),
+        (Cuts.FREE, 3),
+        *(pytest.param(cuts, 5, marks=pytest.mark.long) for cuts in (Cuts.FREE, Cuts.FIXED)),
+    ],
 )
 def test_condensed_body_is_that_in_full(mesh: SweptMesh, sector: SolidSector, loads: Any, cuts: Cuts | None, held: int) -> None:
     teeth = GEAR.teeth if cuts is None else held
