@@ -11,8 +11,10 @@ import pytest
 
 from gearcad.arrays import Floats
 from gearcad.designs.reader import read_spec
+from gearcad.page.panels.section import section_in
 from gearcad.page.panels.section_content import section_of
 from gearcad.page.panels.section_parts import plain
+from gearcad.page.words import Language, Words
 from gearcad.shipped import templates
 
 CHORD = 2e-4
@@ -102,3 +104,12 @@ def test_plain_numbers_are_sent() -> None:
     content, _ = _content("double-23-81")
     assert json.dumps(plain(content)) == json.dumps(content)
     assert {type(value) for body in plain(content)["bodies"] for value in body["place"]} == {float}
+
+
+@pytest.mark.parametrize(("language", "names"), [("en", ["pinion", "rack"]), ("de", ["Ritzel", "Zahnstange"])])
+def test_gears_are_called_in_the_words_of_the_page(language: str, names: list[str]) -> None:
+    found = section_of(read_spec(templates() / "rack.toml"))
+    assert found is not None
+    shown = section_in(Words.of(Language(language)), found)
+    assert [body["name"] for body in shown["bodies"]] == names
+    assert shown["meshes"] == found["meshes"]

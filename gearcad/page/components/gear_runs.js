@@ -15,7 +15,7 @@ export default {
           <span class="what">{{ run.words }}<em v-if="stale.includes(run.number)">{{ words.stale }}</em></span>
           <template v-if="run.state === 'running' || run.state === 'waiting'">
             <progress :value="run.share > 0 ? run.share : null" max="1"></progress>
-            <span class="step" role="status">{{ run.state === "waiting" ? words.waiting : [run.step, run.left].filter(Boolean).join(", ") }}</span>
+            <span class="step" role="status" :lang="run.state === 'waiting' ? null : 'en'">{{ run.state === "waiting" ? words.waiting : [run.step, run.left].filter(Boolean).join(", ") }}</span>
             <button type="button" @click="$emit('cancel', { number: run.number })">{{ words.cancel }}</button>
           </template>
           <template v-else>

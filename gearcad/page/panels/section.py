@@ -9,9 +9,10 @@ from gearcad.page.components.section import SectionView
 from gearcad.page.panels import Panel
 from gearcad.page.panels.section_content import section_of
 from gearcad.page.panels.section_parts import plain
+from gearcad.page.panels.sheet_words import called
 from gearcad.page.words import Words
 
-__all__ = ["SectionPanel"]
+__all__ = ["SectionPanel", "section_in"]
 
 
 class SectionPanel(Panel[dict[str, Any] | None]):
@@ -20,18 +21,23 @@ class SectionPanel(Panel[dict[str, Any] | None]):
     compares = True
 
     def __init__(self, words: Words) -> None:
-        self._view = SectionView(words["transverse section"], _own(words))
+        self._words, self._view = words, SectionView(words["transverse section"], _own(words))
         self._kept: dict[str, Any] | None = None
 
     def find(self, design: Design) -> dict[str, Any] | None:
-        found: dict[str, Any] | None = plain(section_of(design))
-        return found
+        found = section_of(design)
+        return None if found is None else section_in(self._words, plain(found))
 
     def show(self, found: dict[str, Any] | None) -> None:
         self._view.show(found, self._kept)
 
     def keep(self, found: dict[str, Any] | None) -> None:
         self._kept = found
+
+
+def section_in(words: Words, found: dict[str, Any]) -> dict[str, Any]:
+    """A section whose gears are called in the words of the page."""
+    return found | {"bodies": [body | {"name": called(words, body["name"])} for body in found["bodies"]]}
 
 
 def _own(words: Words) -> dict[str, str]:
