@@ -36,6 +36,7 @@ html_math_renderer = "mathml"
 
 default_role = "literal"  # docstrings have code between single backquotes
 add_module_names = False
+toc_object_entries_show_parents = "hide"
 autodoc_member_order = "bysource"
 autodoc_typehints_format = "short"
 autodoc_preserve_defaults = True
@@ -46,6 +47,7 @@ html_static_path = ["static"]
 html_css_files = ["manual.css"]
 html_copy_source = False
 html_show_sphinx = False
+html_show_search_summary = False  # its excerpts are fetched, which no browser does of files
 html_theme_options = {"top_of_page_buttons": []}
 
 copybutton_prompt_text = r">>> |\.\.\. |\$ "

@@ -20,7 +20,7 @@ from click.testing import CliRunner
 from gearcad.cli import main
 from manual.blocks import Block, Command, blocks_of, commands_of
 
-__all__ = ["Fault", "run_page"]
+__all__ = ["Fault", "environment", "run_command", "run_page"]
 
 _FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 _WIDTH = "100"
@@ -47,7 +47,7 @@ class Fault:
 def run_page(page: Path, folder: Path) -> Iterator[Fault]:
     """Run the `console` and `python` blocks of a page, with the files that it shows."""
     names: dict[str, Any] = {"__name__": "__main__"}
-    with contextlib.chdir(folder), _environment():
+    with contextlib.chdir(folder), environment():
         for block in blocks_of(page.read_text(encoding="utf-8")):
             if block.file is not None:
                 Path(block.file).write_text(block.text, encoding="utf-8")
@@ -58,7 +58,8 @@ def run_page(page: Path, folder: Path) -> Iterator[Fault]:
 
 
 @contextlib.contextmanager
-def _environment() -> Iterator[None]:
+def environment() -> Iterator[None]:
+    """The screen that pages show, and our commands within reach of the shell."""
     kept = dict(os.environ)
     os.environ |= {
         "COLUMNS": _WIDTH,
@@ -79,7 +80,7 @@ def _run_commands(commands: list[Command]) -> Iterator[Fault]:
         if command.text == "echo $?":
             came = f"{status}\n"
         else:
-            status, came = _run(command.text)
+            status, came = run_command(command.text)
             if status and (following is None or following.text != "echo $?"):
                 yield Fault(command.line, f"{command.text} ends with {status}", command.shown, came)
                 continue
@@ -89,7 +90,7 @@ def _run_commands(commands: list[Command]) -> Iterator[Fault]:
             yield Fault(command.line, f"{command.text} shows something else", command.shown, came)
 
 
-def _run(command: str) -> tuple[int, str]:
+def run_command(command: str) -> tuple[int, str]:
     """Exit status and all output; commands of ours within this process, what else there is by the shell."""
     plain = re.sub(r"\s+# .*", "", command)
     if plain.startswith("gearcad ") and not re.search(r"[|<>;&$*]", re.sub(r"\"[^\"]*\"|'[^']*'", "", plain)):

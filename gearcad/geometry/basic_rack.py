@@ -56,7 +56,15 @@ class BasicRack:
 
 
 ISO53_A = BasicRack(dedendum=1.25, root_radius=0.38)
+"""Rack A of ISO 53: dedendum 1.25, root radius 0.38."""
+
 ISO53_B = BasicRack(dedendum=1.25, root_radius=0.30)
+"""Rack B of ISO 53: dedendum 1.25, root radius 0.30."""
+
 ISO53_C = BasicRack(dedendum=1.25, root_radius=0.25)
+"""Rack C of ISO 53: dedendum 1.25, root radius 0.25."""
+
 ISO53_D = BasicRack(dedendum=1.40, root_radius=0.39)
+"""Rack D of ISO 53: dedendum 1.40, root radius 0.39."""
+
 NAMED_RACKS = {"ISO53_A": ISO53_A, "ISO53_B": ISO53_B, "ISO53_C": ISO53_C, "ISO53_D": ISO53_D}
