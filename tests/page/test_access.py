@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from support.awaited import awaited
 
 from gearcad.page.access import Access
 from gearcad.page.fences import Fences
-from tests.support.awaited import awaited
 
 HERE = "127.0.0.1:8765"
 TOKEN = "t" * 43

@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from support.awaited import awaited
 
 from gearcad.designs.starters import starter_text
 from gearcad.errors import GearcadError, ParameterError, SpecError
 from gearcad.page.folder import LARGEST_SPEC, SPECS, TABLES, Folder, TakenError, text_of
 from gearcad.page.given import add_given, await_files
 from gearcad.shipped import templates
-from tests.support.awaited import awaited
 
 PAIR = starter_text("fzg-c")[1]
 NO_NAMES = [

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from support.awaited import awaited
 
 from gearcad.designs.starters import starter_text
 from gearcad.page.beside import changes_between, figures_beside, verb_of
 from gearcad.page.run import State
 from gearcad.page.runs import Runs
 from gearcad.page.words import Language, Words
-from tests.support.awaited import awaited
 
 pytest.importorskip("nicegui")
 pytest.importorskip("httpx")
