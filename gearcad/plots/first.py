@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Callable
+from contextlib import suppress
 from html import escape
 from importlib import import_module
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
-from gearcad.errors import ParameterError
+from gearcad.errors import InputError, ParameterError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -62,10 +63,15 @@ def plot(shown: object, ax: Axes | None = None) -> Axes:
 
 
 def shown_in_notebook(result: object) -> str:
-    """HTML of a result: its line as in a Python session, above its first picture, small."""
-    file = BytesIO()
-    figure = plot(result).get_figure(root=True)
+    """HTML of a result: its line as in a Python session, above its first picture, small, where there is something to draw."""
+    words, picture = f"<code>{escape(repr(result).removeprefix('<').removesuffix('>'))}</code>", ""
+    with suppress(InputError):
+        picture = f'<br/><img alt="" src="data:image/png;base64,{b64encode(_small(plot(result))).decode()}"/>'
+    return f"<div>{words}{picture}</div>"
+
+
+def _small(axes: Axes) -> bytes:
+    file, figure = BytesIO(), axes.get_figure(root=True)
     assert figure is not None  # that of the axes
     figure.savefig(file, format="png", dpi=_DOTS_PER_INCH)
-    picture = f'<img alt="" src="data:image/png;base64,{b64encode(file.getvalue()).decode()}"/>'
-    return f"<div><code>{escape(repr(result).strip('<>'))}</code><br/>{picture}</div>"
+    return file.getvalue()

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gearcad.errors import GeometryError
 from gearcad.per_gear import Role
 from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, prepared, short
 from gearcad.rating.scuffing import Scuffing
@@ -23,7 +24,12 @@ _ABOVE, _BELOW = 1.12, 0.88
 
 
 def plot_life(rating: StrengthRating, part: Part = Part.FLANK, ax: Axes | None = None) -> Axes:
-    """Strength over load cycles in logarithms, with the loads: stress and cycles of each gear."""
+    """Strength over load cycles in logarithms, with the loads: stress and cycles of each gear.
+
+    Raises GeometryError where no strength is known.
+    """
+    if all(of.resistance is None for of in rating.parts[part]):
+        raise GeometryError("material", rating.name, f"must have limits of the {part.value}, for its life to be drawn")
     axes = prepared(ax, "load cycles of a tooth", f"{'contact' if part is Part.FLANK else 'root'} stress in MPa")
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -39,12 +45,11 @@ def plot_life(rating: StrengthRating, part: Part = Part.FLANK, ax: Axes | None =
         axes.plot(*ends, color=colour, linestyle=style, label=f"strength of the {own}")
         seen += [*stress, *_loads(axes, rating, part, role)]
     axes.set_xlim(_FEWEST, _MOST)
-    if seen:
-        low, high = _BELOW * min(seen), _ABOVE * max(seen)
-        axes.set_ylim(low, high)
-        ticks = [each for each in (50, 100, 150, 200, 300, 400, 500, 700, 1000, 1500, 2000, 3000, 5000) if low <= each <= high]
-        axes.set_yticks(ticks, [short(each) for each in ticks])
-        axes.minorticks_off()
+    low, high = _BELOW * min(seen), _ABOVE * max(seen)
+    axes.set_ylim(low, high)
+    ticks = [each for each in (50, 100, 150, 200, 300, 400, 500, 700, 1000, 1500, 2000, 3000, 5000) if low <= each <= high]
+    axes.set_yticks(ticks, [short(each) for each in ticks])
+    axes.minorticks_off()
     legend_above(axes, 2)
     return axes
 
