@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from support.published import FILE, found_text
+from support.published import FILE, Row, found_text
 
 TESTS = Path(__file__).parents[1]
 DOCS = TESTS.parent / "docs"
@@ -53,14 +53,23 @@ def test_what_is_shown_is_within_what_is_permitted() -> None:
 
 
 @pytest.mark.parametrize(
-    ("found", "printed", "text"),
+    ("found", "printed", "within", "text"),
     [
-        (1.2345678, "1.23", "1.2346"),
-        (17.855842, "17.85584", "17.85584"),
-        (-124.2807, "-124.28", "-124.2807"),
-        (2.4, "2", "2.40"),
-        (0.02681974, "0.0268197", "0.0268197"),
+        (1.2345678, "1.23", 0.005, "1.2346"),
+        (17.855842, "17.85584", 5e-6, "17.85584"),
+        (-124.2807, "-124.28", 0.005, "-124.2807"),
+        (2.4, "2", 0.5, "2.40"),
+        (0.02681974, "0.0268197", 5e-8, "0.0268197"),
+        (356.78123, "357.98", 3.9, "356.781"),
     ],
 )
-def test_found_values_have_two_digits_more(found: float, printed: str, text: str) -> None:
-    assert found_text(found, printed) == text
+def test_found_values_have_two_digits_more(found: float, printed: str, within: float, text: str) -> None:
+    assert found_text(found, printed, within) == text
+
+
+def test_a_row_is_the_same_but_for_what_another_mesher_does() -> None:
+    row = Row("book", "", "c", "357.98", "356.781", 3.9, "test_a.py::test_b")
+    assert row.same(row._replace(found="356.500")) and not row.same(row._replace(found="356.300"))
+    exact = row._replace(published="16.83", found="16.8258", within=0.005)
+    assert exact.same(exact._replace(found="16.8259")) and not exact.same(exact._replace(found="16.8264"))
+    assert not exact.same(exact._replace(published="16.82"))

@@ -7,6 +7,7 @@ row is missing there, or says something else than what comes out, fails.
 from __future__ import annotations
 
 import json
+import math
 import os
 from functools import cache
 from pathlib import Path
@@ -23,6 +24,9 @@ PROPERTY = "published"
 
 _DIGITS = 7
 """Of what is found, at most: more are of nobody's concern, and differ from machine to machine."""
+
+_ALIKE = 0.1
+"""How far what comes out may be from what is shown, in parts of what is permitted: another version of a mesher does that."""
 
 
 class Row(NamedTuple):
@@ -41,9 +45,10 @@ class Row(NamedTuple):
         return self.test, self.source, self.of, self.quantity
 
     def same(self, other: Row) -> bool:
-        """Whether both say the same, but for the last digit of what is found."""
+        """Whether both say the same, but for the last digit of what is found, or a part of what is permitted."""
         last = 10.0 ** -len(self.found.partition(".")[2])
-        return self._replace(found="") == other._replace(found="") and abs(float(self.found) - float(other.found)) < 1.5 * last
+        apart = abs(float(self.found) - float(other.found))
+        return self._replace(found="") == other._replace(found="") and apart < max(1.5 * last, _ALIKE * self.within)
 
 
 @cache
@@ -52,10 +57,11 @@ def _shown_rows() -> dict[tuple[str, ...], Row]:
     return {row.key: row for row in rows}
 
 
-def found_text(found: float, printed: str) -> str:
-    """Two digits more than are printed, as long as these are known."""
+def found_text(found: float, printed: str, within: float) -> str:
+    """Two digits more than are printed, as long as these are known, and none below a thousandth of what is permitted."""
     places, whole = len(printed.partition(".")[2]), len(str(int(abs(found))))
-    return f"{found:.{max(places, min(places + 2, _DIGITS - whole))}f}"
+    telling = math.ceil(3 - math.log10(within))
+    return f"{found:.{max(places, min(places + 2, _DIGITS - whole, telling))}f}"
 
 
 class Published:
@@ -69,7 +75,7 @@ class Published:
         text = printed if isinstance(printed, str) else f"{printed:.12g}"
         assert found == pytest.approx(float(text), abs=within, rel=1e-12), f"{quantity}: {source}"
         test = f"{self._node.path.name}::{self._node.name.partition('[')[0]}"
-        row = Row(source, of, quantity, text, found_text(found, text), float(f"{within:.3g}"), test)
+        row = Row(source, of, quantity, text, found_text(found, text, within), float(f"{within:.3g}"), test)
         self._node.user_properties.append((PROPERTY, list(row)))
         if os.environ.get("GEARCAD_VALIDATION") != "write":
             shown = _shown_rows().get(row.key)
