@@ -43,7 +43,7 @@ export default {
     },
   },
   mounted() {
-    [this.turn, this.wanted, this.gears, this.surfaces, this.colours] = [0, 0, [], new Map(), {}];
+    [this.turn, this.wanted, this.gears, this.surfaces, this.looks] = [0, 0, [], new Map(), []];
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(30, 1, 0.1, 1e5);
     this.camera.up.set(0, 0, 1);
@@ -85,6 +85,7 @@ export default {
     window.removeEventListener("gear-turn", this.roll);
     cancelAnimationFrame(this.drawing);
     this.drop();
+    for (const each of this.looks?.flat() ?? []) each.dispose();
     this.controls?.dispose();
     this.renderer?.dispose();
   },
@@ -111,13 +112,16 @@ export default {
       this.cut();
       this.$el.dataset.shown = number;
     },
-    made(body) {
+    // A body as it is seen. Materials stay for the next that stands in its place: with the last of them a browser would forget how it draws.
+    made(body, place) {
       const { surface, edges } = this.surfaces.get(body.surface);
       const colour = new THREE.Color().setRGB(...body.colour, THREE.SRGBColorSpace);
-      const skin = new THREE.MeshStandardMaterial({ color: colour, metalness: 0.25, roughness: 0.55, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+      const looks = { metalness: 0.25, roughness: 0.55, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+      const [skin, ink] = (this.looks[place] ??= [new THREE.MeshStandardMaterial(looks), new THREE.LineBasicMaterial({ transparent: true, opacity: 0.55 })]);
+      skin.color.copy(colour);
       const group = new THREE.Group();
       const mesh = new THREE.Mesh(surface, skin);
-      const lines = new THREE.LineSegments(edges, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.55 }));
+      const lines = new THREE.LineSegments(edges, ink);
       group.add(mesh, lines);
       this.scene.add(group);
       return { body, group, mesh, lines, colour };
@@ -125,10 +129,7 @@ export default {
     // Let go of the bodies, and of all surfaces but those of these keys.
     drop(keys = new Set()) {
       this.uncut();
-      for (const { group, mesh, lines } of this.gears) {
-        this.scene.remove(group);
-        for (const each of [mesh, lines]) each.material.dispose();
-      }
+      for (const { group } of this.gears) this.scene.remove(group);
       this.gears = [];
       for (const [key, { surface, edges }] of this.surfaces)
         if (!keys.has(key)) {
@@ -165,7 +166,11 @@ export default {
         });
       }
       const planes = this.axis ? [this.plane] : null;
-      for (const { mesh, lines } of this.gears) for (const each of [mesh, lines]) Object.assign(each.material, { clippingPlanes: planes, needsUpdate: true });
+      for (const { mesh, lines } of this.gears)
+        for (const { material } of [mesh, lines]) {
+          material.needsUpdate = !material.clippingPlanes !== !planes;
+          material.clippingPlanes = planes;
+        }
       this.moveCut();
     },
     uncut() {
