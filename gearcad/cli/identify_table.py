@@ -88,9 +88,18 @@ def _verdict(found: Identification) -> Iterator[str]:
     else:
         first, *others = (f"{number}" for number in range(1, len(found.rivals) + 2))
         yield f"Ambiguous: {first} or {', '.join(others)}"
+    if found.alike:
+        same = ", ".join(f"{found.candidates.index(each) + 1}" for each in found.alike)
+        yield f"The flanks of {same} are those of 1 under another name, within uncertainty: as a replacement they are alike"
     if found.deciding:
-        clear = found.deciding[0].apart >= _CLEAR
-        yield "What would decide:" if clear else "Nothing else decides at once; these tell most, measured more finely:"
+        apart = found.deciding[0].apart
+        yield (
+            "What would decide:"
+            if min(apart) >= _CLEAR
+            else "What would tell some of them from 1:"
+            if max(apart) >= _CLEAR
+            else "Nothing else decides at once; these tell most, measured more finely:"
+        )
         yield from (_deciding_line(found, each) for each in found.deciding)
 
 
@@ -100,4 +109,5 @@ def _deciding_line(found: Identification, each: Deciding) -> str:
     how = " (gear rolled over paper)" if each.place.gauge is Gauge.TIP_HELIX_ANGLE else ""
     if each.less is not None:
         label = f"{found.measured.label(each.less)} and over {each.place.size:g}, their difference"
-    return f"  {label}{how}: {values}{unit} ({each.apart:.1f} uncertainties apart)"
+    apart = ", ".join(f"{distance:.1f}" for distance in each.apart)
+    return f"  {label}{how}: {values}{unit} (from 1: {apart} uncertainties)"

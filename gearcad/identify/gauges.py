@@ -25,6 +25,14 @@ _STEPS = np.array([1e-5, 1e-4, 1e-3, 1e-4, 1e-4, 1e-4, 1e-3, 1e-4])
 """Of differences, small beside how far each unknown bends a reading, large beside rounding."""
 
 
+_FELT_BY: dict[int, tuple[Gauge, ...]] = {
+    Unknown.ADDENDUM: (Gauge.TIP_DIAMETER, Gauge.TIP_HELIX_ANGLE, Gauge.MATE_TIP_DIAMETER),
+    Unknown.DEDENDUM: (Gauge.ROOT_DIAMETER,),
+    Unknown.MATE_SHIFT: (Gauge.CENTRE_DISTANCE, Gauge.MATE_TIP_DIAMETER),
+}
+"""Which gauges feel an unknown, of those that not all do."""
+
+
 @lru_cache(maxsize=256)
 def _rack(pressure_angle: float) -> BasicRack:
     return BasicRack(pressure_angle=pressure_angle)
@@ -51,7 +59,7 @@ def read_off(measured: Measured, places: Sequence[Reading], unknowns: Floats) ->
         gear = gear_data(measured.teeth, unknowns)
     except InputError:
         return np.full(len(places), np.nan)
-    inspection = inspection_of(gear, gear.reference_diameter)
+    inspection = _inspection(gear, places)
     found = np.empty(len(places))
     for number, place in enumerate(places):
         try:
@@ -61,23 +69,34 @@ def read_off(measured: Measured, places: Sequence[Reading], unknowns: Floats) ->
     return found
 
 
-def _read(measured: Measured, place: Reading, unknowns: Floats, gear: GearData, inspection: Inspection) -> float:
+def _inspection(gear: GearData, places: Sequence[Reading]) -> Inspection | None:
+    """What gauges of flanks ask; None where there are none."""
+    return inspection_of(gear, gear.reference_diameter) if any(place.size for place in places) else None
+
+
+def _read(measured: Measured, place: Reading, unknowns: Floats, gear: GearData, inspection: Inspection | None) -> float:
+    if inspection is not None and place.size:
+        return _over_flanks(inspection, place)
     match place.gauge:
         case Gauge.TIP_DIAMETER:
             return abs(gear.standard_tip_diameter)
         case Gauge.ROOT_DIAMETER:
             deeper = float(unknowns[Unknown.DEDENDUM]) - gear.rack.dedendum
             return abs(gear.standard_root_diameter - 2 * gear.normal_module * deeper)
-        case Gauge.SPAN:
-            return inspection.span_measurement(int(place.size))
         case Gauge.HELIX_ANGLE:
             return gear.helix_angle
         case Gauge.TIP_HELIX_ANGLE:
             return math.degrees(math.atan(math.pi * abs(gear.standard_tip_diameter) / gear.lead))
         case Gauge.LEAD:
             return gear.lead
-        case Gauge.CENTRE_DISTANCE | Gauge.MATE_TIP_DIAMETER:
+        case _:
             return _of_mate(measured, place.gauge, unknowns)
+
+
+def _over_flanks(inspection: Inspection, place: Reading) -> float:
+    match place.gauge:
+        case Gauge.SPAN:
+            return inspection.span_measurement(int(place.size))
         case Gauge.OVER_PINS:
             return inspection.over_pins(place.size)
         case Gauge.OVER_BALLS:
@@ -110,9 +129,10 @@ def sensitivity(
     here = read_off(measured, places, unknowns)
     slopes = np.zeros((len(places), UNKNOWNS))
     for each in varied:
+        felt = [row for row, place in enumerate(places) if each not in _FELT_BY or place.gauge in _FELT_BY[each]]
         beside = unknowns.copy()
         beside[each] += _STEPS[each]
-        slopes[:, each] = (read_off(measured, places, beside) - here) / _STEPS[each]
+        slopes[felt, each] = (read_off(measured, [places[row] for row in felt], beside) - here[felt]) / _STEPS[each]
     return here, slopes
 
 

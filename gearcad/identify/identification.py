@@ -14,6 +14,9 @@ __all__ = ["Deciding", "Identification"]
 _CERTAIN = 0.95
 """The least probability of what is called certain."""
 
+_WORN = 0.12
+"""Tooth thinning in modules above that of gears as they are made."""
+
 _LEAST_FIT = 0.002
 """The least probability that a chi-square as great as the best would have by chance, of readings that fit."""
 
@@ -22,30 +25,34 @@ _LEAST_FIT = 0.002
 class Deciding:
     """Something else to measure, what each candidate would have there, and how far apart that is.
 
-    With `less` it is two readings, of which the difference counts. `apart` is the least distance between the first candidate
-    and another, in units of what a reading of `place.uncertainty` and the fits leave open.
+    With `less` it is two readings, of which the difference counts. `apart` is the distance of each other candidate from the
+    first, in units of what a reading of `place.uncertainty` and the fits leave open.
     """
 
     place: Reading
     less: Reading | None
     predicted: tuple[float, ...]
-    apart: float
+    apart: tuple[float, ...]
 
     def to_dict(self) -> dict[str, Any]:
         """As identify.json has it."""
         said, less = self.place.to_dict(), None if self.less is None else self.less.to_dict()
         for each in (said, less or {}):
             each.pop("value", None)
-        return {**said, "less": less, "predicted": list(self.predicted), "apart": self.apart}
+        return {**said, "less": less, "predicted": list(self.predicted), "apart": list(self.apart)}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Identification:
-    """Candidates, the most probable first; what would decide between those that are left; and the chance of such residuals."""
+    """Candidates, the most probable first; what would decide between those that are left; and the chance of such residuals.
+
+    Those that are `alike` have the flanks of the best under another name, and run in its place.
+    """
 
     measured: Measured
     candidates: tuple[Candidate, ...]
     deciding: tuple[Deciding, ...]
+    alike: tuple[Candidate, ...]
     chance: float
 
     @property
@@ -76,6 +83,9 @@ class Identification:
             label = self.measured.label(self.measured.readings[worst])
             off = f"the {label} is {self.best.residuals[worst]:+.1f} uncertainties off"
             found.append(Notice("no-fit", f"no candidate fits: {off}; count and measure again"))
+        if (thinning := self.best.gear.tooth_thinning) > _WORN * self.best.gear.normal_module:
+            text = f"the teeth of the first candidate are {thinning:.2g} mm thinner than without backlash: worn, perhaps"
+            found.append(Notice("thin-teeth", f"{text}; a gear that is made again has less tooth_thinning"))
         for each in self.best.off_involute:
             text = f"the {self.measured.label(each)} would not touch the involute of the first candidate"
             found.append(Notice("off-involute", text))
@@ -96,6 +106,7 @@ class Identification:
             "certain": self.certain,
             "chance": self.chance,
             "candidates": [each.to_dict() for each in self.candidates],
+            "alike": [self.candidates.index(each) + 1 for each in self.alike],
             "deciding": [each.to_dict() for each in self.deciding],
             "warnings": list(self.warnings),
             "notices": [each.to_dict() for each in self.notices],

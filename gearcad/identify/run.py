@@ -9,7 +9,7 @@ import numpy as np
 
 from gearcad.errors import GeometryError
 from gearcad.identify.candidate import Candidate
-from gearcad.identify.further import deciding
+from gearcad.identify.further import further
 from gearcad.identify.identification import Identification
 from gearcad.identify.measured import Gauge, Measured
 from gearcad.identify.search import fits
@@ -43,13 +43,15 @@ def identify_gear(measured: Measured, count: int = 10) -> Identification:
     made.sort(key=lambda each: -each[1])
     likely = [(each, math.exp(weight - whole)) for each, weight in made[:count]]
     found = tuple(replace(each, probability=share) for each, share in likely if share >= _LEAST or share == likely[0][1])
-    result = Identification(measured=measured, candidates=found, deciding=(), chance=_chance(measured, found[0].chi_square))
+    result = Identification(
+        measured=measured, candidates=found, deciding=(), alike=(), chance=_chance(measured, found[0].chi_square)
+    )
     rivals = result.rivals
     if not rivals:
         return result
     lengths = [each.uncertainty for each in measured.readings if each.gauge not in (Gauge.HELIX_ANGLE, Gauge.TIP_HELIX_ANGLE)]
-    told = deciding(measured, (found[0], *rivals), min([*lengths, _USUAL_UNCERTAINTY]))
-    return replace(result, deciding=told)
+    told = further(measured, (found[0], *rivals), min([*lengths, _USUAL_UNCERTAINTY]))
+    return replace(result, deciding=told.deciding, alike=told.alike)
 
 
 def _chance(measured: Measured, chi_square: float) -> float:

@@ -118,19 +118,23 @@ def _first_helix(measured: Measured, start: Floats) -> float:
 def _miss(measured: Measured, start: Floats) -> float:
     """How far readings are from the usual, as a part of what may be; above 1 for what they rule out."""
     lengths = [each for each in measured.readings if each.gauge in _REACH]
+    circles, flanks = ([each for each in lengths if bool(each.size) is sized] for sized in (False, True))
+    _, miss = _off(circles, measured, start)
+    if miss > 1 or not flanks:  # flanks take longer
+        return miss
+    off, beside = _off(flanks, measured, start)
+    spans = [number for number, each in enumerate(flanks) if each.gauge is Gauge.SPAN]
+    return max(miss, beside, *(_pitch_miss(flanks, off, *pair) for pair in combinations(spans, 2)))
+
+
+def _off(places: list[Reading], measured: Measured, start: Floats) -> tuple[Floats, float]:
+    """How far readings are from the usual (mm), and the greatest as a part of what may be."""
+    off: Floats = np.array([each.value for each in places]) - read_off(measured, places, start)
     module = float(start[Unknown.MODULE])
-    off = np.array([each.value for each in lengths]) - read_off(measured, lengths, start)
-    may = np.array([_REACH[each.gauge] * module + _SIGMAS * each.uncertainty for each in lengths])
-    misses = [float(np.max(np.abs(off) / may, initial=0.0, where=np.isfinite(off)))]
-    misses += [_pitch_miss(lengths, off, pair) for pair in combinations(range(len(lengths)), 2) if _both_spans(lengths, pair)]
-    return max(misses)
+    may = np.array([_REACH[each.gauge] * module + _SIGMAS * each.uncertainty for each in places])
+    return off, float(np.max(np.abs(off) / may, initial=0.0, where=np.isfinite(off)))
 
 
-def _both_spans(lengths: list[Reading], pair: tuple[int, ...]) -> bool:
-    return all(lengths[each].gauge is Gauge.SPAN for each in pair)
-
-
-def _pitch_miss(lengths: list[Reading], off: Floats, pair: tuple[int, ...]) -> float:
+def _pitch_miss(flanks: list[Reading], off: Floats, one: int, other: int) -> float:
     """Two spans differ by base pitches, whatever shift and thinning are."""
-    one, other = pair
-    return abs(float(off[one] - off[other])) / (_SIGMAS * math.hypot(lengths[one].uncertainty, lengths[other].uncertainty))
+    return abs(float(off[one] - off[other])) / (_SIGMAS * math.hypot(flanks[one].uncertainty, flanks[other].uncertainty))

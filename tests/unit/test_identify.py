@@ -124,13 +124,35 @@ def test_gears_that_differ_in_little_are_ambiguous_and_what_would_decide_is_said
     found = gearcad.identify(24, tip_diameter=52.0, helix_angle=0)
     assert not found.certain and found.rivals
     told = found.deciding[0]
-    assert told.apart > 2 and len(told.predicted) == min(len(found.rivals) + 1, 4)
+    assert min(told.apart) > 2 and len(told.predicted) == min(len(found.rivals) + 1, 4)
     assert told.place.gauge is Gauge.SPAN and told.less is not None
     pitches = [np.pi * each.gear.normal_module * np.cos(np.radians(each.gear.rack.pressure_angle)) for each in found.candidates]
     apart = told.place.size - told.less.size
     assert told.predicted == pytest.approx([apart * pitch for pitch in pitches[: len(told.predicted)]], rel=1e-6)
     decided = gearcad.identify(24, tip_diameter=52.0, root_diameter=43.0, span={3: 15.40, 4: 21.30, 2: 9.49}, helix_angle=0)
     assert decided.certain and decided.best.gear.normal_module == 2.0
+
+
+def test_other_names_of_the_same_flanks_are_called_alike() -> None:
+    """Module 4.98 at 26.325 degrees is in no series, and flanks have no module: what is left differs in nothing measurable."""
+    rack = BasicRack(pressure_angle=26.325, addendum=0.795, dedendum=1.178, root_radius=0.2)
+    gear = Gear(teeth=30, normal_module=4.98, profile_shift=0.0695, face_width=40, rack=rack)
+    circles = {"tip_diameter": gear.tip_diameter, "root_diameter": gear.root_diameter}
+    spans = {count: gear.inspection.span_measurement(count) for count in (4, 5, 6)}
+    found = gearcad.identify(30, **circles, span=spans, helix_angle=0, uncertainty=0.005)
+    assert found.rivals and len(found.alike) >= 2
+    for each in found.alike:
+        balls = [candidate.gear.inspection.over_balls(8.5) for candidate in (found.best, each)]
+        assert balls[0] == pytest.approx(balls[1], abs=0.01)
+    other = gearcad.identify(24, tip_diameter=52.0, helix_angle=0)
+    assert other.rivals and not other.alike
+
+
+def test_thin_teeth_are_told() -> None:
+    gear = Gear(teeth=40, normal_diametral_pitch=20, face_width=10, tooth_thinning=0.3)
+    spans = {count: gear.inspection.span_measurement(count) for count in (4, 5, 6)}
+    found = gearcad.identify(40, tip_diameter=gear.tip_diameter, root_diameter=gear.root_diameter, span=spans, helix_angle=0)
+    assert "0.3 mm thinner than without backlash" in " ".join(found.warnings)
 
 
 def test_readings_that_contradict_each_other_are_told() -> None:
