@@ -7,8 +7,8 @@ import logging
 import secrets
 import socket
 import threading
-import time
 from pathlib import Path
+from typing import Any
 
 from gearcad.errors import ParameterError
 from gearcad.page.access import TOKEN, Access
@@ -37,8 +37,8 @@ _MOST_SESSIONS = 32
 _LARGEST_MESSAGE = 1 << 20
 """Bytes that a browser may send at once over its connection: four times the largest spec."""
 
-_LOOKED = 0.02
-"""Seconds between two looks whether it listens."""
+_WAITING = 128
+"""Connections that nobody has accepted yet."""
 
 _GRACE = 1
 """Seconds that answers have to end when the server does."""
@@ -63,7 +63,11 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
     from gearcad.page.workbench import Workbench
 
     first = Workbench(text, name, folder)  # what is wrong with it is told here, not in the browser
-    port = _free_port(host or LOCAL, port)
+    held = _held(host or LOCAL, port)
+    port = held.getsockname()[1]
+    taken: dict[str, Any] = {"fd": held.fileno()} if hasattr(socket, "AF_UNIX") else {}
+    if not taken:  # Windows, where no socket can be handed on
+        held.close()
     token = None if host is None else secrets.token_urlsafe(32)
     hosts = {f"{each}:{port}" for each in (host or LOCAL, "localhost")}
     address = f"http://{host or LOCAL}:{port}/{f'?{TOKEN}={token}' if token else ''}"
@@ -82,7 +86,7 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
     add_routes(app)
     app.add_middleware(Fences)
     app.add_middleware(Access, hosts=hosts, token=token)
-    app.on_startup(threading.Thread(target=_tell, args=(address, host or LOCAL, port), daemon=True).start)
+    app.on_startup(lambda: print(address, flush=True))
     app.on_startup(threading.Thread(target=warm_up, args=(first.design,), daemon=True).start)
     app.on_shutdown(Session.leave_all)
     app.on_shutdown(close_all_runs)
@@ -101,17 +105,8 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
             server_header=False,
             ws_max_size=_LARGEST_MESSAGE,
             timeout_graceful_shutdown=_GRACE,
+            **taken,
         )
-
-
-def _tell(address: str, host: str, port: int) -> None:
-    """Print the address when somebody answers there."""
-    while True:
-        with socket.socket() as asking:
-            if asking.connect_ex((host, port)) == 0:
-                break
-        time.sleep(_LOOKED)
-    print(address, flush=True)
 
 
 def _in_one_line(record: logging.LogRecord) -> bool:
@@ -125,20 +120,33 @@ def _in_one_line(record: logging.LogRecord) -> bool:
     return True
 
 
-def _free_port(host: str, port: int | None) -> int:
-    """The port that is asked for, or the first from PORT on at which nobody listens. Raises ParameterError."""
+def _held(host: str, port: int | None) -> socket.socket:
+    """Listening at the port that is asked for, or the first from PORT on that is free: nobody else gets it from here on.
+
+    Raises ParameterError.
+    """
     if host in _EVERYWHERE:
         raise ParameterError("host", host, "must be the one address at which others find this machine")
     for each in range(PORT, PORT + _TRIED) if port is None else (port,):
-        with socket.socket() as tried:
-            tried.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            try:
-                tried.bind((host, each))
-            except OSError as error:
-                if error.errno == errno.EADDRINUSE and port is None:
-                    continue
-                if error.errno in (errno.EADDRINUSE, errno.EACCES):
-                    raise ParameterError("port", each, f"must be free at {host}, and permitted to you") from error
-                raise ParameterError("host", host, "must be an address of this machine") from error
-            return each
+        try:
+            return _listening(host, each)
+        except OSError as error:
+            if error.errno == errno.EADDRINUSE and port is None:
+                continue
+            if error.errno in (errno.EADDRINUSE, errno.EACCES):
+                raise ParameterError("port", each, f"must be free at {host}, and permitted to you") from error
+            raise ParameterError("host", host, "must be an address of this machine") from error
     raise ParameterError("port", PORT, f"must be free at {host}, or one of the {_TRIED} behind it")
+
+
+def _listening(host: str, port: int) -> socket.socket:
+    held = socket.socket()
+    try:
+        held.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        held.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)  # connections inherit it: small answers go at once
+        held.bind((host, port))
+        held.listen(_WAITING)
+    except OSError:
+        held.close()
+        raise
+    return held

@@ -15,6 +15,17 @@ CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", 
 _ARGUMENTS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 """Everybody is root somewhere, and machines without a graphics card draw all the same."""
 
+SPARING = (
+    *("--in-process-gpu", "--disable-gpu-compositing", "--disable-accelerated-2d-canvas", "--renderer-process-limit=1"),
+    *("--disable-site-isolation-trials", "--disable-features=site-per-process,SpareRendererForSitePerProcess"),
+)
+"""Where the processor draws, it draws pages quickest without a graphics card's ways, and one process is quicker than many."""
+
+DESK = {"width": 1280, "height": 800}
+
+_POLL = 50
+"""Milliseconds between two looks: at each frame they would keep all frames coming."""
+
 
 def serve(spec: Path, *options: str, temporary: Path | None = None) -> tuple[subprocess.Popen[str], str]:
     """A server of a spec at a port of its own, and its address; its temporary files are in a folder."""
@@ -30,13 +41,13 @@ def serve(spec: Path, *options: str, temporary: Path | None = None) -> tuple[sub
 
 
 @contextmanager
-def launched() -> Iterator[Any]:
-    """Chromium, until the end."""
+def launched(*options: str) -> Iterator[Any]:
+    """Chromium with these options, until the end."""
     from playwright.sync_api import sync_playwright
 
     os.environ.setdefault("NODE_OPTIONS", "--no-deprecation")
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=_ARGUMENTS)
+        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=[*_ARGUMENTS, *options])
         yield chromium
         chromium.close()
 
@@ -50,7 +61,13 @@ class Tab:
         self.foreign: list[str] = []
         page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("dialog", self._refuse)
         page.on("request", lambda request: None if self._ours(request.url) else self.foreign.append(request.url))
+        page.on("websocket", lambda socket: None if self._ours(socket.url) else self.foreign.append(socket.url))
+
+    def _refuse(self, dialog: Any) -> None:
+        self.errors.append(f"dialog: {dialog.message}")
+        dialog.dismiss()
 
     def _ours(self, url: str) -> bool:
         return url.startswith((self.address, self.address.replace("http", "ws", 1), "data:", "blob:"))
@@ -67,4 +84,5 @@ class Tab:
         """Type into a field, and wait until the bodies are those of the design that comes of it."""
         before = self.shown()
         self.field(key).fill(text)
-        self.page.wait_for_function("former => document.querySelector('.scene').dataset.shown !== former", arg=before)
+        changed = "former => document.querySelector('.scene').dataset.shown !== former"
+        self.page.wait_for_function(changed, arg=before, polling=_POLL)

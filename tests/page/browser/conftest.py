@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.page_server import CHROMIUM, Tab, launched, serve
+from support.page_server import CHROMIUM, DESK, SPARING, Tab, launched, serve
 
 
 @pytest.fixture(scope="session")
@@ -35,18 +35,28 @@ def browser() -> Iterator[Any]:
     """Chromium without a window."""
     if CHROMIUM is None:
         pytest.skip("needs Chromium: apt-get install chromium")
-    with launched() as chromium:
+    with launched(*SPARING) as chromium:
         yield chromium
 
 
+@pytest.fixture(scope="session")
+def window(browser: Any, address: str) -> Any:
+    """What tabs have in common: what was fetched once, and a process that has compiled it."""
+    context = browser.new_context(viewport=DESK)
+    context.new_page().goto(f"{address}nothing")
+    return context
+
+
 @pytest.fixture
-def tab(browser: Any, address: str) -> Iterator[Tab]:
+def tab(window: Any, address: str) -> Iterator[Tab]:
     """A tab of its own with the page in it; that nothing went wrong and nothing foreign was asked for is part of each test."""
-    context = browser.new_context(viewport={"width": 1280, "height": 800})
-    found = Tab(context.new_page(), address)
+    found = Tab(window.new_page(), address)
     found.page.goto(address)
     found.page.wait_for_selector(".scene[data-shown]")
     yield found
-    context.close()
+    first, *others = window.pages
+    for page in others:
+        page.close()
+    first.evaluate("localStorage.clear()")
     assert not found.errors
     assert not found.foreign

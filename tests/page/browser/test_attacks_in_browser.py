@@ -7,7 +7,7 @@ from typing import Any
 
 import psutil
 import pytest
-from support.page_server import Tab, serve
+from support.page_server import DESK, Tab, serve
 
 from gearcad.page.links import pack
 
@@ -42,10 +42,6 @@ HEAP = 10.0
 """MB that a page may grow by over them."""
 
 
-def _minds_dialogs(tab: Tab) -> None:
-    tab.page.on("dialog", lambda dialog: (tab.errors.append(f"dialog: {dialog.message}"), dialog.dismiss()))
-
-
 def _waits_for_teeth(tab: Tab, teeth: int) -> None:
     tab.page.wait_for_function(
         "teeth => document.querySelector('.gear-section').dataset.teeth.startsWith(`${teeth} `)", arg=teeth, timeout=120_000
@@ -61,7 +57,6 @@ def _hurry(tab: Tab, changes: int) -> None:
 
 
 def test_script_in_a_design_is_only_words(tab: Tab) -> None:
-    _minds_dialogs(tab)
     page = tab.page
     page.goto(f"{tab.address}?design={pack('hostile', SPEC)}")
     page.wait_for_selector(".scene[data-shown]")
@@ -73,7 +68,6 @@ def test_script_in_a_design_is_only_words(tab: Tab) -> None:
 
 
 def test_script_in_a_field_is_told_as_it_is(tab: Tab) -> None:
-    _minds_dialogs(tab)
     tab.field("pair.normal_module").fill(SCRIPT)
     tab.page.wait_for_selector('[data-key="pair.normal_module"] .fault')
     assert SCRIPT in tab.page.inner_text('[data-key="pair.normal_module"] .fault')
@@ -82,7 +76,6 @@ def test_script_in_a_field_is_told_as_it_is(tab: Tab) -> None:
 
 def test_no_script_that_gets_into_the_page_is_run(tab: Tab) -> None:
     """The policy of the page holds where everything else has failed."""
-    _minds_dialogs(tab)
     tab.page.evaluate("script => document.querySelector('.right').insertAdjacentHTML('beforeend', script)", SCRIPT)
     tab.page.evaluate(
         "() => { const one = document.createElement('script'); one.textContent = 'window.ran = 1'; document.body.append(one); }"
@@ -94,7 +87,7 @@ def test_no_script_that_gets_into_the_page_is_run(tab: Tab) -> None:
 
 
 def test_the_last_of_rapid_changes_is_shown(tab: Tab) -> None:
-    _hurry(tab, 40)
+    _hurry(tab, 20)
     _waits_for_teeth(tab, 22)
     assert tab.field(TEETH).input_value() == "22"
 
@@ -130,7 +123,7 @@ def test_the_token_is_not_in_history(browser: Any, folder: Path) -> None:
 @pytest.mark.long
 def test_memory_is_flat_over_a_thousand_changes(browser: Any, folder: Path) -> None:
     server, address = serve(folder / "reducer-21-43.toml")
-    context = browser.new_context(viewport={"width": 1280, "height": 800})
+    context = browser.new_context(viewport=DESK)
     tab = Tab(context.new_page(), address)
     try:
         tab.page.goto(address)

@@ -7,7 +7,7 @@ from typing import Any
 from gearcad.designs.starters import starter_text
 from gearcad.page.links import pack
 
-CHANGES = 30
+CHANGES = 8
 
 NEARER = 15
 """Steps by which the section is looked at from near: each a quarter nearer."""
@@ -61,7 +61,7 @@ def test_bodies_are_cut_and_made_whole(tab: Any) -> None:
     tab.page.wait_for_function("() => document.querySelector('.scene').dataset.geometries > 4")
     assert "12.50 mm" in tab.page.inner_text(".scene .tools")
     tab.page.select_option(".scene select", "")
-    assert _memory(tab)[0] == before[0]
+    tab.page.wait_for_function("before => document.querySelector('.scene').dataset.geometries === before", arg=before[0])
 
 
 def test_two_points_are_measured(tab: Any) -> None:

