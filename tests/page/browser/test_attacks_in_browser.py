@@ -48,12 +48,19 @@ def _waits_for_teeth(tab: Tab, teeth: int) -> None:
     )
 
 
+_HURRY = """async ([key, changes]) => {
+  const field = document.querySelector(`[data-key="${key}"] input`);
+  for (let change = 0; change <= changes; change += 1) {
+    field.value = change < changes ? String(23 + (change % 5)) : "22";
+    field.dispatchEvent(new Event("input", { bubbles: true }));
+    await new Promise((resolve) => setTimeout(resolve, 30));
+  }
+}"""
+
+
 def _hurry(tab: Tab, changes: int) -> None:
-    """Type numbers of teeth one after the other, as fast as the browser takes them; the last are 22."""
-    field = tab.field(TEETH)
-    for change in range(changes):
-        field.fill(str(23 + change % 5))
-    field.fill("22")
+    """Type numbers of teeth one after the other, faster than a hand; the last are 22."""
+    tab.page.evaluate(_HURRY, [TEETH, changes])
 
 
 def test_script_in_a_design_is_only_words(tab: Tab) -> None:
