@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
-from nicegui import background_tasks, run, ui
+from nicegui import app, background_tasks, run, ui
 
 from gearcad.designs.design import Design
 from gearcad.page.panels import Panel
@@ -98,6 +98,8 @@ class Following:
         line = self._faults.get(panel)
         try:
             found = (await run.io_bound(panel.find, design),)
+            if app.is_stopping:  # then nothing was asked of the panel
+                return None
         except Exception as error:  # whatever it is: the other panels are as good as before
             if line is not None:
                 line.set_text(f"{self._failed} ({type(error).__name__}: {error})"[:300])
