@@ -117,3 +117,12 @@ def test_a_row_names_no_file_outside_the_folder(tmp_path: Path) -> None:
     table = read_results(heading + "a,ok,20,2,20,../../etc/passwd\n", "results.csv")
     with pytest.raises(SpecError, match="must be a file in the folder of the page"):
         table.spec(2, tmp_path)
+
+
+@pytest.mark.parametrize("columns", [("a", "gear.tip_diameter"), ("gear.tip_diameter", "a"), ("a", "b"), ("a",)])
+def test_two_columns_are_looked_at_first_where_there_are_two(columns: tuple[str, ...]) -> None:
+    pytest.importorskip("nicegui")
+    from gearcad.page.panels.table import first_columns
+
+    x, y, colour = first_columns(ResultsTable("results.csv", columns, {2: ["1"] * len(columns)}))
+    assert {x, y} == set(columns) and colour == ""

@@ -137,7 +137,8 @@ def first_columns(table: ResultsTable) -> list[str]:
     """What is drawn of a table at first: x, y, and no colour."""
     numbers = table.numbers or ("seconds", "seconds")
     x, y = (next((column for column in wanted if column in numbers), "") for wanted in _WANTED)
-    return [x or numbers[0], y or numbers[-1], ""]
+    x = x or numbers[0]
+    return [x, y or next((column for column in reversed(numbers) if column != x), x), ""]
 
 
 def chart_of(columns: Sequence[str], points: Sequence[Sequence[float]]) -> dict[str, Any]:
