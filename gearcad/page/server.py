@@ -10,7 +10,7 @@ import threading
 from pathlib import Path
 from typing import Any
 
-from gearcad.errors import ParameterError
+from gearcad.errors import ParameterError, printable
 from gearcad.page.access import TOKEN, Access
 from gearcad.page.ending import ending
 from gearcad.page.fences import Fences
@@ -80,7 +80,7 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
         Session.of(text, name, folder)
         return None
 
-    for logger in ("nicegui", "uvicorn.error"):
+    for logger in ("nicegui", "uvicorn.error", "asyncio"):
         logging.getLogger(logger).addFilter(_in_one_line)
     core.sio.eio.cors_allowed_origins = sorted(f"http://{each}" for each in hosts)
     add_routes(app)
@@ -116,6 +116,7 @@ def _in_one_line(record: logging.LogRecord) -> bool:
         record.msg, record.args = f"a page failed ({type(error).__name__}: {error})", ()
     elif isinstance(record.msg, Exception):
         record.msg = f"a page failed ({type(record.msg).__name__}: {record.msg})"
+    record.msg, record.args = printable(record.getMessage()), ()  # what a browser has sent must not move a terminal's cursor
     record.exc_info = record.exc_text = None
     return True
 

@@ -23,17 +23,23 @@ SPARING = (
 
 DESK = {"width": 1280, "height": 800}
 
+TOLD = "told.txt"
+"""What the server that tests share has told of errors."""
+
 _POLL = 50
 """Milliseconds between two looks: at each frame they would keep all frames coming."""
 
 
-def serve(spec: Path, *options: str, temporary: Path | None = None) -> tuple[subprocess.Popen[str], str]:
-    """A server of a spec at a port of its own, and its address; its temporary files are in a folder."""
+def serve(
+    spec: Path, *options: str, temporary: Path | None = None, told: Path | None = None
+) -> tuple[subprocess.Popen[str], str]:
+    """A server of a spec at a port of its own, and its address; its temporary files are in a folder, errors in a file."""
     command = [sys.executable, "-m", "gearcad", "open", str(spec), "--no-browser", *options]
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}  # NiceGUI looks
     if temporary is not None:
         environment["TMPDIR"] = str(temporary)
-    server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=spec.parent, env=environment)
+    with (told or Path(os.devnull)).open("w", encoding="utf-8") as errors:
+        server = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors, text=True, cwd=spec.parent, env=environment)
     assert server.stdout is not None
     address = server.stdout.readline().strip()
     assert address.startswith("http://"), f"no address but {address!r}"

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.page_server import CHROMIUM, DESK, SPARING, Tab, launched, serve
+from support.page_server import CHROMIUM, DESK, SPARING, TOLD, Tab, launched, serve
 
 
 @pytest.fixture(scope="session")
@@ -24,7 +24,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def address(folder: Path) -> Iterator[str]:
     """Of the page of a pair that holds."""
-    server, at = serve(folder / "reducer-21-43.toml")
+    server, at = serve(folder / "reducer-21-43.toml", told=folder / TOLD)
     yield at
     server.terminate()
     server.wait(20)

@@ -7,12 +7,21 @@ from typing import Any
 
 import psutil
 import pytest
-from support.page_server import DESK, Tab, serve
+from support.page_server import DESK, TOLD, Tab, serve
 
+from gearcad.designs.starters import starter_text
+from gearcad.page.fields import fields_of
 from gearcad.page.links import pack
+from gearcad.page.workbench import Workbench
 
 SCRIPT = "<img src=x onerror=alert(1)><script>alert(1)</script>"
 TEETH = "pinion.teeth"
+
+WRONG = {
+    **{"id": 10**9, "listener_id": "x", "args": ['{"what": "../../x", "name": ["a"], "key": 1}', "not JSON"]},
+    **{"request_id": "x", "result": 1, "next_message_id": "x", "level": "x", "message": "\x1b[2J", "tab_id": 1},
+}
+"""What no page sends: elements and listeners that are not there, and values of other kinds."""
 
 SPEC = f"""# {SCRIPT}
 [pair]
@@ -72,6 +81,57 @@ def test_script_in_a_design_is_only_words(tab: Tab) -> None:
             page.click(f".{place} .q-tab:nth-child({title})")
     page.wait_for_function("script => document.body.textContent.includes(script)", arg=SCRIPT)
     assert page.locator("img[src=x]").count() == 0
+
+
+@pytest.mark.long
+def test_script_in_any_field_that_takes_text_is_only_words(tab: Tab) -> None:
+    bench = Workbench(starter_text("reducer")[1], "reducer", Path())
+    groups = [group for table in fields_of(bench.design, bench.tables) for group in table["groups"]]
+    keys = [field["key"] for group in groups for field in group["fields"] if not field["number"] and not field["choices"]]
+    assert len(keys) > 50
+    tab.page.evaluate("document.querySelectorAll('.inputs details').forEach(each => { each.open = true; })")
+    for key in keys:
+        was = tab.field(key).input_value()
+        tab.field(key).fill(SCRIPT)
+        tab.page.wait_for_selector(f'[data-key="{key}"]:is(.changed, :has(.fault))')
+        assert tab.page.locator("img[src=x]").count() == 0
+        tab.field(key).fill(was)
+        tab.page.wait_for_selector(f'[data-key="{key}"] .fault', state="detached")
+
+
+def test_messages_that_are_none_harm_nobody(tab: Tab, folder: Path) -> None:
+    """What no page sends, and what its own elements never do: each is a line on the terminal, and all goes on."""
+    tab.page.evaluate(
+        """async ({ messages, wrong }) => {
+          const names = ["event", "handshake", "javascript_response", "ack", "log", "unknown"];
+          for (const message of messages) for (const name of names) socket.emit(name, message);
+          const { elements } = document.querySelector("#app").__vue_app__._container._vnode.component.proxy;
+          for (const [id, { events }] of Object.entries(elements))
+            for (const { type, listener_id } of events ?? [])
+              for (const args of type === "click" ? [] : wrong)
+                socket.emit("event", { id: Number(id), client_id: clientId, listener_id, args: [args] });
+          await new Promise(done => setTimeout(done, 500));
+        }""",
+        {
+            "messages": [None, 1, "x", [], {}, *(WRONG | {"client_id": each} for each in ("nobody", 1, None))],
+            "wrong": [
+                "not JSON",
+                None,
+                "1",
+                '"x"',
+                "{}",
+                "[1e308, null]",
+                '{"key": 1, "text": {}, "forth": [], "number": "x"}',
+            ],
+        },
+    )
+    tab.page.goto(tab.address)  # who writes such may have hidden panels from himself
+    tab.page.wait_for_selector(".scene[data-shown]")
+    tab.give(TEETH, "22")
+    assert str(tab.page.get_attribute(".gear-section", "data-teeth")).startswith("22 ")
+    told = (folder / TOLD).read_text(encoding="utf-8")
+    assert "a page failed" in told
+    assert "Traceback" not in told and "\x1b" not in told
 
 
 def test_script_in_a_field_is_told_as_it_is(tab: Tab) -> None:
