@@ -85,6 +85,7 @@ def test_what_is_too_large_is_refused_and_the_page_goes_on(address: str) -> None
     sid = opened.split('"sid":"')[1].split('"')[0]
     with ThreadPoolExecutor(1) as polling:
         polling.submit(ask, address, f"{SOCKET}&transport=polling&sid={sid}")  # who is refused is told so there, too
+        time.sleep(0.5)  # until it waits there
         assert ask(address, f"{SOCKET}&transport=polling&sid={sid}", "POST", LARGE)[0] == 400
     assert ask(address, "/given/nobody/spec?name=a.toml", "POST", LARGE)[0] == 404
     assert ask(address, f"/?design={'A' * 20_000}")[0] == 200
