@@ -25,14 +25,16 @@ class Following:
     def __init__(self, design: Callable[[], Design], failed: str) -> None:
         self._design, self._failed = design, failed
         self._faults: dict[Panel[Any], ui.label] = {}
+        self._seen: dict[Panel[Any], Callable[[], bool]] = {}
         self._order: Sequence[Panel[Any]] = ()
         self._change = 0
         self._task: asyncio.Task[None] | None = None
         self._later: asyncio.Task[None] | None = None
 
-    def with_line(self, panel: One) -> One:
-        """A panel, and after it the place of the line that tells where it fails."""
+    def with_line(self, panel: One, seen: Callable[[], bool] = lambda: True) -> One:
+        """A panel, which follows while it is seen, and after it the place of the line that tells where it fails."""
         self._faults[panel] = ui.label().classes("panel-fault").props("role=alert")
+        self._seen[panel] = seen
         return panel
 
     def begin(self, order: Sequence[Panel[Any]]) -> None:
@@ -44,6 +46,10 @@ class Following:
         self._change += 1
         if self._task is None or self._task.done():
             self._task = background_tasks.create(self._find())
+
+    def look(self, panel: Panel[Any]) -> None:
+        """A panel is seen again."""
+        background_tasks.create(self._show(panel, self._design(), self._change))
 
     async def compare(self, kept: Callable[[], Design | None]) -> None:
         """Let panels that compare have what they show of the kept design."""
@@ -67,7 +73,7 @@ class Following:
         shown = 0
         while shown != self._change:
             shown, design = self._change, self._design()
-            for panel in self._order:
+            for panel in filter(self._is_seen, self._order):
                 if panel.takes_long(design):
                     panel.wait()
                     continue
@@ -82,9 +88,12 @@ class Following:
         while shown != self._change:
             shown, design = self._change, self._design()
             await asyncio.sleep(_REST)
-            for panel in self._order:
+            for panel in filter(self._is_seen, self._order):
                 if shown == self._change and panel.takes_long(design):
                     await self._show(panel, design, shown)
+
+    def _is_seen(self, panel: Panel[Any]) -> bool:
+        return self._seen[panel]()
 
     async def _show(self, panel: Panel[Any], design: Design, change: int) -> bool:
         """Whether the design was still the last one when this was found."""

@@ -62,7 +62,8 @@ class Session:
                 if bench.design.kind is DesignKind.TRAIN:
                     left.choose("text")
                 with left.under("limits"):
-                    limits = following.with_line(LimitsPanel(bench, self.change, words))
+                    limits = following.with_line(LimitsPanel(bench, self.change, words), lambda: left.chosen == "limits")
+                    left.on("limits", lambda: following.look(limits))
             with _region("middle", words["Gears"]):
                 with ui.element("div").classes("view"):
                     bodies = following.with_line(BodiesPanel(self.key, words))
