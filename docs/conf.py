@@ -24,7 +24,7 @@ extensions = [
     "manual.table_pages",
     "manual.command_pages",
     "manual.python_pages",
-    "manual.validated",
+    "manual.validation_pages",
 ]
 exclude_patterns = ["README.md", "manual", "figures/*.py"]
 nitpicky = True

@@ -1,4 +1,4 @@
-"""The tables of the validation page, from the rows that tests have written into `docs/validation.json`."""
+"""The tables of the validation page in Markdown, from the rows that tests have written into `docs/validation.json`."""
 
 from __future__ import annotations
 
@@ -6,12 +6,9 @@ import json
 from collections.abc import Iterator
 from itertools import groupby
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from docutils import nodes
-from sphinx.util.docutils import SphinxDirective
-
-__all__ = ["CHAPTERS", "Row", "counts_text", "rows", "setup", "table_text"]
+__all__ = ["CHAPTERS", "FILE", "Row", "counts_text", "rows", "table_text"]
 
 FILE = Path(__file__).parents[1] / "validation.json"
 
@@ -79,19 +76,3 @@ def counts_text() -> str:
         f"{len(every)} values of {sources} sources, held by {tests} tests; {exact} of them come out in every printed digit, the"
         " others within what stands beside them."
     )
-
-
-class Validation(SphinxDirective):
-    """`{validation} CHAPTER`, or `{validation} counts`."""
-
-    required_arguments = 1
-
-    def run(self) -> list[nodes.Node]:
-        self.env.note_dependency(str(FILE))
-        (chapter,) = self.arguments
-        return list(self.parse_text_to_nodes(counts_text() if chapter == "counts" else table_text(chapter)))
-
-
-def setup(app: Any) -> dict[str, bool]:
-    app.add_directive("validation", Validation)
-    return {"parallel_read_safe": True, "parallel_write_safe": True}

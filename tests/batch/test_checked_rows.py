@@ -17,7 +17,7 @@ from gearcad.designs.table import Row, open_table
 from gearcad.jobs.data import Data
 from gearcad.shipped import templates
 
-SPECS = sorted(path for path in templates().glob("*.toml") if not path.stem.startswith("drawing"))
+SPECS = sorted(path for path in templates().glob("*.toml") if not path.stem.startswith(("drawing", "page_")))
 
 
 @pytest.mark.parametrize("spec", SPECS, ids=lambda path: path.stem)

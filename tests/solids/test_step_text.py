@@ -99,7 +99,7 @@ def test_assemblies_are_those_of_the_kernels_writer(name: str, tmp_path: Path) -
     _compare(ASSEMBLIES[name](), tmp_path)
 
 
-SPECS = [path.name for path in sorted(TEMPLATES.glob("*.toml")) if not path.name.startswith(("drawing", "train"))]
+SPECS = [path.name for path in sorted(TEMPLATES.glob("*.toml")) if not path.name.startswith(("drawing", "page_", "train"))]
 
 
 @pytest.mark.long

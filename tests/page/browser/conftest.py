@@ -16,7 +16,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder of starters in which the server runs."""
     place = tmp_path_factory.mktemp("page")
     for starter in (Path(__file__).parents[3] / "templates").glob("*.toml"):
-        if not starter.name.startswith("drawing_"):
+        if not starter.name.startswith(("drawing_", "page_")):
             shutil.copy(starter, place)
     return place
 
