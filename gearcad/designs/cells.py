@@ -24,6 +24,7 @@ __all__ = [
     "is_comment",
     "list_text",
     "nested_text",
+    "plain_number",
     "plain_text",
     "texts_cell",
 ]
@@ -73,6 +74,15 @@ def plain_text(cell: RawCell) -> str:
     if isinstance(cell, Unreadable):
         return cell.shown
     return str(int(cell)) if abs(cell) <= _MOST_EXACT and float(cell).is_integer() else repr(cell)
+
+
+def plain_number(text: str) -> float | None:
+    """The number that a text is; None for words, and for what is not finite."""
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
 
 
 def list_text(numbers: Iterable[float]) -> str:

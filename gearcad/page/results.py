@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from gearcad.batch.row import flat_document
-from gearcad.designs.cells import CellReader, Layout, plain_text
+from gearcad.designs.cells import CellReader, Layout, plain_number, plain_text
 from gearcad.designs.design import Design, DesignKind
 from gearcad.designs.headings import read_headings
 from gearcad.designs.keys import MAIN_TABLES, Cell
@@ -48,14 +48,14 @@ class ResultsTable:
         return tuple(
             heading
             for heading, place in places.items()
-            if any(_number(cells[place]) is not None for cells in self.rows.values())
+            if any(plain_number(cells[place]) is not None for cells in self.rows.values())
         )
 
     def points(self, *columns: str) -> Iterator[tuple[int, tuple[float, ...]]]:
         """Rows that have numbers in all of these columns: their numbers, and these."""
         places = [self.headings.index(column) for column in columns]
         for number, cells in self.rows.items():
-            values = [_number(cells[place]) for place in places]
+            values = [plain_number(cells[place]) for place in places]
             if None not in values:
                 yield number, tuple(value for value in values if value is not None)
 
@@ -130,7 +130,7 @@ def _explains(design: Design, cells: Mapping[str, str]) -> bool:
 
 def _is_same(figure: Any, cell: str) -> bool:
     """Whether a cell of the table is a figure; several numbers, and words, are what they are."""
-    number = _number(cell)
+    number = plain_number(cell)
     if number is None or isinstance(figure, bool) or not isinstance(figure, int | float):
         return figure is not None
     return math.isclose(figure, number, rel_tol=_SAME, abs_tol=_SAME)
@@ -149,11 +149,3 @@ def _text(design: Design, values: Mapping[str, Cell], where: str) -> str:
     tables = nested(values, design.kind)
     main = MAIN_TABLES[design.kind][0]
     return toml_text(tables | {main: {"name": design.name, **tables[main]}}, [where])
-
-
-def _number(text: str) -> float | None:
-    try:
-        value = float(text)
-    except ValueError:
-        return None
-    return value if math.isfinite(value) else None

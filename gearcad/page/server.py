@@ -10,10 +10,11 @@ import threading
 from pathlib import Path
 from typing import Any
 
-from gearcad.errors import ParameterError, printable
+from gearcad.errors import ParameterError
 from gearcad.page.access import TOKEN, Access
 from gearcad.page.ending import ending
 from gearcad.page.fences import Fences
+from gearcad.page.terminal import Lines
 
 __all__ = ["LOCAL", "PORT", "serve"]
 
@@ -80,8 +81,9 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
         Session.of(text, name, folder)
         return None
 
+    lines = Lines()
     for logger in ("nicegui", "uvicorn.error", "asyncio"):
-        logging.getLogger(logger).addFilter(_in_one_line)
+        logging.getLogger(logger).addFilter(lines)
     core.sio.eio.cors_allowed_origins = sorted(f"http://{each}" for each in hosts)
     add_routes(app)
     app.add_middleware(Fences)
@@ -107,18 +109,6 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
             timeout_graceful_shutdown=_GRACE,
             **taken,
         )
-
-
-def _in_one_line(record: logging.LogRecord) -> bool:
-    """What goes wrong in one session is told in a line, and no more; the others go on."""
-    if record.exc_info and record.exc_info[1] is not None:
-        error = record.exc_info[1]
-        record.msg, record.args = f"a page failed ({type(error).__name__}: {error})", ()
-    elif isinstance(record.msg, Exception):
-        record.msg = f"a page failed ({type(record.msg).__name__}: {record.msg})"
-    record.msg, record.args = printable(record.getMessage()), ()  # what a browser has sent must not move a terminal's cursor
-    record.exc_info = record.exc_text = None
-    return True
 
 
 def _held(host: str, port: int | None) -> socket.socket:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import difflib
-import math
 import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
@@ -14,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from gearcad import symbols
-from gearcad.designs.cells import plain_text
+from gearcad.designs.cells import plain_number, plain_text
 from gearcad.designs.columns import column_symbol
 from gearcad.designs.keys import KEYS
 from gearcad.errors import ParameterError, SpecError, format_number
@@ -122,7 +121,7 @@ def opened_records(file: TextIO, name: str) -> Iterator[tuple[list[str], Iterato
 def _with_point(cell: str) -> str:
     """A number with a decimal comma as one with a point; a text as it is."""
     pointed = cell.replace(",", ".")
-    return cell if _number(pointed) is None else pointed
+    return cell if plain_number(pointed) is None else pointed
 
 
 def _find_key(role: str, asked: str, headings: Sequence[str]) -> str:
@@ -194,7 +193,7 @@ def _complete_rows(records: Iterator[list[str]], headings: Sequence[str], keys: 
 def _numbers(path: Path, key: str, texts: Mapping[int, str]) -> Column:
     values = []
     for row, text in texts.items():
-        value = _number(text)
+        value = plain_number(text)
         if value is None:
             raise SpecError(
                 f"{path} row {row}: {key} = {format_number(text)}: must be a number to be drawn; take another column"
@@ -205,18 +204,10 @@ def _numbers(path: Path, key: str, texts: Mapping[int, str]) -> Column:
 
 def _colour_column(key: str, texts: Mapping[int, str]) -> Column:
     """Numbers if all are, else texts as they were before an apostrophe kept a spreadsheet from running them."""
-    numbers = [value for text in texts.values() if (value := _number(text)) is not None]
+    numbers = [value for text in texts.values() if (value := plain_number(text)) is not None]
     if len(numbers) == len(texts):
         return Column(key, tuple(numbers))
     return Column(key, tuple(plain_text(text) for text in texts.values()))
-
-
-def _number(text: str) -> float | None:
-    try:
-        value = float(text)
-    except ValueError:
-        return None
-    return value if math.isfinite(value) else None
 
 
 def _name(path: Path) -> str:
