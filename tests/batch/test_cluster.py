@@ -34,8 +34,8 @@ from gearcad.solids import Format
 distributed = pytest.importorskip("distributed")
 
 DATA = (Data(),)
-OPTIONS = ("--format", "csv,stl", "--quiet")
-ROWS = 150
+OPTIONS, FILES = ("--format", "csv,stl", "--quiet"), (Build(formats=(Format.CSV, Format.STL)),)
+ROWS = 100
 MANY = (GEARS[0], *(f"row {number:03d},{12 + number % 50},1,2,{number % 3}" for number in range(ROWS)))
 
 _SCHEDULER = """
@@ -91,7 +91,7 @@ def address(cluster: tuple[str, psutil.Process]) -> str:
 def expected(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """The tree that a run without a cluster makes."""
     folder = tmp_path_factory.mktemp("plain")
-    assert run_batch(write_table(folder / "table.csv", MIXED), "-o", folder / "out", *OPTIONS, "-j", "1").returncode == 0
+    assert run_table(write_table(folder / "table.csv", MIXED), folder / "out", FILES, jobs=1).ok == 3
     return snapshot(folder / "out")
 
 
@@ -127,8 +127,8 @@ def test_cluster_at_an_address_makes_the_same_files_and_leaves_no_process(
     with distributed.Client(address) as client:
         assert set(client.run(lambda: len(psutil.Process().children())).values()) == {0}
 
-    again = run_batch(table, "-o", tmp_path / "out", *OPTIONS, "-j", "1")
-    assert (again.returncode, snapshot(tmp_path / "out")) == (0, expected)
+    assert run_table(table, tmp_path / "out", FILES, jobs=1).ok == 3
+    assert snapshot(tmp_path / "out") == expected
     assert [line["seconds"] for line in read_results(tmp_path / "out")] == [""] * 3
 
 

@@ -143,7 +143,7 @@ def test_workers_killed_at_random_cost_their_rows_only(tmp_path: Path) -> None:
 
 
 def test_ctrl_c_ends_the_run_at_once_with_what_there_is(tmp_path: Path) -> None:
-    variant = Variant(tmp_path, rows=60, width=2.0, formats="stl")
+    variant = Variant(tmp_path, rows=40, width=2.0, formats="stl")
     folder = tmp_path / "out"
     process = variant.start(folder)
     wait_until(lambda: len(list(folder.glob("row*"))) >= 3, "the first rows")
@@ -156,7 +156,7 @@ def test_ctrl_c_ends_the_run_at_once_with_what_there_is(tmp_path: Path) -> None:
     assert lies(folder) == []
     lines = read_results(folder)
     states = [line["status"] for line in lines]
-    assert len(states) == 60 and set(states) == {"ok", "not run"}
+    assert len(states) == 40 and set(states) == {"ok", "not run"}
     assert {line["name"] for line in lines if line["status"] == "ok"} <= {path.name for path in folder.glob("row*")}
     assert not list(folder.glob(".*"))
     assert variant.run(folder).returncode == 0

@@ -166,8 +166,8 @@ def test_files_larger_than_the_system_permits_fail_their_rows(table: Path, tmp_p
     assert all("cannot be written (File too large)" in line for line in said)
     assert [line["status"] for line in read_results(folder)] == ["failed"] * 3
     assert sorted(path.name for path in folder.iterdir()) == ["columns.csv", "results.csv", "results.parquet"]
-    again = run_batch(table, "-o", folder, "--format", "dxf,csv", "-j", "1", "--quiet")
-    assert (again.returncode, again.stderr) == (0, "") and lies(folder) == []
+    assert run_table(table, folder, (Build(formats=(Format.DXF, Format.CSV)),), jobs=1).ok == 3
+    assert lies(folder) == []
 
 
 def test_results_larger_than_the_system_permits_are_status_1(many: Path, tmp_path: Path) -> None:
@@ -194,7 +194,8 @@ def test_full_disk_ends_the_run_and_a_larger_one_the_work(formats: str, small_di
     again = run_batch(table, "-o", folder, *options)
     assert (again.returncode, again.stderr) == (0, "")
     assert {line["name"] for line in read_results(folder) if not line["seconds"]} == finished
-    assert run_batch(table, "-o", undisturbed, *options).returncode == 0
+    build = Build(formats=tuple(Format(each) for each in formats.split(",")))
+    assert run_table(table, undisturbed, (build,), jobs=1).ok == ROWS
     assert snapshot(folder) == snapshot(undisturbed)
 
 

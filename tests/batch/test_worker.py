@@ -98,7 +98,7 @@ def test_time_limit_ends_a_call_whatever_it_does(endless: Any) -> None:
 def test_call_within_its_limit_is_not_stopped_later() -> None:
     call(jobs.echo)
     first = call(jobs.own_process, time_limit=1.0)
-    call(jobs.wait, 1.5)
+    call(jobs.wait, 1.2)
     assert call(jobs.own_process) == first
 
 

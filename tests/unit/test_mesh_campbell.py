@@ -63,10 +63,12 @@ def spectra(train: Train, shape: StiffnessShape, speeds: list[float], backlash: 
     return mesh_campbell(train, system(train), excitation, np.array(speeds), {"mode 2": 9000.0}, **how)  # type: ignore[arg-type]
 
 
-def test_the_square_wave_is_the_contact_model_of_stiff_teeth() -> None:
+@pytest.mark.parametrize(
+    "speeds", [[20000.0, 45000.0], pytest.param([15000.0, 25000.0, 60000.0], marks=pytest.mark.long)], ids=["few", "more"]
+)
+def test_the_square_wave_is_the_contact_model_of_stiff_teeth(speeds: list[float]) -> None:
     """Teeth a hundred times as stiff as the thesis's: their vibration hardly moves the ends of the zone of contact."""
     stiff = replace(THESIS, pair_stiffness=40.0, damping=40.0)
-    speeds = [15000.0, 20000.0, 25000.0, 45000.0, 60000.0]
     how = {"duration": 0.1, "sampling": 1e6}
     found = spectra(as_mesh(stiff), square_stiffness(stiff.contact_ratio), speeds, math.inf, **how)
     expected = campbell(stiff, speeds, highest_frequency=float(found.frequency[-1]), **how)
@@ -77,7 +79,7 @@ def test_the_square_wave_is_the_contact_model_of_stiff_teeth() -> None:
     np.testing.assert_allclose(found.out_of_contact, expected.out_of_contact, atol=2e-3)
     # In 0.05 s a logarithm may be off by 2: sizes are measured wherever a vibration stands.
     np.testing.assert_allclose(found.growth, expected.growth, atol=2 / 0.05)
-    for speed in speeds[2:]:
+    for speed in speeds[1:]:
         ours, theirs = found.peaks(speed, 1)[0], expected.peaks(speed, 1)[0]
         assert ours.frequency == pytest.approx(19 * speed / 60, abs=10)
         assert ours == pytest.approx(theirs, rel=0.01)
