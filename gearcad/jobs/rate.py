@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 from gearcad.designs import Design, DesignKind, Inputs, PairDesign, PlanetaryDesign, RackPairDesign
 from gearcad.dynamics.planetary.strength import TrainStrength
@@ -22,7 +22,10 @@ from gearcad.rating.load_factors import BodyLoad
 from gearcad.rating.strength import StrengthRating, rate_strength
 from gearcad.version import __version__
 
-__all__ = ["Rate", "load_words", "rate"]
+if TYPE_CHECKING:
+    from gearcad.dynamics.planetary.result import PlanetaryStudy
+
+__all__ = ["Rate", "load_words", "rate", "strength_in_study"]
 
 KEYS = {"torque": "load.torque", "hardness": "material.hardness"}
 """Keys of values that only the rating finds to be wrong."""
@@ -104,16 +107,22 @@ def _of_bodies(design: PairDesign, load: Load) -> BodyLoad | None:
 
 
 def _of_train(design: PlanetaryDesign) -> TrainStrength:
-    """That of its study, in which planets share the load. Raises SolverError where it has none."""
+    """That of its study, in which planets share the load."""
     from gearcad.dynamics.planetary.study import study_planetary  # only here: pairs do not need the dynamics
 
     load = design.loaded(_NO_LOAD)
     found = study_planetary(
         design.train, load, design.speeds, material=design.material, dynamics=design.dynamics, rating=design.rating
     )
-    if found.rating is None:
-        raise SolverError(f"{design.name} is not rated: {found.why_not['rating']}")
-    return found.rating.strength
+    return strength_in_study(design, found)
+
+
+def strength_in_study(design: PlanetaryDesign, study: PlanetaryStudy) -> TrainStrength:
+    """The rating of a train, of its study. Raises ParameterError without a load, SolverError where the study has none."""
+    design.loaded(_NO_LOAD)
+    if study.rating is None:
+        raise SolverError(f"{design.name} is not rated: {study.why_not['rating']}")
+    return study.rating.strength
 
 
 def _write_report(result: StrengthRating, name: str, path: Path) -> None:

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 from nicegui import app, background_tasks, run, ui
 
 from gearcad.designs.design import Design
+from gearcad.page.aside import found_aside
 from gearcad.page.panels import Panel
 
 __all__ = ["Following"]
@@ -74,7 +75,7 @@ class Following:
         while shown != self._change:
             shown, design = self._change, self._design()
             for panel in filter(self._is_seen, self._order):
-                if panel.takes_long(design):
+                if panel.aside(design) is not None:
                     panel.wait()
                     continue
                 if not await self._show(panel, design, shown):
@@ -89,7 +90,7 @@ class Following:
             shown, design = self._change, self._design()
             await asyncio.sleep(_REST)
             for panel in filter(self._is_seen, self._order):
-                if shown == self._change and panel.takes_long(design):
+                if shown == self._change and panel.aside(design) is not None:
                     await self._show(panel, design, shown)
 
     def _is_seen(self, panel: Panel[Any]) -> bool:
@@ -104,13 +105,13 @@ class Following:
 
     async def _found(self, panel: Panel[Any], design: Design) -> tuple[Any] | None:
         """What a panel finds, or None where it fails: what gearcad raises, panels tell themselves; this is a fault of ours."""
-        line = self._faults.get(panel)
+        line, aside = self._faults.get(panel), panel.aside(design)
         try:
-            found = (await run.io_bound(panel.find, design),)
+            found = (await (run.io_bound(panel.find, design) if aside is None else found_aside(aside, design)),)
             if app.is_stopping:  # then nothing was asked of the panel
                 return None
         except Exception as error:  # whatever it is: the other panels are as good as before
-            if line is not None:
+            if line is not None and not app.is_stopping:
                 line.set_text(f"{self._failed} ({type(error).__name__}: {error})"[:300])
             return None
         if line is not None:

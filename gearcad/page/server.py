@@ -57,6 +57,7 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
         raise ParameterError("open", name, 'needs NiceGUI: pip install "gearcad[page]"') from error
     from fastapi import Response
 
+    from gearcad.page.aside import close_aside
     from gearcad.page.panels.strength import warm_up
     from gearcad.page.routes import add_routes
     from gearcad.page.runs import close_all_runs
@@ -92,6 +93,7 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
     app.on_startup(threading.Thread(target=warm_up, args=(first.design,), daemon=True).start)
     app.on_shutdown(Session.leave_all)
     app.on_shutdown(close_all_runs)
+    app.on_shutdown(close_aside)
     with ending():
         ui.run(
             host=host or LOCAL,

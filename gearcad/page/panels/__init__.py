@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from typing import ClassVar, Generic, TypeVar
 
 from gearcad.designs.design import Design
@@ -27,9 +28,9 @@ class Panel(ABC, Generic[Found]):
         A design that this panel has nothing to say of gets what says so; what gearcad raises is such a thing.
         """
 
-    def takes_long(self, design: Design) -> bool:
-        """Whether what is to be found of a design has to wait until the hand rests."""
-        return False
+    def aside(self, design: Design) -> Callable[[Design], Found] | None:
+        """`find` as a function of a module where that takes long: it is asked in another process, when the hand rests."""
+        return None
 
     def wait(self) -> None:
         """Tell that what is shown is of an older design, and another is being found."""

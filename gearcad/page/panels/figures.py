@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Any, NamedTuple
 
-from gearcad.page.components.sheet import SheetView
 from gearcad.page.panels import Panel
 from gearcad.page.panels.sheet_content import Cells, cells_of, changed_cells, shown_sections
 from gearcad.page.panels.sheet_words import title_in
@@ -46,6 +45,8 @@ class FiguresPanel(Panel[Figures]):
     compares = True
 
     def __init__(self, label: str, store: str, words: Words) -> None:
+        from gearcad.page.components.sheet import SheetView  # only here: who finds figures elsewhere needs no NiceGUI
+
         self._words = words
         own = {
             "search": words["find a quantity"],

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from gearcad.designs.design import Design, DesignKind
 from gearcad.errors import GearcadError
-from gearcad.page.components.shares import SharesView
 from gearcad.page.panels import Panel
 from gearcad.page.words import Words
 
@@ -17,6 +17,8 @@ class SharesPanel(Panel[dict[str, Any] | None]):
     """A bar for each planet of a train, with what it carries least and most; nothing of other designs."""
 
     def __init__(self, words: Words) -> None:
+        from gearcad.page.components.shares import SharesView  # only here: who finds shares elsewhere needs no NiceGUI
+
         self._view = SharesView(
             {
                 "title": words["load shares of the planets"],
@@ -25,9 +27,8 @@ class SharesPanel(Panel[dict[str, Any] | None]):
             }
         )
 
-    def takes_long(self, design: Design) -> bool:
-        """Finite elements tell how stiff the meshes are."""
-        return design.kind is DesignKind.PLANETARY
+    def aside(self, design: Design) -> Callable[[Design], dict[str, Any] | None] | None:
+        return shares_of if design.kind is DesignKind.PLANETARY else None
 
     def find(self, design: Design) -> dict[str, Any] | None:
         return shares_of(design)
@@ -43,10 +44,10 @@ def shares_of(design: Design) -> dict[str, Any] | None:
     """Shares of all planets, 1 where all carry alike, and K_gamma, or why there are none. None for what has no planets."""
     if design.kind is not DesignKind.PLANETARY:
         return None
-    from gearcad.jobs.planetary import planetary
+    from gearcad.page.panels.train_study import train_study
 
     try:
-        study = planetary(design)
+        study = train_study(design)
     except GearcadError as error:
         return {"shares": [], "why_not": str(error)}
     if study.sharing is None:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from gearcad.designs.design import Design, DesignKind
+from gearcad.designs.kinds.planetary import PlanetaryDesign
 from gearcad.errors import GearcadError, InputError
 from gearcad.page.panels.figures import Figures, FiguresPanel, figures
 from gearcad.page.panels.sheet_notices import keys_of, shown_notices
@@ -40,9 +42,9 @@ class StrengthPanel(FiguresPanel):
     def __init__(self, words: Words) -> None:
         super().__init__(words["rating"], "gearcad-strength", words)
 
-    def takes_long(self, design: Design) -> bool:
+    def aside(self, design: Design) -> Callable[[Design], Figures] | None:
         """Of a planetary train: how planets share the load is asked of finite elements."""
-        return _takes_long(design)
+        return strength_figures if _takes_long(design) else None
 
     def find(self, design: Design) -> Figures:
         return strength_figures(design)
@@ -70,10 +72,21 @@ def strength_figures(design: Design) -> Figures:
     if options is not None and options.face_load_factor == "fe":
         return _without(_ON_REQUEST, ["rating.face_load_factor"])
     try:
-        return _rated(Rate(report=False).run(design), design)
+        return _rated(_rating(design), design)
     except GearcadError as error:
         key = KEYS.get(error.parameter, error.parameter) if isinstance(error, InputError) else ""
         return _without(str(error), [key] if key in keys_of(design) else [])
+
+
+def _rating(design: Design) -> StrengthRating | TrainStrength:
+    """That of a train is read from its study, which the load shares are of too."""
+    from gearcad.jobs.rate import Rate, strength_in_study
+
+    if isinstance(design, PlanetaryDesign):
+        from gearcad.page.panels.train_study import train_study
+
+        return strength_in_study(design, train_study(design))
+    return Rate(report=False).run(design)
 
 
 def _rated(found: StrengthRating | TrainStrength, design: Design) -> Figures:

@@ -1,0 +1,43 @@
+"""What takes long is found in a process beside the server: it is what would be found here, and needs no NiceGUI there."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import sys
+
+import pytest
+
+from gearcad.designs.design import Design
+from gearcad.designs.reader import read_spec
+from gearcad.errors import ParameterError
+from gearcad.page.aside import found_aside
+from gearcad.page.panels.figures import Figures
+from gearcad.page.panels.strength import strength_figures
+from gearcad.shipped import templates
+
+
+def place(_design: Design) -> tuple[int, bool]:
+    """Where this is called, and whether NiceGUI was imported there."""
+    return os.getpid(), "nicegui" in sys.modules
+
+
+def refusal(_design: Design) -> None:
+    raise ParameterError("teeth", 2, "must be at least 3")
+
+
+def test_a_rating_found_beside_the_server_is_the_one_found_here() -> None:
+    design = read_spec(templates() / "reducer-21-43.toml")
+
+    async def asked() -> tuple[Figures, tuple[int, bool]]:
+        return await found_aside(strength_figures, design), await found_aside(place, design)
+
+    strength, (process, page) = asyncio.run(asked())
+    assert strength == strength_figures(design)
+    assert process != os.getpid()
+    assert not page
+
+
+def test_what_is_refused_there_is_refused_here() -> None:
+    with pytest.raises(ParameterError, match="teeth = 2: must be at least 3"):
+        asyncio.run(found_aside(refusal, read_spec(templates() / "spur.toml")))
