@@ -1,4 +1,4 @@
-"""What the page fetches besides what NiceGUI sends: bodies by their session's key, which nobody else knows."""
+"""What the page fetches besides what NiceGUI sends."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from fastapi import FastAPI, Request, Response
 
 from gearcad.page.given import add_given
 from gearcad.page.made import add_made
-from gearcad.page.panels.bodies import SURFACES
 
 __all__ = ["add_routes"]
 
@@ -17,11 +16,6 @@ def add_routes(app: FastAPI) -> None:
     add_given(app)
     app.add_exception_handler(404, _missing)
     app.add_exception_handler(Exception, _broken)
-
-    @app.get("/bodies/{key}/{surface}")
-    def bodies(key: str, surface: str) -> Response:
-        content = SURFACES.get(key, {}).get(surface)
-        return Response(content or b"", 200 if content else 404, media_type="application/octet-stream")
 
 
 def _missing(_request: Request, _error: Exception) -> Response:

@@ -6,6 +6,7 @@ import errno
 import logging
 import secrets
 import socket
+import sys
 import threading
 from pathlib import Path
 from typing import Any
@@ -40,6 +41,9 @@ _LARGEST_MESSAGE = 1 << 20
 
 _WAITING = 128
 """Connections that nobody has accepted yet."""
+
+_TURN = 5e-4
+"""Seconds that a thread may compute while another waits: what is found is sent at once, whatever else is being found."""
 
 _GRACE = 1
 """Seconds that answers have to end when the server does."""
@@ -94,6 +98,7 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
     app.on_shutdown(Session.leave_all)
     app.on_shutdown(close_all_runs)
     app.on_shutdown(close_aside)
+    sys.setswitchinterval(_TURN)
     with ending():
         ui.run(
             host=host or LOCAL,
@@ -108,6 +113,7 @@ def serve(text: str, name: str, folder: Path, *, host: str | None, port: int | N
             tailwind=False,
             server_header=False,
             ws_max_size=_LARGEST_MESSAGE,
+            ws_per_message_deflate=host is not None,  # nothing is gained on the way to the same machine
             timeout_graceful_shutdown=_GRACE,
             **taken,
         )

@@ -16,7 +16,7 @@ from gearcad.page.following import Following
 from gearcad.page.handed import Handed, hand_over, take_over
 from gearcad.page.links import DESIGN, linked_bench
 from gearcad.page.panels.beside import BesidePanel
-from gearcad.page.panels.bodies import SURFACES, BodiesPanel
+from gearcad.page.panels.bodies import BodiesPanel
 from gearcad.page.panels.files import FilesPanel
 from gearcad.page.panels.inputs import InputsPanel
 from gearcad.page.panels.limits import LimitsPanel
@@ -54,11 +54,12 @@ class Session:
             self._bar()
         with ui.element("main").classes("panels"):
             with _region("left", words["Inputs"]):
-                left = Tabs({"inputs": words["Inputs"], "text": words["Text"], "limits": words["Limits"]})
+                left = self._left = Tabs({"inputs": words["Inputs"], "text": words["Text"], "limits": words["Limits"]})
                 with left.under("inputs"):
                     self._inputs = InputsPanel(self.typed, self.step, words)
                 with left.under("text"):
                     self._text = TextPanel(self.written, self.step, words)
+                left.on("text", lambda: self._text.follow(bench))
                 if bench.design.kind is DesignKind.TRAIN:
                     left.choose("text")
                 with left.under("limits"):
@@ -66,7 +67,7 @@ class Session:
                     left.on("limits", lambda: following.look(limits))
             with _region("middle", words["Gears"]):
                 with ui.element("div").classes("view"):
-                    bodies = following.with_line(BodiesPanel(self.key, words))
+                    bodies = following.with_line(BodiesPanel(words))
                 with ui.element("div").classes("rolling"):
                     roll = following.with_line(RollPanel(words))
                 with ui.element("div").classes("view"):
@@ -78,7 +79,8 @@ class Session:
                     strength = following.with_line(StrengthPanel(words))
                     sheet = following.with_line(SheetPanel(words))
                 with right.under("runs"):
-                    self._runs = RunsPanel(bench, words, runs)
+                    self._runs = RunsPanel(bench, words, runs, lambda: right.chosen == "runs")
+                    right.on("runs", self._runs.expect)
                 with right.under("table"):
                     self._table = TablePanel(words, bench.folder, self.opened)
         following.begin((section, roll, bodies, sheet, strength, limits, shares))
@@ -159,7 +161,8 @@ class Session:
     def follow(self, reveal: bool = False) -> None:
         """Show what the workbench has: inputs at once, all else as it is found."""
         self._inputs.follow(self.bench, reveal)
-        self._text.follow(self.bench)
+        if self._left.chosen == "text":
+            self._text.follow(self.bench)
         self._undo.set_enabled(self.bench.can_undo)
         self._redo.set_enabled(self.bench.can_redo)
         self._name.set_text(self.bench.design.name)
@@ -171,7 +174,6 @@ class Session:
         """The tab was closed: what it has made goes, and what it runs ends."""
         self.open.discard(self)
         self._following.end()
-        SURFACES.pop(self.key, None)
         self._files.close()
         self._runs.close()
 

@@ -1,9 +1,10 @@
-// The gears as solid bodies, in mesh. Surfaces come by their keys: what stays the same is not fetched again. Lengths in mm, z up.
+// The gears as solid bodies, in mesh. Surfaces come by their keys: what stays the same is not sent again. Lengths in mm, z up.
 import { cutOf, surfaceOf } from "gear-surfaces";
 import { OrbitControls, THREE } from "nicegui-scene";
 
 const AXES = { x: [-1, 0, 0], y: [0, 1, 0], z: [0, 0, -1] }; // where a cut looks: what is beyond it is taken away
 const VIEWS = { front: [0, 0, 1, 0, 1, 0], top: [0, 1, 0.001, 0, 0, -1], iso: [0.5, -0.75, 0.6, 0, 0, 1] };
+const SENT = "gear_bodies"; // the message that has bodies
 const CLICK = 4; // pixels that a pointer may move, and still click
 
 export default {
@@ -43,7 +44,8 @@ export default {
     },
   },
   mounted() {
-    [this.turn, this.wanted, this.gears, this.surfaces, this.looks] = [0, 0, [], new Map(), []];
+    [this.turn, this.gears, this.surfaces, this.looks] = [0, [], new Map(), []];
+    this.$nextTick(() => window.socket.on(SENT, this.show)); // which there is once the page is mounted
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(30, 1, 0.1, 1e5);
     this.camera.up.set(0, 0, 1);
@@ -81,6 +83,7 @@ export default {
     this.restyle();
   },
   beforeUnmount() {
+    window.socket?.off(SENT, this.show);
     for (const observer of this.observers ?? []) observer.disconnect();
     window.removeEventListener("gear-turn", this.roll);
     cancelAnimationFrame(this.drawing);
@@ -90,17 +93,11 @@ export default {
     this.renderer?.dispose();
   },
   methods: {
-    // Show bodies whose surfaces are at an address; what was asked for earlier and comes later is not shown.
-    async show(number, address, bodies, error, whyNot) {
+    // Show bodies, whose surfaces are kept by their keys as long as they are seen.
+    show({ number, bodies, surfaces, error, whyNot }) {
       if (!this.renderer) return (this.$el.dataset.shown = number);
-      this.wanted = number;
-      const keys = [...new Set(bodies.map((body) => body.surface))].filter((key) => !this.surfaces.has(key));
-      const answers = await Promise.all(keys.map((key) => fetch(`${address}/${key}`)));
-      if (answers.some((answer) => !answer.ok)) return;
-      const contents = await Promise.all(answers.map((answer) => answer.arrayBuffer()));
-      if (number !== this.wanted) return;
       this.whyNot = whyNot;
-      keys.forEach((key, n) => this.surfaces.set(key, surfaceOf(THREE, contents[n])));
+      for (const [key, content] of Object.entries(surfaces)) this.surfaces.set(key, surfaceOf(THREE, content));
       this.drop(new Set(bodies.map((body) => body.surface)));
       this.gears = bodies.map(this.made);
       this.error = error;

@@ -3,7 +3,37 @@
 const NUMBER = /^(\D*\d+)([.]\d+)?(e[+-]?\d+)?$/;
 const FEW = 3;
 
+// The part of a number before its point and the rest, to be put in line; null for what is no number.
+function split(text) {
+  const found = NUMBER.exec(text);
+  return found ? [found[1], (found[2] ?? "") + (found[3] ?? "")] : [text, null];
+}
+
+// A quantity. Its part of the page stays as it is while all that it is given does.
+const SheetRow = {
+  template: `
+    <tbody>
+      <tr :data-row="row.key" :title="hint" :tabindex="stop ? 0 : -1" @focus="sheet.at = place" @dblclick="sheet.pin(row.key)">
+        <th scope="row">{{ row.words }}</th><td class="symbol">{{ row.symbol }}</td><td class="unit">{{ row.unit }}</td>
+        <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ changed: cell.former }" :colspan="span">
+          <del v-if="cell.former">{{ cell.former }}</del><span class="whole">{{ split(cell.text)[0] }}</span
+          ><span class="rest" :style="{ minWidth: rest + 'ch' }" v-if="split(cell.text)[1] !== null">{{ split(cell.text)[1] }}</span>
+        </td>
+      </tr>
+      <tr v-if="row.cells.some((cell) => cell.kept)" class="kept">
+        <th scope="row" colspan="3">{{ sheet.words.kept }} <small>({{ sheet.words.difference }})</small></th>
+        <td v-for="(cell, number) in row.cells" :key="number" class="value" :colspan="span">
+          <small v-if="cell.difference">({{ cell.difference }})</small><span class="whole">{{ split(cell.kept ?? "")[0] }}</span
+          ><span class="rest" :style="{ minWidth: rest + 'ch' }" v-if="split(cell.kept ?? '')[1] !== null">{{ split(cell.kept)[1] }}</span>
+        </td>
+      </tr>
+    </tbody>`,
+  props: { sheet: Object, row: Object, place: String, hint: String, stop: Boolean, span: Number, rest: Number },
+  methods: { split },
+};
+
 export default {
+  components: { SheetRow },
   template: `
     <section class="gear-sheet" :aria-label="label" :aria-busy="waiting" @keydown="walk">
       <header>
@@ -24,22 +54,8 @@ export default {
         <summary>{{ block.title }}</summary>
         <table v-for="table in block.tables" :key="table.columns.join()">
           <thead v-if="table.columns.length"><tr><th colspan="3"></th><th v-for="name in table.columns" :key="name" scope="col">{{ name }}</th></tr></thead>
-          <tbody v-for="row in table.rows" :key="row.key">
-            <tr :data-row="row.key" :title="hint(row)" :tabindex="row === here(block) ? 0 : -1" @focus="at = block.id + row.key" @dblclick="pin(row.key)">
-              <th scope="row">{{ row.words }}</th><td class="symbol">{{ row.symbol }}</td><td class="unit">{{ row.unit }}</td>
-              <td v-for="(cell, number) in row.cells" :key="number" class="value" :class="{ changed: cell.former }" :colspan="span(table, row)">
-                <del v-if="cell.former">{{ cell.former }}</del><span class="whole">{{ split(cell.text)[0] }}</span
-                ><span class="rest" :style="{ minWidth: table.rest + 'ch' }" v-if="split(cell.text)[1] !== null">{{ split(cell.text)[1] }}</span>
-              </td>
-            </tr>
-            <tr v-if="row.cells.some((cell) => cell.kept)" class="kept">
-              <th scope="row" colspan="3">{{ words.kept }} <small>({{ words.difference }})</small></th>
-              <td v-for="(cell, number) in row.cells" :key="number" class="value" :colspan="span(table, row)">
-                <small v-if="cell.difference">({{ cell.difference }})</small><span class="whole">{{ split(cell.kept ?? "")[0] }}</span
-                ><span class="rest" :style="{ minWidth: table.rest + 'ch' }" v-if="split(cell.kept ?? '')[1] !== null">{{ split(cell.kept)[1] }}</span>
-              </td>
-            </tr>
-          </tbody>
+          <sheet-row v-for="row in table.rows" :key="row.key" :sheet="me" :row="row" :place="block.id + row.key" :hint="hint(row)"
+                     :stop="row === stops[block.id]" :span="span(table, row)" :rest="table.rest" />
         </table>
       </details>
     </section>`,
@@ -54,6 +70,9 @@ export default {
       wanted: "",
       at: "",
     };
+  },
+  created() {
+    this.said = new Map(); // rows by all that they say
   },
   computed: {
     // Few are read, many are opened by who wants them.
@@ -77,10 +96,31 @@ export default {
       if (!wanted) found.unshift({ id: "pins", title: this.words.pins, open: this.folds.pins ?? true, tables: this.together(top) });
       return found.filter((block) => block.tables.some((table) => table.rows.length));
     },
+    me() {
+      return this;
+    },
+    // The row of each block that the tab key comes to.
+    stops() {
+      const stop = ({ id, tables }) => {
+        const rows = tables.flatMap((table) => table.rows);
+        return [id, rows.find((row) => id + row.key === this.at) ?? rows[0]];
+      };
+      return Object.fromEntries(this.blocks.map(stop));
+    },
   },
   methods: {
+    // A row that says what it said stays the one that it was, and so does its part of the page.
     show(content) {
-      this.content = content;
+      const said = new Map();
+      for (const block of content.sections.flatMap((section) => section.blocks))
+        block.rows = block.rows.map((row) => {
+          const text = JSON.stringify(row);
+          const same = this.said.get(text) ?? row;
+          said.set(text, same);
+          return same;
+        });
+      this.said = said;
+      this.content = Object.freeze(content); // so that Vue does not watch everything in it
       this.waiting = false;
     },
     wait() {
@@ -88,7 +128,7 @@ export default {
     },
     // Rows, and how much room what is behind their decimal points needs.
     table(columns, rows) {
-      const rests = rows.flatMap((row) => row.cells.map((cell) => (this.split(cell.text)[1] ?? "").length));
+      const rests = rows.flatMap((row) => row.cells.map((cell) => (split(cell.text)[1] ?? "").length));
       return { columns, rows, rest: Math.max(0, ...rests) };
     },
     // Pinned rows in a table for each kind of columns; one number of all goes with those of several gears before it.
@@ -105,21 +145,11 @@ export default {
     pinned(key) {
       return this.pins[key] ?? this.content.pins.includes(key);
     },
-    // The part of a number before its point and the rest, to be put in line; null for what is no number.
-    split(text) {
-      const found = NUMBER.exec(text);
-      return found ? [found[1], (found[2] ?? "") + (found[3] ?? "")] : [text, null];
-    },
     span(table, row) {
       return row.cells.length === 1 ? Math.max(table.columns.length, 1) : 1;
     },
     hint(row) {
       return [`${row.words} ${row.symbol}`, row.source, row.key, this.pinned(row.key) ? this.words.unpin : this.words.pin].filter(Boolean).join("\n");
-    },
-    // The row of a block that the tab key comes to.
-    here(block) {
-      const rows = block.tables.flatMap((table) => table.rows);
-      return rows.find((row) => block.id + row.key === this.at) ?? rows[0];
     },
     walk(event) {
       const row = event.target.closest("tr[data-row]");

@@ -1,10 +1,39 @@
 // The inputs of a spec: what the schema says of each key makes a field. What is typed is sent as text; what is wrong with it
 // comes back as the line that the command line prints, and is shown at its field. One change is on its way at a time: what is
 // typed meanwhile waits, so that no server lags behind a key that is held down.
+import { toRaw } from "vue";
+
 const PATIENCE = 3000; // ms until a change that nobody answers is taken for lost
 const PHONE = "(max-width: 640px)";
 
+// One field. Its part of the page stays as it is while all that it is given does.
+const SpecField = {
+  template: `
+    <div :data-key="field.key" class="field" :class="{ changed, wrong: !!fault, given: given !== undefined }">
+      <label :for="'in-' + field.key" :title="field.words"><span>{{ field.words }}</span><i v-if="field.symbol">{{ field.symbol }}</i></label>
+      <select v-if="field.choices.length" :id="'in-' + field.key" :value="given ?? ''" :disabled="readonly"
+              :aria-invalid="!!fault" @focus="form.focused = field" @change="form.send(field.key, $event.target.value)">
+        <option value="">{{ used ?? "" }}</option>
+        <option v-if="given && !field.choices.includes(given)">{{ given }}</option>
+        <option v-for="word in field.choices" :key="word" :value="word">{{ word }}</option>
+      </select>
+      <input v-else :id="'in-' + field.key" type="text" spellcheck="false" :class="{ words: !field.number }"
+             :readonly="readonly" :value="draft ?? given ?? ''" :placeholder="used ?? ''"
+             :list="field.offered.length ? 'of-' + field.key : null" :aria-invalid="!!fault"
+             @focus="form.focused = field" @input="form.type(field.key, $event.target.value)" @blur="form.leave(field.key)"
+             @keydown="form.press(field, $event)" />
+      <button v-if="given !== undefined && !readonly" type="button" class="out" tabindex="-1" :title="form.words.out"
+              :aria-label="form.words.out + ': ' + field.words" @click="form.out(field.key)">×</button>
+      <span v-else />
+      <span class="unit">{{ field.unit }}</span>
+      <datalist v-if="field.offered.length" :id="'of-' + field.key"><option v-for="word in field.offered" :key="word" :value="word" /></datalist>
+      <span v-if="fault" class="fault" role="alert" lang="en">{{ fault }}</span>
+    </div>`,
+  props: { form: Object, field: Object, given: null, used: null, draft: null, changed: Boolean, fault: String, readonly: Boolean },
+};
+
 export default {
+  components: { SpecField },
   template: `
     <form class="inputs" @submit.prevent autocomplete="off" :aria-label="words.inputs">
       <div class="find">
@@ -17,27 +46,8 @@ export default {
         <summary>{{ table.title }}<b v-if="count(table)">{{ count(table) }}</b></summary>
         <component v-for="group in table.groups" :key="group.part" :is="group.part && !wanted ? 'details' : 'div'" class="group">
           <summary v-if="group.part && !wanted" :class="{ changed: group.fields.some(isChanged) }">{{ group.title }}<b v-if="countIn(group)">{{ countIn(group) }}</b></summary>
-          <div v-for="field in group.fields" :key="field.key" :data-key="field.key" class="field"
-               :class="{ changed: isChanged(field), wrong: isWrong(field), given: field.key in given }">
-            <label :for="'in-' + field.key" :title="field.words"><span>{{ field.words }}</span><i v-if="field.symbol">{{ field.symbol }}</i></label>
-            <select v-if="field.choices.length" :id="'in-' + field.key" :value="given[field.key] ?? ''" :disabled="readonly"
-                    :aria-invalid="isWrong(field)" @focus="focused = field" @change="send(field.key, $event.target.value)">
-              <option value="">{{ used[field.key] ?? "" }}</option>
-              <option v-if="given[field.key] && !field.choices.includes(given[field.key])">{{ given[field.key] }}</option>
-              <option v-for="word in field.choices" :key="word" :value="word">{{ word }}</option>
-            </select>
-            <input v-else :id="'in-' + field.key" type="text" spellcheck="false" :class="{ words: !field.number }"
-                   :readonly="readonly" :value="drafts[field.key] ?? given[field.key] ?? ''" :placeholder="used[field.key] ?? ''"
-                   :list="field.offered.length ? 'of-' + field.key : null" :aria-invalid="isWrong(field)"
-                   @focus="focused = field" @input="type(field.key, $event.target.value)" @blur="leave(field.key)"
-                   @keydown="press(field, $event)" />
-            <button v-if="field.key in given && !readonly" type="button" class="out" tabindex="-1" :title="words.out"
-                    :aria-label="words.out + ': ' + field.words" @click="out(field.key)">×</button>
-            <span v-else />
-            <span class="unit">{{ field.unit }}</span>
-            <datalist v-if="field.offered.length" :id="'of-' + field.key"><option v-for="word in field.offered" :key="word" :value="word" /></datalist>
-            <span v-if="isWrong(field)" class="fault" role="alert" lang="en">{{ fault.line }}</span>
-          </div>
+          <spec-field v-for="field in group.fields" :key="field.key" :form="me" :field="field" :given="given[field.key]" :used="used[field.key]"
+                      :draft="drafts[field.key]" :changed="isChanged(field)" :fault="isWrong(field) ? fault.line : ''" :readonly="readonly" />
         </component>
       </details>
       <div class="hint" role="status">{{ hint }}</div>
@@ -48,17 +58,24 @@ export default {
     return { wanted: "", drafts: {}, given: {}, used: {}, changed: [], fault: null, focused: null, readonly: false };
   },
   computed: {
+    me() {
+      return this;
+    },
+    // Without Vue's watch over everything in them: they change as a whole.
+    ownTables() {
+      return toRaw(this.tables);
+    },
     keys() {
-      return new Set(this.tables.flatMap((table) => table.groups.flatMap((group) => group.fields.map((field) => field.key))));
+      return new Set(this.ownTables.flatMap((table) => table.groups.flatMap((group) => group.fields.map((field) => field.key))));
     },
     shownTables() {
       const parts = this.wanted.trim().toLowerCase().split(/\s+/);
-      if (!parts[0]) return this.tables;
+      if (!parts[0]) return this.ownTables;
       const fits = (table, group) => (field) => {
         const said = `${field.key} ${field.words} ${field.symbol} ${table.title} ${group.title}`.toLowerCase();
         return parts.every((part) => said.includes(part));
       };
-      return this.tables
+      return this.ownTables
         .map((table) => ({
           ...table,
           groups: table.groups
@@ -105,6 +122,7 @@ export default {
   methods: {
     show({ reveal, ...state }) {
       const former = this.fault?.key;
+      for (const each of Object.values(state)) Object.freeze(each); // so that Vue does not watch everything in it
       Object.assign(this, state);
       this.answered();
       if (reveal) this.drafts = {};

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 from gearcad.designs.design import Design
@@ -12,17 +11,14 @@ from gearcad.page.panels.bodies_content import Bodies, bodies_of
 from gearcad.page.panels.section_parts import plain
 from gearcad.page.words import Words
 
-__all__ = ["SURFACES", "BodiesPanel"]
-
-SURFACES: dict[str, Mapping[str, bytes]] = {}
-"""What each session shows, by its key: surfaces by theirs. The server answers with them."""
+__all__ = ["BodiesPanel"]
 
 
 class BodiesPanel(Panel[Bodies]):
-    """The gears in mesh, as solid bodies; `key` is that of the session."""
+    """The gears in mesh, as solid bodies."""
 
-    def __init__(self, key: str, words: Words) -> None:
-        self._key, self._words, self._number = key, words, 0
+    def __init__(self, words: Words) -> None:
+        self._words, self._number = words, 0
         self._shown: Bodies | None = None
         self._view = BodiesView(words["the gears in mesh"], _own(words))
 
@@ -32,12 +28,12 @@ class BodiesPanel(Panel[Bodies]):
     def show(self, found: Bodies) -> None:
         if found == self._shown:
             return
-        former = self._shown.surfaces if self._shown else {}  # a browser may still be asking for those
+        former = self._shown.surfaces if self._shown else {}
         self._number += 1
-        SURFACES[self._key] = {**former, **found.surfaces}
         self._shown = found
         bodies: list[dict[str, Any]] = [plain(body._asdict()) for body in found.bodies]
-        self._view.show(self._number, f"/bodies/{self._key}", bodies, found.error, self._words[found.why_not])
+        surfaces = {key: content for key, content in found.surfaces.items() if key not in former}
+        self._view.show(self._number, bodies, surfaces, float(found.error), self._words[found.why_not])
 
 
 def _own(words: Words) -> dict[str, str]:

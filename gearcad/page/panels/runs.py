@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import math
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from nicegui import background_tasks, run, ui
@@ -36,14 +37,17 @@ class Outlook(NamedTuple):
 
 
 class RunsPanel:
-    """Follows the workbench; runs belong to the text with which they were started."""
+    """Follows the workbench; runs belong to the text with which they were started. While `seen` it tells what they take."""
 
-    def __init__(self, bench: Workbench, words: Words, runs: Runs | None = None) -> None:
-        self._bench, self._words, self._runs = bench, words, runs or Runs()
+    def __init__(
+        self, bench: Workbench, words: Words, runs: Runs | None = None, seen: Callable[[], bool] = lambda: True
+    ) -> None:
+        self._bench, self._words, self._runs, self._seen = bench, words, runs or Runs(), seen
         limits = Expected(self._runs.limits.seconds, self._runs.limits.memory)
         self._view = RunsView(self._start, self._cancel, _words(words), f"{words['each run has at most']} {_size(limits)}")
         self._expected: dict[str, Outlook] = {}
         self._design: Design | None = None
+        self._expected_of: Design | None = None
         self._task: asyncio.Task[None] | None = None
         self._names = _names(words)
         self._kinds: list[dict[str, Any]] = []
@@ -59,11 +63,16 @@ class RunsPanel:
         design = self._bench.design
         if design is not self._design:
             self._design = design
-            if self._task is not None:
-                self._task.cancel()
-            self._task = background_tasks.create(self._expect(design))
             self._show_kinds()
+            if self._seen():
+                self.expect()
         self._show_stale()
+
+    def expect(self) -> None:
+        """Find out what runs on the design would take."""
+        if self._task is not None:
+            self._task.cancel()
+        self._task = background_tasks.create(self._expect(self._bench.design))
 
     def hand_over(self) -> Runs:
         """Its runs, which go on in the panel that gets them."""
@@ -78,8 +87,11 @@ class RunsPanel:
             self._task.cancel()
 
     async def _expect(self, design: Design) -> None:
+        if design is self._expected_of:
+            return
         await asyncio.sleep(_REST)
         self._expected = await run.io_bound(expected_of, design) or {}
+        self._expected_of = design
         self._show_kinds()
 
     def _start(self, kind: str) -> None:
