@@ -8,7 +8,8 @@ from functools import cache
 from gearcad.designs.keys import FIELDS, SHARED
 from gearcad.designs.planetary_keys import PLANETARY, PRE_STAGE
 from gearcad.designs.train_keys import TRAIN
-from gearcad.schema import FieldSchema
+from gearcad.identify import Measurements
+from gearcad.schema import FieldSchema, schema_of
 
 __all__ = ["key_tables"]
 
@@ -32,6 +33,7 @@ def key_tables() -> Mapping[str, Mapping[str, FieldSchema]]:
         "train": dict(TRAIN["train"]),
         **{f"train.{part}": dict(TRAIN[part]) for part in ("inertia", "shaft", "mesh")},
         **_planetary(mates),
+        "measured": dict(schema_of(Measurements)),
     }
     found["material"] |= {key: each for key, each in PLANETARY["material"].items() if key not in FIELDS["material"]}
     transient = {key: each for key, each in found["dynamics"].items() if key.startswith("transient.")}

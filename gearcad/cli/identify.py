@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -12,6 +11,9 @@ import click
 from gearcad.cli.group import debug_option, require_new_file
 from gearcad.cli.job import echo_warnings, quiet_option
 from gearcad.errors import ParameterError
+from gearcad.identify.measured import Gauge
+from gearcad.identify.measurements import Measurements
+from gearcad.schema import FieldSchema, schema_of
 
 if TYPE_CHECKING:
     from gearcad.identify import Candidate, Identification
@@ -20,41 +22,35 @@ __all__ = ["identify"]
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
-_SINGLE: tuple[tuple[str, str, str], ...] = (
-    ("--tip-diameter", "MM", "Over the tips; calipers read less over an odd number of teeth."),
-    ("--root-diameter", "MM", "Of the bottoms of the spaces."),
-    ("--helix-angle", "DEG", "On the reference circle; 0 for spur teeth; below 0 for a left hand."),
-    ("--tip-helix-angle", "DEG", "On the tips, as the gear rolled over paper prints it."),
-    ("--lead", "MM", "Along the axis, of one whole turn of a tooth."),
-    ("--centre-distance", "MM", "Of the pair in which it runs; with --mate-teeth."),
-    ("--mate-tip-diameter", "MM", "Of the gear with which it runs."),
-)
-_SIZED: tuple[tuple[str, str, str], ...] = (
-    ("--span", "K:MM", "Over K teeth, of a spur ring over K spaces; repeat it with other K."),
-    ("--over-pins", "D:MM", "Over two pins of diameter D; repeat it with another D."),
-    ("--over-balls", "D:MM", "Over two balls."),
-    ("--between-pins", "D:MM", "Of a spur ring."),
-    ("--between-balls", "D:MM", "Of a ring."),
-)
-_UNCERTAIN = re.compile(r"\s*(?:\+-|\+/-|±)\s*")
+_SIZED = {gauge.value: gauge for gauge in Gauge if gauge.sized}
+_METAVARS = {"span": "K:MM", "chordal_thickness": "H:MM", "teeth": "Z", "mate_teeth": "Z"}
 
 
-def _gauge_options(command: Command) -> Command:
-    for name, metavar, words in reversed(_SIZED):
-        command = click.option(name, multiple=True, metavar=metavar, help=words)(command)
-    for name, metavar, words in reversed(_SINGLE):
-        command = click.option(name, metavar=metavar, help=words)(command)
+def _reading_options(command: Command) -> Command:
+    """An option for each key of [measured]."""
+    for name, field in reversed(list(schema_of(Measurements).items())):
+        command = click.option(f"--{name.replace('_', '-')}", name, **_option(name, field))(command)
     return command
 
 
+def _option(name: str, field: FieldSchema) -> dict[str, Any]:
+    words = field.symbol.words
+    how: dict[str, Any] = {"help": f"{words[0].upper()}{words[1:]}."}
+    if field.default is not None:
+        how["help"] += f"  [default: {field.default:g}]"
+    how["metavar"] = _METAVARS.get(name, "D:MM" if name in _SIZED else field.symbol.unit.upper())
+    if name in _SIZED:
+        how["multiple"] = True
+    elif name.endswith("teeth"):
+        how["type"] = int
+    elif name.endswith("uncertainty"):
+        how["type"] = float
+    return how
+
+
 @click.command(short_help="The standard gear that was measured: module, pressure angle, shift.")
-@click.option("--teeth", type=int, required=True, metavar="Z", help="Counted; below 0 for a ring.")
-@_gauge_options
-@click.option("--mate-teeth", type=int, metavar="Z", help="Of the gear with which it runs; below 0 for a ring.")
-@click.option("--uncertainty", type=float, default=0.02, show_default=True, metavar="MM", help="Of lengths without their own.")
-@click.option(
-    "--angle-uncertainty", type=float, default=1.0, show_default=True, metavar="DEG", help="Of angles; of a lead 1 %."
-)
+@click.argument("file", required=False, type=click.Path(path_type=Path))
+@_reading_options
 @click.option("--count", type=int, default=5, show_default=True, metavar="N", help="Most candidates that are listed.")
 @click.option("--write", type=click.Path(path_type=Path), metavar="FILE", help="Write the spec of a candidate.")
 @click.option("--candidate", type=int, default=1, show_default=True, metavar="N", help="Which one.")
@@ -63,10 +59,7 @@ def _gauge_options(command: Command) -> Command:
 @quiet_option
 @debug_option
 def identify(
-    teeth: int,
-    mate_teeth: int | None,
-    uncertainty: float,
-    angle_uncertainty: float,
+    file: Path | None,
     count: int,
     write: Path | None,
     candidate: int,
@@ -78,31 +71,25 @@ def identify(
     """Which standard gear has been measured: modules of ISO 54 and DIN 780, diametral pitches and sizes of no series, with all
     usual pressure angles and racks, spur or helical, external or a ring, ranked by how well they fit.
 
-    A reading may have its own standard uncertainty, such as 52.3+-0.1 for a worn tip; it is of measuring and of making. Two
-    spans tell most: they differ by the base pitch. Probabilities weigh the fit with how usual a gear is, as we judge it.
+    The readings stand in the [measured] of FILE, as `gearcad new measured` has it, or behind options, which count before those
+    of the file. Spans, pins, balls and chords may be given several times, for other K, D or H. A reading may have its own
+    standard uncertainty, such as 52.3+-0.1 for a worn tip; it is of measuring and of making. Two spans tell most: they differ
+    by the base pitch. Probabilities weigh the fit with how usual a gear is, as we judge it.
 
     \b
+    gearcad identify measured.toml
     gearcad identify --teeth 24 --tip-diameter 52.02 --root-diameter 43.01 --span 3:15.40 --span 4:21.30
-    gearcad identify --teeth 31 --tip-diameter 74.6 --over-pins 3.5:75.52 --tip-helix-angle 16 --write gear.toml
+    gearcad identify --teeth 31 --tip-diameter 74.6 --over-pins 3.5:75.52 --tip-helix-angle 16
     gearcad identify --teeth 30 --tip-diameter 81.2+-0.2 --centre-distance 101.6 --mate-teeth 50
     """
-    from gearcad.jobs.identify import identify as identified
+    from gearcad.jobs.identify import identify_measured
     from gearcad.output import json_text
 
     if write is not None:
         require_new_file(write, force)
     if not 1 <= candidate <= count:
         raise ParameterError("candidate", candidate, f"must be a whole number from 1 to {count}, as many as are listed")
-    readings: dict[str, Any] = {name: _value(name, text) for name in _names(_SINGLE) if (text := given[name]) is not None}
-    readings |= {name: _values(name, texts) for name in _names(_SIZED) if (texts := given[name])}
-    found = identified(
-        teeth,
-        mate_teeth=mate_teeth,
-        uncertainty=uncertainty,
-        angle_uncertainty=angle_uncertainty,
-        count=count,
-        **readings,
-    )
+    found = identify_measured(_measurements(file, given), count)
     chosen = _chosen(found, candidate)
     if write is not None:
         _write(found, chosen, write)
@@ -122,38 +109,37 @@ def identify(
         click.get_current_context().exit(1)
 
 
-def _names(options: Sequence[tuple[str, str, str]]) -> list[str]:
-    return [name.lstrip("-").replace("-", "_") for name, _, _ in options]
+def _measurements(file: Path | None, given: dict[str, Any]) -> Measurements:
+    """Those of a file and of the options that are given."""
+    from gearcad.designs.measured import read_measurements, reading_of
+
+    readings: dict[str, Any] = {}
+    for name, said in given.items():
+        if said is None or said == ():
+            continue
+        sized, text = name in _SIZED, isinstance(said, str)
+        readings[name] = _by_size(name, said) if sized else reading_of(name, said) if text else said
+    if file is not None:
+        return read_measurements(file, readings)
+    if "teeth" not in readings:
+        raise ParameterError("teeth", None, "must be given, as counted, or a FILE of measurements (`gearcad new measured`)")
+    return Measurements(**readings)
 
 
-def _value(name: str, text: str) -> Any:
-    """A reading, with its own uncertainty if there is one."""
-    try:
-        numbers = tuple(map(float, _UNCERTAIN.split(text.strip())))
-    except ValueError:
-        raise ParameterError(name, text, "must be a number, or a number and its uncertainty: 52.3 or 52.3+-0.1") from None
-    if len(numbers) > 2:
-        raise ParameterError(name, text, "must have one uncertainty: 52.3+-0.1")
-    return numbers[0] if len(numbers) == 1 else numbers
-
-
-def _values(name: str, texts: Sequence[str]) -> dict[Any, Any]:
+def _by_size(name: str, texts: Sequence[str]) -> dict[float, Any]:
     """Readings by the number of teeth spanned, or by the diameter of pins or balls."""
-    found: dict[Any, Any] = {}
+    from gearcad.designs.measured import reading_of, size_of
+
+    gauge, found = _SIZED[name], {}
     for text in texts:
         first, colon, reading = text.partition(":")
-        spans = name == "span"
-        example = "3:15.40" if spans else "3.5:56.21"
-        try:
-            size = int(first) if spans else float(first)
-        except ValueError:
-            colon = ""
         if not colon:
-            what = "teeth spanned" if spans else "diameter of pins or balls"
-            raise ParameterError(name, text, f"must be {what} and reading, such as {example}")
+            example = "3:15.40" if gauge is Gauge.SPAN else "3.5:56.21"
+            raise ParameterError(name, text, f"must be {gauge.size_in_words} and reading, such as {example}")
+        size = size_of(gauge, first)
         if size in found:
             raise ParameterError(name, text, f"must be given once for {size:g}")
-        found[size] = _value(name, reading)
+        found[size] = reading_of(name, reading)
     return found
 
 

@@ -15,13 +15,19 @@ __all__ = ["identification_lines"]
 _COLUMNS = 4
 """Candidates whose residuals are shown."""
 
+_REST = 0.01
+"""The least probability of all others that is told."""
+
+_FAR = 100.0
+"""Uncertainties beyond which nobody asks how far."""
+
 _CLEAR = 2.0
 """How far apart candidates must be for a measurement to decide."""
 
 
 def identification_lines(found: Identification) -> Iterator[str]:
     """Candidates, their residuals, the verdict, and what would decide."""
-    yield from _aligned(_candidate_rows(found), left=(1, 8))
+    yield from _aligned(_candidate_rows(found), left=(1, 10))
     yield ""
     yield from _aligned(_residual_rows(found), left=(0,))
     yield ""
@@ -39,7 +45,7 @@ def _aligned(rows: Sequence[Sequence[str]], left: Sequence[int]) -> Iterator[str
 
 
 def _candidate_rows(found: Identification) -> list[tuple[str, ...]]:
-    heading = ("", "size", "m_n mm", "α_n °", "β °", "x", "thinning mm", "k", "rack (h_a/h_f)", "chi²", "%")
+    heading = ("", "size", "%", "chi²", "m_n mm", "α_n °", "β °", "x", "thinning mm", "k", "rack (h_a/h_f)")
     return [heading, *(_row(number, each) for number, each in enumerate(found.candidates, 1))]
 
 
@@ -49,6 +55,8 @@ def _row(number: int, each: Candidate) -> tuple[str, ...]:
     return (
         f"{number}",
         f"{each.series} {pitch:g}" if pitch is not None else each.series,
+        f"{100 * each.probability:.1f}",
+        f"{each.chi_square:.1f}",
         f"{gear.normal_module:.5g}" + (f" ±{each.module_uncertainty:.1g}" if each.series == "free" else ""),
         f"{gear.rack.pressure_angle:g}",
         f"{gear.helix_angle:.2f} ±{each.helix_uncertainty:.1g}" if gear.helix_angle else "0",
@@ -56,8 +64,6 @@ def _row(number: int, each: Candidate) -> tuple[str, ...]:
         f"{gear.tooth_thinning:.3f} ±{each.thinning_uncertainty:.1g}",
         f"{gear.tip_alteration:.3f}" if gear.tip_alteration else "0",
         f"{each.rack.name} ({gear.rack.addendum:g}/{gear.rack.dedendum:.4g})",
-        f"{each.chi_square:.1f}",
-        f"{100 * each.probability:.1f}",
     )
 
 
@@ -83,11 +89,14 @@ def _verdict(found: Identification) -> Iterator[str]:
         return
     if not found.fits:
         yield "Not certain: no candidate fits"
-    elif len(found.rivals) == 0:
+    elif not found.rivals and found.best.off_involute:
+        yield "Not certain: a gauge would not touch the flanks of 1, so that it cannot have read what was read"
+    elif not found.rivals:
         yield f"Not certain: many others are left, each less probable than {100 * found.candidates[-1].probability:.1g} %"
     else:
         first, *others = (f"{number}" for number in range(1, len(found.rivals) + 2))
-        yield f"Ambiguous: {first} or {', '.join(others)}"
+        rest = f", or one that is not listed ({100 * found.unlisted:.0f} %)" if found.unlisted >= _REST else ""
+        yield f"Ambiguous: {first} or {', '.join(others)}{rest}"
     if found.alike:
         same = ", ".join(f"{found.candidates.index(each) + 1}" for each in found.alike)
         yield f"The flanks of {same} are those of 1 under another name, within uncertainty: as a replacement they are alike"
@@ -109,5 +118,5 @@ def _deciding_line(found: Identification, each: Deciding) -> str:
     how = " (gear rolled over paper)" if each.place.gauge is Gauge.TIP_HELIX_ANGLE else ""
     if each.less is not None:
         label = f"{found.measured.label(each.less)} and over {each.place.size:g}, their difference"
-    apart = ", ".join(f"{distance:.1f}" for distance in each.apart)
+    apart = ", ".join(f"{distance:.1f}" if distance < _FAR else f"over {_FAR:g}" for distance in each.apart)
     return f"  {label}{how}: {values}{unit} (from 1: {apart} uncertainties)"

@@ -51,7 +51,7 @@ def _next(name: str, text: str, path: Path) -> str:
         return f'keep what you change, and name it in a spec: [drawing] template = "{path}"'
     if name.endswith(".csv"):
         return f"gearcad batch {path}"
-    commands = {"train": "dynamics", "planetary": "planetary"}
+    commands = {"train": "dynamics", "planetary": "planetary", "measured": "identify"}
     command = next((command for table, command in commands.items() if f"\n[{table}]\n" in text), "data")
     return f"gearcad {command} {path}"
 

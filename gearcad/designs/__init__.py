@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from gearcad.designs.kinds.rack_pair import RackPairDesign
     from gearcad.designs.kinds.toothed import ToothedDesign
     from gearcad.designs.kinds.train import TrainDesign
+    from gearcad.designs.measured import read_measurements
     from gearcad.designs.mesh_pairs import MeshPairs
     from gearcad.designs.reader import design_from_tables, read_spec
     from gearcad.designs.table import Row, Table, open_table
@@ -35,6 +36,7 @@ __all__ = [
     "TrainDesign",
     "design_from_tables",
     "open_table",
+    "read_measurements",
     "read_spec",
 ]
 
@@ -42,4 +44,6 @@ if not TYPE_CHECKING:
     _KINDS = ("toothed", "geared", "gear", "pair", "rack", "rack_pair", "train", "planetary")
     from gearcad.lazy import lazily
 
-    __getattr__ = lazily(__name__, __all__, ("design", "reader", *(f"kinds.{home}" for home in _KINDS), "mesh_pairs", "table"))
+    __getattr__ = lazily(
+        __name__, __all__, ("design", "reader", *(f"kinds.{home}" for home in _KINDS), "measured", "mesh_pairs", "table")
+    )

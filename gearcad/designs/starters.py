@@ -7,7 +7,7 @@ from pathlib import Path
 from gearcad.errors import ParameterError
 from gearcad.shipped import templates
 
-__all__ = ["starter_text", "starters"]
+__all__ = ["NO_DESIGNS", "starter_text", "starters"]
 
 _ALIASES = {
     "gear": "spur",
@@ -17,6 +17,9 @@ _ALIASES = {
     "uhlir": "uhlir-19-23",
 }
 """What a newcomer would ask for."""
+
+NO_DESIGNS = ("drawing_title", "measured")
+"""Starters that are no spec and no table of designs."""
 
 
 _NONE = ("drawing_words", "page_words")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gearcad.arrays import Floats
-from gearcad.errors import InputError
+from gearcad.errors import InputError, SolverError
 from gearcad.geometry import BasicRack, Gear
 from gearcad.geometry.derived import NOT_GIVEN
 from gearcad.identify.fit import Fit
@@ -121,7 +121,7 @@ def on_involute(gear: Gear, place: Reading) -> bool:
     """Whether a gauge touches the flanks of a gear, or has nothing to do with them."""
     try:
         diameter = touches(gear.inspection, place)
-    except InputError:
+    except (InputError, SolverError):
         return False
     lowest, highest = sorted((abs(gear.form_diameter), abs(gear.tip_form_diameter)))
     slack = _SLACK * gear.normal_module

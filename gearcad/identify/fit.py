@@ -23,6 +23,9 @@ _MOST_STEPS = 12
 _SETTLED = 4
 """Steps after which the way to have made the gear stays: two that are as probable would take turns for ever."""
 
+_UNUSUAL = 2.0
+"""Spreads from what is usual."""
+
 _CLOSE = 1e-3
 """Of a spread: the step that ends the search."""
 
@@ -58,6 +61,14 @@ class Fit:
         doubted = self.log_evidences / 2
         found: Floats = np.exp(doubted - np.logaddexp.reduce(doubted))
         return found
+
+    @property
+    def unusual(self) -> tuple[Unknown, ...]:
+        """The unknowns that are two spreads of the best way or more from what is usual there, or the farthest of them."""
+        spreads = np.sqrt(np.einsum("ij,ij->i", self.ways.roots[self.best], self.ways.roots[self.best]))
+        off = np.abs(self.unknowns - self.ways.means[self.best])
+        far = np.divide(off, spreads, out=np.zeros_like(off), where=spreads > 0)
+        return tuple(each for each in Unknown if far[each] >= min(_UNUSUAL, far.max()))
 
     def uncertainty(self, unknown: Unknown) -> float:
         """Standard uncertainty of an unknown about its value here, other ways considered."""

@@ -9,12 +9,13 @@ from functools import lru_cache
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.errors import InputError
+from gearcad.errors import InputError, SolverError
 from gearcad.geometry import BasicRack
 from gearcad.geometry.gauged import inspection_of
 from gearcad.geometry.gear_data import GearData
 from gearcad.geometry.inspection import Inspection
 from gearcad.geometry.shift import zero_backlash_centre_distance
+from gearcad.geometry.tooth_caliper import chord_below_tip
 from gearcad.identify.measured import Gauge, Measured, Reading
 from gearcad.identify.unknowns import UNKNOWNS, Unknown
 from gearcad.per_gear import PerGear
@@ -26,7 +27,7 @@ _STEPS = np.array([1e-5, 1e-4, 1e-3, 1e-4, 1e-4, 1e-4, 1e-3, 1e-4])
 
 
 _FELT_BY: dict[int, tuple[Gauge, ...]] = {
-    Unknown.ADDENDUM: (Gauge.TIP_DIAMETER, Gauge.TIP_HELIX_ANGLE, Gauge.MATE_TIP_DIAMETER),
+    Unknown.ADDENDUM: (Gauge.TIP_DIAMETER, Gauge.TIP_HELIX_ANGLE, Gauge.MATE_TIP_DIAMETER, Gauge.CHORDAL_THICKNESS),
     Unknown.DEDENDUM: (Gauge.ROOT_DIAMETER,),
     Unknown.MATE_SHIFT: (Gauge.CENTRE_DISTANCE, Gauge.MATE_TIP_DIAMETER),
 }
@@ -64,7 +65,7 @@ def read_off(measured: Measured, places: Sequence[Reading], unknowns: Floats) ->
     for number, place in enumerate(places):
         try:
             found[number] = _read(measured, place, unknowns, gear, inspection)
-        except InputError:
+        except (InputError, SolverError):  # a pin so large that no pressure angle is found at its centre
             found[number] = np.nan
     return found
 
@@ -76,7 +77,7 @@ def _inspection(gear: GearData, places: Sequence[Reading]) -> Inspection | None:
 
 def _read(measured: Measured, place: Reading, unknowns: Floats, gear: GearData, inspection: Inspection | None) -> float:
     if inspection is not None and place.size:
-        return _over_flanks(inspection, place)
+        return _over_flanks(inspection, (gear.standard_tip_diameter - gear.reference_diameter) / 2, place)
     match place.gauge:
         case Gauge.TIP_DIAMETER:
             return abs(gear.standard_tip_diameter)
@@ -93,7 +94,7 @@ def _read(measured: Measured, place: Reading, unknowns: Floats, gear: GearData, 
             return _of_mate(measured, place.gauge, unknowns)
 
 
-def _over_flanks(inspection: Inspection, place: Reading) -> float:
+def _over_flanks(inspection: Inspection, addendum: float, place: Reading) -> float:
     match place.gauge:
         case Gauge.SPAN:
             return inspection.span_measurement(int(place.size))
@@ -101,6 +102,8 @@ def _over_flanks(inspection: Inspection, place: Reading) -> float:
             return inspection.over_pins(place.size)
         case Gauge.OVER_BALLS:
             return inspection.over_balls(place.size)
+        case Gauge.CHORDAL_THICKNESS:
+            return chord_below_tip(inspection, addendum, place.size).thickness
         case _:
             return inspection.between_balls(place.size)
 
@@ -140,6 +143,8 @@ def touches(inspection: Inspection, place: Reading) -> float | None:
     """The diameter (mm, positive) on which a gauge touches the flanks; None for one that does not."""
     if place.gauge is Gauge.SPAN:
         return abs(inspection.span_contact_diameter(int(place.size)))
+    if place.gauge is Gauge.CHORDAL_THICKNESS:
+        return chord_below_tip(inspection, inspection.addendum, place.size).diameter
     if place.gauge in (Gauge.OVER_PINS, Gauge.OVER_BALLS, Gauge.BETWEEN_PINS, Gauge.BETWEEN_BALLS):
         return abs(inspection.ball_contact_diameter(place.size))
     return None

@@ -7,6 +7,7 @@ from typing import Any
 
 from gearcad.identify.candidate import Candidate
 from gearcad.identify.measured import Measured, Reading
+from gearcad.identify.unknowns import Unknown
 from gearcad.notice import Notice, texts
 
 __all__ = ["Deciding", "Identification"]
@@ -16,6 +17,20 @@ _CERTAIN = 0.95
 
 _WORN = 0.12
 """Tooth thinning in modules above that of gears as they are made."""
+
+_OFF = 2.0
+"""Uncertainties that a reading is off and is told."""
+
+_UNUSUAL = {
+    Unknown.MODULE: "module",
+    Unknown.PRESSURE_ANGLE: "pressure angle",
+    Unknown.HELIX_ANGLE: "helix angle",
+    Unknown.SHIFT: "profile shift",
+    Unknown.ADDENDUM: "height of the tips",
+    Unknown.DEDENDUM: "depth of the roots",
+    Unknown.THINNING: "tooth thinning",
+    Unknown.MATE_SHIFT: "profile shift of the mate",
+}
 
 _LEAST_FIT = 0.002
 """The least probability that a chi-square as great as the best would have by chance, of readings that fit."""
@@ -66,8 +81,13 @@ class Identification:
 
     @property
     def certain(self) -> bool:
-        """Whether the best fits, and all others together are improbable."""
-        return self.fits and self.best.probability >= _CERTAIN
+        """Whether the best fits, every gauge touches its flanks, and all others together are improbable."""
+        return self.fits and not self.best.off_involute and self.best.probability >= _CERTAIN
+
+    @property
+    def unlisted(self) -> float:
+        """How probable it is that the gear is none of the candidates listed."""
+        return max(1 - sum(each.probability for each in self.candidates), 0.0)
 
     @property
     def rivals(self) -> tuple[Candidate, ...]:
@@ -79,10 +99,7 @@ class Identification:
         """What to know before a gear is made by this."""
         found = list(self.measured.notices)
         if not self.fits:
-            worst = max(range(len(self.measured.readings)), key=lambda each: abs(self.best.residuals[each]))
-            label = self.measured.label(self.measured.readings[worst])
-            off = f"the {label} is {self.best.residuals[worst]:+.1f} uncertainties off"
-            found.append(Notice("no-fit", f"no candidate fits: {off}; count and measure again"))
+            found.append(Notice("no-fit", f"no candidate fits: {self._misfit}; count and measure again"))
         if (thinning := self.best.gear.tooth_thinning) > _WORN * self.best.gear.normal_module:
             text = f"the teeth of the first candidate are {thinning:.2g} mm thinner than without backlash: worn, perhaps"
             found.append(Notice("thin-teeth", f"{text}; a gear that is made again has less tooth_thinning"))
@@ -90,6 +107,15 @@ class Identification:
             text = f"the {self.measured.label(each)} would not touch the involute of the first candidate"
             found.append(Notice("off-involute", text))
         return tuple(found)
+
+    @property
+    def _misfit(self) -> str:
+        """What is wrong with the best: a reading, or else what such a gear has that hardly any has."""
+        worst = max(range(len(self.measured.readings)), key=lambda each: abs(self.best.residuals[each]))
+        if abs(off := self.best.residuals[worst]) >= _OFF:
+            return f"the {self.measured.label(self.measured.readings[worst])} is {off:+.1f} uncertainties off"
+        unusual = " and ".join(_UNUSUAL[each] for each in self.best.fit.unusual)
+        return f"the first has the readings, but with a {unusual} as hardly any gear has"
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -105,6 +131,7 @@ class Identification:
             "readings": [each.to_dict() for each in self.measured.readings],
             "certain": self.certain,
             "chance": self.chance,
+            "unlisted": self.unlisted,
             "candidates": [each.to_dict() for each in self.candidates],
             "alike": [self.candidates.index(each) + 1 for each in self.alike],
             "deciding": [each.to_dict() for each in self.deciding],

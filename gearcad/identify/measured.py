@@ -10,12 +10,19 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
-from gearcad.errors import ParameterError, require_number, require_whole
+from gearcad.errors import ParameterError, require_whole
 from gearcad.notice import Notice
+from gearcad.ranges import Range, Whole
 
-__all__ = ["Gauge", "Measured", "Reading"]
+__all__ = ["ANGLE", "ANGLE_UNCERTAINTY", "LENGTH", "TEETH", "UNCERTAINTY", "Gauge", "Measured", "Reading"]
 
-_TEETH, _FEWEST, _FEWEST_OF_RING = 2000, 3, 10
+LENGTH, ANGLE = Range("mm", 0, 1e6, ends="(]"), Range("deg", -60, 60, ends="()")
+"""What can be read."""
+
+UNCERTAINTY, ANGLE_UNCERTAINTY = Range("mm", 1e-5, 100), Range("deg", 1e-5, 45)
+"""From what gauge blocks have to a guess."""
+
+TEETH = Whole(3, 2000, negative=(-10, "a ring"))
 
 
 class Gauge(StrEnum):
@@ -36,6 +43,9 @@ class Gauge(StrEnum):
     TIP_HELIX_ANGLE = "tip_helix_angle"
     """On the tip circle, as a gear rolled over paper shows it."""
 
+    CHORDAL_THICKNESS = "chordal_thickness"
+    """By a tooth caliper, at a height below the tip."""
+
     LEAD = "lead"
     CENTRE_DISTANCE = "centre_distance"
     MATE_TIP_DIAMETER = "mate_tip_diameter"
@@ -45,17 +55,30 @@ class Gauge(StrEnum):
         """Of its readings."""
         return "deg" if self in ANGLES else "mm"
 
+    @property
+    def sized(self) -> bool:
+        """Whether its readings are over something of a size."""
+        return self in _SIZED
+
+    @property
+    def size_in_words(self) -> str:
+        """What that size is."""
+        if self is Gauge.SPAN:
+            return "teeth spanned"
+        return "height below the tip" if self is Gauge.CHORDAL_THICKNESS else "diameter of pins or balls"
+
 
 ANGLES = (Gauge.HELIX_ANGLE, Gauge.TIP_HELIX_ANGLE)
 _SIZED = {
     Gauge.SPAN: "span over {:g} {}",
-    Gauge.OVER_PINS: "over pins of {:g} mm",
-    Gauge.OVER_BALLS: "over balls of {:g} mm",
-    Gauge.BETWEEN_PINS: "between pins of {:g} mm",
-    Gauge.BETWEEN_BALLS: "between balls of {:g} mm",
+    Gauge.OVER_PINS: "size over pins of {:g} mm",
+    Gauge.OVER_BALLS: "size over balls of {:g} mm",
+    Gauge.BETWEEN_PINS: "size between pins of {:g} mm",
+    Gauge.BETWEEN_BALLS: "size between balls of {:g} mm",
+    Gauge.CHORDAL_THICKNESS: "chord {:g} mm below the tip",
 }
 _OF_RINGS = (Gauge.BETWEEN_PINS, Gauge.BETWEEN_BALLS)
-_OF_EXTERNAL = (Gauge.OVER_PINS, Gauge.OVER_BALLS)
+_OF_EXTERNAL = (Gauge.OVER_PINS, Gauge.OVER_BALLS, Gauge.CHORDAL_THICKNESS)
 _OF_MATES = (Gauge.CENTRE_DISTANCE, Gauge.MATE_TIP_DIAMETER)
 _OF_HELICES = (*ANGLES, Gauge.LEAD)
 
@@ -64,8 +87,8 @@ _OF_HELICES = (*ANGLES, Gauge.LEAD)
 class Reading:
     """One reading of a gauge: `value` and its standard `uncertainty` (mm, of angles degrees).
 
-    `size` is the number of teeth or spaces of a span, or the diameter of pins or balls (mm); other gauges have none. Diameters
-    of a ring are positive, as they are read.
+    `size` is the number of teeth or spaces of a span, the diameter of pins or balls, or the height of a chord below the tip
+    (mm); other gauges have none. Diameters of a ring are positive, as they are read.
     """
 
     gauge: Gauge
@@ -74,16 +97,20 @@ class Reading:
     size: float = 0.0
 
     def __post_init__(self) -> None:
-        name, unit = self.gauge.value, self.gauge.unit
-        if self.gauge in ANGLES:
-            require_number(name, self.value, unit, above=-60, below=60)
-        else:
-            require_number(name, self.value, unit, above=0, at_most=1e6)
-        require_number(f"{name}.uncertainty", self.uncertainty, unit, above=0)
+        name, angle = self.gauge.value, self.gauge in ANGLES
+        (ANGLE if angle else LENGTH).require(name, self.value)
+        (ANGLE_UNCERTAINTY if angle else UNCERTAINTY).require(f"{name}.uncertainty", self.uncertainty)
         if self.gauge is Gauge.SPAN:
-            require_whole("span_teeth", self.size, at_least=1, at_most=_TEETH)
+            require_whole("span_teeth", self.size, at_least=1, at_most=TEETH.most)
         elif self.gauge in _SIZED:
-            require_number(f"{name}.diameter", self.size, "mm", above=0)
+            LENGTH.require(f"{name}.{self._size}", self.size)
+        for field in ("value", "uncertainty"):
+            object.__setattr__(self, field, float(getattr(self, field)))
+
+    @property
+    def _size(self) -> str:
+        """What the size is."""
+        return "height" if self.gauge is Gauge.CHORDAL_THICKNESS else "diameter"
 
     @property
     def place(self) -> tuple[Gauge, float]:
@@ -97,7 +124,7 @@ class Reading:
 
     def to_dict(self) -> dict[str, Any]:
         """As documents have it."""
-        size = {"teeth": int(self.size)} if self.gauge is Gauge.SPAN else {"diameter": self.size}
+        size = {"teeth": int(self.size)} if self.gauge is Gauge.SPAN else {self._size: self.size}
         beside = size if self.gauge in _SIZED else {}
         return {"gauge": self.gauge.value, **beside, "value": self.value, "uncertainty": self.uncertainty}
 
@@ -116,7 +143,7 @@ class Measured:
     def __post_init__(self) -> None:
         for name, number in (("teeth", self.teeth), ("mate_teeth", self.mate_teeth)):
             if number is not None:
-                _require_teeth(name, number)
+                TEETH.require(name, number)
         self._check_gauges()
         self._check_spans()
         self._check_mate()
@@ -183,6 +210,10 @@ class Measured:
             raise ParameterError(
                 said[1].gauge.value, said[1].value, "must be left out where a helix angle is 0", said[1].gauge.unit
             )
+        angles = [each for each in said if each.gauge in ANGLES]
+        if len({each.value < 0 for each in angles}) > 1:
+            permitted = f"must have the sign of the {self.label(angles[0])}, {angles[0].value:g} deg"
+            raise ParameterError(angles[1].gauge.value, angles[1].value, permitted, "deg")
 
     def _check_spans(self) -> None:
         for each in self.spans:
@@ -205,11 +236,3 @@ class Measured:
                 raise ParameterError("centre_distance", None, "must be given with the teeth of the mate")
             if (self.teeth < 0 and self.mate_teeth < 0) or self.teeth + self.mate_teeth == 0:
                 raise ParameterError("mate_teeth", self.mate_teeth, f"must be of a gear that meshes with {self.teeth} teeth")
-
-
-def _require_teeth(name: str, number: Any) -> None:
-    if isinstance(number, int) and number < 0:
-        if not -_TEETH <= number <= -_FEWEST_OF_RING:
-            raise ParameterError(name, number, f"must be from {-_TEETH} to {-_FEWEST_OF_RING} for a ring")
-        return
-    require_whole(name, number, at_least=_FEWEST, at_most=_TEETH)

@@ -25,6 +25,7 @@ _REACH = {
     Gauge.MATE_TIP_DIAMETER: 3.5,
     Gauge.CENTRE_DISTANCE: 3.0,
     Gauge.SPAN: 1.8,
+    Gauge.CHORDAL_THICKNESS: 1.8,
     Gauge.OVER_PINS: 6.0,
     Gauge.OVER_BALLS: 6.0,
     Gauge.BETWEEN_PINS: 6.0,

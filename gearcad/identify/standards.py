@@ -51,7 +51,8 @@ FREE = "free"
 _FINE_I = (0.1, 0.12, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8)
 _FINE_II = (0.35, 0.45, 0.55, 0.7, 0.75, 0.9)
 _USUAL_PITCHES = (2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 24, 28, 32, 36, 40, 48, 64, 72, 80, 96, 120)
-_OTHER_PITCHES = (1, 1.25, 1.5, 1.75, 2.25, 2.5, 2.75, 3.5, 4.5, 5.5, 7, 9, 11, 13, 15, 22, 26, 30, 44, 56, 100, 128, 200)
+_COARSE_PITCHES = (1, 1.25, 1.5, 1.75, 2.25, 2.5, 2.75, 3.5, 4.5, 5.5, 7, 9, 11, 13, 15)
+_FINE_PITCHES = (22, 25, 26, 30, 44, 50, 56, 60, 100, 128, 150, 200)
 
 SIZES = tuple(
     sorted(
@@ -61,7 +62,7 @@ SIZES = tuple(
             *(StandardSize(module, None, "DIN 780 I", 1.0) for module in _FINE_I),
             *(StandardSize(module, None, "DIN 780 II", 0.4) for module in _FINE_II),
             *(StandardSize(module_of_pitch(pitch), float(pitch), "DP", 0.5) for pitch in _USUAL_PITCHES),
-            *(StandardSize(module_of_pitch(pitch), float(pitch), "DP", 0.15) for pitch in _OTHER_PITCHES),
+            *(StandardSize(module_of_pitch(pitch), float(pitch), "DP", 0.15) for pitch in (*_COARSE_PITCHES, *_FINE_PITCHES)),
         ),
         key=lambda size: size.module,
     )

@@ -20,7 +20,7 @@ PAIRS = ["alm-18-161", "double-23-81", "fzg-c", "reducer-21-43", "ring-22-70", "
 STARTERS = [*PAIRS, *PLANETARY, "rack", "spur"]
 TRAINS = ["train-1-stage", "train-2-stage", "train-pairs"]
 TABLES = ["gears", "pairs", "planetary-sets", "rings"]
-LISTED = sorted([*STARTERS, *TRAINS, *TABLES, "drawing_title"])
+LISTED = sorted([*STARTERS, *TRAINS, *TABLES, "drawing_title", "measured"])
 
 RATIO = 1e-9
 """Absolute, for contact ratios of about 1: what the references promise."""

@@ -54,6 +54,7 @@ def test_new_lists_tables_beside_specs() -> None:
         "drawing_title",
         "fzg-c",
         "gears",
+        "measured",
         "pairs",
         "planetary-24-21-66",
         "planetary-alm",
@@ -72,7 +73,7 @@ def test_new_lists_tables_beside_specs() -> None:
         "uhlir-19-23-simple",
         "volvo-13-44",
     ]
-    assert lines[4:6] == [
+    assert [lines[4], lines[6]] == [
         "gears                   A design table of single gears: each row below the heading is one gear",
         "pairs                   A design table of gear pairs: each row below the heading is one pair",
     ]

@@ -8,6 +8,8 @@ from scipy.optimize import least_squares
 
 import gearcad
 from gearcad import BasicRack, Gear, GeometryError, ParameterError
+from gearcad.cli.identify_table import identification_lines
+from gearcad.geometry.tooth_caliper import chord_below_tip
 from gearcad.identify import Gauge, Identification, Measured, Reading, identify_gear
 from gearcad.identify.fit import fitted
 from gearcad.identify.gauges import read_off
@@ -49,11 +51,20 @@ def test_gauges_read_what_the_gear_has() -> None:
         _reading(Gauge.SPAN, 1.0, 4),
         _reading(Gauge.OVER_PINS, 1.0, 4.5),
         _reading(Gauge.OVER_BALLS, 1.0, 4.5),
+        _reading(Gauge.CHORDAL_THICKNESS, 1.0, PINION.inspection.chordal_thickness.height),
     ]
     over = PINION.inspection
     expected = (PINION.tip_diameter, PINION.root_diameter, PINION.lead, over.span_measurement(4))
     found = read_off(Measured(teeth=31, readings=tuple(places)), places, _exact(PINION))
-    assert found == pytest.approx((*expected, over.over_pins(4.5), over.over_balls(4.5)), rel=EXACT)
+    assert found == pytest.approx(
+        (
+            *expected,
+            over.over_pins(4.5),
+            over.over_balls(4.5),
+            over.chordal_thickness.thickness,
+        ),
+        rel=EXACT,
+    )
     places = [_reading(Gauge.TIP_DIAMETER, 1.0), _reading(Gauge.SPAN, 1.0, 8), _reading(Gauge.BETWEEN_PINS, 1.0, 3.4)]
     inside = RING.inspection
     found = read_off(Measured(teeth=-62, readings=tuple(places)), places, _exact(RING))
@@ -168,6 +179,48 @@ def test_a_span_beside_the_involute_is_told() -> None:
     assert "span over 7 teeth would not touch the involute" in " ".join(found.warnings)
 
 
+def test_what_gauges_cannot_have_read_is_not_certain() -> None:
+    """Spans over 1 and 7 of 24 teeth: their formula names a gear on whose flanks they find no place."""
+    inspection = Gear(teeth=24, normal_module=2, face_width=20).inspection
+    spans = {count: inspection.span_measurement(count) for count in (1, 7)}
+    found = gearcad.identify(24, tip_diameter=52.0, root_diameter=43.0, span=spans, helix_angle=0)
+    assert found.best.probability > 0.95 and len(found.best.off_involute) == 2 and not found.certain
+    assert "Not certain: a gauge would not touch" in " ".join(identification_lines(found))
+
+
+def test_teeth_counted_wrong_are_told_by_what_no_gear_has() -> None:
+    """24 teeth counted as 25: every reading can be had, by tips that stand half a module too low."""
+    inspection = Gear(teeth=24, normal_module=2, face_width=20).inspection
+    spans = {count: inspection.span_measurement(count) for count in (3, 4)}
+    found = gearcad.identify(25, tip_diameter=52.0, root_diameter=43.0, span=spans, helix_angle=0)
+    assert not found.fits and max(map(abs, found.best.residuals)) < 2
+    assert "but with a height of the tips and depth of the roots as hardly any gear has" in " ".join(found.warnings)
+
+
+@pytest.mark.parametrize(("pitch", "module"), [(25, 1.0), (10, 2.5)])
+def test_pitches_that_are_nearly_modules_are_told_from_them(pitch: float, module: float) -> None:
+    for gear in (
+        Gear(teeth=40, normal_diametral_pitch=pitch, face_width=10),
+        Gear(teeth=40, normal_module=module, face_width=10),
+    ):
+        spans = {count: round(gear.inspection.span_measurement(count), 2) for count in (5, 6)}
+        found = gearcad.identify(
+            40, tip_diameter=gear.tip_diameter, root_diameter=gear.root_diameter, span=spans, helix_angle=0
+        )
+        assert found.certain and found.best.gear.normal_module == pytest.approx(gear.normal_module, rel=EXACT)
+
+
+def test_a_chord_stands_for_a_span() -> None:
+    """The height is from the tip that is there: chord and tip diameter, and a second chord, name module and pressure angle."""
+    gear = Gear(teeth=30, normal_module=4, face_width=20, tooth_thinning=0.05)
+    inspection = gear.inspection
+    chords = {height: chord_below_tip(inspection, inspection.addendum, height).thickness for height in (2.0, 4.1, 6.0)}
+    circles = {"tip_diameter": gear.tip_diameter, "root_diameter": gear.root_diameter}
+    found = gearcad.identify(30, **circles, chordal_thickness=chords, helix_angle=0)
+    assert found.best.gear.normal_module == 4.0 and found.best.gear.rack.pressure_angle == 20.0
+    assert found.best.gear.tooth_thinning == pytest.approx(0.05, abs=3 * found.best.thinning_uncertainty)
+
+
 def test_an_odd_number_of_tips_is_told() -> None:
     gear = Gear(teeth=21, normal_module=2, face_width=20)
     found = gearcad.identify(21, tip_diameter=46.0, span={3: gear.inspection.span_measurement(3)}, helix_angle=0)
@@ -181,11 +234,14 @@ TIP = {"tip_diameter": 52.0}
     ("given", "message"),
     [
         ({"teeth": 2, **TIP}, r"^teeth = 2: must be a whole number from 3 to 2000$"),
-        ({"teeth": -5, **TIP}, r"^teeth = -5: must be from -2000 to -10 for a ring$"),
+        ({"teeth": -5, **TIP}, r"^teeth = -5: must be a whole number from 3 to 2000, or from -2000 to -10 \(a ring\)$"),
         ({"teeth": 24}, r"^tip_diameter is missing: must be given, or another length"),
         ({"teeth": 24, "helix_angle": 0}, r"^tip_diameter is missing"),
         ({"teeth": 24, "tip_diameter": -52.0}, r"^tip_diameter = -52 mm: must be a number above 0 mm"),
-        ({"teeth": 24, "tip_diameter": (52.0, 0)}, r"^tip_diameter.uncertainty = 0 mm: must be a number above 0 mm$"),
+        (
+            {"teeth": 24, "tip_diameter": (52.0, 0)},
+            r"^tip_diameter.uncertainty = 0 mm: must be a number at least 1e-05 mm",
+        ),
         ({"teeth": 24, "tip_diameter": (52.0, 0.1, 0.2)}, r"^tip_diameter = .*: must be a number, or a number and its uncert"),
         ({"teeth": 24, "span": {25: 80.0}}, r"^span_teeth = 25: must be a whole number from 1 to 24$"),
         ({"teeth": 24, "span": {3: 15.4, 4: 15.1}}, r"^span = 15.1 mm: must be above the span over 3, 15.4 mm$"),
@@ -200,6 +256,13 @@ TIP = {"tip_diameter": 52.0}
         ({"teeth": 24, "centre_distance": 50.0}, r"^mate_teeth is missing: must be given with the centre distance$"),
         ({"teeth": 24, **TIP, "mate_teeth": 30}, r"^centre_distance is missing: must be given with the teeth of the mate$"),
         ({"teeth": -24, "centre_distance": 50.0, "mate_teeth": -30}, r"^mate_teeth = -30: must be of a gear that meshes"),
+        (
+            {"teeth": 24, **TIP, "helix_angle": -18, "tip_helix_angle": 20},
+            r"^tip_helix_angle = 20 deg: must have the sign",
+        ),
+        ({"teeth": 24, **TIP, "over_pins": {1e9: 60.0}}, r"^over_pins.diameter = 1000000000 mm: must be a number above 0 mm"),
+        ({"teeth": -24, "chordal_thickness": {1.5: 3.1}}, r"^chordal_thickness = 3.1 mm: must be left out: a ring is measured"),
+        ({"teeth": 24, **TIP, "uncertainty": 0}, r"^uncertainty = 0 mm: must be a number at least 1e-05 mm"),
         ({"teeth": 24, **TIP, "count": 0}, r"^count = 0: must be a whole number from 1 to 100$"),
         ({"teeth": 24, "tip_diameter": "wide"}, r"^tip_diameter = 'wide': must be a number"),
     ],

@@ -9,7 +9,7 @@ from typing import Any
 
 from nicegui import background_tasks, ui
 
-from gearcad.designs.starters import starter_text, starters
+from gearcad.designs.starters import NO_DESIGNS, starter_text, starters
 from gearcad.errors import GearcadError, printable
 from gearcad.page.components.files import FilesView
 from gearcad.page.folder import LARGEST_SPEC, LARGEST_TABLE, SPECS, TABLES, Folder, TakenError, text_of
@@ -152,7 +152,7 @@ class FilesPanel:
 
 
 def _is_spec(name: str) -> bool:
-    return starter_text(name)[0].endswith(SPECS) and name != "drawing_title"
+    return starter_text(name)[0].endswith(SPECS) and name not in NO_DESIGNS
 
 
 def _stem(name: str) -> str:
