@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+from support.pictures import leave_out_pictures
 from support.published import published
 
 __all__ = ["published"]  # a fixture of all tests
@@ -81,18 +82,10 @@ def kept_workers() -> Iterator[None]:
     keeper.shutdown()
 
 
-_PICTURED = (
-    *("check.figures", "check.sections", "check.views", "stiffness.report", "strength.report", "planetary.sections"),
-    *("dynamics.displacements", "dynamics.report", "dynamics.side_by_side"),
-)
-
-
 @pytest.fixture
 def no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Reports with empty pictures: drawing takes longer than all the rest of a command, and tests of reports have it."""
-    for room in _PICTURED:
-        for name in ("figure_address", "picture_address"):
-            monkeypatch.setattr(f"gearcad.report.{room}.{name}", lambda *_drawing: "data:,", raising=False)
+    """Reports with empty pictures."""
+    leave_out_pictures(monkeypatch)
 
 
 @pytest.fixture

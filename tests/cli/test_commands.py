@@ -369,7 +369,7 @@ def test_version_and_help() -> None:
     assert "gearcad new pair" in help_text
 
 
-@pytest.mark.parametrize("home", ["/dev/null", "locked"])
+@pytest.mark.parametrize("home", ["/dev/null", pytest.param("locked", marks=pytest.mark.long)])
 def test_no_home_folder_is_no_matter(home: str, tmp_path: Path) -> None:
     """Libraries that keep caches there, matplotlib and ezdxf, do without, and say nothing."""
     starter(tmp_path, "spur")

@@ -157,6 +157,7 @@ def test_a_train_without_teeth(here: Path) -> None:
     assert "Natural modes" in page and "Without teeth in mesh nothing shakes the train" in page
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_a_pair_on_bearings(here: Path, request: pytest.FixtureRequest) -> None:
     """Stiff bearings leave the torsional pair; soft ones bring frequencies of their own."""
     found = {}
@@ -217,7 +218,7 @@ def test_a_chart_without_a_motion_that_parts_says_so(here: Path) -> None:
 
 @pytest.mark.usefixtures("no_report")
 def test_tooth_errors_and_flanks_that_part_are_too_much(here: Path) -> None:
-    text = PAIR.replace("speeds = 40", "speeds = 20\nspeed_to = 30000.0\ntooth_errors = 'on'")
+    text = PAIR.replace("speeds = 40", "speeds = 5\nspeed_to = 30000.0\ntooth_errors = 'on'")
     result = run("dynamics", spec(text), "--quiet")
     assert result.exit_code == 0, result.output
     assert re.search(r"Warning: flanks are taken to stick to each other, for .* would have \d+ harmonics here", result.stdout)

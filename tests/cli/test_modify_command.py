@@ -25,7 +25,7 @@ SPEC = """\
 name = "pair"  # the results go to output/pair/
 normal_module = 2.0
 helix_angle = 15.0            # right hand
-face_width = 10.0
+face_width = 6.0
 tooth_thinning = 0.05
 [pinion]
 teeth = 20

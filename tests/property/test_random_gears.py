@@ -56,7 +56,7 @@ def check_inputs(inputs: dict[str, Any]) -> None:
         check_gear(gear)
 
 
-@settings(max_examples=150)
+@settings(max_examples=80)
 @given(gear_inputs())
 def test_gear_or_error(inputs: dict[str, Any]) -> None:
     check_inputs(inputs)

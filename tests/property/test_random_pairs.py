@@ -49,7 +49,7 @@ def check_inputs(inputs: dict[str, Any], places: list[float]) -> None:
 PLACES = st.lists(st.floats(0, 1), min_size=3, max_size=3)
 
 
-@settings(max_examples=80)
+@settings(max_examples=40)
 @given(pair_inputs(), PLACES)
 def test_pairs_touch_where_the_backlash_says(inputs: dict[str, Any], places: list[float]) -> None:
     check_inputs(inputs, places)

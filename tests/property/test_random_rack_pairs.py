@@ -56,7 +56,7 @@ def check_inputs(inputs: dict[str, Any], start: float, side: int) -> None:
 START, SIDE = st.floats(-50, 50), st.sampled_from([1, -1])
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(rack_pair_inputs(), START, SIDE)
 def test_racks_touch_where_the_backlash_says(inputs: dict[str, Any], start: float, side: int) -> None:
     check_inputs(inputs, start, side)

@@ -110,7 +110,7 @@ def check(inputs: dict[str, Any]) -> None:
         confirm_mesh(pair)
 
 
-@settings(max_examples=80)
+@settings(max_examples=40)
 @given(ring_pair_inputs())
 def test_rings_and_pinions_touch_nowhere_but_at_their_flanks(inputs: dict[str, Any]) -> None:
     check(inputs)

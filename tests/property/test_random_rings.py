@@ -183,13 +183,13 @@ def check_inputs(inputs: dict[str, Any], *, external: bool = False) -> None:
         assert np.array_equal(other_hand.profile.points(0.1), gear.profile.points(0.1))
 
 
-@settings(max_examples=100)
+@settings(max_examples=50)
 @given(ring_inputs())
 def test_ring_or_error(inputs: dict[str, Any]) -> None:
     check_inputs(inputs)
 
 
-@settings(max_examples=100)
+@settings(max_examples=50)
 @given(ring_inputs())
 def test_shaped_gear_or_error(inputs: dict[str, Any]) -> None:
     check_inputs(inputs, external=True)

@@ -140,7 +140,7 @@ def check_inputs(inputs: dict[str, Any], drawn: dict[str, float] | None, how: tu
 DRAWN = (gear_inputs(), MODIFICATIONS, st.tuples(RIMS, TEETH, st.sampled_from([Element.QUAD8, Element.TRI6]), ZONES))
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(*DRAWN)
 def test_section_meshes_are_good(inputs: dict[str, Any], drawn: dict[str, float] | None, how: tuple[Any, ...]) -> None:
     check_inputs(inputs, drawn, how)

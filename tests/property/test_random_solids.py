@@ -45,7 +45,7 @@ def check_inputs(inputs: dict[str, Any]) -> None:
     check_solid(gear)
 
 
-@settings(max_examples=20, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=12, suppress_health_check=[HealthCheck.too_slow])
 @given(gear_inputs())
 def test_gears_are_valid_solids_or_refused(inputs: dict[str, Any]) -> None:
     check_inputs(inputs)

@@ -110,7 +110,7 @@ def check(inputs: dict[str, Any], angles: tuple[float, ...]) -> None:
     confirm_mesh(train, tuple(inputs["carrier_angle"] + angle for angle in angles))
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(train_inputs())
 def test_trains_stand_in_mesh_or_are_refused(inputs: dict[str, Any]) -> None:
     check(inputs, (0.0,))

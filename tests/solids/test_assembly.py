@@ -61,7 +61,7 @@ def test_solids_touch_only_after_the_backlash() -> None:
             assert (pinion.intersect(wheel).Volume() > 1e-9) is overlaps, (side, share)
 
 
-@pytest.mark.parametrize("bracket", [False, True])
+@pytest.mark.parametrize("bracket", [pytest.param(False, marks=pytest.mark.long), True])
 def test_parts_reopen_named_coloured_and_separate(tmp_path: Path, bracket: bool) -> None:
     pair = _volvo()
     path = tmp_path / "assembly.step"

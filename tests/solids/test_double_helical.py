@@ -64,7 +64,11 @@ def _valid(shape: cadquery.Shape) -> bool:
     return BRepCheck_Analyzer(shape.wrapped).IsValid() and all(shell.wrapped.Closed() for shell in shape.Shells())
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name == "many teeth")) for name in GEARS])
+_LONG = ("gap", "full radius", "apex", "many teeth")
+"""What is on them is on the others too."""
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name in _LONG)) for name in GEARS])
 def test_flanks_volume_and_validity_before_and_after_step(name: str, tmp_path: Path) -> None:
     gear = _gear(*GEARS[name])
     solid = gear_solid(gear)
@@ -85,7 +89,7 @@ def test_flanks_volume_and_validity_before_and_after_step(name: str, tmp_path: P
         assert distance_to_section(half.gear, np.stack([x, y, points[:, 2] - half.z], -1)).max() < 1e-6
 
 
-@pytest.mark.parametrize("gap", [0.0, 8.0])
+@pytest.mark.parametrize("gap", [pytest.param(0.0, marks=pytest.mark.long), 8.0])
 def test_modified_halves_are_mirror_images(gap: float) -> None:
     """The mirror image of every point of a flank below the middle lies on a flank above it."""
     modification = FlankModification(

@@ -77,7 +77,7 @@ def _measure(gear: Gear, shape: cadquery.Shape) -> None:
     assert section.off(unturned(gear, points[rest])).max() < ON_FLANK
 
 
-_LONG = ("spur, form root", "right hand, shaped", "left hand", "chamfered beyond the root")
+_LONG = ("spur, form root", "right hand, shaped", "chamfered", "chamfered beyond the root")
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name in _LONG)) for name in RINGS])

@@ -99,7 +99,6 @@ def _measure(gear: Gear, *shapes: cadquery.Shape) -> None:
 _DEFAULT = (
     "spur, form root",
     "30 deg left, shaped",
-    "alm 70",
     "full radius of the cutter",
     "m 0.05",
 )

@@ -278,7 +278,7 @@ def _random_gear(rng: np.random.Generator) -> Gear:
     )
 
 
-@pytest.mark.parametrize("wanted", [20, pytest.param(60, marks=pytest.mark.long)])
+@pytest.mark.parametrize("wanted", [10, pytest.param(60, marks=pytest.mark.long)])
 def test_random_gears_are_closed_and_have_their_volume(wanted: int) -> None:
     rng = np.random.default_rng(20)
     made = 0

@@ -47,7 +47,7 @@ COARSE = TetrahedronGrading(deviation=None)
 
 SPUR = Gear(teeth=9, normal_module=1, face_width=1.5, profile_shift=0.4, body=Body(bore=3))
 
-THIN = replace(SPUR, teeth=20, normal_module=0.5, face_width=0.3, body=Body(bore=7))
+THIN = replace(SPUR, teeth=12, normal_module=0.5, face_width=0.3, body=Body(bore=3))
 
 
 @pytest.fixture(scope="module")

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 from support.coarse import coarse_pair
+from support.pictures import leave_out_pictures
 from threadpoolctl import threadpool_limits
 
 from gearcad import Load, Material
@@ -65,6 +66,7 @@ def checked(tmp_path_factory: pytest.TempPathFactory) -> Result:
     place = tmp_path_factory.mktemp("progress")
     (place / "spur.toml").write_text(SPEC, encoding="utf-8")
     with pytest.MonkeyPatch.context() as patch:
+        leave_out_pictures(patch)
         patch.setattr(shown, "_LONG", 0.01)
         return CliRunner().invoke(main, ["check", str(place / "spur.toml"), "--json", "-o", str(place / "out")])
 

@@ -184,7 +184,7 @@ def _assert_sound(pair: GearPair, rating: Rating) -> None:
     assert rating.contact_stresses[0] >= rating.flank.nominal_stress
 
 
-@settings(max_examples=200)
+@settings(max_examples=100)
 @given(pair_inputs())
 def test_any_pair_is_rated_or_refused_in_one_line(inputs: dict[str, Any]) -> None:
     try:

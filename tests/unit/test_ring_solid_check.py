@@ -32,7 +32,7 @@ PAIR = GearPair(
     pinion=Gear(
         teeth=22,
         normal_module=2.0,
-        face_width=12,
+        face_width=8,
         helix_angle=15,
         profile_shift=0.3,
         body=Body(bore=20.0),
@@ -41,7 +41,7 @@ PAIR = GearPair(
     wheel=Gear(
         teeth=-70,
         normal_module=2.0,
-        face_width=10,
+        face_width=6.5,
         helix_angle=15,
         profile_shift=-0.3,
         tip_alteration=-0.1,

@@ -41,8 +41,8 @@ BEST = 1.02
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 6)
-    monkeypatch.setattr("gearcad.contact.optimum.search._STARTS", 2)
+    monkeypatch.setattr("gearcad.contact.optimum.search._GENERATIONS", 3)
+    monkeypatch.setattr("gearcad.contact.optimum.search._STARTS", 1)
 
 
 @pytest.fixture(scope="module")

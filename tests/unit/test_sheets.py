@@ -326,7 +326,7 @@ DIALECTS: dict[str, Callable[[list[list[Any]]], bytes]] = {
 }
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(designs=TABLES)
 @example(designs=[("a", 20, 2.0, -0.378, "full", "12", "1.5"), ("1", None, 1e-7, None, None, None, 'x;,\t"y')])
 @example(designs=[(name, None, None, None, None, None, None) for name in (";#", ",#", "a\nb", 'x, "#"')])

@@ -196,7 +196,10 @@ def test_condensed_body_is_that_in_full(mesh: SweptMesh, sector: SolidSector, lo
 
 @pytest.mark.parametrize(
     ("layers", "finer", "teeth", "neighbours"),
-    [(1, 1.0, 4, 1), (1, 0.8, 7, 3), (2, 0.8, 6, 2), (3, 0.8, 4, 1), (5, 0.8, 3, 1), (5, 0.5, 8, 2), (4, 0.5, 9, 3)],
+    [
+        *((1, 0.8, 7, 3), (2, 0.8, 6, 2), (5, 0.8, 3, 1), (4, 0.5, 9, 3)),
+        *(pytest.param(*each, marks=pytest.mark.long) for each in ((1, 1.0, 4, 1), (3, 0.8, 4, 1), (5, 0.5, 8, 2))),
+    ],
 )
 def test_halves_tell_of_all(layers: int, finer: float, teeth: int, neighbours: int) -> None:
     """Of layers or of the section, with hexahedra in the middle or without, rings odd and even, up to the opposite cut."""

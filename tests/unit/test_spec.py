@@ -468,7 +468,7 @@ def _table(name: str) -> st.SearchStrategy[dict[str, Any]]:
     return st.dictionaries(st.sampled_from(sorted(KEYS[name])), VALUES, max_size=3).map(nest)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(pair=_table("pair"), pinion=_table("pinion"), wheel=_table("wheel"), load=_table("load"))
 def test_any_values_make_a_design_or_one_clear_line(
     pair: dict[str, Any], pinion: dict[str, Any], wheel: dict[str, Any], load: dict[str, Any]

@@ -128,7 +128,7 @@ def test_single_faults_behind_a_combination_that_fails_are_told_too() -> None:
 VALUES = st.sampled_from(["", "0", "-1", "1", "20", "2.5", "1e9", "auto", "full", "#N/A", "1,5", "ISO53_C", "x"])
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(cells=st.lists(VALUES, min_size=13, max_size=13))
 def test_a_row_has_no_faults_exactly_if_it_makes_a_design(cells: list[str]) -> None:
     heading = WRONG.split("\n")[1] + ",pinion.body.keyway_width,wheel.tip_diameter"
