@@ -10,6 +10,7 @@ table.py (designs)  ->  run.py: check all rows, make them, write the results
 """
 
 from gearcad.batch.results import Decimal
-from gearcad.batch.run import Summary, run_table
+from gearcad.batch.run import run_table
+from gearcad.batch.summary import InterruptedRunError, Summary
 
-__all__ = ["Decimal", "Summary", "run_table"]
+__all__ = ["Decimal", "InterruptedRunError", "Summary", "run_table"]

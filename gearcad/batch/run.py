@@ -6,7 +6,6 @@ import errno
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager, suppress
-from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from gearcad.batch.pool import ClusterLostError, Outcome, Pool, open_pool
 from gearcad.batch.results import FILES, Decimal, write_results
 from gearcad.batch.row import Checked, Record, Status, Task, check_rows, make_row
 from gearcad.batch.stages import stages
+from gearcad.batch.summary import InterruptedRunError, Summary
 from gearcad.batch.worker import WorkerLostError
 from gearcad.designs.table import Row, Table, open_table
 from gearcad.errors import OutputError, SpecError, require_number
@@ -25,7 +25,7 @@ from gearcad.jobs.job import Job
 from gearcad.output import UNWRITABLE, unwritable
 from gearcad.progress import Progress
 
-__all__ = ["Summary", "falls_short", "run_table"]
+__all__ = ["falls_short", "run_table"]
 
 WORKSPACE = ".gearcad-batch"
 """Folder inside the output folder where rows grow; it is there during a run, and after one that was killed."""
@@ -35,22 +35,6 @@ _LOCK = "lock"
 _ROWS_PER_CHECK = 50
 _CHECK_SECONDS = 600.0
 _LONGEST_LIMIT = 1e6
-
-
-@dataclass(frozen=True, kw_only=True)
-class Summary:
-    """How a run ended: its files, rows by status, one line for each failed row, and why it stopped early if it did.
-
-    `short` of the rows that are ok have a check with a gate that is not passed, or a rating that is not.
-    """
-
-    results: tuple[Path, ...]
-    ok: int
-    failed: int
-    not_run: int
-    short: int
-    errors: tuple[str, ...]
-    stopped: str = ""
 
 
 def run_table(
@@ -72,7 +56,8 @@ def run_table(
 
     First all rows are checked; if any is at fault nothing is made, unless `keep_going`. What a former run has made of the
     same inputs by the same gearcad stays, unless `fresh`. A row gets `time_limit` (s). `jobs` and `cluster` are those of
-    `open_pool`. Raises SpecError with one line per fault, ParameterError, and OutputError for a folder that cannot be written.
+    `open_pool`. Raises SpecError with one line per fault, ParameterError, OutputError for a folder that cannot be written, and
+    InterruptedRunError after Ctrl-C, when the results of what there is are written.
     """
     jobs_of_row = stages(wanted)
     require_number("time_limit", time_limit, "s", above=0, at_most=_LONGEST_LIMIT)
@@ -93,10 +78,14 @@ def run_table(
                 run.make(tasks, time_limit)
             except ClusterLostError as error:
                 run.stopped = str(error)
-            finally:  # an interrupted run too tells what it has
+            except BaseException as error:  # a run that is cut short too tells what it has
                 pool.stop()
                 results = run.write_results(folder, workspace, decimal)
-        return run.summary(results)
+                if isinstance(error, KeyboardInterrupt):
+                    raise InterruptedRunError(run.summary(results)) from None
+                raise
+            pool.stop()
+            return run.summary(run.write_results(folder, workspace, decimal))
 
 
 class _Run:

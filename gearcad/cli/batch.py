@@ -60,7 +60,7 @@ def batch(
     All rows are checked before anything is made. Run it again after a change, a crash or a Ctrl-C: it makes only what is
     missing or changed. `gearcad new pairs` writes a commented table to begin with.
     """
-    from gearcad.batch import Decimal, run_table
+    from gearcad.batch import Decimal, InterruptedRunError, run_table
     from gearcad.jobs.build import Build
 
     build = Build(formats=parse_choices("format", formats, Format), options=options)
@@ -68,19 +68,24 @@ def batch(
     chosen = as_choice("decimal", decimal.lower(), Decimal)
     folder = output if output is not None else Path("output") / table.stem
     began = time.perf_counter()
-    with row_progress(shown=not quiet) as progress:
-        summary = run_table(
-            table,
-            folder,
-            wanted,
-            jobs=jobs,
-            cluster=cluster,
-            time_limit=time_limit,
-            fresh=fresh,
-            keep_going=keep_going,
-            decimal=chosen,
-            progress=progress,
-        )
+    try:
+        with row_progress(shown=not quiet) as progress:
+            summary = run_table(
+                table,
+                folder,
+                wanted,
+                jobs=jobs,
+                cluster=cluster,
+                time_limit=time_limit,
+                fresh=fresh,
+                keep_going=keep_going,
+                decimal=chosen,
+                progress=progress,
+            )
+    except InterruptedRunError as error:
+        if not quiet:
+            click.echo(f"{_counts(error.summary)}; the same command makes the rest", err=True)
+        raise
     _report(summary, time.perf_counter() - began, as_json=as_json, quiet=quiet)
     if summary.failed or summary.not_run or summary.short or summary.stopped:
         click.get_current_context().exit(1)
@@ -114,7 +119,11 @@ def _report(summary: Summary, seconds: float, *, as_json: bool, quiet: bool) -> 
     for line in (*summary.errors, *filter(None, [summary.stopped])):
         click.echo(f"Error: {line}", err=True)
     if not quiet:
-        rest = f", {summary.not_run} not run" if summary.not_run else ""
-        rest += f", {summary.short} with checks or ratings not passed" if summary.short else ""
         rate = (summary.ok + summary.failed) / seconds
-        click.echo(f"{summary.ok} rows ok, {summary.failed} failed{rest} in {seconds:.1f} s ({rate:.3g} rows/s)", err=True)
+        click.echo(f"{_counts(summary)} in {seconds:.1f} s ({rate:.3g} rows/s)", err=True)
+
+
+def _counts(summary: Summary) -> str:
+    rest = f", {summary.not_run} not run" if summary.not_run else ""
+    rest += f", {summary.short} with checks or ratings not passed" if summary.short else ""
+    return f"{summary.ok} rows ok, {summary.failed} failed{rest}"
