@@ -12,6 +12,7 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.shared.chain import Chain, Cuts, cut_held
+from gearcad.contact.solid.dense import solved_rows
 from gearcad.contact.solid.half_turn import PARITIES
 from gearcad.contact.solid.spans import Inside, Span, eliminated, joined
 
@@ -86,7 +87,7 @@ def sides_around(sector: Span, side: int, neighbours: int, held: Cuts, radii: Fl
 
 @dataclass(frozen=True)
 class _SidesAround:
-    """`lowers` are L of the first cut inside rows of 2, 3 ... sectors up to the held cut."""
+    """`lowers` are L (see `dense`) of the first cut inside rows of 2, 3 ... sectors up to the held cut."""
 
     sector: Span
     side: int
@@ -95,15 +96,13 @@ class _SidesAround:
     lowers: list[Floats]
 
     def cuts(self, behind: Floats, hub: Floats, parity: int) -> list[Floats]:
-        import scipy.linalg
-
         n = self.sector.cut
         found = [PARITIES[parity] * self.sector.reversal.rows(behind)]
         for tooth in range(1, self.neighbours + 1):
             force = self.sector.inward(0.0)[:, :n] @ found[-1]
             if tooth < self.side:
                 lower = self.lowers[self.side - tooth - 1]
-                found.append(-scipy.linalg.cho_solve((lower, True), force, check_finite=False))
+                found.append(-solved_rows(lower, force))
                 continue
             moved, free = np.zeros_like(force), ~cut_held(self.held, n, 3)
             matrix = self.sector.reversal.both(self.sector.near[:, :n])

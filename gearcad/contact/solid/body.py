@@ -31,7 +31,7 @@ from gearcad.threads import cores, on_all_cores, one_thread
 __all__ = ["Moved", "SolidBody", "SolidSector", "assemble_body"]
 
 
-_AT_ONCE, _FEWEST = 72, 8
+_AT_ONCE, _FEWEST = 144, 8
 """The most loads for which the body is solved at once, on all cores - more take more memory - and the fewest on each."""
 
 
@@ -159,12 +159,14 @@ class SolidBody:
         ahead = [one + two for one, two in zip(even, odd, strict=True)]
         behind = [reversal.rows(one - two) for one, two in zip(even, odd, strict=True)]
         hub = joints.hub[0] + joints.hub[1]
-        yield 0, sector.condensed.backward(self._with_hub(solved, hub), joints.cuts, nodes)
+        teeth, loads, cuts = [0], [self._with_hub(solved, hub)], [joints.cuts]
         for k in range(1, self.neighbours + 1):
             for tooth, near, far in ((k, ahead[k - 1], ahead[k]), (-k, behind[k], behind[k - 1])):
                 turned = reversal.rows(far)
-                own = self._with_hub(None, sector.seen_by(tooth) @ hub)
-                yield tooth, sector.condensed.backward(own, ((near + turned) / 2, (near - turned) / 2), nodes)
+                teeth.append(tooth)
+                loads.append(self._with_hub(None, sector.seen_by(tooth) @ hub))
+                cuts.append(((near + turned) / 2, (near - turned) / 2))
+        yield from zip(teeth, sector.condensed.backward(loads, cuts, nodes), strict=True)
 
     def _with_hub(self, solved: Forward | None, hub: Floats) -> Forward | None:
         """What `backward` needs of loads, and of the forces of the hub as the sector sees them."""

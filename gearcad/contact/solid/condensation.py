@@ -6,7 +6,7 @@ change places one stands for both; of the cuts that is the one behind.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from threading import Lock
@@ -14,10 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.arrays import Bools, Floats, Wholes
+from gearcad.arrays import Floats, Wholes
 from gearcad.contact.solid.dissection import Box, Halves, front_flops
 from gearcad.contact.solid.fronts import Blocks, Elimination, Front, Store, node_dofs
 from gearcad.contact.solid.half_turn import PARITIES, TURNED, HalfTurn
+from gearcad.contact.solid.substitution import FrontTree, Solved
 from gearcad.progress import Share
 from gearcad.threads import on_all_cores
 
@@ -27,7 +28,7 @@ __all__ = ["Condensed", "Forward", "condense"]
 class Forward(NamedTuple):
     """What `Condensed.backward` needs of loads: fronts of the half (None: no load gets there), and both on top of it."""
 
-    half: list[Floats | None]
+    half: Solved
     top: tuple[Floats, Floats]
 
     def dot(self, other: Forward) -> tuple[Floats, Floats]:
@@ -66,26 +67,46 @@ def _of(both: Floats, parity: int) -> Floats:
 
 @dataclass(frozen=True)
 class _Orbits:
-    """Nodes on top of the half, `between` both and at the `cut` behind, and those for which they stand as well: `moved`."""
+    """The nodes `top` (n,), sorted, that the half leaves: some `between` both and at the `cut` behind, and those for which they
+    stand as well: `moved`.
+    """
 
     turn: HalfTurn
+    top: Wholes
     between: Wholes
     cut: Wholes
     moved: Wholes
 
     @cached_property
-    def standing(self) -> Wholes:
-        """The nodes (n,) that stand for `moved`."""
-        result: Wholes = self.turn.nodes[self.moved]
+    def every(self) -> Wholes:
+        """The nodes between, then those at the cut."""
+        result: Wholes = np.r_[self.between, self.cut]
         return result
 
     @cached_property
     def places(self) -> Wholes:
-        """Where the node that stands for each one of the mesh comes among those on top; -1 for all others."""
-        places, every = np.full(len(self.turn.nodes), -1), np.r_[self.between, self.cut]
-        places[every] = np.arange(len(every))
-        places[self.moved] = places[self.standing]
+        """Where the node that stands for each one of the mesh comes among every one of these; -1 for all others."""
+        places = np.full(len(self.turn.nodes), -1)
+        places[self.every] = np.arange(len(self.every))
+        standing: Wholes = self.turn.nodes[self.moved]
+        places[self.moved] = places[standing]
         return places
+
+    def gathered(self, left: Floats, parity: int) -> Floats:
+        """Loads (3 k, m) at the nodes that stand, from loads (n, 3, m) at those on top."""
+        right = left[np.searchsorted(self.top, self.every)]
+        right[self.places[self.moved]] += PARITIES[parity] * TURNED[:, None] * left[np.searchsorted(self.top, self.moved)]
+        result: Floats = np.ascontiguousarray(right).reshape(-1, left.shape[-1])
+        result[self.still(parity)] = 0.0
+        return result
+
+    def scattered(self, moved: Floats, parity: int) -> Floats:
+        """Displacements (n, 3, ...) of the nodes on top, from those (k, 3, ...) of the nodes that stand."""
+        spread = np.zeros((len(self.top), *moved.shape[1:]))
+        spread[np.searchsorted(self.top, self.every)] = moved
+        turned = (PARITIES[parity] * TURNED).reshape(-1, *[1] * (moved.ndim - 2))
+        spread[np.searchsorted(self.top, self.moved)] = turned * moved[self.places[self.moved]]
+        return spread
 
     def signs(self, parity: int) -> Floats:
         """What all dofs (dofs,) of the mesh are of those that stand for them."""
@@ -94,8 +115,8 @@ class _Orbits:
         return signs.ravel()
 
     def still(self, parity: int) -> Wholes:
-        """Dofs of nodes on the axis that do not move."""
-        alone = self.between[self.turn.on_axis[self.between]]
+        """Dofs, among those of every node, of nodes on the axis that do not move."""
+        alone = np.flatnonzero(self.turn.on_axis[self.between])
         return node_dofs(alone).reshape(-1, 3)[:, PARITIES[parity] * TURNED < 0].ravel()
 
 
@@ -104,79 +125,60 @@ class Condensed:
     """The elimination: fronts of the half, and for even and odd motions those on top of it."""
 
     orbits: _Orbits
-    half: tuple[Front, ...]
+    half: FrontTree
     top: tuple[Front, Front]
-
-    @property
-    def cut(self) -> Wholes:
-        """Dofs of the cut behind."""
-        return node_dofs(self.orbits.cut)
 
     def forward(self, loads: Floats, nodes: Wholes) -> tuple[Forward, tuple[Floats, Floats]]:
         """What `backward` needs of loads (3 k, m) at nodes (k,), and those (n, m) of both parities that arrive at the cut."""
         orbits, count = self.orbits, loads.shape[1]
-        left = np.zeros((3 * len(orbits.turn.nodes), 2 * count))
-        both, half = left.reshape(-1, 3, 2, count), loads.reshape(-1, 3, 1, count) / 2
-        both[nodes] = half
-        both[orbits.turn.nodes[nodes]] += half * TURNED[:, None, None] * PARITIES[:, None]
-        left[node_dofs(np.flatnonzero(orbits.turn.on_axis))] /= 2
-        left[node_dofs(orbits.moved)] = 0.0
-        loaded: Bools = np.asarray(left.any(axis=1))
-        found: list[Floats | None] = []
-        for front in self.half:
-            if not loaded[front.own].any():
-                found.append(None)
-                continue
-            found.append(front.forward(left))
-            loaded[front.aside] = True
-        moved, standing, top, arrived = node_dofs(orbits.moved), node_dofs(orbits.standing), [], []
+        some = loads.reshape(len(nodes), -1).any(axis=1)
+        nodes, half = nodes[some], loads.reshape(-1, 3, 1, count)[some] / 2
+        images = orbits.turn.nodes[nodes]
+        near = np.union1d(nodes, images)
+        both = np.zeros((len(near), 3, 2, count))
+        both[np.searchsorted(near, nodes)] = half
+        both[np.searchsorted(near, images)] += half * TURNED[:, None, None] * PARITIES[:, None]
+        both[orbits.turn.on_axis[near]] /= 2
+        both[np.isin(near, orbits.moved)] = 0.0
+        found, left = self.half.forward(both.reshape(-1, 2 * count), near)
+        top, arrived = [], []
         for parity in (0, 1):
-            own = left[:, parity * count : (parity + 1) * count]
-            own[standing] += orbits.signs(parity)[moved, None] * own[moved]
-            own[orbits.still(parity)] = 0.0
-            top.append(self.top[parity].forward(own))
-            arrived.append(own[self.cut])
+            right = orbits.gathered(left.reshape(-1, 3, 2, count)[:, :, parity], parity)
+            self.top[parity].forward(right)
+            solved, cut = np.split(right, [3 * len(orbits.between)])
+            top.append(solved)
+            arrived.append(cut)
         return Forward(found, (top[0], top[1])), (arrived[0], arrived[1])
 
-    def backward(self, found: Forward | None, cuts: tuple[Floats, Floats], nodes: Wholes) -> Floats:
-        """Displacements (3 n, m) of nodes by those of the cut behind of both parities; `found` None stands for no load."""
-        orbits, count = self.orbits, cuts[0].shape[1]
-        every = np.zeros((3 * len(orbits.turn.nodes), 2 * count))
-        moved, standing = node_dofs(orbits.moved), node_dofs(orbits.standing)
+    def backward(
+        self, loads: Sequence[Forward | None], cuts: Sequence[tuple[Floats, Floats]], nodes: Wholes
+    ) -> Iterator[Floats]:
+        """For some teeth displacements (3 n, m) of nodes by those of the cut behind, of both parities, and by loads, if any."""
+        orbits, teeth, count = self.orbits, len(cuts), cuts[0][0].shape[1]
+        own = 3 * len(orbits.between)
+        spread = np.zeros((len(orbits.top), 3, teeth, 2, count))
         for parity in (0, 1):
-            own = every[:, parity * count : (parity + 1) * count]
-            own[self.cut] = cuts[parity]
-            self.top[parity].backward(None if found is None else found.top[parity], own)
-            own[moved] = orbits.signs(parity)[moved, None] * own[standing]
-        here = self._known[nodes]
-        for place in self._needed(np.where(here, nodes, orbits.turn.nodes[nodes])):
-            self.half[place].backward(None if found is None else found.half[place], every)
-        result = np.empty((len(nodes), 3, count))
-        vectors = every.reshape(-1, 3, 2, count)
-        result[here] = vectors[nodes[here]].sum(axis=2)
-        there = orbits.turn.nodes[nodes[~here]]
-        result[~here] = TURNED[:, None] * (vectors[there, :, 0] - vectors[there, :, 1])
-        return result.reshape(-1, count)
-
-    @cached_property
-    def _known(self) -> Bools:
-        """Which nodes of the mesh are of the half, or stand for others."""
-        known = np.zeros(len(self.orbits.turn.nodes), bool)
-        for front in self.half:
-            known[front.own // 3] = True
-        for nodes in (self.orbits.moved, self.orbits.between, self.orbits.cut):
-            known[nodes] = True
-        return known
-
-    def _needed(self, nodes: Wholes) -> list[int]:
-        """Fronts of the half, those first that went last, without which displacements of some nodes cannot be told."""
-        wanted, found = np.zeros(3 * len(self._known), bool), []
-        wanted[node_dofs(nodes)] = True
-        for place, front in enumerate(self.half):
-            if wanted[front.own].any():
-                wanted[front.aside] = True
-                found.append(place)
-        return found[::-1]
+            moved = np.zeros((3 * len(orbits.every), teeth, count))
+            for tooth, (given, cut) in enumerate(zip(loads, cuts, strict=True)):
+                moved[own:, tooth] = cut[parity]
+                if given is not None:
+                    moved[:own, tooth] = given.top[parity]
+            self.top[parity].backward(moved.reshape(-1, teeth * count))
+            spread[:, :, :, parity] = orbits.scattered(moved.reshape(-1, 3, teeth, count), parity)
+        loaded = [
+            (slice(2 * count * tooth, 2 * count * (tooth + 1)), given.half)
+            for tooth, given in enumerate(loads)
+            if given is not None
+        ]
+        here = self.half.has(nodes)
+        of_half = np.where(here, nodes, orbits.turn.nodes[nodes])
+        found = self.half.backward(spread.reshape(-1, 2 * teeth * count), loaded, of_half)
+        vectors = found.reshape(-1, 3, teeth, 2, count)
+        signs = np.where(here[:, None], 1.0, TURNED)[..., None]
+        odd = np.where(here, 1.0, -1.0)[:, None, None]
+        for tooth in range(teeth):
+            even = vectors[:, :, tooth, 0]
+            yield (signs * (even + odd * vectors[:, :, tooth, 1])).reshape(-1, count)
 
 
 def condense(
@@ -219,7 +221,7 @@ def condense(
             nodes = nodes_of(halves.middle)
             turned = signs[node_dofs(nodes)]
             add_hexahedra(turned[:, :, None] * matrices_of(halves.middle) * turned[:, None] / 2, orbits.places[nodes], *blocks)
-        _hold(blocks, np.flatnonzero(np.isin(node_dofs(halves.between), orbits.still(parity))))
+        _hold(blocks, orbits.still(parity))
         given.append(blocks)
     del matrix
 
@@ -227,16 +229,19 @@ def condense(
         own, across, rest = blocks.eliminated()
         fill_upper(rest)
         done(front_flops(len(halves.between), len(cut)))
-        return Front(node_dofs(halves.between), node_dofs(cut), own, across), rest
+        return Front(halves.between, cut, own, across), rest
 
     (even, of_even), (odd, of_odd) = on_all_cores(eliminated, given)
-    return Condensed(orbits, tuple(elimination.fronts), (even, odd)), (of_even, of_odd)
+    half = FrontTree(tuple(elimination.fronts), orbits.top, turn.mesh.nodes)
+    return Condensed(orbits, half, (even, odd)), (of_even, of_odd)
 
 
 def _orbits(turn: HalfTurn, halves: Halves, cut: Wholes) -> _Orbits:
-    every = halves.half.aside if halves.middle is None else np.union1d(halves.half.aside, halves.middle.nodes(turn.mesh))
-    standing = np.isin(every, np.r_[halves.between, cut])
-    return _Orbits(turn, halves.between, cut, every[~standing & np.isin(turn.nodes[every], np.r_[halves.between, cut])])
+    every, stand = halves.half.aside, np.r_[halves.between, cut]
+    if halves.middle is not None:
+        every = np.union1d(every, halves.middle.nodes(turn.mesh))
+    moved = every[~np.isin(every, stand) & np.isin(turn.nodes[every], stand)]
+    return _Orbits(turn, np.union1d(stand, moved), halves.between, cut, moved)
 
 
 def _hold(blocks: Blocks, dofs: Wholes) -> None:

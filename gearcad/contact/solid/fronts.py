@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
-from gearcad.contact.solid.dense import cholesky, solve_above, solve_aside, subtract_square
+from gearcad.contact.solid.dense import factorise, solve_above, solve_aside, subtract_product, subtract_square
 from gearcad.contact.solid.dissection import Box, SolidPart
 from gearcad.errors import SolverError
 from gearcad.threads import on_all_cores
@@ -33,26 +33,27 @@ def node_dofs(nodes: Wholes) -> Wholes:
 
 @dataclass(frozen=True)
 class Front:
-    """One step: dofs that go, those that take over their load, L with L L.T the matrix of the first, L^-1 times that across."""
+    """One step: nodes that go, those that take over their load, L of the matrix of the first, L^-1 times that across.
+
+    Loads and displacements are rows, three of each node, its own nodes first.
+    """
 
     own: Wholes
     aside: Wholes
     lower: Floats
     across: Floats
 
-    def forward(self, left: Floats) -> Floats:
-        """L^-1 times the loads (n, m) of its own dofs; those of all dofs, `left` (dofs, m), get what is left of them."""
-        solved = left[self.own]
-        solve_aside(self.lower, solved.T, transposed=True)  # rows of C are columns of Fortran
-        left[self.aside] -= self.across.T @ solved
-        return solved
+    def forward(self, loads: Floats) -> None:
+        """Make L^-1 times the loads of its own nodes, and what is left of them for the others, of loads (n, m)."""
+        solved, left = np.split(loads.T, [3 * len(self.own)], axis=1)  # rows of C are columns of Fortran
+        solve_aside(self.lower, solved, transposed=True)
+        subtract_product(left, solved, self.across, transposed=False)
 
-    def backward(self, solved: Floats | None, moved: Floats) -> None:
-        """Displacements of its own dofs in those of all, `moved` (dofs, m), by what `forward` gave: None stands for no load."""
-        right = self.across @ moved[self.aside]
-        np.negative(right, out=right) if solved is None else np.subtract(solved, right, out=right)
-        solve_aside(self.lower, right.T, transposed=False)
-        moved[self.own] = right
+    def backward(self, moved: Floats) -> None:
+        """Make displacements of its own nodes of what `forward` made there - 0 where there is no load - and of the others'."""
+        solved, aside = np.split(moved.T, [3 * len(self.own)], axis=1)
+        subtract_product(solved, aside, self.across, transposed=True)
+        solve_aside(self.lower, solved, transposed=False)
 
 
 class Blocks(NamedTuple):
@@ -63,10 +64,13 @@ class Blocks(NamedTuple):
     rest: Floats
 
     def eliminated(self) -> Blocks:
-        """L, L^-1 across, and the matrix on the others, all in place. Raises SolverError if it is not positive definite."""
+        """L (see `dense`), L^-1 across, and the matrix on the others, all in place.
+
+        Raises SolverError if it is not positive definite.
+        """
         if not len(self.own):
             return self
-        if failed := cholesky(self.own):
+        if failed := factorise(self.own):
             raise SolverError(f"the stiffness matrix of a gear body could not be factorised (its minor {failed})")
         if len(self.rest):
             solve_above(self.own, self.across)
@@ -158,7 +162,7 @@ class Elimination:
             return known.pop(id(part))
         blocks = self._assembled(part, known).eliminated()
         if len(part.own):
-            self.fronts.append(Front(node_dofs(part.own), node_dofs(part.aside), blocks.own, blocks.across))
+            self.fronts.append(Front(part.own, part.aside, blocks.own, blocks.across))
         self.done(part.flops)
         return blocks.rest
 

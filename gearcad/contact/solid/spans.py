@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from gearcad.arrays import Floats, Wholes
+from gearcad.contact.solid.dense import solved_rows
 from gearcad.contact.solid.fronts import Blocks
 from gearcad.contact.solid.half_turn import PARITIES
 from gearcad.threads import on_all_cores
@@ -140,8 +141,8 @@ class Span:
 class Inside:
     """How the first cut inside a row that begins with `side` follows its ends; `aside` teeth is the row's middle.
 
-    `lower` are L with L L.T the matrices of that cut, even and odd, `hub` (n, hub) what else is between it and the hub; None
-    where the row has only `side` twice, and `lower` are of the even and the odd part of the cut.
+    `lower` are L (see `dense`) with L L.T the matrices of that cut, even and odd, `hub` (n, hub) what else is between it and
+    the hub; None where the row has only `side` twice, and `lower` are of the even and the odd part of the cut.
     """
 
     side: Span
@@ -151,15 +152,13 @@ class Inside:
 
     def moved(self, ends: Floats, parity: int) -> Floats:
         """Displacements (n, m) by those of the cut behind and the hub (n + hub, m)."""
-        import scipy.linalg
-
         reversal, n = self.side.reversal, self.side.cut
         force = self.side.pushed(ends, self.aside)
         if self.hub is not None:
             force += self.hub[parity] @ ends[n:]
-            return -np.asarray(scipy.linalg.cho_solve((self.lower[parity], True), force, check_finite=False), float)
+            return -solved_rows(self.lower[parity], force)
         part = reversal.part(force, parity)
-        return -reversal.whole(scipy.linalg.cho_solve((self.lower[parity], True), part, check_finite=False), parity)
+        return -reversal.whole(solved_rows(self.lower[parity], part), parity)
 
 
 def joined(side: Span, middle: Span | None) -> tuple[Span, Inside]:
@@ -189,7 +188,10 @@ def joined(side: Span, middle: Span | None) -> tuple[Span, Inside]:
 
 
 def eliminated(inner: Floats, across: Floats, ends: Floats) -> tuple[Floats, Floats]:
-    """L of a symmetric matrix (n, n), and the one (m, m) at the `ends` without its dofs; `across` (n, m) is between both."""
+    """L (see `dense`) of a symmetric matrix (n, n), and the one (m, m) at the `ends` without its dofs.
+
+    `across` (n, m) is between both.
+    """
     from gearcad.contact.solid.assembling import fill_upper
 
     blocks = Blocks(*(np.asfortranarray(each) for each in (inner.T, across, ends.T))).eliminated()
