@@ -125,7 +125,9 @@ def _deviations(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: 
         if not (layers.apex and cone.present):
             return [left]
         return [left, _of_screw(piece.curve, s, replace(layers, kappa=-layers.kappa), cone)]
-    return [_of_modified(gear, piece, s, layers, cone, left=left) for left in (True, False)]
+    left = _of_modified(gear, piece, s, layers, cone, left=True)
+    mirrored = not layers.kappa and not gear.modification.helix_angle_modification
+    return [left, left if mirrored else _of_modified(gear, piece, s, layers, cone, left=False)]
 
 
 def _off_cone(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone: EndCone) -> Floats:
@@ -196,18 +198,21 @@ def _of_modified(gear: Gear, piece: FlankCurve, s: Floats, layers: Layers, cone:
     z = layers.heights(cone.setback(piece.curve.polar(s)[0]))
     corners, middle = surface(s, z), 0.5 * (s[1:] + s[:-1])
 
-    def deviation(first: tuple[slice, slice], last: tuple[slice, slice]) -> Floats:
+    def exact(first: tuple[slice, slice], last: tuple[slice, slice]) -> tuple[Floats, Floats]:
         height = 0.5 * (z[first] + z[last])
-        off = 0.5 * (corners[first] + corners[last]) - surface(middle, height)
-        result: Floats = np.sum(off * _normal(surface, middle, height, layers.width), -1)
+        return surface(middle, height), _normal(surface, middle, height, layers.width)
+
+    def deviation(first: tuple[slice, slice], last: tuple[slice, slice], at: tuple[Floats, Floats]) -> Floats:
+        place, normal = at
+        result: Floats = np.sum((0.5 * (corners[first] + corners[last]) - place) * normal, -1)
         return result
 
     all_rows, lower, upper = slice(None), slice(None, -1), slice(1, None)
-    return _Deviations(
-        deviation((all_rows, lower), (all_rows, upper)),
-        deviation((lower, lower), (upper, upper)),
-        deviation((upper, lower), (lower, upper)),
-    )
+    sides = (all_rows, lower), (all_rows, upper)
+    rising, falling = ((lower, lower), (upper, upper)), ((upper, lower), (lower, upper))
+    of_rising = exact(*rising)
+    of_falling = exact(*falling) if cone.present else of_rising  # where columns are alike, diagonals cross in their middles
+    return _Deviations(deviation(*sides, exact(*sides)), deviation(*rising, of_rising), deviation(*falling, of_falling))
 
 
 def _normal(surface: Callable[[Floats, Floats], Floats], s: Floats, z: Floats, width: float) -> Floats:
