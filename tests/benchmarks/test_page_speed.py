@@ -2,8 +2,9 @@
 
     pytest -m benchmark_suite tests/benchmarks/test_page_speed.py -s
 
-Milliseconds, medians over a thickness of teeth that is typed anew again and again: until the section is drawn, the bodies are,
-the data sheet is, and the rating is. Chromium draws bodies without a graphics card here, which is most of their time.
+Milliseconds, medians over a thickness of teeth that is typed anew again and again: until the frame is made that has the
+section, the bodies, the data sheet, the rating. That of a planetary train begins when the hand rests, and nobody waits for it.
+Beside them the processor time of the server, which a loaded machine changes little. Chromium draws without a graphics card.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import psutil
 import pytest
 from support.page_server import CHROMIUM, launched, serve
 
@@ -23,15 +25,30 @@ pytestmark = [
 ]
 
 TEMPLATES = Path(__file__).parents[2] / "templates"
-STARTERS = ("spur", "volvo-13-44", "reducer-21-43", "ring-22-70", "rack", "double-23-81", "alm-18-161", "planetary-alm")
+THINNED = (
+    *("spur", "volvo-13-44", "reducer-21-43", "fzg-c", "uhlir-19-23", "uhlir-19-23-simple", "ring-22-70", "rack"),
+    *("double-23-81", "alm-18-161"),
+)
+TRAINS = ("planetary-24-21-66", "planetary-alm", "planetary-alm-in-phase", "planetary-differential")
+STARTERS = (*THINNED, *TRAINS)
+"""All that have bodies."""
+
 CHANGES = 15
 
 MOST = 150.0
-"""ms until a keystroke is seen in section and bodies of a pair, on a machine that does nothing else."""
+"""ms until a keystroke is seen, on a machine that does nothing else."""
+
+SOON = 300.0
+"""ms until the rating of a pair is."""
 
 _WATCH = """() => {
   window.seen = {};
-  const note = (what) => requestAnimationFrame(() => { window.seen[what] = performance.now() - window.typed; });
+  const after = new MessageChannel();
+  const waiting = [];
+  after.port1.onmessage = () => {
+    for (const what of waiting.splice(0)) window.seen[what] ??= performance.now() - window.typed;
+  };
+  const note = (what) => requestAnimationFrame(() => { waiting.push(what); after.port2.postMessage(0); });
   const sheets = [...document.querySelectorAll(".gear-sheet")];
   const watch = (element, what, options) => element && new MutationObserver(() => note(what)).observe(element, options);
   watch(document.querySelector(".gear-section"), "section", { attributes: true, attributeFilter: ["data-teeth"] });
@@ -49,11 +66,6 @@ def browser() -> Iterator[Any]:
         yield chromium
 
 
-def _memory(pid: int) -> float:
-    """MB that a process has."""
-    return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
-
-
 @pytest.mark.parametrize("starter", STARTERS)
 def test_a_keystroke_is_seen_at_once(browser: Any, starter: str) -> None:
     server, address = serve(TEMPLATES / f"{starter}.toml")
@@ -65,28 +77,25 @@ def test_a_keystroke_is_seen_at_once(browser: Any, starter: str) -> None:
         page.evaluate(_WATCH)
         given, any_at_all = (page.locator(f'{field}[data-key$="tooth_thinning"] input') for field in (".given", ".field"))
         field = (given if given.count() else any_at_all).first
-        found, before = [], 0.0
+        process, found, computed = psutil.Process(server.pid), [], 0.0
         for change in range(CHANGES + 3):
+            if change == 3:
+                computed = sum(process.cpu_times()[:2])
             field.fill(f"{0.05 + change / 1000:.3f}")
-            page.wait_for_function("() => window.seen.section && window.seen.bodies && window.seen.sheet", timeout=20_000)
+            page.wait_for_function("() => window.seen.section && window.seen.bodies && window.seen.sheet", polling=20)
             page.wait_for_timeout(500)
             found.append(page.evaluate("() => window.seen"))
-            before = before or _memory(server.pid)
+        computed = (sum(process.cpu_times()[:2]) - computed) / CHANGES
         seen = {
             what: statistics.median(each[what] for each in found[3:] if what in each)
             for what in ("section", "bodies", "sheet", "rating")
             if any(what in each for each in found[3:])
         }
-        grown = _memory(server.pid) - before
     finally:
         page.context.close()
         server.terminate()
         server.wait(20)
-    print(
-        f"\n{starter:16}",
-        *(f"{what} {seen[what]:5.0f} ms" for what in seen),
-        f"memory {grown:+.1f} MB",
-        os.cpu_count(),
-        "cores",
-    )
-    assert max(seen["section"], seen["bodies"]) < MOST
+    told = "  ".join(f"{what} {seen[what]:4.0f} ms" for what in seen)
+    print(f"\n{starter:22} {told}  server {1000 * computed:4.0f} ms of a processor, {os.cpu_count()} cores")
+    assert max(seen["section"], seen["bodies"], seen["sheet"]) < MOST
+    assert starter in TRAINS or seen.get("rating", 0.0) < SOON
