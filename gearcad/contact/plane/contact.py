@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise, product
 
 import numpy as np
 
-from gearcad.arrays import Bools, Floats
+from gearcad.arrays import Bools, Floats, Indices
 from gearcad.contact.plane.flank import PlaneCompliance
 from gearcad.contact.shared.complementarity import complementary
 from gearcad.contact.shared.engaged import TOOTH_ORDER
@@ -128,11 +129,17 @@ def _edge_block(cells: ContactCells, body: PlaneCompliance) -> Floats:
     log = -2 / (np.pi * body.elasticity.modulus)
     constant = -(1 + body.elasticity.ratio) / (np.pi * body.elasticity.modulus)
     count, h = len(cells.place), cells.width
-    steps = np.arange(count)
-    second = _second(np.arange(-1.0, count + 1) * h)
-    by_step = log * (second[2:] - 2 * second[1:-1] + second[:-2]) + constant * h * h  # cells are evenly apart
-    result: Floats = by_step[np.abs(steps[:, None] - steps)]
+    by_step, steps = _even_cells(count)
+    result: Floats = (h * h * (log * (by_step + math.log(h)) + constant))[steps]
     return result
+
+
+@lru_cache(256)
+def _even_cells(count: int) -> tuple[Floats, Indices]:
+    """ln|d| integrated over two cells of width 1 by the steps (n,) between them, and the steps (n, n) between all."""
+    steps = np.arange(count)
+    second = _second(np.arange(-1.0, count + 1))
+    return second[2:] - 2 * second[1:-1] + second[:-2], np.abs(steps[:, None] - steps)
 
 
 def _second(x: Floats) -> Floats:

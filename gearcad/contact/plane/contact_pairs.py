@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 
 from gearcad.contact.plane.contact import ContactCells, ContactPair
-from gearcad.contact.shared.line_of_action import LineOfAction, facing_gap, facing_teeth, nearest, overlap
+from gearcad.contact.shared.line_of_action import LineOfAction, facing_gap, facing_pairs, overlap
 
-__all__ = ["contact_pairs"]
+__all__ = ["contact_pairs", "touching_teeth"]
 
 
 _FEWEST = 6
@@ -26,33 +26,37 @@ def contact_pairs(
     cells: int,
     farthest_gap: float,
     least_width: float = 0.0,
+    *,
+    single: bool = False,
 ) -> tuple[ContactPair, ...]:
     """Pairs of flanks when the middle pair touches at `pinion_length` (mm from T1).
 
     Each has `cells` within `span(tooth, reduced radius)` (mm) on both sides of its contact, or fewer that are not narrower
     than `least_width` (mm). Beyond the path of contact the corner of a tip can touch while teeth bend: such pairs count up
-    to `farthest_gap` (mm) from where exact involutes would touch.
+    to `farthest_gap` (mm) from where exact involutes would touch. `single` leaves all but the middle pair out.
     """
-    found = (
-        _contact_pair(line, tooth, pinion_length + tooth * line.pitch, span, cells, farthest_gap, least_width)
-        for tooth in facing_teeth(line)
+    return tuple(
+        _contact_pair(line, tooth, pinion_length + tooth * line.pitch, place, span, cells, least_width)
+        for tooth, place in touching_teeth(line, pinion_length, farthest_gap, single=single).items()
     )
-    return tuple(pair for pair in found if pair is not None)
+
+
+def touching_teeth(line: LineOfAction, pinion_length: float, farthest_gap: float, *, single: bool = False) -> dict[int, float]:
+    """Teeth whose flanks come as near as `farthest_gap` (mm), and where along the tangent (mm) they are nearest."""
+    near = facing_pairs(line, pinion_length).items()
+    return {tooth: place for tooth, (gap, place) in near if gap <= farthest_gap and not (single and tooth)}
 
 
 def _contact_pair(
     line: LineOfAction,
     tooth: int,
     pinion_length: float,
+    middle: float,
     span: Callable[[int, float], float],
     cells: int,
-    farthest_gap: float,
     least_width: float,
-) -> ContactPair | None:
-    found = nearest(line, tooth, pinion_length)
-    if found is None or found[0] > farthest_gap:
-        return None
-    (low, high), middle = overlap(line, pinion_length), found[1]
+) -> ContactPair:
+    low, high = overlap(line, pinion_length)
     touching = line.lengths(pinion_length)
     radius = touching.pinion * touching.wheel / line.whole
     reach = span(tooth, radius)

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from gearcad.contact.plane.contact import ContactSolution, solve_contact
-from gearcad.contact.plane.contact_pairs import contact_pairs
+from gearcad.contact.plane.contact_pairs import contact_pairs, touching_teeth
 from gearcad.contact.plane.elasticity import Plane, PlaneElasticity
 from gearcad.contact.plane.flank import PlaneCompliance, flank_compliance
 from gearcad.contact.plane.ring import Ring, assemble
@@ -90,6 +90,9 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
 
     def _solved(self, roll_angle: float, force: float, single: bool) -> ContactSolution:
         """The contact at a roll angle (deg) and a normal force (N per mm)."""
+        farthest = self._farthest(roll_angle, force, single)
+        if len(touching_teeth(self.line, self.roll_length(roll_angle), farthest, single=single)) == 1:  # it carries all
+            return self._pressed(roll_angle, force, lambda _tooth: force, single, _CELLS)
         # The first solution tells what each pair carries, and so how wide its contact is.
         carried = self._pressed(roll_angle, force, lambda _tooth: force, single, _FIRST_CELLS)
         shares = dict(zip((pair.tooth for pair in carried.pairs), carried.forces.tolist(), strict=True))
@@ -114,13 +117,15 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
             return _WINDOW * float(half_width(carried(tooth), radius, self.modulus))
 
         least_width = max(body.resolution for body in self.bodies)
-        farthest = self.rigid_approach(roll_angle, single=single) + force / _SOFT
-        pairs = contact_pairs(self.line, self.roll_length(roll_angle), span, cells, farthest, least_width)
-        if single:
-            pairs = tuple(pair for pair in pairs if pair.tooth == 0)
+        farthest = self._farthest(roll_angle, force, single)
+        pairs = contact_pairs(self.line, self.roll_length(roll_angle), span, cells, farthest, least_width, single=single)
         if not pairs:
             raise GeometryError("roll_angle", roll_angle, "must be one at which teeth can touch", "deg")
         return solve_contact(pairs, self.bodies, force, like)
+
+    def _farthest(self, roll_angle: float, force: float, single: bool) -> float:
+        """Gap (mm) from which flanks can touch as teeth bend."""
+        return self.rigid_approach(roll_angle, single=single) + force / _SOFT
 
     def single_stiffness(self, torque: float, count: int = _SINGLE) -> float:
         """Greatest stiffness (N/(mm·µm)) of one pair of teeth alone, at `count` places of its path of contact."""

@@ -44,9 +44,11 @@ def _equations(matrix: Floats, gap: Floats, width: Floats, force: float, active:
     rows = np.flatnonzero(active)
     count = len(rows)
     system = np.zeros((count + 1, count + 1))
-    system[:count, :count] = matrix[np.ix_(rows, rows)]
+    system[:count, :count] = matrix[rows[:, None], rows]
     system[:count, count] = system[count, :count] = -width[rows]
-    solved = np.linalg.solve(system, np.r_[-gap[rows], -force])
+    right = np.full(count + 1, -force)
+    right[:count] = -gap[rows]
+    solved = np.linalg.solve(system, right)
     pressure = np.zeros(len(width))
     pressure[rows] = solved[:count]
     return pressure, float(solved[count])

@@ -23,6 +23,7 @@ __all__ = [
     "LineOfAction",
     "TransverseFlank",
     "facing_gap",
+    "facing_pairs",
     "facing_teeth",
     "line_of_action",
     "nearest",
@@ -106,10 +107,11 @@ class TransverseFlank:
         return length, contact - (length * np.cos(turn) - base * np.sin(turn))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LineOfAction:
     """The line of action of a pair: its length T1T2 and the base pitch (mm), and both flanks.
 
+    A line equals itself only: what is known of one is found without looking at all that it is made of.
     `proud` (mm) is how much further than the others the flanks of the middle pair stand out.
     """
 
@@ -137,6 +139,7 @@ class LineOfAction:
         return depth - self.proud if tooth == 0 else depth
 
 
+@lru_cache(16)
 def line_of_action(pair: GearPair, pitch_error: float = 0.0) -> LineOfAction:
     """The line of action of a pair in the transverse section through the middle of its common face width; left flanks of the
     pinion carry.
@@ -159,9 +162,7 @@ def rigid_approach(line: LineOfAction, pinion_length: float, *, single: bool = F
     """
     if line.exact:
         return 0.0
-    teeth = (0,) if single else facing_teeth(line)
-    found = (nearest(line, tooth, pinion_length + tooth * line.pitch) for tooth in teeth)
-    return min((gap for gap, _ in filter(None, found)), default=0.0)
+    return min((gap for tooth, (gap, _) in facing_pairs(line, pinion_length).items() if not (single and tooth)), default=0.0)
 
 
 def facing_teeth(line: LineOfAction) -> range:
@@ -177,9 +178,18 @@ def pairs_within(line: LineOfAction, pinion_length: float, gap: float) -> int:
     """
     found = 0
     for length in (pinion_length + line.pitch * np.linspace(-0.5, 0.5, _POSITIONS)).tolist():
-        each = (nearest(line, tooth, length + tooth * line.pitch) for tooth in facing_teeth(line))
-        found = max(found, sum(near[0] <= gap for near in each if near is not None))
+        found = max(found, sum(near <= gap for near, _ in facing_pairs(line, length).values()))
     return found
+
+
+@lru_cache(1024)
+def facing_pairs(line: LineOfAction, pinion_length: float) -> dict[int, tuple[float, float]]:
+    """`nearest` of every pair of teeth whose flanks face each other as the middle pair touches at `pinion_length` (mm from T1).
+
+    Known for the last positions: every torque and every step of its solution asks for it again.
+    """
+    found = ((tooth, nearest(line, tooth, pinion_length + tooth * line.pitch)) for tooth in facing_teeth(line))
+    return {tooth: near for tooth, near in found if near is not None}
 
 
 def overlap(line: LineOfAction, pinion_length: float) -> tuple[float, float]:
@@ -194,12 +204,8 @@ def overlap(line: LineOfAction, pinion_length: float) -> tuple[float, float]:
     )
 
 
-@lru_cache(1024)
 def nearest(line: LineOfAction, tooth: int, pinion_length: float) -> tuple[float, float] | None:
-    """The least gap (mm) between the flanks of a pair of teeth, and its place along the tangent; None if they do not face.
-
-    Known for the last positions: every torque and every step of its solution asks for it again.
-    """
+    """The least gap (mm) between the flanks of a pair of teeth, and its place along the tangent; None if they do not face."""
     low, high = overlap(line, pinion_length)
     if low >= high:
         return None
