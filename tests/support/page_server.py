@@ -64,6 +64,7 @@ class Tab:
     def __init__(self, page: Any, address: str) -> None:
         self.page, self.address = page, address
         self.errors: list[str] = []
+        self._before: dict[str, str] = {}
         self.foreign: list[str] = []
         page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         page.on("pageerror", lambda error: self.errors.append(str(error)))
@@ -88,7 +89,16 @@ class Tab:
 
     def give(self, key: str, text: str) -> None:
         """Type into a field, and wait until the bodies are those of the design that comes of it."""
+        self._before.setdefault(key, self.field(key).input_value())
         before = self.shown()
         self.field(key).fill(text)
         changed = "former => document.querySelector('.scene').dataset.shown !== former"
         self.page.wait_for_function(changed, arg=before, polling=_POLL)
+
+    def give_back(self) -> None:
+        """Every field that was given to has what it had before."""
+        before, self._before = self._before, {}
+        for key, text in before.items():
+            if self.field(key).input_value() != text:
+                self.give(key, text)
+        self._before = {}

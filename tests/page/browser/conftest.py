@@ -47,16 +47,39 @@ def window(browser: Any, address: str) -> Any:
     return context
 
 
-@pytest.fixture
-def tab(window: Any, address: str) -> Iterator[Tab]:
-    """A tab of its own with the page in it; that nothing went wrong and nothing foreign was asked for is part of each test."""
+def _loaded(window: Any, address: str) -> Tab:
+    """A tab with the page in it."""
     found = Tab(window.new_page(), address)
     found.page.goto(address)
     found.page.wait_for_selector(".scene[data-shown]")
-    yield found
+    return found
+
+
+@pytest.fixture
+def tab(window: Any, address: str) -> Iterator[Tab]:
+    """A tab of its own with the page in it; that nothing went wrong and nothing foreign was asked for is part of each test."""
     first, *others = window.pages
-    for page in others:
-        page.close()
+    found = _loaded(window, address)
+    yield found
+    for page in window.pages[1:]:
+        if page not in others:
+            page.close()
     first.evaluate("localStorage.clear()")
     assert not found.errors
     assert not found.foreign
+
+
+@pytest.fixture(scope="session")
+def loaded(window: Any, address: str) -> Tab:
+    """The tab that is lent."""
+    return _loaded(window, address)
+
+
+@pytest.fixture
+def lent(loaded: Tab) -> Iterator[Tab]:
+    """A tab for tests that leave the page as they find it, but for what they give; that goes back."""
+    loaded.page.bring_to_front()
+    yield loaded
+    loaded.give_back()
+    assert not loaded.errors
+    assert not loaded.foreign

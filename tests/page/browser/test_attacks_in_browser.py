@@ -159,12 +159,12 @@ def test_the_last_of_rapid_changes_is_shown(tab: Tab) -> None:
     assert tab.field(TEETH).input_value() == "22"
 
 
-def test_two_tabs_do_not_see_each_other(tab: Tab, browser: Any) -> None:
+def test_two_tabs_do_not_see_each_other(lent: Tab, browser: Any) -> None:
     context = browser.new_context()
-    other = Tab(context.new_page(), tab.address)
-    other.page.goto(tab.address)
+    other = Tab(context.new_page(), lent.address)
+    other.page.goto(lent.address)
     other.page.wait_for_selector(".scene[data-shown]")
-    tab.give(TEETH, "22")
+    lent.give(TEETH, "22")
     assert other.field(TEETH).input_value() == "21"
     assert str(other.page.get_attribute(".gear-section", "data-teeth")).startswith("21 ")
     context.close()

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 
-def test_teeth_are_followed_by_all_panels(tab: Any) -> None:
-    outline = tab.page.get_attribute(".gear-section", "data-teeth")
-    tab.give("pinion.teeth", "22")
-    assert tab.page.get_attribute(".gear-section", "data-teeth") != outline
-    tab.page.keyboard.press("Escape")
-    tab.give("pinion.teeth", "21")
-    assert tab.page.get_attribute(".gear-section", "data-teeth") == outline
+def test_teeth_are_followed_by_all_panels(lent: Any) -> None:
+    outline = lent.page.get_attribute(".gear-section", "data-teeth")
+    lent.give("pinion.teeth", "22")
+    assert lent.page.get_attribute(".gear-section", "data-teeth") != outline
+    lent.page.keyboard.press("Escape")
+    lent.give("pinion.teeth", "21")
+    assert lent.page.get_attribute(".gear-section", "data-teeth") == outline
 
 
 def test_wrong_input_is_told_at_its_field_and_the_last_good_design_stays(tab: Any) -> None:

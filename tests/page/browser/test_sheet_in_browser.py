@@ -28,11 +28,11 @@ def test_what_changed_stands_beside_what_it_was(tab: Any) -> None:
     assert "values changed" in tab.page.inner_text(f'{SHEET} [role="status"]')
 
 
-def test_folding_stays_over_changes(tab: Any) -> None:
-    block = tab.page.locator(f"{SHEET} details", has_text="Diameters").last
+def test_folding_stays_over_changes(lent: Any) -> None:
+    block = lent.page.locator(f"{SHEET} details", has_text="Diameters").last
     block.locator("summary").click()
     assert block.get_attribute("open") is None
-    tab.give("pinion.teeth", "22")
+    lent.give("pinion.teeth", "22")
     assert block.get_attribute("open") is None
 
 
@@ -52,10 +52,10 @@ def test_rows_are_found_and_walked_and_pinned_by_keys(tab: Any) -> None:
     )
 
 
-def test_a_notice_leads_to_its_field(tab: Any) -> None:
-    tab.give("pinion.profile_shift", "-0.4")
-    tab.page.locator(f"{SHEET} .notices .key", has_text="pinion.profile_shift").first.click()
-    tab.page.wait_for_function("document.activeElement.closest('[data-key]')?.dataset.key === 'pinion.profile_shift'")
+def test_a_notice_leads_to_its_field(lent: Any) -> None:
+    lent.give("pinion.profile_shift", "-0.4")
+    lent.page.locator(f"{SHEET} .notices .key", has_text="pinion.profile_shift").first.click()
+    lent.page.wait_for_function("document.activeElement.closest('[data-key]')?.dataset.key === 'pinion.profile_shift'")
 
 
 def test_a_kept_design_stands_beside_changes_places_and_is_let_go(tab: Any) -> None:
