@@ -192,7 +192,7 @@ CHANGES = {
 }
 
 
-_LONG = ("nothing to a gear", "gear to another gear", "pair to gear")
+_LONG = ("nothing to a gear", "nothing to a pair", "gear to another gear", "pair to gear")
 
 
 @pytest.mark.parametrize("change", [pytest.param(name, marks=[pytest.mark.long] * (name in _LONG)) for name in CHANGES])

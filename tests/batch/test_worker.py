@@ -217,7 +217,7 @@ isolated(getattr(jobs, sys.argv[1]), 600, 600)
 
 
 @pytest.mark.usefixtures("none_yet")
-@pytest.mark.parametrize("busy_with", ["wait", "work", "hold_the_interpreter"])
+@pytest.mark.parametrize("busy_with", ["wait", pytest.param("work", marks=pytest.mark.long), "hold_the_interpreter"])
 def test_death_of_the_parent_ends_the_worker_in_the_middle_of_its_work(busy_with: str) -> None:
     if busy_with == "hold_the_interpreter" and sys.platform != "linux":
         pytest.skip("only Linux tells a process of its parent's death")

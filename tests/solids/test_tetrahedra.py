@@ -171,6 +171,7 @@ def test_refined_teeth_have_finer_edges(spur: ElementMesh) -> None:
     assert len(spur.sides[f"right_fillet_{last}"]) > 4 * len(spur.sides["right_fillet_3"])
 
 
+@pytest.mark.long
 def test_as_many_elements_as_asked_for() -> None:
     stages: list[Stage] = []
     mesh = mesh_tetrahedra(SPUR, elements=25_000, stage=stages.append)

@@ -133,7 +133,7 @@ def test_memory_does_not_grow_with_the_table() -> None:
             tracemalloc.stop()
 
     peak(10)  # what is made once
-    assert peak(20_000) < peak(500) + FLAT
+    assert peak(10_000) < peak(500) + FLAT
 
 
 # ---------------------------------------------------------------------- workbooks
