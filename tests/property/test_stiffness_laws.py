@@ -103,7 +103,7 @@ def test_driver_and_wheel_exchanged(helix: float) -> None:
         )
 
 
-@pytest.mark.parametrize("helix", [4.0, 15.0, 30.0])
+@pytest.mark.parametrize("helix", [4.0, pytest.param(15.0, marks=pytest.mark.long), 30.0])
 def test_slices_against_many_thin_ones(helix: float) -> None:
     """Sums over 4,000 slices, each with its own compliance, without splines: at some roll angles."""
     method, load = WeberBanaschek(pair=_pair(helix=helix)), Load(torque=100.0)

@@ -82,8 +82,13 @@ def test_a_deck_loads_the_flanks_that_its_torque_presses(torque: float, tmp_path
     assert len(equations) == 4 * len(made.deck.held.pinion)
 
 
-@pytest.mark.parametrize("torque", [80.0, -80.0])
-@pytest.mark.parametrize("role", Role)
+@pytest.mark.parametrize(
+    ("role", "torque"),
+    [
+        *((Role.PINION, 80.0), (Role.WHEEL, -80.0)),
+        *(pytest.param(*each, marks=pytest.mark.long) for each in ((Role.PINION, -80.0), (Role.WHEEL, 80.0))),
+    ],
+)
 def test_pressures_on_a_tooth_come_to_the_force_and_the_torque_of_the_check(role: Role, torque: float) -> None:
     decks = _decks(torque=torque)
     deck = plane_tooth_deck(decks, -6.0, role)

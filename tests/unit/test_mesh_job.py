@@ -43,8 +43,13 @@ def test_edges_on_flanks_are_as_long_as_asked_for() -> None:
         assert 0.7 * size < longest < 1.1 * size
 
 
-@pytest.mark.parametrize("element", [Element.QUAD8, Element.HEX8])
-@pytest.mark.parametrize("roll", [0.0, 5.0])
+@pytest.mark.parametrize(
+    ("element", "roll"),
+    [
+        *((Element.QUAD8, 0.0), (Element.HEX8, 5.0)),
+        *(pytest.param(*each, marks=pytest.mark.long) for each in ((Element.QUAD8, 5.0), (Element.HEX8, 0.0))),
+    ],
+)
 def test_flanks_of_a_pair_touch_at_the_roll_angle(element: Element, roll: float) -> None:
     """The distance of a flank's nodes from the mate's: none overlaps, and some are near."""
     mesh = gearcad.mesh(

@@ -52,7 +52,7 @@ PAIRS = {
 
 
 @pytest.mark.parametrize("left", [True, False])
-@pytest.mark.parametrize("roll_angle", [-6.0, 0.0, 4.3])
+@pytest.mark.parametrize("roll_angle", [-6.0, pytest.param(0.0, marks=pytest.mark.long), 4.3])
 @pytest.mark.parametrize("pair", PAIRS.values(), ids=PAIRS)
 def test_flanks_of_posed_gears_touch(pair: GearPair, roll_angle: float, left: bool) -> None:
     place = poses(pair, roll_angle, solid=True, left=left)
