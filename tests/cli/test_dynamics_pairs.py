@@ -136,6 +136,7 @@ def test_pairs_of_files_and_of_tables() -> None:
     assert own == pytest.approx(2 * 20.0 * math.cos(math.radians(20)), rel=1e-9)
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_what_comes_of_it() -> None:
     """Forces by hand, pairs and their specs, which read as pairs under these loads."""
     result = run("dynamics", spec(train()))

@@ -53,6 +53,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_what_no_chart_shows_is_in_the_headline(here: Path) -> None:
     result = run(with_models('["isolated", "massless"]').replace("speeds = 120", "speeds = 20") + "operating_to = 99999.0\n")
     assert "of which not judged: 16000 to 99999 rpm, beyond the last speed of the chart, held against" in result.stdout
@@ -60,6 +61,7 @@ def test_what_no_chart_shows_is_in_the_headline(here: Path) -> None:
     assert "Not judged: 16" in page
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_a_list(here: Path) -> None:
     """The order of the list is that of tables and charts."""
     result = run(with_models('["exact", "isolated"]') + "operating_to = 12000.0\n")
