@@ -19,12 +19,11 @@ from gearcad.designs.kinds.toothed import ToothedDesign
 from gearcad.errors import GearcadError
 from gearcad.geometry import Gear, Rack
 from gearcad.jobs.products import require_bodies
-from gearcad.page.panels.train_section import ratios_of
+from gearcad.page.panels.train_section import layout_of, ratios_of
 from gearcad.solids import FileOptions
 from gearcad.solids.colours import PART_COLOURS, STEEL, Colour
 from gearcad.solids.facets.rack_facets import tessellate_rack
 from gearcad.solids.facets.tessellation import tessellate
-from gearcad.solids.train_layout import TrainLayout
 
 __all__ = ["Bodies", "Body", "Surface", "bodies_of", "surface_of"]
 
@@ -124,7 +123,7 @@ def _with_rack(design: RackPairDesign) -> Iterable[tuple[Gear | Rack, Body]]:
 
 
 def _of_train(design: PlanetaryDesign) -> Iterator[tuple[Gear | Rack, Body]]:
-    layout = TrainLayout(design.train, design.train.pose())
+    layout = layout_of(design)
     ratios = ratios_of(design, layout)
     for standing in layout.standing:
         body, orbit = standing.body, ratios[layout.carrier.name] if standing.axle.on else 0.0

@@ -16,6 +16,7 @@ class RollPanel(Panel[float]):
 
     def __init__(self, words: Words) -> None:
         self._view = RollView(_own(words))
+        self._shown = 0.0
 
     def find(self, design: Design) -> float:
         """The angular pitch of the first gear (rad); 0 where nothing turns."""
@@ -23,7 +24,9 @@ class RollPanel(Panel[float]):
         return 0.0 if found is None else float(found["pitch"])
 
     def show(self, found: float) -> None:
-        self._view.show(found)
+        if found != self._shown:
+            self._shown = found
+            self._view.show(found)
 
 
 def _own(words: Words) -> dict[str, str]:

@@ -12,6 +12,7 @@ from gearcad.designs.kinds.rack import RackDesign
 from gearcad.designs.kinds.rack_pair import RackPairDesign
 from gearcad.designs.kinds.toothed import ToothedDesign
 from gearcad.geometry import Gear, Rack
+from gearcad.page.last import of_last
 from gearcad.page.panels.section_parts import body_of, drift, mesh_of, rack_of, turns
 from gearcad.page.panels.train_section import train_section
 from gearcad.solids.colours import PART_COLOURS, STEEL
@@ -19,6 +20,7 @@ from gearcad.solids.colours import PART_COLOURS, STEEL
 __all__ = ["section_of"]
 
 
+@of_last
 def section_of(design: Design) -> dict[str, Any] | None:
     """Bodies of a design with teeth, their meshes, heights at which it can be cut, and the pitch by which it is rolled (rad).
 

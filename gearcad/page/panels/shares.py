@@ -19,6 +19,7 @@ class SharesPanel(Panel[dict[str, Any] | None]):
     def __init__(self, words: Words) -> None:
         from gearcad.page.components.shares import SharesView  # only here: who finds shares elsewhere needs no NiceGUI
 
+        self._shown = False
         self._view = SharesView(
             {
                 "title": words["load shares of the planets"],
@@ -37,7 +38,9 @@ class SharesPanel(Panel[dict[str, Any] | None]):
         self._view.wait()
 
     def show(self, found: dict[str, Any] | None) -> None:
-        self._view.show(found)
+        if found is not None or self._shown:
+            self._view.show(found)
+        self._shown = found is not None
 
 
 def shares_of(design: Design) -> dict[str, Any] | None:

@@ -8,18 +8,19 @@ from typing import Any
 
 from gearcad.designs.kinds.planetary import PlanetaryDesign
 from gearcad.jobs.products import given_speeds
+from gearcad.page.last import of_last
 from gearcad.page.panels.section_parts import body_of, mesh_of
 from gearcad.per_gear import Role
 from gearcad.solids.files.train_dxf import section_angle
 from gearcad.solids.files.train_turning import turns_of
 from gearcad.solids.train_layout import TrainLayout
 
-__all__ = ["ratios_of", "roll_pitch", "train_section"]
+__all__ = ["layout_of", "ratios_of", "roll_pitch", "train_section"]
 
 
 def train_section(design: PlanetaryDesign) -> dict[str, Any]:
     """Gears that mesh are cut by one plane, in the middle of their teeth; planets and what is of their meshes go round."""
-    layout = TrainLayout(design.train, design.train.pose())
+    layout = layout_of(design)
     ratios = ratios_of(design, layout)
     orbit = ratios[layout.carrier.name]
     bodies, numbers = [], {}
@@ -31,6 +32,12 @@ def train_section(design: PlanetaryDesign) -> dict[str, Any]:
         bodies.append(body | {"orbit": orbit if standing.axle.on else 0.0})
     meshes = list(_meshes(layout, numbers, orbit))
     return {"bodies": bodies, "meshes": meshes, "heights": [0.0, 0.0], "pitch": roll_pitch(design, ratios)}
+
+
+@of_last
+def layout_of(design: PlanetaryDesign) -> TrainLayout:
+    """Where everything stands."""
+    return TrainLayout(design.train, design.train.pose())
 
 
 def ratios_of(design: PlanetaryDesign, layout: TrainLayout) -> dict[str, float]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from gearcad.designs.design import Design
 from gearcad.jobs.planetary import planetary
+from gearcad.page.last import of_last
 
 if TYPE_CHECKING:
     from gearcad.dynamics.planetary.result import PlanetaryStudy
@@ -13,17 +14,7 @@ if TYPE_CHECKING:
 __all__ = ["train_study"]
 
 
-class _Studied(NamedTuple):
-    design: Design
-    study: PlanetaryStudy
-
-
-_last: list[_Studied] = []
-"""That of the last design: another panel asks for it next."""
-
-
+@of_last
 def train_study(design: Design) -> PlanetaryStudy:
     """That of a train; finite elements tell how stiff its meshes are, which takes a second."""
-    if not _last or _last[0].design != design:
-        _last[:] = [_Studied(design, planetary(design))]
-    return _last[0].study
+    return planetary(design)
