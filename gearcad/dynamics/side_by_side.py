@@ -15,6 +15,7 @@ from gearcad.dynamics.tooth_errors.result import ErrorStudy
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.errors import ParameterError
 from gearcad.notice import Notice, joined, texts
+from gearcad.reprs import Pictured
 
 __all__ = ["GreatestOfMesh", "GreatestOfShaft", "SameResonance", "SideBySide"]
 
@@ -55,7 +56,7 @@ class SameResonance(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class SideBySide:
+class SideBySide(Pictured):
     """Studies of a train `name` that differ in `what`, in words; `labels` say how, one for each.
 
     Where labels are values of one key of the spec, that is the `key`: else it is "".

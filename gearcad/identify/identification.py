@@ -9,6 +9,7 @@ from gearcad.identify.candidate import Candidate
 from gearcad.identify.measured import Measured, Reading
 from gearcad.identify.unknowns import Unknown
 from gearcad.notice import Notice, texts
+from gearcad.reprs import Pictured
 
 __all__ = ["Deciding", "Identification"]
 
@@ -58,7 +59,7 @@ class Deciding:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Identification:
+class Identification(Pictured):
     """Candidates, the most probable first; what would decide between those that are left; and the chance of such residuals.
 
     Those that are `alike` have the flanks of the best under another name, and run in its place.
@@ -69,6 +70,14 @@ class Identification:
     deciding: tuple[Deciding, ...]
     alike: tuple[Candidate, ...]
     chance: float
+
+    def __repr__(self) -> str:
+        gear, best = self.best.gear, self.best
+        size = f"DP {best.diametral_pitch:g}" if best.diametral_pitch is not None else f"m_n {gear.normal_module:.5g}"
+        turned = f", helix {gear.helix_angle:.4g} deg" if gear.helix_angle else ""
+        angle = f"{gear.rack.pressure_angle:g} deg{turned}, x {gear.profile_shift:.3f}"
+        sure = "certain" if self.certain else "not certain"
+        return f"<Identification of z = {self.measured.teeth}: {size}, {angle}, {100 * best.probability:.1f} %, {sure}>"
 
     @property
     def best(self) -> Candidate:

@@ -16,7 +16,10 @@ keeps them.
     plot_line_loads(check)                  over the plane of action, of a check of solid bodies
     plot_stiffness(comparison)              over the mesh by each method; plot_cycle of one
     plot_life(rating)                       strength over load cycles; plot_flash of scuffing
+    plot_safeties(strength)                 of every gear of a planetary train
     plot_factors(study)                     K_v over speed, of the study of a train; plot_campbell of spectra
+    plot_beside(studies)                    K_v of the first mesh, of a train studied several times
+    plot_residuals(identification)          how far candidates of a measured gear are off
     plot_scheme(train)                      a planetary train in symbols
     plot_results(file, x, y)                columns of the results.csv of a batch
 """
@@ -37,12 +40,14 @@ if TYPE_CHECKING:
     from gearcad.plots.gear import plot_gear, plot_modification, plot_shift_limits
     from gearcad.plots.labels import axis_label
     from gearcad.plots.lines import plot_line_loads
+    from gearcad.plots.measured import plot_residuals
     from gearcad.plots.mesh import plot_mesh
     from gearcad.plots.pair import plot_backlash, plot_pair
     from gearcad.plots.planetary.scheme import plot_scheme
+    from gearcad.plots.side_by_side import plot_beside
     from gearcad.plots.speeds import plot_cycle, plot_factors
     from gearcad.plots.stiffness import plot_stiffness
-    from gearcad.plots.strength import plot_flash, plot_life
+    from gearcad.plots.strength import plot_flash, plot_life, plot_safeties
     from gearcad.plots.stresses import plot_contact_zone, plot_stress_field
     from gearcad.plots.study import plot_contours, plot_results, plot_scatter, require_picture, save_plot
 
@@ -50,6 +55,7 @@ __all__ = [
     "axis_label",
     "plot",
     "plot_backlash",
+    "plot_beside",
     "plot_campbell",
     "plot_contact_pressure",
     "plot_contact_zone",
@@ -65,8 +71,10 @@ __all__ = [
     "plot_mesh_stiffness",
     "plot_modification",
     "plot_pair",
+    "plot_residuals",
     "plot_results",
     "plot_root_stress",
+    "plot_safeties",
     "plot_scatter",
     "plot_scheme",
     "plot_shift_limits",
@@ -93,12 +101,14 @@ if not TYPE_CHECKING:
         "gear": ["plot_gear", "plot_modification", "plot_shift_limits"],
         "labels": ["axis_label"],
         "lines": ["plot_line_loads"],
+        "measured": ["plot_residuals"],
         "mesh": ["plot_mesh"],
         "pair": ["plot_backlash", "plot_pair"],
         "planetary.scheme": ["plot_scheme"],
+        "side_by_side": ["plot_beside"],
         "speeds": ["plot_cycle", "plot_factors"],
         "stiffness": ["plot_stiffness"],
-        "strength": ["plot_flash", "plot_life"],
+        "strength": ["plot_flash", "plot_life", "plot_safeties"],
         "stresses": ["plot_contact_zone", "plot_stress_field"],
         "study": ["plot_contours", "plot_results", "plot_scatter", "require_picture", "save_plot"],
     }

@@ -28,6 +28,9 @@ _FIRST: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "MeshCycle": ("speeds.plot_cycle", lambda it: it),
     "StiffnessComparison": ("stiffness.plot_stiffness", lambda it: it),
     "StrengthRating": ("strength.plot_life", lambda it: it),
+    "TrainStrength": ("strength.plot_safeties", lambda it: it),
+    "SideBySide": ("side_by_side.plot_beside", lambda it: it),
+    "Identification": ("measured.plot_residuals", lambda it: it),
     "TrainStudy": ("speeds.plot_factors", lambda it: it),
     "PairStudy": ("speeds.plot_factors", lambda it: it.study),
     "SpeedSpectra": ("campbell.plot_campbell", lambda it: it),
@@ -50,7 +53,8 @@ def plot(shown: object, ax: Axes | None = None) -> Axes:
 
     A gear: its section. A pair: both in mesh with the path of contact. Elements: all of them. A check: the stress field, of
     solid bodies the loads on the lines of contact. Stiffness: its course over the mesh. A rating: life of the flanks. Dynamics:
-    K_v over speed. A planetary train: its scheme. Modifications: how far flanks are taken back. Sizes: mass and safety.
+    K_v over speed, of several side by side too. A planetary train: its scheme; whether it holds: the safeties of its gears.
+    Modifications: how far flanks are taken back. Sizes: mass and safety. A measured gear: how far candidates are off.
     Raises ParameterError for anything else.
     """
     for kind in type(shown).__mro__:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 __all__ = [
     "beside_inches",
     "plot_approaches_beside",
+    "plot_beside",
     "plot_errors_beside",
     "plot_factors_beside",
     "plot_overloads_beside",
@@ -30,7 +31,8 @@ __all__ = [
 ]
 
 
-_SPEED = "speed of the pinion in rpm"
+_SPEED, _FACTOR = "speed of the pinion in rpm", "$K_{\\mathrm{v}}$"
+_Curve = Callable[[TrainStudy, KvChart, str], Floats | None]
 
 _PANEL, _ABOVE, _ROW = 2.9, 0.5, 4
 """Inches of a panel, and of axis and legend; studies in a row of the legend."""
@@ -59,11 +61,19 @@ def study_colours(count: int) -> list[str]:
 
 def plot_factors_beside(of: SideBySide, figure: Figure | None = None) -> Figure:
     """K_v of every mesh over speed, a panel each, a colour for each study; running down dashed."""
+    return _panels(of, figure, of.mesh_names, _FACTOR, _factor)
 
-    def curve(_study: TrainStudy, chart: KvChart, name: str) -> Floats | None:
-        return chart.factors[:, chart.mesh_names.index(name)]
 
-    return _panels(of, figure, of.mesh_names, "$K_{\\mathrm{v}}$", curve)
+def _factor(_study: TrainStudy, chart: KvChart, name: str) -> Floats | None:
+    return chart.factors[:, chart.mesh_names.index(name)]
+
+
+def plot_beside(of: SideBySide, ax: Axes | None = None) -> Axes:
+    """K_v of the first mesh over speed, a colour for each study; running down dashed."""
+    axes = new_figure().subplots() if ax is None else ax
+    _draw(of, axes, of.mesh_names[0], _SPEED, _FACTOR, _factor)
+    legend_above(axes, _legend_columns(of))
+    return axes
 
 
 def plot_approaches_beside(of: SideBySide, figure: Figure | None = None) -> Figure:
@@ -102,7 +112,7 @@ def plot_errors_beside(of: SideBySide, figure: Figure | None = None) -> Figure:
                 panel.plot(found.speeds, found.band[1][:, mesh], "--", color=colours[label], linewidth=1.1)
         ends = [float(end) for found in of.errors.values() for end in (found.speeds[0], found.speeds[-1])]
         panel.set_xlim(min(ends), max(ends))
-    legend_above(panels[0], _ROW if max(map(len, of.titles)) <= _SHORT else _ROW - 1)
+    legend_above(panels[0], _legend_columns(of))
     return drawn
 
 
@@ -111,28 +121,37 @@ def _panels(
     figure: Figure | None,
     names: tuple[str, ...],
     words: str,
-    curve: Callable[[TrainStudy, KvChart, str], Floats | None],
+    curve: _Curve,
 ) -> Figure:
     """What `curve` has of each name in each chart of each study, None where it has nothing."""
     drawn = figure or new_figure(beside_inches(len(names), len(of.studies)))
     panels = drawn.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
-    speeds = [float(end) for study in of.studies for end in (study.speeds[0], study.speeds[-1])]
     for panel, name in zip(panels, names, strict=True):
-        prepared(panel, _SPEED if panel is panels[-1] else "", f"{plain(name)}: {words}")
-        shown, widths = [], layered(len(of.studies))
-        for width, colour, label, study in zip(widths, study_colours(len(of.studies)), of.labels, of.studies, strict=True):
-            for (_, chart), style in zip(study.charts.directions(), ("-", "--"), strict=False):
-                values = curve(study, chart, name)
-                if values is not None:
-                    words_of = plain(of.title(label)) if style == "-" else ""
-                    panel.plot(study.speeds, values, style, color=colour, linewidth=width, label=words_of)
-                    shown.append(values)
-        panel.set_xlim(min(speeds), max(speeds))
-        if isinstance(of, LevelStudy):
-            _mark_range(panel, of.over)
-        _set_scale(panel, np.concatenate(shown))
-    legend_above(panels[0], _ROW if max(map(len, of.titles)) <= _SHORT else _ROW - 1)
+        _draw(of, panel, name, _SPEED if panel is panels[-1] else "", words, curve)
+    legend_above(panels[0], _legend_columns(of))
     return drawn
+
+
+def _draw(of: SideBySide, panel: Axes, name: str, below: str, words: str, curve: _Curve) -> None:
+    """What `curve` has of a name in each chart of each study, over speed."""
+    prepared(panel, below, f"{plain(name)}: {words}")
+    shown, widths = [], layered(len(of.studies))
+    for width, colour, label, study in zip(widths, study_colours(len(of.studies)), of.labels, of.studies, strict=True):
+        for (_, chart), style in zip(study.charts.directions(), ("-", "--"), strict=False):
+            values = curve(study, chart, name)
+            if values is not None:
+                words_of = plain(of.title(label)) if style == "-" else ""
+                panel.plot(study.speeds, values, style, color=colour, linewidth=width, label=words_of)
+                shown.append(values)
+    speeds = [float(end) for study in of.studies for end in (study.speeds[0], study.speeds[-1])]
+    panel.set_xlim(min(speeds), max(speeds))
+    if isinstance(of, LevelStudy):
+        _mark_range(panel, of.over)
+    _set_scale(panel, np.concatenate(shown))
+
+
+def _legend_columns(of: SideBySide) -> int:
+    return _ROW if max(map(len, of.titles)) <= _SHORT else _ROW - 1
 
 
 def _mark_range(axes: Axes, over: OperatingRange) -> None:

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gearcad.dynamics.planetary.strength import TrainStrength
 from gearcad.errors import GeometryError
 from gearcad.per_gear import Role
+from gearcad.plots.labels import plain
 from gearcad.plots.paper import DARK, GEARS, MARKED, SERIES, legend_above, prepared, short
 from gearcad.rating.scuffing import Scuffing
 from gearcad.rating.strength import Part, StrengthRating
@@ -15,12 +17,14 @@ from gearcad.rating.strength import Part, StrengthRating
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["plot_flash", "plot_life"]
+__all__ = ["plot_flash", "plot_life", "plot_safeties"]
 
 _FEWEST, _MOST = 1e2, 1e11
 """Load cycles that are shown."""
 
 _ABOVE, _BELOW = 1.12, 0.88
+_BAR = 0.36
+"""Width of a bar, of the distance between gears."""
 
 
 def plot_life(rating: StrengthRating, part: Part = Part.FLANK, ax: Axes | None = None) -> Axes:
@@ -65,6 +69,31 @@ def _loads(axes: Axes, rating: StrengthRating, part: Part, role: Role) -> list[f
     elif stresses:
         axes.axhline(max(stresses), color=colour, linewidth=0.9, linestyle=":", label=f"{words}, {short(max(stresses))} MPa")
     return stresses
+
+
+def plot_safeties(strength: TrainStrength, ax: Axes | None = None) -> Axes:
+    """Least safety of flank and root of every gear of a train, with the safeties that are required.
+
+    Raises GeometryError where none was judged.
+    """
+    gears, columns = strength.members, tuple(Part)
+    known = [each for gear in gears.values() for each in map(gear.least, columns) if each is not None]
+    if not known:
+        raise GeometryError("material", strength.name, "must have limits, for safeties to be drawn")
+    axes = prepared(ax, "", "least safety")
+    for number, part in enumerate(columns):
+        off = (number - 0.5) * _BAR
+        found = [(place + off, least.safety) for place, gear in enumerate(gears.values()) if (least := gear.least(part))]
+        if found:
+            places, safeties = zip(*found, strict=True)
+            axes.bar(places, safeties, 0.9 * _BAR, color=SERIES[number], label=part.value)
+        required = {each.required for gear in gears.values() for each in gear.every if each.part is part}
+        for value in sorted(required):
+            axes.axhline(value, color=SERIES[number], linestyle="--", linewidth=1.1, label=f"required, {short(value)}")
+    axes.set_xticks(range(len(gears)), list(map(plain, gears)))
+    axes.set_ylim(0, 1.1 * max(each.safety for each in known))
+    legend_above(axes, 2)
+    return axes
 
 
 def plot_flash(scuffing: Scuffing, ax: Axes | None = None) -> Axes:

@@ -16,6 +16,7 @@ from gearcad.dynamics.train import study_train
 from gearcad.dynamics.trains.train import TrainModel
 from gearcad.errors import ParameterError
 from gearcad.notice import Notice
+from gearcad.plots import plot
 from gearcad.plots.paper import short
 from gearcad.plots.side_by_side import plot_factors_beside, plot_overloads_beside
 from gearcad.report import write_dynamics_report
@@ -66,6 +67,9 @@ def test_pictures_have_a_line_for_each_study(both: SideBySide) -> None:
     (panel,) = plot_factors_beside(both).axes
     drawn = {str(line.get_label()): line.get_ydata() for line in panel.lines}
     np.testing.assert_array_equal(drawn["isolated <1>"], both.studies[1].up.factors[:, 0])
+    (line,) = [line for line in plot(both).lines if line.get_label() == "isolated <1>"]
+    np.testing.assert_array_equal(line.get_ydata(), both.studies[1].up.factors[:, 0])
+    assert "<img" in both._repr_html_() and "isolated &lt;1&gt;" in both._repr_html_()
     (panel,) = plot_overloads_beside(both).axes
     assert [line.get_label() for line in panel.lines] == ["exact"]
 

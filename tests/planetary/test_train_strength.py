@@ -14,6 +14,7 @@ from gearcad.per_gear import PerGear, Role
 from gearcad.planetary import Carrier, PlanetaryTrain, TrainLoad
 from gearcad.planetary.mesh_loads import mesh_loads, stage_loads
 from gearcad.planetary.power import power_flow
+from gearcad.plots import plot
 from gearcad.rating import RatingOptions
 from gearcad.rating.strength import Part, rate_strength
 from gearcad.verdict import Verdict
@@ -63,6 +64,17 @@ def test_load_cycles_are_those_of_a_flank_against_the_carrier() -> None:
     for name, per_minute in wanted.items():
         for each in strength.members[name].every:
             assert each.cycles == pytest.approx(minutes * per_minute, rel=1e-12)
+
+
+def test_a_picture_has_the_least_safety_of_every_gear() -> None:
+    strength = rated(weighed(simple_set(24, 21))).strength
+    flanks, roots = plot(strength).containers
+    for bars, part in ((flanks, Part.FLANK), (roots, Part.ROOT)):
+        least = [gear.least(part) for gear in strength.members.values()]
+        assert [bar.get_height() for bar in bars] == [each.safety for each in least if each is not None]
+    assert "<img" in strength._repr_html_()
+    unlimited = rated(weighed(simple_set(24, 21)), Material()).strength
+    assert "not judged" in unlimited._repr_html_() and "<img" not in unlimited._repr_html_()
 
 
 def test_gears_have_the_least_of_their_meshes() -> None:

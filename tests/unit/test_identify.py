@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import least_squares
 
 import gearcad
-from gearcad import BasicRack, Gear, GeometryError, ParameterError
+from gearcad import BasicRack, Gear, GeometryError, ParameterError, plots
 from gearcad.cli.identify_table import identification_lines
 from gearcad.geometry.tooth_caliper import chord_below_tip
 from gearcad.identify import Gauge, Identification, Measured, Reading, identify_gear
@@ -208,6 +208,14 @@ def test_pitches_that_are_nearly_modules_are_told_from_them(pitch: float, module
             40, tip_diameter=gear.tip_diameter, root_diameter=gear.root_diameter, span=spans, helix_angle=0
         )
         assert found.certain and found.best.gear.normal_module == pytest.approx(gear.normal_module, rel=EXACT)
+
+
+def test_a_notebook_shows_how_far_candidates_are_off() -> None:
+    found = gearcad.identify(24, tip_diameter=52.02, root_diameter=43.01, span={3: 15.40, 4: 21.30}, helix_angle=0)
+    assert repr(found).startswith("<Identification of z = 24: m_n 2, 20 deg, x 0.000, ")
+    first, *_ = plots.plot(found).lines
+    assert tuple(first.get_xdata()) == found.best.residuals[:4]  # the last, a helix angle that is 0, no candidate is off
+    assert "<img" in found._repr_html_() and "certain" in found._repr_html_()
 
 
 def test_a_chord_stands_for_a_span() -> None:

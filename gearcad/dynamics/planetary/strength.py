@@ -17,6 +17,7 @@ from gearcad.rating.options import RatingOptions
 from gearcad.rating.strength import Part, PartStrength, StrengthRating, rate_strength
 from gearcad.rating.strength.called import called
 from gearcad.rating.strength.part import told
+from gearcad.reprs import Pictured
 from gearcad.verdict import Verdict, together
 
 __all__ = ["GearStrength", "LeastSafety", "MeshFactors", "TrainStrength", "train_strength"]
@@ -68,7 +69,7 @@ class GearStrength:
 
 
 @dataclass(frozen=True, kw_only=True)
-class TrainStrength:
+class TrainStrength(Pictured):
     """Full ratings of the `meshes` and stages of a train by their names; `unrated`: those without one, and why.
 
     `gears` are the names of the gears of each mesh and stage, `names` of all in their order.
@@ -80,6 +81,9 @@ class TrainStrength:
     unrated: Mapping[str, str]
     gears: Mapping[str, PerGear[str]]
     names: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        return f"<TrainStrength of {self.name!r}: {self.verdict}>"
 
     @property
     def members(self) -> dict[str, GearStrength]:
