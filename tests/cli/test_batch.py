@@ -172,8 +172,9 @@ def test_templates_are_made_without_a_fault(kind: str) -> None:
 
 
 def test_status_of_the_process() -> None:
-    for lines, options, status in ((GEARS, (), 0), (BAD, ("--keep-going",), 1), (BAD, (), 2)):
-        write_table(Path("table.csv"), lines)
+    """Of runs without a fault it is 0, as wherever one is run."""
+    write_table(Path("table.csv"), BAD)
+    for options, status in ((("--keep-going",), 1), ((), 2)):
         assert run_batch("table.csv", "--do", "data", "-j", "1", "--quiet", *options).returncode == status
 
 
