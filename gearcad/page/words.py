@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -13,6 +14,15 @@ from gearcad.shipped import templates
 __all__ = ["Language", "Words", "language_of"]
 
 _FILE = "page_words.toml"
+
+_PARTS = "parts"
+"""The table of the template that has parts of words by languages."""
+
+_LONG = 15
+"""Letters of a word that may have to go on in the next line."""
+
+_LONG_WORD = re.compile(rf"\w{{{_LONG},}}")
+_SOFT_HYPHEN = "\u00ad"
 
 
 class Language(StrEnum):
@@ -40,7 +50,7 @@ class Words:
 
     @classmethod
     def of(cls, language: Language) -> Words:
-        """Those of the shipped template."""
+        """Those of the shipped template, long ones with soft hyphens."""
         return cls(language, _tables().get(language.value, {}))
 
     def __getitem__(self, english: str) -> str:
@@ -50,7 +60,13 @@ class Words:
 @cache
 def _tables() -> Mapping[str, Mapping[str, str]]:
     """The words of each language by the English ones."""
-    return tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
+    found = tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
+    parts = found.pop(_PARTS)
+    for language, table in found.items():
+        joint = re.compile(rf"(?<=\w\w\w)(?={'|'.join(parts[language].split())})")
+        for english, word in table.items():
+            table[english] = _LONG_WORD.sub(lambda long, joint=joint: joint.sub(_SOFT_HYPHEN, long[0]), word)
+    return found
 
 
 def language_of(asked: str | None, accepted: str) -> Language:

@@ -35,17 +35,19 @@ def _turned(points: Floats, angle: float) -> Floats:
     return points @ np.array([[cosine, sine], [-sine, cosine]])
 
 
-def _stand(content: dict[str, Any], number: int, height: float, roll: float, side: int) -> float:
+def _stand(body: dict[str, Any], height: float, roll: float, side: int) -> float:
     """As the script of the section has it."""
-    body, slack = content["bodies"][number], content["meshes"][0]["slack"]
-    return float(np.interp(height, *np.transpose(body["turns"]))) + body["ratio"] * roll + (side * slack if number else 0.0)
+    turns = (body["ratio"] + body.get("orbit", 0.0)) * roll
+    return float(np.interp(height, *np.transpose(body["turns"]))) + turns + side * body["slack"]
 
 
-def _outline(body: dict[str, Any], stand: float) -> Floats:
+def _outline(body: dict[str, Any], stand: float, roll: float) -> Floats:
     tooth = np.reshape(body["tooth"], (-1, 2))
     if "teeth" in body:
         count = abs(body["teeth"])
-        return np.concatenate([_turned(tooth, stand + 2 * math.pi * n / count) for n in range(count)]) + body["place"]
+        return np.concatenate([_turned(tooth, stand + 2 * math.pi * n / count) for n in range(count)]) + _turned(
+            np.array(body["place"]), body.get("orbit", 0.0) * roll
+        )
     drift = stand  # of the lowest section, where the ends of the rack are of no account
     middles = (np.arange(round(body["length"] / body["pitch"])) + 0.5) * body["pitch"]
     points = np.concatenate([tooth + np.array([middle + drift, 0.0]) for middle in middles])
@@ -59,23 +61,35 @@ def _off(outline: Floats, point: Floats) -> float:
     return float(np.hypot(*(ends + share[:, None] * steps).T).min())
 
 
-@pytest.mark.parametrize("name", ["reducer-21-43", "volvo-13-44", "fzg-c", "double-23-81", "ring-22-70", "rack"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("reducer-21-43", "volvo-13-44", "fzg-c", "double-23-81", "ring-22-70", "rack"),
+        *("planetary-24-21-66", "planetary-alm", "planetary-differential"),
+    ],
+)
 @pytest.mark.parametrize("side", [1, -1], ids=["left", "right"])
 def test_flanks_touch_where_it_says(name: str, side: int) -> None:
     content, module = _content(name)
-    (mesh,) = content["meshes"]
     low, high = content["heights"]
-    for roll, height in zip(ROLLS, np.linspace(low, high, len(ROLLS)), strict=True):
-        stands = [_stand(content, number, height, roll, side) for number in (0, 1)]
-        outlines = [_outline(body, stand) for body, stand in zip(content["bodies"], stands, strict=True)]
-        first = mesh["first"] + side * mesh["base"] * stands[0]
-        start, *_, end = mesh["path"]
-        numbers = range(math.ceil((start - first) / mesh["pitch"]), math.floor((end - first) / mesh["pitch"]) + 1)
-        assert numbers
-        for number in numbers:
-            point = _turned(np.array([mesh["base"], first + number * mesh["pitch"]]), -mesh["angle"]) * [1, side]
-            for outline in outlines:
-                assert _off(outline, point) < 1.5 * CHORD * module
+    rolls = ROLLS if len(content["meshes"]) == 1 else ROLLS[:3]
+    for roll, height in zip(rolls, np.linspace(low, high, len(rolls)), strict=True):
+        for mesh in content["meshes"]:
+            bodies = [content["bodies"][number] for number in mesh["of"]]
+            gone = mesh.get("orbit", 0.0) * roll
+            stands = [_stand(body, height, roll, side) for body in bodies]
+            outlines = [_outline(body, stand, roll) for body, stand in zip(bodies, stands, strict=True)]
+            place = _turned(np.array(bodies[0]["place"]), gone)
+            towards = mesh["towards"] + gone
+            first = mesh["first"] + side * mesh["side"] * mesh["base"] * (stands[0] - towards)
+            start, *_, end = mesh["path"]
+            numbers = range(math.ceil((start - first) / mesh["pitch"]), math.floor((end - first) / mesh["pitch"]) + 1)
+            assert numbers
+            for number in numbers:
+                point = _turned(np.array([mesh["base"], first + number * mesh["pitch"]]), -mesh["angle"])
+                point = _turned(point * [1, side * mesh["side"]], towards) + place
+                for outline in outlines:
+                    assert _off(outline, point) < 1.5 * CHORD * module
 
 
 @pytest.mark.parametrize("name", ["reducer-21-43", "ring-22-70"])

@@ -98,3 +98,9 @@ def _own_words() -> set[str]:
                 if name.strip("_") == "words":
                     found.add(node.slice.value)
     return found
+
+
+def test_long_words_may_go_on_in_the_next_line() -> None:
+    german = Words.of(Language.GERMAN)
+    assert german["profile shift coefficient"] == "Profil\u00adverschiebungs\u00adfaktor"
+    assert german["face width"] == "Zahnbreite"

@@ -19,7 +19,7 @@ export default {
       <div class="tools" v-if="content">
         <button type="button" @click="near = false; fit()">{{ words.fit }}</button>
         <button type="button" v-if="content.meshes.length" @click="near = true; fit()">{{ words.mesh }}</button>
-        <select v-if="slack" v-model="flanks" :title="words.flanks" :aria-label="words.flanks"><option v-for="each in ['left', 'right', 'both']" :value="each">{{ words[each] }}</option></select>
+        <select v-if="content.meshes.length" v-model="flanks" :title="words.flanks" :aria-label="words.flanks"><option v-for="each in ['left', 'right']" :key="each" :value="each">{{ words[each] }}: {{ content.bodies[0].name }}</option><option value="both">{{ words.both }}</option></select>
         <label v-if="helical" :title="words.height">z <input type="range" min="0" max="1" step="0.005" v-model.number="share" :aria-label="words.height" /> {{ height.toFixed(2) }}</label>
       </div>
       <p class="told" v-if="told" :style="toldAt">{{ told }}</p>
@@ -30,8 +30,8 @@ export default {
     return { content: null, kept: null, empty: false, near: true, flanks: "left", share: 0, told: "", toldAt: {} };
   },
   computed: {
-    slack() {
-      return this.content.meshes.some((mesh) => mesh.slack !== null);
+    side() {
+      return { left: 1, right: -1, both: 0 }[this.flanks];
     },
     helical() {
       return this.content.bodies.some(({ turns }) => turns.some(([, turn]) => turn !== turns[0][1]));
@@ -110,12 +110,10 @@ export default {
     place(body, turn) {
       return turned(body.place, (body.orbit ?? 0) * turn);
     },
-    // How far a body is turned, or a rack moved, at this height; the mate goes up to the flanks that touch.
+    // How far a body is turned, or a rack moved, at this height; it goes up to the flanks that touch.
     stand(content, number, turn) {
       const body = content.bodies[number];
-      const mesh = content.meshes.find((each) => each.of[1] === number && each.slack !== null);
-      const side = { left: 1, right: -1, both: 0 }[this.flanks];
-      return at(body.turns, this.height) + (body.ratio + (body.orbit ?? 0)) * turn + (mesh ? side * mesh.slack : 0);
+      return at(body.turns, this.height) + (body.ratio + (body.orbit ?? 0)) * turn + this.side * body.slack;
     },
     origin(mesh, turn) {
       return this.place(this.content.bodies[mesh.of[0]], turn);
@@ -161,7 +159,7 @@ export default {
       pen.beginPath();
       const points = body.teeth ? this.chain(pen, body, place, turn) : this.teeth(body, place, turn);
       points.forEach((point, n) => (n ? pen.lineTo(...point) : pen.moveTo(...point)));
-      if (colour && body.teeth) this.back(pen, body, place);
+      if (colour && body.teeth) this.back(pen, body, place, turn - at(body.turns, this.height) + body.rest);
       else if (!body.teeth || this.whole) pen.closePath();
       pen.strokeStyle = colour ?? this.colours.kept;
       pen.setLineDash(colour ? [] : [5, 3]);
@@ -198,17 +196,35 @@ export default {
       this.ends = [turn + (first - 0.5) * pitch, turn + (last + 0.5) * pitch];
       return points;
     },
-    // From the end of the outline to its beginning: round the bore or the rim.
-    back(pen, body, place) {
-      const hole = (body.teeth > 0 ? body.bore : body.rim) / 2;
-      const [first, last] = this.ends.map((angle) => -angle);
+    // From the end of the outline to its beginning: round the bore with its keyway, or the rim; then bolt holes.
+    back(pen, body, place, rest) {
+      const [diameter, keyway] = body.teeth > 0 ? [body.bore, body.keyway] : [body.rim ?? 0, [0, 0]];
+      const [from, to] = this.whole ? [rest + Math.PI, rest - Math.PI] : [this.ends[1], this.ends[0]];
       if (this.whole) pen.closePath();
-      if (!hole) {
-        if (!this.whole && body.teeth > 0) pen.lineTo(...this.to(place));
-        return;
+      if (diameter) this.hole(pen, place, diameter / 2, keyway, rest, from, to);
+      else if (!this.whole && body.teeth > 0) pen.lineTo(...this.to(place));
+      const [circle, count, bolt] = body.bolts;
+      for (let n = 0; n < count; n += 1) {
+        const [x, y] = turned([circle / 2, 0], rest + (2 * Math.PI * n) / count);
+        const [u, v] = this.to([place[0] + x, place[1] + y]);
+        const radius = (bolt / 2) * this.view.scale;
+        pen.moveTo(u + radius, v);
+        pen.arc(u, v, radius, 0, 2 * Math.PI);
       }
-      if (this.whole) pen.moveTo(...this.to([place[0] + hole, place[1]]));
-      pen.arc(...this.to(place), hole * this.view.scale, this.whole ? 0 : last, this.whole ? 2 * Math.PI : first, false);
+    },
+    // Clockwise from an angle down to another, into the keyway where it is passed.
+    hole(pen, place, radius, [width, depth], rest, from, to) {
+      const half = width ? Math.asin(width / 2 / radius) : 0;
+      const at = rest + 2 * Math.PI * Math.floor((from - half - rest) / (2 * Math.PI)); // the first keyway that is met whole
+      const arc = (begin, end) => pen.arc(...this.to(place), radius * this.view.scale, -begin, -end, false);
+      const on = (u, v) => pen.lineTo(...this.to(turned([u, v], at).map((each, n) => each + place[n])));
+      if (this.whole) pen.moveTo(...this.to(turned([radius, 0], from).map((each, n) => each + place[n])));
+      if (!half || at - half < to) arc(from, to);
+      else {
+        arc(from, at + half);
+        for (const side of [1, -1]) on(radius + depth, (side * width) / 2);
+        arc(at - half, to);
+      }
       pen.closePath();
     },
     // A rack as far as it is seen: its teeth drift along it over the height, its ends do not.
@@ -259,9 +275,8 @@ export default {
     mesh(pen, mesh) {
       const [x, y] = this.origin(mesh, this.turn);
       const towards = mesh.towards + (mesh.orbit ?? 0) * this.turn;
-      for (const side of [1, -1]) {
-        const driven = this.flanks === "both" || side === (this.flanks === "left" ? 1 : -1);
-        if (!driven && mesh.slack !== null) continue;
+      const driven = this.side * mesh.side;
+      for (const side of driven ? [driven] : [1, -1]) {
         const on = (s) => {
           const [u, v] = turned([mesh.base, s], -mesh.angle);
           const [across, along] = turned([u, side * v], towards);
@@ -280,18 +295,18 @@ export default {
         line(A, E, this.colours.ink, 2.2);
         [pen.fillStyle, pen.font] = [this.colours.ink, "11px system-ui, sans-serif"];
         const named = { A, B, C, D, E, T1: 0, ...(mesh.length > 0 ? { T2: mesh.length } : {}) };
-        if (this.view.scale * (E - A) > 60 && side === (this.flanks === "right" ? -1 : 1))
+        if (this.view.scale * (E - A) > 60 && side === (driven || 1))
           for (const [name, s] of Object.entries(named)) {
             const [u, v] = on(s);
             pen.fillRect(u - 1.5, v - 1.5, 3, 3);
             pen.fillText(name, u + 6, v + 3);
           }
-        if (mesh.slack !== null) this.touches(pen, mesh, side, on);
+        if (driven) this.touches(pen, mesh, side, towards, on);
       }
     },
     // Points where flanks touch: those of all teeth are base pitches apart, and move on by the base radius times the turn.
-    touches(pen, mesh, side, on) {
-      const angle = this.stand(this.content, mesh.of[0], this.turn);
+    touches(pen, mesh, side, towards, on) {
+      const angle = this.stand(this.content, mesh.of[0], this.turn) - towards;
       const [A, , , , E] = mesh.path;
       const s = mesh.first + side * mesh.base * angle;
       for (let k = Math.ceil((A - s) / mesh.pitch); s + k * mesh.pitch <= E; k += 1) {

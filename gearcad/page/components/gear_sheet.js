@@ -1,6 +1,6 @@
 // Blocks of quantities as tables: words, symbol, unit, values. What changed by the last step stands beside what it was, and what a
 // kept design has in lines below. Rows are walked by the arrow keys; Enter puts one on top, or takes it from there.
-const NUMBER = /^(\D*\d+)([.]\d+)?(e[+-]?\d+)?$/;
+const NUMBER = /^([^\p{L}\d]*\d+)([.]\d+)?(e[+-]?\d+)?$/u;
 const FEW = 3;
 
 // The part of a number before its point and the rest, to be put in line; null for what is no number.
@@ -43,7 +43,7 @@ export default {
         <component :is="line.label ? 'details' : 'p'" v-for="line in content.lines" :key="line.label" class="told">
           <summary v-if="line.label">{{ words[line.label] }}</summary><span :lang="line.label ? 'en' : null">{{ line.text }}</span></component>
         <input v-if="content.sections.length" class="search" type="search" v-model="wanted" :placeholder="words.search" :aria-label="words.search" />
-        <p class="aside" role="status">{{ waiting ? words.waiting : content.changes ? words.changed + ": " + content.changes : "" }}</p>
+        <p class="aside" role="status">{{ waiting ? label + ": " + words.waiting : content.changes ? words.changed + ": " + content.changes : "" }}</p>
       </header>
       <details v-if="content.notices.length" class="notices" :open="noticesOpen" @toggle="fold({ id: 'notices', open: noticesOpen }, $event.target.open)">
         <summary>{{ words.notices }} ({{ content.notices.length }})</summary>
@@ -82,7 +82,7 @@ export default {
     // What is pinned first, then all blocks; of a search only what is found.
     blocks() {
       const wanted = this.wanted.trim().toLowerCase();
-      const fits = (row) => !wanted || `${row.words} ${row.symbol} ${row.key}`.toLowerCase().includes(wanted);
+      const fits = (row) => !wanted || `${row.words} ${row.symbol} ${row.key}`.replaceAll("\u00ad", "").toLowerCase().includes(wanted);
       const found = [];
       const pinned = new Map();
       for (const { columns, blocks } of this.content.sections)

@@ -72,7 +72,7 @@ export default {
       const parts = this.wanted.trim().toLowerCase().split(/\s+/);
       if (!parts[0]) return this.ownTables;
       const fits = (table, group) => (field) => {
-        const said = `${field.key} ${field.words} ${field.symbol} ${table.title} ${group.title}`.toLowerCase();
+        const said = `${field.key} ${field.words} ${field.symbol} ${table.title} ${group.title}`.replaceAll("\u00ad", "").toLowerCase();
         return parts.every((part) => said.includes(part));
       };
       return this.ownTables

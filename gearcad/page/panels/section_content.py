@@ -47,16 +47,16 @@ def _of_pair(design: PairDesign) -> dict[str, Any]:
     pair = design.pair
     pose, pitches, active = pair.wheel_pose(), pair.working_pitch_diameters, pair.active_root_diameters
     angle = pair.working_transverse_pressure_angle
-    turned = turns(pair.wheel, math.radians(pose.rotation), pose.z)
+    rest, ratio = math.radians(pose.rotation), -pair.pinion.teeth / pair.wheel.teeth
+    turned, slack = turns(pair.wheel, rest, pose.z), pair.circumferential_backlash / pitches.wheel
     colours = PART_COLOURS["pinion"], PART_COLOURS["wheel"]
     beside = [{"active": abs(active.pick(role)), "pitch": abs(pitches.pick(role))} for role, _ in pair.gears.items()]
     bodies = [
         body_of("pinion", pair.pinion, colours[0], (0.0, 0.0), turns(pair.pinion, 0.0, 0.0), 1.0, beside[0]),
-        body_of("wheel", pair.wheel, colours[1], (pose.x, 0.0), turned, -pair.pinion.teeth / pair.wheel.teeth, beside[1]),
+        body_of("wheel", pair.wheel, colours[1], (pose.x, 0.0), turned, ratio, beside[1], rest=rest, slack=slack),
     ]
     low, high = max(0.0, pose.z), min(pair.pinion.face_width, pose.z + pair.wheel.face_width)
-    slack = pair.circumferential_backlash / pitches.wheel
-    mesh = mesh_of(pair.pinion, pair.path_of_contact, angle, pair.base_tangent.length) | {"slack": slack}
+    mesh = mesh_of(pair.pinion, pair.path_of_contact, angle, pair.base_tangent.length)
     return _content(bodies, [mesh], (low, high), 2 * math.pi / pair.pinion.tooth_count)
 
 
@@ -66,12 +66,13 @@ def _of_rack_pair(design: RackPairDesign) -> dict[str, Any]:
     beside = {"active": pair.active_root_diameter, "pitch": 2 * pair.pitch_radius}
     body = body_of("pinion", pinion, PART_COLOURS["pinion"], (0.0, 0.0), turns(pinion, 0.0, 0.0), 1.0, beside)
     travel = drift(pair.rack, pose.y, pose.z)
-    rack = rack_of(pair.rack, (pose.x, 0.0), math.radians(pose.rotation), travel, pair.pitch_radius)
+    slack = -pair.circumferential_backlash / 2
+    rack = rack_of(pair.rack, (pose.x, 0.0), math.radians(pose.rotation), travel, pair.pitch_radius, slack)
     rack["circles"] |= {"pitch": pair.pitch_line_height, "active": -pair.active_root_depth}
     mesh = mesh_of(pinion, pair.path_of_contact, pair.working_transverse_pressure_angle, None)
     low = max(0.0, pose.z)
     heights = low, low + pair.common_width
-    return _content([body, rack], [mesh | {"slack": -pair.circumferential_backlash / 2}], heights, 2 * math.pi / pinion.teeth)
+    return _content([body, rack], [mesh], heights, 2 * math.pi / pinion.teeth)
 
 
 def _content(bodies: list[Any], meshes: list[Any], heights: tuple[float, float], pitch: float) -> dict[str, Any]:

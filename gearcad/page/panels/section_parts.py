@@ -41,10 +41,14 @@ def drift(rack: Rack, travel: float, z: float) -> list[list[float]]:
 
 
 def mesh_of(pinion: Gear, path: PathOfContact, angle: float, length: float | None) -> dict[str, Any]:
-    """The mesh of the first two bodies, the pinion's tooth pointing at the mate at no turn; `length` is T1T2 (mm)."""
+    """The mesh of the first two bodies, the pinion's tooth pointing at the mate at no turn; `length` is T1T2 (mm).
+
+    `side` is 1 where the pinion's left flanks touch when those of the first body do, -1 where its right flanks do.
+    """
     return {
         "of": [0, 1],
         "towards": 0.0,
+        "side": 1,
         "base": pinion.base_diameter / 2,
         "angle": math.radians(angle),
         "path": list(path),
@@ -62,18 +66,29 @@ def body_of(
     turned: Iterable[Iterable[float]],
     ratio: float,
     beside: Mapping[str, float] | None = None,
+    *,
+    rest: float = 0.0,
+    slack: float = 0.0,
 ) -> dict[str, Any]:
-    """A gear where it stands; `beside` are further circles by what they are called."""
+    """A gear where it stands; `beside` are further circles by what they are called.
+
+    Its keyway and bolt holes are turned by `rest` (rad), whatever the height. It turns by `slack` (rad) until the left flanks
+    of the first body touch.
+    """
     body = gear.body
     return {
         "name": name,
         "colour": colour_of(colour),
         "place": list(place),
         "turns": turned,
+        "rest": rest,
         "ratio": ratio,
+        "slack": slack,
         "teeth": gear.teeth,
         "tooth": _listed(gear.profile.points(CHORD * gear.normal_module)),
         "bore": body.bore,
+        "keyway": [body.keyway_width, body.keyway_depth],
+        "bolts": [body.bolt_circle, body.bolt_holes, body.bolt_diameter],
         "rim": body.rim_diameter,
         "circles": {
             "tip": abs(gear.tip_diameter),
@@ -87,9 +102,12 @@ def body_of(
 
 
 def rack_of(
-    rack: Rack, place: tuple[float, float], angle: float, travel: Iterable[Iterable[float]], ratio: float
+    rack: Rack, place: tuple[float, float], angle: float, travel: Iterable[Iterable[float]], ratio: float, slack: float = 0.0
 ) -> dict[str, Any]:
-    """A rack where it stands, its own x axis at an angle (rad); lines are heights above its reference line."""
+    """A rack where it stands, its own x axis at an angle (rad); lines are heights above its reference line.
+
+    It moves by `slack` (mm) until the left flanks of the first body touch.
+    """
     error, profile = CHORD * rack.normal_module, rack.profile
     half = np.concatenate([curve.points(parameters_within(curve, error))[:-1] for curve in profile.curves])
     tooth = np.concatenate([half, [[0.0, profile.tip_height]], half[::-1] * [-1, 1]])
@@ -100,6 +118,7 @@ def rack_of(
         "angle": angle,
         "turns": travel,
         "ratio": ratio,
+        "slack": slack,
         "pitch": profile.pitch,
         "length": rack.length,
         "height": rack.height,

@@ -11,6 +11,8 @@ from gearcad.jobs.products import given_speeds
 from gearcad.page.last import of_last
 from gearcad.page.panels.section_parts import body_of, mesh_of
 from gearcad.per_gear import Role
+from gearcad.planetary.mesh import SetMesh
+from gearcad.planetary.shafts import shafts_of
 from gearcad.solids.files.train_dxf import section_angle
 from gearcad.solids.files.train_turning import turns_of
 from gearcad.solids.train_layout import TrainLayout
@@ -22,13 +24,15 @@ def train_section(design: PlanetaryDesign) -> dict[str, Any]:
     """Gears that mesh are cut by one plane, in the middle of their teeth; planets and what is of their meshes go round."""
     layout = layout_of(design)
     ratios = ratios_of(design, layout)
-    orbit = ratios[layout.carrier.name]
+    orbit, (slacks, of_planets) = ratios[layout.carrier.name], _slacks(layout)
     bodies, numbers = [], {}
     for number, standing in enumerate(layout.standing):
         numbers[standing.name] = number
         turned = [[0.0, section_angle(layout, standing)]]
         place, gear = (standing.axle.x, standing.axle.y), standing.body.gear
-        body = body_of(standing.name, gear, standing.body.colour, place, turned, ratios[standing.axle.name])
+        axle, rest = standing.axle.name, math.radians(standing.rotation)
+        slack = of_planets if standing.axle.on else slacks[axle]
+        body = body_of(standing.name, gear, standing.body.colour, place, turned, ratios[axle], rest=rest, slack=slack)
         bodies.append(body | {"orbit": orbit if standing.axle.on else 0.0})
     meshes = list(_meshes(layout, numbers, orbit))
     return {"bodies": bodies, "meshes": meshes, "heights": [0.0, 0.0], "pitch": roll_pitch(design, ratios)}
@@ -53,10 +57,31 @@ def roll_pitch(design: PlanetaryDesign, ratios: dict[str, float]) -> float:
     return 2 * math.pi / abs(central.gear.teeth * (ratios[central.name] - ratios[carrier]))
 
 
+def _slacks(layout: TrainLayout) -> tuple[dict[str, float], float]:
+    """How far all turn (rad) until the left flanks of the first central touch those of the planets, and these the second.
+
+    Shafts by their names, and planets. The first central and the carrier stay; stages keep their backlash split.
+    """
+    first, second = layout.train.meshes
+    planet = _slack(first, first.rim_role)
+    moved = -_slack(second, second.central_role) - planet * second.rim.gear.teeth / second.central.gear.teeth
+    shafts = shafts_of(layout.train).items()
+    found = {name: moved * float(shaft.speed_ratio) * (shaft.member == second.central.name) for name, shaft in shafts}
+    return found, planet
+
+
+def _slack(mesh: SetMesh, role: Role) -> float:
+    """How far one of both gears turns (rad) until the left flanks of the pinion touch, backlash being split."""
+    return mesh.pair.circumferential_backlash / mesh.pair.working_pitch_diameters.pick(role)
+
+
 def _meshes(layout: TrainLayout, numbers: dict[str, int], orbit: float) -> Iterator[dict[str, Any]]:
-    """Those of all planets; `towards` is where the mate of the pinion stands (rad)."""
+    """Those of all planets; `towards` is where the mate of the pinion stands (rad).
+
+    One side of a planet's teeth touches the first central, the other side the second.
+    """
     for planet in layout.planets:
-        for mesh in layout.train.meshes:
+        for mesh, side in zip(layout.train.meshes, (1, -1), strict=True):
             (rim,) = (standing for standing in planet if standing.body.key == mesh.rim.name)
             members = {mesh.central_role: mesh.central.name, mesh.rim_role: rim.name}
             away = math.atan2(rim.axle.y, rim.axle.x)
@@ -64,4 +89,4 @@ def _meshes(layout: TrainLayout, numbers: dict[str, int], orbit: float) -> Itera
             pair = mesh.pair
             drawn = mesh_of(pair.pinion, pair.path_of_contact, pair.working_transverse_pressure_angle, pair.base_tangent.length)
             of = [numbers[members[role]] for role in Role]
-            yield drawn | {"of": of, "towards": away + back, "orbit": orbit, "slack": None}
+            yield drawn | {"of": of, "towards": away + back, "orbit": orbit, "side": side}
