@@ -45,7 +45,7 @@ def figures_beside(runs: Sequence[Run], words: Words) -> list[dict[str, Any]]:
         found.append(
             {
                 "key": key,
-                "words": f"{words.table.get(owner.capitalize(), owner)}: {said}" if owner else said,
+                "words": words.divided(f"{words.table.get(owner.capitalize(), owner)}: {said}" if owner else said),
                 "symbol": symbol.symbol if symbol else "",
                 "unit": symbol.unit if symbol else "",
                 "cells": cells,

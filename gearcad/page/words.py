@@ -47,26 +47,29 @@ class Words:
 
     language: Language
     table: Mapping[str, str] = field(repr=False)
+    parts: tuple[str, ...] = field(default=(), repr=False)
 
     @classmethod
     def of(cls, language: Language) -> Words:
-        """Those of the shipped template, long ones with soft hyphens."""
-        return cls(language, _tables().get(language.value, {}))
+        """Those of the shipped template."""
+        tables = _tables()
+        return cls(language, tables.get(language.value, {}), tuple(tables[_PARTS].get(language.value, "").split()))
 
     def __getitem__(self, english: str) -> str:
         return self.table.get(english, english)
 
+    def divided(self, text: str) -> str:
+        """A text whose long words may go on in the next line, before any of the `parts` of which they are made."""
+        if not self.parts:
+            return text
+        joint = re.compile(rf"(?<=\w\w\w)(?={'|'.join(self.parts)})")
+        return _LONG_WORD.sub(lambda long: joint.sub(_SOFT_HYPHEN, long[0]), text)
+
 
 @cache
 def _tables() -> Mapping[str, Mapping[str, str]]:
-    """The words of each language by the English ones."""
-    found = tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
-    parts = found.pop(_PARTS)
-    for language, table in found.items():
-        joint = re.compile(rf"(?<=\w\w\w)(?={'|'.join(parts[language].split())})")
-        for english, word in table.items():
-            table[english] = _LONG_WORD.sub(lambda long, joint=joint: joint.sub(_SOFT_HYPHEN, long[0]), word)
-    return found
+    """The words of each language by the English ones, and the parts of words by languages."""
+    return tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
 
 
 def language_of(asked: str | None, accepted: str) -> Language:

@@ -102,5 +102,6 @@ def _own_words() -> set[str]:
 
 def test_long_words_may_go_on_in_the_next_line() -> None:
     german = Words.of(Language.GERMAN)
-    assert german["profile shift coefficient"] == "Profil\u00adverschiebungs\u00adfaktor"
-    assert german["face width"] == "Zahnbreite"
+    assert german.divided("Profilverschiebungsfaktor") == "Profil\u00adverschiebungs\u00adfaktor"
+    assert german.divided("Zahnbreite am Kopf") == "Zahnbreite am Kopf"
+    assert Words.of(Language.ENGLISH).divided("Profilverschiebungsfaktor") == "Profilverschiebungsfaktor"

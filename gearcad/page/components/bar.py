@@ -24,7 +24,7 @@ def _keys(words: Words) -> dict[str, str]:
         "/": words["find a key"],
         "Enter": words["next field, with Shift the one before; on a row of data: put on top"],
         "↑ ↓": words["step a number, with Shift by ten; walk rows of data"],
-        "Esc": words["leave a field or a menu"],
+        "Esc": words["leave a field or a menu; Tab then leaves the text, too"],
         "Ctrl+Z": words["undo"],
         "Ctrl+Y": words["redo"],
         "Tab": words["from part to part of the page"],

@@ -71,6 +71,7 @@ export default {
     },
     close() {
       this.$refs.menu.open = false;
+      this.$refs.menu.querySelector("summary").focus();
     },
     send(what, told) {
       this.$emit("asked", { what, ...told });

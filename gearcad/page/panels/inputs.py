@@ -54,5 +54,5 @@ class InputsPanel:
             for group in table["groups"]:
                 group["title"] = ": ".join(words[title] for title in group.pop("titles"))
                 for field in group["fields"]:
-                    field["words"] = words[field["words"]]
+                    field["words"] = words.divided(words[field["words"]])
         self._view.have(tables)

@@ -85,7 +85,7 @@ def _places(row: Row, section: Section) -> Iterator[tuple[tuple[str, str], Cell]
 def _row(row: Row, section: Section, words: Words, changed: Mapping[tuple[str, str], str], kept: Cells) -> dict[str, Any]:
     return {
         "key": row.key,
-        "words": quantity_in(words, row.symbol.words),
+        "words": words.divided(quantity_in(words, row.symbol.words)),
         "symbol": row.symbol.symbol,
         "unit": "°" if row.symbol.unit == "deg" else row.symbol.unit,
         "source": row.symbol.source,
