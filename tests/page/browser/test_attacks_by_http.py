@@ -15,6 +15,9 @@ from urllib.parse import urlsplit
 import pytest
 from support.page_server import serve
 
+from gearcad.designs.starters import starter_text
+from gearcad.page.links import pack
+
 SOCKET = "/_nicegui_ws/socket.io/?EIO=4"
 UPGRADE = {
     "Connection": "Upgrade",
@@ -25,6 +28,8 @@ UPGRADE = {
 EVIL = "http://evil.example"
 ELSEWHERE = "127.0.0.2"
 """An address of this machine that is not where the page is by itself."""
+
+SCRIPT = "<img src=x onerror=alert(1)><script>alert(1)</script>"
 
 LARGE = b"4" + b"x" * (1 << 21)
 
@@ -78,6 +83,13 @@ def test_no_path_leads_to_a_file(address: str, path: str) -> None:
     status, _, text = ask(address, path)
     assert status in (400, 404, 422)
     assert "root:" not in text and "normal_module" not in text and "[project]" not in text
+
+
+def test_script_in_a_design_is_no_part_of_the_page(address: str) -> None:
+    text = starter_text("train-pairs")[1].replace('"motor"', f'"{SCRIPT}"').replace("motor = 40.0", f'"{SCRIPT}" = 40.0')
+    status, _, sent = ask(address, f"/?design={pack('hostile', text)}")
+    assert status == 200
+    assert "onerror" in sent and "<img src=x" not in sent and "<script>alert" not in sent
 
 
 def test_what_is_too_large_is_refused_and_the_page_goes_on(address: str) -> None:

@@ -84,6 +84,32 @@ def test_script_in_a_design_is_only_words(tab: Tab) -> None:
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("starter", ["spur", "reducer", "rack", "ring", "double", "planetary-alm", "train-pairs"])
+def test_script_in_every_text_of_a_design_of_any_kind_is_only_words(tab: Tab, starter: str) -> None:
+    page = tab.page
+    page.goto(f"{tab.address}?design={pack('hostile', _hostile(starter))}")
+    page.wait_for_selector(".gear-sheet table")
+    for place in ("left", "right"):
+        for title in (2, 3, 1):
+            page.click(f".{place} .q-tab:nth-child({title})")
+    page.wait_for_function("script => document.body.textContent.includes(script)", arg=SCRIPT)
+    page.wait_for_timeout(5_000)  # until what takes long is found, too
+    assert page.locator("img[src=x]").count() == 0
+
+
+def _hostile(starter: str) -> str:
+    """A design with script wherever it may have words."""
+    text = starter_text(starter)[1].replace('"motor"', f'"{SCRIPT}"').replace("motor = 40.0", f'"{SCRIPT}" = 40.0')
+    bench = Workbench(f"# {SCRIPT}\n{text}", "hostile", Path())
+    groups = [group for table in fields_of(bench.design, bench.tables) for group in table["groups"]]
+    for field in (field for group in groups for field in group["fields"] if not field["number"] and not field["choices"]):
+        if bench.change({field["key"]: SCRIPT}) and bench.fault is not None:
+            bench.undo()
+    assert bench.fault is None and bench.text.count(SCRIPT) > 2
+    return bench.text
+
+
+@pytest.mark.long
 def test_script_in_any_field_that_takes_text_is_only_words(tab: Tab) -> None:
     bench = Workbench(starter_text("reducer")[1], "reducer", Path())
     groups = [group for table in fields_of(bench.design, bench.tables) for group in table["groups"]]

@@ -19,12 +19,12 @@ def value(tab: Any, key: str) -> Any:
 
 
 def test_what_changed_stands_beside_what_it_was(tab: Any) -> None:
-    before = value(tab, "pair.transverse_contact_ratio").inner_text()
+    before = value(tab, "pair.transverse_contact_ratio").text_content().strip()
     tab.give("pinion.profile_shift", "0.35")
     cell = value(tab, "pair.transverse_contact_ratio")
     cell.locator("del").wait_for()
-    assert cell.locator("del").inner_text() == before
-    assert cell.locator(".whole").inner_text() + cell.locator(".rest").inner_text() != before
+    assert cell.locator("del").text_content() == before
+    assert cell.locator(".whole").text_content() + cell.locator(".rest").text_content() != before
     assert "values changed" in tab.page.inner_text(f'{SHEET} [role="status"]')
 
 
