@@ -208,7 +208,7 @@ class TrainStudy(Pictured):
         return self.rpm(self.up.frequencies)
 
     def rpm(self, frequencies: ArrayLike) -> Floats:
-        """Speed of the first mesh's pinion at circular tooth frequencies of that mesh (1/s)."""
+        """Speeds (...) of the first mesh's pinion (rpm) at circular tooth frequencies (...) of that mesh (1/s)."""
         result: Floats = np.asarray(frequencies, float) * 30 / (math.pi * self.train.meshes[0].teeth)
         return result
 
@@ -219,7 +219,7 @@ class TrainStudy(Pictured):
 
     @property
     def jump_speeds(self) -> dict[Direction, Floats]:
-        """Speeds (rpm) at which vibration jumps, running up and running down."""
+        """Speeds (j,) in rpm at which vibration jumps, running up and running down."""
         return {direction: self.rpm(jumps) for direction, jumps in zip(Direction, self.jumps, strict=True)}
 
     # ------------------------------------------------------------------ at a glance

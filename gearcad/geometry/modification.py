@@ -53,7 +53,7 @@ class ReliefShape(Enum):
     PARABOLIC = "parabolic"
 
     def grown(self, share: Floats) -> Floats:
-        """0 before the start, 1 at the end."""
+        """0 before the start, 1 at the end, at shares (...) of its length."""
         inside: Floats = np.maximum(share, 0.0)
         return inside if self is ReliefShape.LINEAR else inside**2
 
@@ -157,9 +157,8 @@ class FlankForm:
         return cls(modification, first, last, face_width, base / 2, -1 if helix_angle < 0 else 1)
 
     def depth(self, lengths: ArrayLike, heights: ArrayLike, *, left: bool = True) -> Floats:
-        """How far (mm) the left or right flank is taken back at roll lengths and heights z (mm), broadcast together.
-
-        Beyond the ends of the flank it is what it is at the end.
+        """How far (mm) the left or right flank is taken back at roll lengths and heights z (mm), in the shape to which both
+        broadcast. Beyond the ends of the flank it is what it is at the end.
         """
         of = self.modification
         roll, z = np.clip(lengths, self.first, self.last), np.clip(heights, 0.0, self.width)
@@ -178,7 +177,7 @@ class FlankForm:
         return amount / 1000
 
     def turn(self, lengths: ArrayLike, heights: ArrayLike, *, left: bool = True) -> Floats:
-        """Angle (rad), counter-clockwise, by which the flank's point at a roll length and height is turned: depth/r_b.
+        """Angle (rad), counter-clockwise, by which the flank's points are turned: depth/r_b, in its shape.
 
         Taking material off turns the left flank clockwise and the right one counter-clockwise. The left one is that with
         y > 0 of a tooth on +x.

@@ -67,7 +67,10 @@ def chart_of(
     stable: NDArray[np.bool_],
     notices: tuple[Notice, ...],
 ) -> KvChart:
-    """The chart of `extremes` that were found somehow, their lines at `orders` (k,), so many of them for a tooth frequency."""
+    """The chart of `extremes` that were found somehow, their lines at `orders` (k,), so many of them for a tooth frequency.
+
+    Raises GeometryError for a mesh without static force, to which K_v could not refer.
+    """
     forces = np.abs(system.stiffness * static.approach)
     if forces.min() <= 1e-9 * forces.max():
         name = system.names[0][int(forces.argmin())]
@@ -104,7 +107,10 @@ def idle_shafts(torques: Floats, references: Floats) -> NDArray[np.bool_]:
 
 
 def torque_references(means: Floats, given: Sequence[float | None] | None = None) -> tuple[Floats, Floats]:
-    """Reference torques (n,), and the sense (n,) in which they act: 0 where it is unknown."""
+    """Reference torques (n,), and the sense (n,) in which they act: 0 where it is unknown.
+
+    Raises ParameterError unless as many are `given` as shafts, each above 0 N·m or None.
+    """
     count = len(means)
     if given is not None and len(given) != count:
         raise ParameterError("shaft_references", len(given), f"must be one number or None for each of {count} shafts")

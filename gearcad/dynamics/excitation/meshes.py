@@ -112,7 +112,7 @@ class Excitation:
         return Excitation(meshes=tuple(replace(mesh, backlash=None) for mesh in self.meshes))
 
     def fits(self, system: System) -> None:
-        """Raise unless there is one mesh for each of the system's, of positive mean stiffness."""
+        """Raise ParameterError unless there is one mesh for each of the system's, of positive mean stiffness."""
         if len(self.meshes) != len(system.stiffness):
             raise ParameterError("meshes", len(self.meshes), f"must be as many as the system has: {len(system.stiffness)}")
         if not np.isfinite(system.stiffness).all() or system.stiffness.min() <= 0:

@@ -93,12 +93,12 @@ class MeshStiffness:
 
     @property
     def jumps(self) -> Floats:
-        """Places within one base pitch, from 0 to 1, where the number of pairs in contact changes at once."""
+        """Places (j,) within one base pitch, from 0 to 1, where the number of pairs in contact changes at once."""
         twice = np.flatnonzero((np.diff(self.ahead) == 0) & (np.abs(np.diff(self.secant)) > _JUMP * self.mean))
         return np.sort(np.mod(self.ahead[twice], 1.0))
 
     def stiffness_at(self, ahead: ArrayLike, *, tangent: bool = False) -> Floats:
-        """Secant (or tangent) stiffness (N/µm) at any places (base pitches)."""
+        """Secant (or tangent) stiffness (N/µm) at places (...) in base pitches, in their shape."""
         start = self.ahead[0]
         within = np.mod(np.asarray(ahead, float) - start, 1.0) + start
         result: Floats = np.interp(within, self.ahead, self.tangent if tangent else self.secant)

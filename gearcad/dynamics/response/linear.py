@@ -40,6 +40,7 @@ def harmonic_orders(excitation: Excitation, harmonics: int) -> Indices:
     """Orders (q,) of the common period, from 0 on, that the excitation drives up to `harmonics` of each tooth frequency.
 
     Those of several tooth frequencies combine; transmission errors of a longer period bring all orders with them.
+    Raises ParameterError for more of them than can be solved.
     """
     require_whole("harmonics", harmonics, at_least=1, at_most=200)
     orders = sorted(set(excitation.orders))

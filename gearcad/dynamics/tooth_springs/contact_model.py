@@ -103,7 +103,10 @@ class ContactModel:
         zone: EngagedPairs = EngagedPairs.RIGID_TIPS,
         back_flanks: bool = False,
     ) -> ContactModel:
-        """The model of a spur pair: its path of contact from A to E; its backlash if the back flanks may touch."""
+        """The model of a spur pair: its path of contact from A to E; its backlash if the back flanks may touch.
+
+        Raises GeometryError for a helical pair.
+        """
         if pair.pinion.helix_angle != 0:
             permitted = "must be 0: the contact model has pairs of teeth that touch over their whole width at once"
             raise GeometryError("pinion.helix_angle", pair.pinion.helix_angle, permitted, "deg")

@@ -42,6 +42,7 @@ def amplitude_spectrum(signal: ArrayLike, sampling: float, highest: float | None
     """Spectrum of a signal (n,) sampled so many times a second (Hz), up to a frequency `highest` (Hz; None: half of that).
 
     |X| 2/n, and |X|/n at 0 and at half the sampling, without a window: a sine of whole periods shows its amplitude.
+    Raises ParameterError for fewer than two finite numbers, or frequencies not above 0.
     """
     import scipy.fft
 

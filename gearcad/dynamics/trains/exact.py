@@ -112,9 +112,10 @@ def dynamic_train(parts: Parts, *, massless: bool = False) -> DynamicTrain:
 
 
 def natural_frequencies(train: DynamicTrain, count: int) -> Floats:
-    """The first natural frequencies (1/s), as many as there are up to `count`, those that are 0 among them.
+    """The first natural frequencies (n,) in 1/s, as many as there are up to `count`, those that are 0 among them.
 
-    Bisection by the count finds every one, multiple ones too, as exactly as rounding leaves the dynamic stiffness.
+    Bisection by the count finds every one, multiple ones too, as exactly as rounding leaves the dynamic stiffness. Raises
+    SolverError where it does not end.
     """
     rigid = train.free.shape[1]
     if not train.piece_inertia.any():

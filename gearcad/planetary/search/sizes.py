@@ -34,7 +34,10 @@ RACK = BasicRack()
 
 @dataclass(frozen=True, kw_only=True)
 class MeshSizes:
-    """The meshes of centrals with rims, by their signed teeth (n,), at a centre distance that may not be known yet."""
+    """The meshes of centrals with rims, by their signed teeth (n,), at a centre distance that may not be known yet.
+
+    What is an array has one value for each of them (n,); lengths in mm, angles in rad.
+    """
 
     central: Wholes
     rim: Wholes
