@@ -13,7 +13,12 @@ from support.hertz import hertz_ellipse
 
 from gearcad import Body, FlankModification, Gear, GearPair, Material, Mounting, ReliefShape
 from gearcad.contact.shared.line_of_action import line_of_action
-from gearcad.contact.solid.boussinesq import half_space_displacement, half_space_traction, surface_displacement
+from gearcad.contact.solid.boussinesq import (
+    half_space_displacement,
+    half_space_normal_displacement,
+    half_space_traction,
+    surface_displacement,
+)
 from gearcad.contact.solid.contact_lines import ContactLine, Gaps, contact_lines, gaps
 from gearcad.contact.solid.flank import SolidFlank
 from gearcad.contact.solid.hexahedra import lame
@@ -62,6 +67,18 @@ def test_surface_is_free_and_sinks_by_the_closed_form() -> None:
     assert np.abs(half_space_traction(points, normals, LOAD, INWARD, STEEL)).max() < 1e-12
     sunk = half_space_displacement(points, LOAD, INWARD, STEEL) @ INWARD
     assert sunk == pytest.approx(surface_displacement(np.array([0.5, 1.0, 3.0]), STEEL), rel=1e-12)
+
+
+def test_groups_of_loads_move_along_normals() -> None:
+    """Each group is the sum of its loads' vectors, along the normals; a point under a load is not moved by it."""
+    at, forces = np.stack([[LOAD, 3 * INWARD], [2 * LOAD, -LOAD]]), np.array([1.0, -0.4])
+    inward = np.stack([[INWARD, -INWARD], [-INWARD, INWARD]])
+    points = np.vstack([inside(), LOAD])
+    normals = np.random.default_rng(5).normal(size=points.shape)
+    found = half_space_normal_displacement(points, normals, at, inward, STEEL, forces)
+    groups = zip(at, inward, strict=True)
+    vectors = np.stack([half_space_displacement(points, where, to, STEEL, forces) for where, to in groups], -1)
+    assert found == pytest.approx(np.einsum("nc,ncm->nm", normals, vectors), rel=1e-12)
 
 
 def test_plane_below_carries_the_load() -> None:

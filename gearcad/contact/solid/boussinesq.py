@@ -10,7 +10,7 @@ import numpy as np
 from gearcad.arrays import Floats
 from gearcad.material import Material
 
-__all__ = ["half_space_displacement", "half_space_traction", "surface_displacement"]
+__all__ = ["half_space_displacement", "half_space_normal_displacement", "half_space_traction", "surface_displacement"]
 
 
 def surface_displacement(distance: Floats, material: Material) -> Floats:
@@ -33,6 +33,22 @@ def half_space_displacement(
     e, nu = material.youngs_modulus, material.poisson_ratio
     result = np.zeros(points.shape)
     add_displacements(_rows(points), _rows(load_at), _rows(inward), np.atleast_1d(forces), nu, result.reshape(-1, 3))
+    result *= (1 + nu) / (2 * np.pi * e)
+    return result
+
+
+def half_space_normal_displacement(
+    points: Floats, normals: Floats, load_at: Floats, inward: Floats, material: Material, forces: Floats
+) -> Floats:
+    """Displacements (n, m) in mm along `normals` (n, 3) at points (n, 3), each the sum by a group of loads (m, k, 3), alike in
+    all groups: `forces` (k,) in N.
+    """
+    from gearcad.contact.solid.point_loads import add_normal_displacements
+
+    e, nu = material.youngs_modulus, material.poisson_ratio
+    result = np.zeros((len(points), len(load_at)))
+    at, along = (np.ascontiguousarray(each, dtype=float) for each in (load_at, inward))
+    add_normal_displacements(_rows(points), _rows(normals), at, along, forces, nu, result)
     result *= (1 + nu) / (2 * np.pi * e)
     return result
 

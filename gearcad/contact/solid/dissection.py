@@ -233,22 +233,19 @@ class _Dissection:
 def _halves(points: Floats, quads: Wholes) -> tuple[Wholes, Wholes]:
     centres = points[quads[:, :4]].mean(axis=1)
     nodes, place = np.unique(quads, return_inverse=True)
-    place = place.reshape(quads.shape)
-
-    def standing(some: Wholes) -> Bools:
-        """Which of the nodes some quadrangles have."""
-        found = np.zeros(len(nodes), bool)
-        found[place[some]] = True
-        return found
-
+    by_node = np.argsort(place.ravel(), kind="stable")
+    starts = np.searchsorted(place.ravel()[by_node], np.arange(len(nodes)))
+    around = by_node // quads.shape[1]  # the quadrangles that have each of the nodes, node by node
+    counts = [round(share * len(quads)) for share in _SHARES]
     best: tuple[int, Wholes, Wholes] | None = None
     for angle in np.linspace(0, np.pi, _DIRECTIONS, endpoint=False):
         order = np.argsort(centres @ [np.cos(angle), np.sin(angle)], kind="stable")
-        for share in _SHARES:
-            count = round(share * len(order))
-            first, second = order[:count], order[count:]
-            shared = int((standing(first) & standing(second)).sum())
+        rank = np.empty(len(order), int)
+        rank[order] = np.arange(len(order))
+        earliest, latest = (of.reduceat(rank[around], starts) for of in (np.minimum, np.maximum))
+        for count in counts:
+            shared = int(((earliest < count) & (latest >= count)).sum())
             if best is None or shared < best[0]:
-                best = (shared, first, second)
+                best = (shared, order[:count], order[count:])
     assert best is not None  # there are directions
     return best[1], best[2]

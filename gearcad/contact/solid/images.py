@@ -8,7 +8,11 @@ from typing import ClassVar
 import numpy as np
 
 from gearcad.arrays import Floats
-from gearcad.contact.solid.boussinesq import half_space_displacement, half_space_traction
+from gearcad.contact.solid.boussinesq import (
+    half_space_displacement,
+    half_space_normal_displacement,
+    half_space_traction,
+)
 from gearcad.contact.solid.places import Places, SolidFlank
 from gearcad.material import Material
 
@@ -29,10 +33,11 @@ class Images:
     """At nu = 0.3 (R. Guilbault, Journal of Tribology 133, 2011, 031402); elements and splines carry what it misses."""
 
     def loads(self, at: Floats, inward: Floats) -> tuple[Floats, Floats, Floats]:
-        """Points (m, 3), inward normals (m, 3) and forces (m,) in N of all that stands for 1 N at a point."""
+        """Points (..., m, 3), inward normals (..., m, 3) and forces (m,) in N of all that stands for 1 N at points (..., 3)."""
         flip = np.array([1.0, 1.0, -1.0])
         ends = np.array([0.0, self.flank.gear.face_width])
-        return at * flip + np.outer(2 * ends, [0.0, 0.0, 1.0]), np.tile(inward * flip, (2, 1)), np.full(2, self.factor)
+        where = at[..., None, :] * flip + np.outer(2 * ends, [0.0, 0.0, 1.0])
+        return where, np.broadcast_to(inward[..., None, :] * flip, where.shape), np.full(2, self.factor)
 
     def displacement(self, points: Floats, at: Floats, inward: Floats) -> Floats:
         """Displacement (..., 3) in mm at points by all that."""
@@ -47,8 +52,8 @@ class Images:
     def normal(self, moved: Places, loaded: Places) -> Floats:
         """Normal displacements (n, m) in mm at places by all that stands for 1 N at each loaded place."""
         points, normals = self.flank.points(moved), self.flank.inward(moved)
-        loads = zip(self.flank.points(loaded), self.flank.inward(loaded), strict=True)
-        return np.stack([(self.displacement(points, at, inward) * normals).sum(-1) for at, inward in loads], -1)
+        where, to, forces = self.loads(self.flank.points(loaded), self.flank.inward(loaded))
+        return half_space_normal_displacement(points, normals, where, to, self.material, forces)
 
 
 class TakenOff(Images):
@@ -56,4 +61,6 @@ class TakenOff(Images):
 
     def loads(self, at: Floats, inward: Floats) -> tuple[Floats, Floats, Floats]:
         where, to, forces = super().loads(at, inward)
-        return np.vstack([at, where]), np.vstack([inward, to]), np.r_[1.0, forces]
+        both = ((one[..., None, :], more) for one, more in ((at, where), (inward, to)))
+        points, normals = (np.concatenate(each, axis=-2) for each in both)
+        return points, normals, np.r_[1.0, forces]

@@ -11,7 +11,7 @@ import math
 from gearcad.arrays import Floats
 from gearcad.compiled import compiled
 
-__all__ = ["add_displacements", "add_tractions"]
+__all__ = ["add_displacements", "add_normal_displacements", "add_tractions"]
 
 
 _AT_LOAD = 1e-9
@@ -38,6 +38,29 @@ def add_displacements(points: Floats, at: Floats, inward: Floats, forces: Floats
             result[point, 0] += along * nx + aside * x
             result[point, 1] += along * ny + aside * y
             result[point, 2] += along * nz + aside * z
+
+
+@compiled
+def add_normal_displacements(
+    points: Floats, normals: Floats, at: Floats, inward: Floats, forces: Floats, poisson_ratio: float, result: Floats
+) -> None:
+    """Add the same along `normals` (n, 3), by groups of loads (m, k, 3), to a result (n, m)."""
+    rest = 1 - 2 * poisson_ratio
+    for point in range(len(points)):
+        tx, ty, tz = normals[point]
+        for group in range(len(at)):
+            for load in range(len(forces)):
+                x = points[point, 0] - at[group, load, 0]
+                y = points[point, 1] - at[group, load, 1]
+                z = points[point, 2] - at[group, load, 2]
+                nx, ny, nz = inward[group, load]
+                depth, distance = x * nx + y * ny + z * nz, math.sqrt(x * x + y * y + z * z)
+                near = 1 / distance if distance >= _AT_LOAD else 0.0
+                c = depth * near
+                aside = near * near * (c - rest / max(1 + c, _OUTSIDE))
+                along = near * (1 + rest + c * c) - aside * depth
+                moved = along * (nx * tx + ny * ty + nz * tz) + aside * (x * tx + y * ty + z * tz)
+                result[point, group] += forces[load] * moved
 
 
 @compiled

@@ -59,14 +59,15 @@ def remaining(
     at, inward = flank.points(places), flank.inward(places)
     nodes = np.unique(mesh.over(np.unique(mesh.section.quads[near])))
     faces, field = boundary_faces(mesh, near), TakenOff(flank, material)
-    taken_off = np.empty((len(nodes), 3, len(at)))
+    displacements, pressed = np.empty((len(at), len(nodes), 3)), np.empty((len(at), len(faces.used), 3))
+    around, here = np.searchsorted(nodes, faces.used), mesh.points[nodes]
+    for load, (where, direction) in enumerate(zip(at, inward, strict=True)):
+        displacements[load] = field.displacement(here, where, direction)
+        pressed[load] = faces.forces(partial(field.traction, at=where, inward=direction), where, points)
+        tell((load + 1) / len(at))
+    taken_off = mesh.to_turning(np.moveaxis(displacements, 0, -1), nodes)
     forces = np.zeros_like(taken_off)
-    around = np.searchsorted(nodes, faces.used)
-    for column, (where, direction) in enumerate(zip(at, inward, strict=True)):
-        taken_off[:, :, column] = field.displacement(mesh.points[nodes], where, direction)
-        forces[around, :, column] = -faces.forces(partial(field.traction, at=where, inward=direction), where, points)
-        tell((column + 1) / len(at))
-    taken_off, forces = (mesh.to_turning(each, nodes) for each in (taken_off, forces))
+    forces[around] = -mesh.to_turning(np.moveaxis(pressed, 0, -1), faces.used)
     _add_elastic(forces, mesh, material, near, nodes, taken_off)
     return Remaining(NodalForces(nodes, forces), taken_off)
 

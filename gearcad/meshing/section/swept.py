@@ -157,7 +157,11 @@ def _turned_vectors(vectors: Floats, angles: Floats) -> Floats:
     shape = (-1, *[1] * (vectors.ndim - 2))
     cosine, sine = np.cos(angles).reshape(shape), np.sin(angles).reshape(shape)
     x, y, z = vectors[:, 0], vectors[:, 1], vectors[:, 2]
-    return np.stack([cosine * x - sine * y, sine * x + cosine * y, z], 1)
+    result: Floats = np.empty(vectors.shape)
+    np.subtract(cosine * x, sine * y, out=result[:, 0])
+    np.add(sine * x, cosine * y, out=result[:, 1])
+    result[:, 2] = z
+    return result
 
 
 def sweep(gear: Gear, section: QuadMesh, layers: int) -> SweptMesh:
