@@ -62,7 +62,7 @@ _WATCH = """() => {
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    with launched() as chromium:
+    with launched("--disable-gpu-compositing") as chromium:  # as browsers themselves do without a graphics card
         yield chromium
 
 

@@ -1,5 +1,6 @@
 // The transverse section of the mesh, on a canvas: only what is seen is drawn. Lengths are in mm, angles in radians, y is up.
 const DASHES = { tip: [], reference: [8, 2, 1, 2], base: [4, 3], form: [1, 2], root: [], active: [2, 2], pitch: [10, 3, 2, 3] };
+const BY_PROCESSOR = { willReadFrequently: true }; // a graphics card that is none takes seconds for dashes and outlines
 const NEAR = 5; // pixels from a circle within which it is meant
 
 // Between the pairs of a table [[height, value], ...].
@@ -140,7 +141,7 @@ export default {
       this.drawing = 0;
       const canvas = this.$refs.canvas;
       if (!canvas?.width) return;
-      const pen = canvas.getContext("2d");
+      const pen = canvas.getContext("2d", BY_PROCESSOR);
       pen.setTransform(window.devicePixelRatio, 0, 0, window.devicePixelRatio, 0, 0);
       pen.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);
       if (!this.content) return;
