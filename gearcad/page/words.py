@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cache
+from typing import Any
 
 from gearcad.shipped import templates
 
@@ -15,8 +16,8 @@ __all__ = ["Language", "Words", "language_of"]
 
 _FILE = "page_words.toml"
 
-_PARTS = "parts"
-"""The table of the template that has parts of words by languages."""
+_PARTS, _NOTICES, _PERMITTED = "parts", "notices", "permitted"
+"""Tables of the template that have, by languages, parts of words, what notices are about, and ends of the lines of faults."""
 
 _LONG = 15
 """Letters of a word that may have to go on in the next line."""
@@ -42,18 +43,28 @@ class Words:
     """`words["find a key"]` is what stands for these words in the language of the page.
 
     Fields and derived quantities are found by the words that the schema and `symbols` have for them. What has no other words
-    stays English, as messages do.
+    stays English, as messages do: of these it has what `notices` are about, by their codes, and what is `permitted`, by
+    patterns of the ends of lines.
     """
 
     language: Language
     table: Mapping[str, str] = field(repr=False)
     parts: tuple[str, ...] = field(default=(), repr=False)
+    notices: Mapping[str, str] = field(default_factory=dict, repr=False)
+    permitted: Mapping[str, str] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, language: Language) -> Words:
         """Those of the shipped template."""
         tables = _tables()
-        return cls(language, tables.get(language.value, {}), tuple(tables[_PARTS].get(language.value, "").split()))
+        code = language.value
+        return cls(
+            language,
+            tables.get(code, {}),
+            tuple(tables[_PARTS].get(code, "").split()),
+            tables[_NOTICES].get(code, {}),
+            tables[_PERMITTED].get(code, {}),
+        )
 
     def __getitem__(self, english: str) -> str:
         return self.table.get(english, english)
@@ -65,10 +76,18 @@ class Words:
         joint = re.compile(rf"(?<=\w\w\w)(?={'|'.join(self.parts)})")
         return _LONG_WORD.sub(lambda long: joint.sub(_SOFT_HYPHEN, long[0]), text)
 
+    def said(self, line: str) -> str:
+        """What the line of a fault says is permitted; "" where this language has no words for that."""
+        end = line[line.rfind(": must be ") + len(": ") :]
+        for pattern, words in self.permitted.items():
+            if found := re.fullmatch(pattern, end):
+                return words.format(*found.groups()).replace(" deg", "°")
+        return ""
+
 
 @cache
-def _tables() -> Mapping[str, Mapping[str, str]]:
-    """The words of each language by the English ones, and the parts of words by languages."""
+def _tables() -> Mapping[str, Any]:
+    """The words of each language by the English ones, and beside them further tables by languages."""
     return tomllib.loads((templates() / _FILE).read_text(encoding="utf-8"))
 
 

@@ -93,4 +93,23 @@ def test_pages_run_their_own_scripts_only() -> None:
     assert "unsafe-inline" not in policy["script-src"]
     assert policy["connect-src"] == "'self'" and policy["frame-ancestors"] == policy["default-src"] == "'none'"
     assert headers["referrer-policy"] == "no-referrer" and headers["x-content-type-options"] == "nosniff"
+    assert headers["x-frame-options"] == "DENY"
+    assert headers["cross-origin-opener-policy"] == headers["cross-origin-resource-policy"] == "same-origin"
     assert nonce not in ask(Fences(_app), {"host": HERE})[2]
+
+
+def test_no_path_is_taken_from_a_header() -> None:
+    """NiceGUI would have the page load its scripts from there."""
+    told: list[Any] = []
+
+    async def app(scope: Any, _receive: Any, _send: Any) -> None:
+        told.extend(name for name, _ in scope["headers"])
+
+    awaited(
+        Fences(app)({"type": "http", "headers": [(b"X-Forwarded-Prefix", b"//evil.example"), (b"host", b"x")]}, _none, _none)
+    )
+    assert told == [b"host"]
+
+
+async def _none(*_: Any) -> Any:
+    """Nothing is received, nothing sent."""

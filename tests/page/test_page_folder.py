@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from support.awaited import awaited
 
+from gearcad.designs.design import LONGEST_NAME
 from gearcad.designs.starters import starter_text
 from gearcad.errors import GearcadError, ParameterError, SpecError
 from gearcad.page.folder import LARGEST_SPEC, SPECS, TABLES, Folder, TakenError, text_of
@@ -72,7 +73,7 @@ def test_nothing_else_is_read(folder: Folder, name: str) -> None:
         folder.spec(name)
 
 
-@pytest.mark.parametrize("name", [*NO_NAMES[:8], "a" * 300, "con", "x/../y", "a:b", "a\nb", "-rf"])
+@pytest.mark.parametrize("name", [*NO_NAMES[:8], "a" * 300, "a" * LONGEST_NAME, "a.", "con", "x/../y", "a:b", "a\nb", "-rf"])
 def test_nothing_is_written_elsewhere(folder: Folder, name: str) -> None:
     before = sorted(folder.path.parent.rglob("*"))
     with pytest.raises(GearcadError):
@@ -120,8 +121,9 @@ def test_files_come_to_the_session_that_waits_for_them_up_to_a_size() -> None:
     async def all_posts() -> list[int]:
         asked = [("mine/spec", b"0123456789"), ("mine/spec", b"0123456789+"), ("mine/other", b""), ("yours/spec", b"")]
         found = [await post(f"/given/{path}?name=../a.toml", content) for path, content in asked]
+        found.append(await post(f"/given/mine/spec?name={'a' * 1000}", b""))
         await_files("mine", None)
         return [*found, await post("/given/mine/spec?name=a", b"")]
 
-    assert awaited(all_posts()) == [200, 413, 404, 404, 404]
-    assert taken == [("../a.toml", b"0123456789")]
+    assert awaited(all_posts()) == [200, 413, 404, 404, 200, 404]
+    assert taken == [("../a.toml", b"0123456789"), ("a" * 200, b"")]

@@ -19,6 +19,10 @@ def _packed(content: bytes) -> str:
     return base64.urlsafe_b64encode(zlib.compress(content, 9)).decode().rstrip("=")
 
 
+LONG = "".join(f"# {zlib.crc32(str(each).encode())}\n" for each in range(3000))
+"""What no link can hold."""
+
+
 def test_a_link_gives_the_text_back_to_its_last_comment() -> None:
     for name in starters():
         text = starter_text(name)[1]
@@ -28,9 +32,8 @@ def test_a_link_gives_the_text_back_to_its_last_comment() -> None:
 
 
 def test_a_text_that_no_address_holds_is_refused() -> None:
-    long = "".join(f"# {zlib.crc32(str(each).encode())}\n" for each in range(3000))
     with pytest.raises(ParameterError, match=f"{LONGEST} characters"):
-        pack("long", long)
+        pack("long", LONG)
 
 
 @pytest.mark.parametrize(
@@ -44,6 +47,7 @@ def test_a_text_that_no_address_holds_is_refused() -> None:
         pack("a", PAIR)[:-3],
         pack("a", PAIR) + "AAAA",
         pack("a", PAIR) * 40,
+        _packed(f"a\0{LONG}{PAIR}".encode()),
         _packed(b"no name"),
         _packed(b"a\0\xff"),
         _packed(b"a\0" + bytes(2 * LARGEST_TEXT)),

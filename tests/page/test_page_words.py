@@ -12,7 +12,7 @@ from gearcad.designs.keys import FIELDS, SPEEDS
 from gearcad.designs.planetary_keys import PLANETARY
 from gearcad.designs.train_keys import MAIN, PARTS, TRAIN
 from gearcad.page.fields import part_title, table_title, words_of
-from gearcad.page.panels import bodies_content, sheet_words
+from gearcad.page.panels import bodies_content, sheet_notices, sheet_words
 from gearcad.page.panels import strength as rating
 from gearcad.page.words import Language, Words, language_of
 from gearcad.sheet import gears, pairs, strength, train
@@ -105,3 +105,25 @@ def test_long_words_may_go_on_in_the_next_line() -> None:
     assert german.divided("Profilverschiebungsfaktor") == "Profil\u00adverschiebungs\u00adfaktor"
     assert german.divided("Zahnbreite am Kopf") == "Zahnbreite am Kopf"
     assert Words.of(Language.ENGLISH).divided("Profilverschiebungsfaktor") == "Profilverschiebungsfaktor"
+
+
+@pytest.mark.parametrize(
+    ("end", "said"),
+    [
+        ("must be a whole number from 3 to 2000", "muss eine ganze Zahl von 3 bis 2000 sein"),
+        ('must be a number at least -5 and at most 5, or "auto"', 'muss eine Zahl von -5 bis 5 sein, oder "auto"'),
+        ("must be a number at least 0.01 mm and at most 200 mm", "muss eine Zahl von 0.01 mm bis 200 mm sein"),
+        ("must be a number at least -75 deg and at most 75 deg", "muss eine Zahl von -75° bis 75° sein"),
+        ("must be a number above 0 mm", "muss eine Zahl über 0 mm sein"),
+        ('must be "strain" or "stress"', 'muss "strain" oder "stress" sein'),
+        ("must be at least 66.4 mm for these profile shifts and thinning", ""),
+    ],
+)
+def test_what_is_permitted_is_said_where_there_are_words_for_it(end: str, said: str) -> None:
+    line = f"reducer.toml line 22: pinion.teeth = 2: {end}"
+    assert Words.of(Language.GERMAN).said(line) == said
+    assert Words.of(Language.ENGLISH).said(line) == ""
+
+
+def test_notices_about_fields_have_german_names() -> None:
+    assert Words.of(Language.GERMAN).notices.keys() == sheet_notices._ABOUT.keys()

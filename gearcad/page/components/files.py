@@ -22,6 +22,10 @@ class FilesView(Element, component="gear_files.js"):
         """What it has: `specs`, `tables`, `starters`, `makes`; what is `making`, `saved` or `taken`; the `line` of a fault."""
         self.run_method("show", state)
 
+    def close(self) -> None:
+        """What was chosen is seen behind it."""
+        self.run_method("close")
+
     def follow(self, link: str) -> None:
         """The link that holds the design goes into the address; "" where none can."""
         self.run_method("follow", link)

@@ -47,7 +47,7 @@ export default {
       </header>
       <details v-if="content.notices.length" class="notices" :open="noticesOpen" @toggle="fold({ id: 'notices', open: noticesOpen }, $event.target.open)">
         <summary>{{ words.notices }} ({{ content.notices.length }})</summary>
-        <ul><li v-for="notice in content.notices" :key="notice.text"><span lang="en">{{ notice.text + " " }}</span>
+        <ul><li v-for="notice in content.notices" :key="notice.text"><b v-if="notice.about">{{ notice.about }} – </b><span lang="en">{{ notice.text + " " }}</span>
           <button v-for="key in notice.keys" :key="key" type="button" class="key" @click="focus(key)">{{ key }}</button></li></ul>
       </details>
       <details v-for="block in blocks" :key="block.id" :open="block.open" @toggle="fold(block, $event.target.open)">

@@ -27,9 +27,9 @@ const SpecField = {
       <span v-else />
       <span class="unit">{{ field.unit }}</span>
       <datalist v-if="field.offered.length" :id="'of-' + field.key"><option v-for="word in field.offered" :key="word" :value="word" /></datalist>
-      <span v-if="fault" class="fault" role="alert" lang="en">{{ fault }}</span>
+      <span v-if="fault" class="fault" role="alert"><b v-if="said">{{ said }} – </b><span lang="en">{{ fault }}</span></span>
     </div>`,
-  props: { form: Object, field: Object, given: null, used: null, draft: null, changed: Boolean, fault: String, readonly: Boolean },
+  props: { form: Object, field: Object, given: null, used: null, draft: null, changed: Boolean, fault: String, said: String, readonly: Boolean },
 };
 
 export default {
@@ -39,7 +39,7 @@ export default {
       <div class="find">
         <input class="search" type="search" ref="search" v-model="wanted" :placeholder="words.search + '  /'" :aria-label="words.search"
                @keydown.esc="wanted = ''; $event.target.blur()" @keydown.enter.prevent="next($event)" />
-        <button v-if="faultAbove" type="button" class="fault" role="alert" lang="en" @click="go(fault.key)">{{ fault.line }}</button>
+        <button v-if="faultAbove" type="button" class="fault" role="alert" @click="go(fault.key)"><b v-if="fault.said">{{ fault.said }} – </b><span lang="en">{{ fault.line }}</span></button>
       </div>
       <p v-if="!shownTables.length" class="none">{{ tables.length ? words.nothing : words.textOnly }}</p>
       <details v-for="table in shownTables" :key="table.table" :open="wanted !== '' || !table.folded" class="table">
@@ -47,7 +47,7 @@ export default {
         <component v-for="group in table.groups" :key="group.part" :is="group.part && !wanted ? 'details' : 'div'" class="group">
           <summary v-if="group.part && !wanted" :class="{ changed: group.fields.some(isChanged) }">{{ group.title }}<b v-if="countIn(group)">{{ countIn(group) }}</b></summary>
           <spec-field v-for="field in group.fields" :key="field.key" :form="me" :field="field" :given="given[field.key]" :used="used[field.key]"
-                      :draft="drafts[field.key]" :changed="isChanged(field)" :fault="isWrong(field) ? fault.line : ''" :readonly="readonly" />
+                      :draft="drafts[field.key]" :changed="isChanged(field)" :fault="isWrong(field) ? fault.line : ''" :said="isWrong(field) ? fault.said : ''" :readonly="readonly" />
         </component>
       </details>
       <div class="hint" role="status">{{ hint }}</div>

@@ -93,7 +93,7 @@ def shown_figures(
         "lines": told + [{"label": label, "text": text if label else words[text]} for label, text in found.lines],
         "beside": "" if kept is None else _headline(kept.title, words)[0],
         "changes": len(changed or {}),
-        "notices": list(found.notices),
+        "notices": [each | {"about": words.notices.get(each.get("code", ""), "")} for each in found.notices],
         "pins": list(found.pins),
         "sections": shown_sections(found.sections, words, folded=found.folded, changed=changed, kept=beside),
     }

@@ -106,6 +106,7 @@ class FilesPanel:
     def _take(self, text: str, name: str) -> None:
         self._opened(text, name)
         self._show()
+        self._view.close()
 
     def _given_spec(self, name: str, content: bytes) -> None:
         with self._client:
@@ -118,6 +119,7 @@ class FilesPanel:
         with self._client:
             try:
                 self._tabled(content.decode("utf-8-sig"), printable(name))
+                self._view.close()
             except UnicodeDecodeError:
                 self._view.show(line=f"{printable(name)}: is no table of results, for it is not CSV in UTF-8")
             except GearcadError as error:

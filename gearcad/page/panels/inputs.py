@@ -39,7 +39,7 @@ class InputsPanel:
         if layout != self._layout:
             self._layout = layout
             self._have(fields_of(bench.design, bench.tables))
-        fault = None if bench.fault is None else bench.fault._asdict()
+        fault = None if bench.fault is None else bench.fault._asdict() | {"said": self._words.said(bench.fault.line)}
         given, former = given_texts(bench.tables), given_texts(bench.former)
         used = {key: text for key, text in used_texts(bench.design, bench.tables).items() if key in self._keys}
         changed = sorted(key for key in given.keys() | former.keys() if given.get(key) != former.get(key))

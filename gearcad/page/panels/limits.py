@@ -50,8 +50,8 @@ class LimitsPanel(Panel[Found]):
         self._names = {
             Free.TEETH: (words["number of teeth"], "z"),
             Free.HELIX: (words["helix angle"], "β"),
-            Free.FIRST: (words["profile shift coefficient"], "x"),
-            Free.SECOND: (words["profile shift coefficient"], "x₂"),
+            Free.FIRST: (words.divided(words["profile shift coefficient"]), "x"),
+            Free.SECOND: (words.divided(words["profile shift coefficient"]), "x₂"),
         }
         self._kinds = {
             LimitKind.UNDERCUT: words["undercut"],

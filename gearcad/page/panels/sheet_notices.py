@@ -52,7 +52,7 @@ def shown_notices(notices: Collection[Notice], keys: Collection[str]) -> tuple[d
     """Each notice once, with those of the `keys` of a spec's fields that it is about."""
     found: dict[str, Any] = {}
     for notice in notices:
-        found.setdefault(str(notice), {"text": str(notice), "keys": _keys(notice, keys)})
+        found.setdefault(str(notice), {"code": notice.code, "text": str(notice), "keys": _keys(notice, keys)})
     return tuple(found.values())
 
 

@@ -31,6 +31,9 @@ ELSEWHERE = "127.0.0.2"
 
 SCRIPT = "<img src=x onerror=alert(1)><script>alert(1)</script>"
 
+TOO_BIG = 1009
+"""What a connection is closed with whose message is too large (RFC 6455, 7.4.1)."""
+
 LARGE = b"4" + b"x" * (1 << 21)
 
 
@@ -52,6 +55,28 @@ def test_other_sites_reach_neither_page_nor_connection(address: str, headers: di
     assert ask(address, f"{SOCKET}&transport=polling", **headers)[0] == 403
     assert ask(address, f"{SOCKET}&transport=polling&sid=x", "POST", b"40", **headers)[0] == 403
     assert ask(address, f"{SOCKET}&transport=websocket", **(UPGRADE | headers))[0] == 403
+
+
+@pytest.mark.parametrize("path", ["/", "/nothing", "/bodies/x/y", f"{SOCKET}&transport=polling"])
+def test_every_answer_says_what_may_be_done_with_it(address: str, path: str) -> None:
+    connection = http.client.HTTPConnection(urlsplit(address).netloc, timeout=30)
+    connection.request("GET", path)
+    answer = connection.getresponse()
+    assert answer.getheader("X-Frame-Options") == "DENY" and answer.getheader("X-Content-Type-Options") == "nosniff"
+    assert "default-src 'none'" in answer.getheader("Content-Security-Policy", "")
+    connection.close()
+
+
+def test_no_message_over_the_connection_is_larger_than_permitted(address: str) -> None:
+    from websockets.exceptions import ConnectionClosed
+    from websockets.sync.client import connect
+
+    with connect(f"{address.replace('http', 'ws', 1).rstrip('/')}{SOCKET}&transport=websocket") as socket:
+        socket.send(LARGE)
+        with pytest.raises(ConnectionClosed) as closed:
+            while True:
+                socket.recv(timeout=20)
+    assert closed.value.rcvd is not None and closed.value.rcvd.code == TOO_BIG
 
 
 def test_the_page_itself_reaches_its_connection(address: str) -> None:

@@ -59,6 +59,8 @@ def test_a_spec_goes_round_with_its_comments_and_the_address_holds_it(tab: Any, 
     (folder / "given" / VOLVO[0]).write_text(VOLVO[1], encoding="utf-8")
     _open(tab, "spec", folder / "given" / VOLVO[0])
     _wait_for_name(tab, "volvo-13-44")
+    page.wait_for_selector(".files:not([open])")  # what was opened is seen
+    page.click(".files > summary")
     with page.expect_download() as taken:
         page.click("text=download the spec")
     assert taken.value.suggested_filename == "volvo-13-44.toml"
