@@ -36,10 +36,10 @@ STARTERS = (*THINNED, *TRAINS)
 CHANGES = 15
 
 MOST = 150.0
-"""ms until a keystroke is seen, on a machine that does nothing else."""
+"""ms until a keystroke is seen in the section and in the bodies, on a machine that does nothing else."""
 
 SOON = 300.0
-"""ms until the rating of a pair is."""
+"""ms until the data sheet is there, and the rating of a pair."""
 
 _WATCH = """() => {
   window.seen = {};
@@ -97,5 +97,5 @@ def test_a_keystroke_is_seen_at_once(browser: Any, starter: str) -> None:
         server.wait(20)
     told = "  ".join(f"{what} {seen[what]:4.0f} ms" for what in seen)
     print(f"\n{starter:22} {told}  server {1000 * computed:4.0f} ms of a processor, {os.cpu_count()} cores")
-    assert max(seen["section"], seen["bodies"], seen["sheet"]) < MOST
-    assert starter in TRAINS or seen.get("rating", 0.0) < SOON
+    assert max(seen["section"], seen["bodies"]) < MOST
+    assert max(seen["sheet"], 0.0 if starter in TRAINS else seen.get("rating", 0.0)) < SOON
