@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
+import psutil
 import pytest
 from click.testing import CliRunner
 
@@ -15,6 +18,8 @@ from gearcad.cli import main
 from gearcad.designs.starters import starter_text
 from gearcad.errors import ParameterError
 from gearcad.page.run import Limits, Run, State
+from gearcad.page.run_process import _LARGEST_FILE
+from gearcad.page.run_watch import _kill
 from gearcad.page.runs import Runs, Turns, close_all_runs
 
 ENOUGH = 60.0
@@ -158,6 +163,38 @@ def test_only_so_many_wait(runs: Runs) -> None:
     for run in asked:
         runs.cancel(run)
     assert {_ended(run).state for run in asked} == {State.CANCELLED}
+
+
+def test_the_eldest_runs_lose_their_files(runs: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gearcad.page.runs._MOST_KEPT", 1)
+    eldest = _start(runs, "check-3d")
+    runs.cancel(eldest)
+    _ended(eldest)
+    eldest.folder.mkdir()
+    eldest.files = ("check.json",)
+    runs.cancel(_start(runs, "check-3d"))
+    assert not eldest.files and not eldest.folder.exists()
+
+
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="needs groups of processes")
+def test_what_a_run_has_started_ends_with_it() -> None:
+    shell = ["sh", "-c", "sleep 60 & echo $!; wait"]
+    process = subprocess.Popen(shell, stdout=subprocess.PIPE, start_new_session=True)
+    assert process.stdout is not None
+    started = int(process.stdout.readline())
+    _kill(process)
+    process.wait()
+    end = time.monotonic() + ENOUGH
+    while psutil.pid_exists(started) and psutil.Process(started).status() != psutil.STATUS_ZOMBIE and time.monotonic() < end:
+        time.sleep(0.01)
+    assert not psutil.pid_exists(started) or psutil.Process(started).status() == psutil.STATUS_ZOMBIE
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no limits")
+def test_no_file_of_a_run_is_larger_than_permitted() -> None:
+    program = "from gearcad.page.run_process import _bound; _bound(); import resource as r; print(*r.getrlimit(r.RLIMIT_FSIZE))"
+    told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
+    assert told.split() == [str(_LARGEST_FILE)] * 2
 
 
 @pytest.mark.parametrize(

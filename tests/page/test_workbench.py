@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 
 import pytest
+import tomlkit
 
 from gearcad.designs.reader import read_spec
+from gearcad.designs.starters import starter_text
 from gearcad.errors import SpecError
 from gearcad.page.workbench import Fault, Workbench
 
@@ -113,3 +116,27 @@ def test_what_cannot_be_written_is_no_step(bench: Workbench) -> None:
     )
     assert bench.text == SPEC
     assert not bench.can_undo
+
+
+def test_what_a_named_file_names_must_be_in_the_folder_too(tmp_path: Path) -> None:
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    (tmp_path / "title.toml").write_text("", encoding="utf-8")
+    tables = tomllib.loads(starter_text("train-pairs")[1])
+    mesh = tables["train"]["mesh"][0]
+    inner = {"pair": mesh["pair"], "drawing": {"template": "../title.toml"}}
+    inner |= {role: inner["pair"].pop(role) for role in ("pinion", "wheel")}
+    (folder / "inner.toml").write_text(tomlkit.dumps(inner), encoding="utf-8")
+    mesh["pair"] = "inner.toml"
+    with pytest.raises(SpecError, match="must be a file in the folder of the page"):
+        Workbench(tomlkit.dumps(tables), "train", folder)
+
+
+def test_the_eldest_steps_go_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gearcad.page.workbench._MOST_STEPS", 3)
+    bench = Workbench(SPEC, "pair", Path())
+    for teeth in range(17, 22):
+        bench.write(SPEC.replace("teeth = 16", f"teeth = {teeth}"))
+    for _ in range(5):
+        bench.undo()
+    assert "teeth = 18\n" in bench.text
