@@ -31,7 +31,7 @@ from gearcad.threads import cores, on_all_cores, one_thread
 __all__ = ["Moved", "SolidBody", "SolidSector", "assemble_body"]
 
 
-_AT_ONCE, _FEWEST = 144, 8
+_AT_ONCE, _FEWEST = 72, 8
 """The most loads for which the body is solved at once, on all cores - more take more memory - and the fewest on each."""
 
 
