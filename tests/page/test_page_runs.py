@@ -190,6 +190,7 @@ def test_what_a_run_has_started_ends_with_it() -> None:
     assert not psutil.pid_exists(started) or psutil.Process(started).status() == psutil.STATUS_ZOMBIE
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no limits")
 def test_no_file_of_a_run_is_larger_than_permitted() -> None:
     program = "from gearcad.page.run_process import _bound; _bound(); import resource as r; print(*r.getrlimit(r.RLIMIT_FSIZE))"

@@ -36,7 +36,7 @@ COMMANDS = {
 }
 """Of each run of the page the spec and the command that does the same."""
 
-QUICK = ("csv", "data")
+QUICK = ("data",)
 
 
 @pytest.mark.parametrize("kind", [kind if kind in QUICK else pytest.param(kind, marks=pytest.mark.long) for kind in RUNS])

@@ -61,7 +61,7 @@ def _focused(tab: Any) -> str:
     return str(tab.page.evaluate("document.activeElement.className + ' ' + document.activeElement.textContent"))
 
 
-def test_escape_closes_what_is_open_and_leads_back(tab: Any) -> None:
+def test_escape_closes_what_is_open_and_leads_back_and_out_of_the_text(tab: Any) -> None:
     page, keys = tab.page, tab.page.keyboard
     page.locator(".files > summary").focus()
     keys.press("Enter")
@@ -81,11 +81,8 @@ def test_escape_closes_what_is_open_and_leads_back(tab: Any) -> None:
     keys.press("Escape")
     page.wait_for_selector("dialog:not([open])", state="attached")
     assert _focused(tab).endswith("Beside")
-
-
-def test_the_text_is_left_by_escape_and_tab(tab: Any) -> None:
-    tab.page.click(".left .q-tab:nth-child(2)")
-    tab.page.focus(".cm-content")
-    tab.page.keyboard.press("Escape")
-    tab.page.keyboard.press("Tab")
+    page.click(".left .q-tab:nth-child(2)")
+    page.focus(".cm-content")
+    keys.press("Escape")
+    keys.press("Tab")
     assert "cm-content" not in _focused(tab)
