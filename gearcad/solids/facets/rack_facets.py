@@ -19,6 +19,7 @@ from gearcad.solids.rack_plan import Piece, RackPlan, RackSide, outline_pieces
 __all__ = ["tessellate_rack"]
 
 Triangles = list[tuple[int, int, int]]
+Point = Sequence[float]
 
 
 def tessellate_rack(rack: Rack, chord_error: float = 0.005) -> Facets:
@@ -115,12 +116,12 @@ class _Builder:
 
     def _mountain(self, chain: Wholes | list[int], axis: int) -> Triangles:
         """Triangles between a chain that never runs back along an axis and the straight line that closes it below."""
-        points, found, stack = self.vertices[:, (axis, 1)], list[tuple[int, int, int]](), list[int]()
-        for number in chain:
-            while len(stack) > 1 and _turn(*points[[stack[-2], stack[-1], number]]) < 0:
-                found.append((stack[-2], number, stack[-1]))
+        found, stack = list[tuple[int, int, int]](), list[tuple[int, Point]]()
+        for number, point in zip(chain, self.vertices[chain][:, (axis, 1)].tolist(), strict=True):
+            while len(stack) > 1 and _turn(stack[-2][1], stack[-1][1], point) < 0:
+                found.append((stack[-2][0], int(number), stack[-1][0]))
                 stack.pop()
-            stack.append(int(number))
+            stack.append((int(number), point))
         assert len(stack) == 2
         return found
 
@@ -138,7 +139,6 @@ class _Builder:
         return found
 
 
-def _turn(a: Floats, b: Floats, c: Floats) -> float:
+def _turn(a: Point, b: Point, c: Point) -> float:
     """Positive where a, b, c turn left."""
-    (px, py), (qx, qy) = b - a, c - b
-    return float(px * qy - py * qx)
+    return (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
