@@ -38,6 +38,22 @@ def test_the_least_of_all_places_is_found(seed: int) -> None:
     assert of.at(seen).min() > 1.01 * values.min()
 
 
+def test_what_a_processor_rounds_leads_no_search_another_way() -> None:
+    """Figures that do not change along an axis, so that places tie, and noise of the size of rounding on them."""
+    lattice, ways = Lattice(LOW, HIGH), []
+    for seed in (1, 2):
+        noise = np.random.default_rng(seed)
+
+        def figures(places: np.ndarray, noise: np.random.Generator = noise) -> np.ndarray:
+            clear = np.column_stack([(places[:, 0] // 7) ** 2, 30 + abs(places[:, 1] - 17), places[:, 2] // 5]).astype(float)
+            return clear + noise.normal(scale=1e-11, size=clear.shape)
+
+        of = Goal(Remembered(figures), lambda rows: np.ptp(rows, axis=1))
+        seen = lattice.survey(of, 4, LOW)
+        ways.append((lattice.descend(of, lattice.best_apart(seen, of.at(seen), 4)).tolist(), of.figures.count))
+    assert ways[0] == ways[1]
+
+
 def test_a_place_is_worked_out_once_and_never_outside() -> None:
     of, lattice, counted = goal(1), Lattice(LOW, HIGH), []
 
