@@ -54,10 +54,10 @@ def _row(number: int, each: Candidate) -> tuple[str, ...]:
     pitch = each.diametral_pitch
     return (
         f"{number}",
-        f"{each.series} {pitch:g}" if pitch is not None else each.series,
+        " ".join([each.series, *([f"{pitch:g}"] if pitch is not None else []), *(["transverse"] if each.transverse else [])]),
         f"{100 * each.probability:.1f}",
         f"{each.chi_square:.1f}",
-        f"{gear.normal_module:.5g}" + (f" ±{each.module_uncertainty:.1g}" if each.series == "free" else ""),
+        f"{gear.normal_module:.5g}" + (f" ±{each.module_uncertainty:.1g}" if each.module_uncertainty else ""),
         f"{gear.rack.pressure_angle:g}",
         f"{gear.helix_angle:.2f} ±{each.helix_uncertainty:.1g}" if gear.helix_angle else "0",
         f"{gear.profile_shift:.3f} ±{each.shift_uncertainty:.1g}",

@@ -50,13 +50,18 @@ class Candidate:
         return self.fit.hypothesis.size.series
 
     @property
+    def transverse(self) -> bool:
+        """Whether its size is that of the transverse section, so that its normal module is of no series."""
+        return self.fit.hypothesis.transverse
+
+    @property
     def diametral_pitch(self) -> float | None:
         """Of a size that is one (1/inch)."""
         return self.fit.hypothesis.size.pitch
 
     @property
     def module_uncertainty(self) -> float:
-        """0 of a standard size."""
+        """Of the normal module, 0 of one of a series."""
         return self.fit.uncertainty(Unknown.MODULE)
 
     @property
@@ -79,9 +84,10 @@ class Candidate:
             "probability": self.probability,
             "chi_square": self.chi_square,
             "series": self.series,
+            "transverse": self.transverse,
             "normal_module": gear.normal_module,
             "module_uncertainty": self.module_uncertainty,
-            "normal_diametral_pitch": self.diametral_pitch,
+            "normal_diametral_pitch": None if self.transverse else self.diametral_pitch,
             "pressure_angle": gear.rack.pressure_angle,
             "helix_angle": gear.helix_angle,
             "helix_uncertainty": self.helix_uncertainty,
@@ -134,7 +140,11 @@ def _gear(measured: Measured, fit: Fit) -> Gear | None:
     sign = -1 if measured.left_hand else 1
     dedendum = round(float(values[Unknown.DEDENDUM]), _DIGITS)
     angle = round(float(values[Unknown.PRESSURE_ANGLE]), _DIGITS)
+    helix = round(float(values[Unknown.HELIX_ANGLE]), _DIGITS)
     module = float(f"{float(values[Unknown.MODULE]):.6g}") if size.series == FREE else size.module
+    pitch = size.pitch
+    if fit.hypothesis.transverse:
+        module, pitch = float(f"{size.module * math.cos(math.radians(helix)):.8g}"), None
     thinning = round(math.exp(float(values[Unknown.THINNING])), _DIGITS)
     try:
         full = BasicRack(pressure_angle=angle, dedendum=dedendum).full_root_radius(thinning=thinning / module)
@@ -142,10 +152,10 @@ def _gear(measured: Measured, fit: Fit) -> Gear | None:
         return Gear(
             name="identified",
             teeth=measured.teeth,
-            normal_module=module if size.pitch is None else NOT_GIVEN,
-            normal_diametral_pitch=NOT_GIVEN if size.pitch is None else size.pitch,
+            normal_module=module if pitch is None else NOT_GIVEN,
+            normal_diametral_pitch=NOT_GIVEN if pitch is None else pitch,
             face_width=float(f"{_WIDTH * module:.2g}"),
-            helix_angle=sign * round(float(values[Unknown.HELIX_ANGLE]), _DIGITS),
+            helix_angle=sign * helix,
             profile_shift=round(float(values[Unknown.SHIFT]), _DIGITS),
             tip_alteration=round(float(values[Unknown.ADDENDUM]) - rack.addendum, _DIGITS) + 0.0,
             tooth_thinning=thinning,

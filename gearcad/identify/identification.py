@@ -73,7 +73,9 @@ class Identification(Pictured):
 
     def __repr__(self) -> str:
         gear, best = self.best.gear, self.best
-        size = f"DP {best.diametral_pitch:g}" if best.diametral_pitch is not None else f"m_n {gear.normal_module:.5g}"
+        size = f"m_n {gear.normal_module:.5g}"
+        if best.diametral_pitch is not None:
+            size = f"DP {best.diametral_pitch:g}{' transverse' if best.transverse else ''}"
         turned = f", helix {gear.helix_angle:.4g} deg" if gear.helix_angle else ""
         angle = f"{gear.rack.pressure_angle:g} deg{turned}, x {gear.profile_shift:.3f}"
         sure = "certain" if self.certain else "not certain"

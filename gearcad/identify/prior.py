@@ -1,12 +1,15 @@
 """What is known of gears before one is measured: under each hypothesis a mixture of normal distributions of the unknowns.
 
-A hypothesis is a size, a pressure angle, and spur or helical teeth. Under each there are ways to have made the gear: with one
-of the racks, with tips as the rack has them or others, without profile shift or with some, and likewise the mate. Numbers here
-are judgement, not statistics of a population; they decide only where readings do not.
+A hypothesis is a size, a pressure angle, and spur or helical teeth; the size of helical ones may be that of the transverse
+section, from which the helix angle makes a normal module of no series. Under each there are ways to have made the gear: with
+one of the racks, with tips as the rack has them or others, without profile shift or with some, and likewise the mate. Numbers
+here are judgement, not statistics of a population; they decide only where readings do not.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
@@ -17,10 +20,13 @@ from gearcad.arrays import Floats
 from gearcad.identify.standards import ANGLES, FREE, FREE_ANGLE, RACKS, SIZES, StandardRack, StandardSize
 from gearcad.identify.unknowns import UNKNOWNS, Unknown
 
-__all__ = ["Hypothesis", "Ways", "hypotheses", "ways"]
+__all__ = ["Hypothesis", "Ways", "hypotheses", "transverse_hypotheses", "ways"]
 
 _HELICAL = 0.35
 """The share of gears with a helix."""
+
+_TRANSVERSE, _USUAL = 0.05, 0.4
+"""The share of helical gears of a standard transverse size, and the least weight of sizes that are tried so."""
 
 _FREE = 0.05
 """The weight of a size of no series; a whole range of them shares it."""
@@ -41,22 +47,33 @@ _SHIFTS_OF_PAIRS = ((1 - _SHIFTED, 0.0, 0.0), (0.2, 1.0, -1.0), (0.4, 1.0, 0.0))
 
 @dataclass(frozen=True)
 class Hypothesis:
-    """A standard size, or one of no series near its module; a pressure angle (degrees), or one near it; spur or helical."""
+    """A standard size, or one of no series near its module; a pressure angle (degrees), or one near it; spur or helical.
+
+    A `transverse_at` makes the size that of the transverse section; the normal module changes with the helix angle as it does
+    about that one (degrees).
+    """
 
     size: StandardSize
     pressure_angle: float
     helical: bool
     free_angle: bool = False
+    transverse_at: float | None = None
 
     @property
     def free(self) -> bool:
         return self.size.series == FREE
 
     @property
+    def transverse(self) -> bool:
+        return self.transverse_at is not None
+
+    @property
     def log_weight(self) -> float:
         """How usual it is."""
         angle = FREE_ANGLE if self.free_angle else self._angle_weight
         size = _FREE if self.free else self.size.weight
+        if self.transverse:
+            size *= _TRANSVERSE
         return float(np.log(size * angle * (_HELICAL if self.helical else 1 - _HELICAL)))
 
     @property
@@ -91,6 +108,12 @@ def hypotheses(spur: bool | None) -> list[Hypothesis]:
     return [Hypothesis(size, angle, helical) for helical, angle, size in product(kinds, ANGLES, SIZES)]
 
 
+def transverse_hypotheses(helices: Iterable[float]) -> list[list[Hypothesis]]:
+    """All of usual sizes of the transverse section, each about these helix angles (degrees)."""
+    usual = [size for size in SIZES if size.weight >= _USUAL]
+    return [[Hypothesis(size, angle, True, transverse_at=helix) for helix in helices] for angle, size in product(ANGLES, usual)]
+
+
 @lru_cache(maxsize=4096)
 def ways(hypothesis: Hypothesis, mated: bool) -> Ways:
     """The ways under a hypothesis, of a gear with a mate or without."""
@@ -107,6 +130,11 @@ def ways(hypothesis: Hypothesis, mated: bool) -> Ways:
     if hypothesis.helical:
         means[:, Unknown.HELIX_ANGLE] = _HELIX
         _spread(roots, Unknown.HELIX_ANGLE, _HELIX_SPREAD)
+        if hypothesis.transverse_at is not None:
+            about = math.radians(hypothesis.transverse_at)
+            slope = -math.radians(module * math.sin(about))
+            means[:, Unknown.MODULE] = module * math.cos(about) + slope * (_HELIX - hypothesis.transverse_at)
+            roots[:, Unknown.MODULE, Unknown.HELIX_ANGLE] = slope * _HELIX_SPREAD
     if hypothesis.free:
         _spread(roots, Unknown.MODULE, _MODULE_SPREAD * module)
     if hypothesis.free_angle:

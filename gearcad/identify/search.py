@@ -13,7 +13,7 @@ from gearcad.arrays import Floats
 from gearcad.identify.fit import Fit, fitted
 from gearcad.identify.gauges import read_off
 from gearcad.identify.measured import Gauge, Measured, Reading
-from gearcad.identify.prior import Hypothesis, hypotheses, ways
+from gearcad.identify.prior import Hypothesis, hypotheses, transverse_hypotheses, ways
 from gearcad.identify.standards import FREE
 from gearcad.identify.unknowns import Unknown
 
@@ -37,7 +37,17 @@ _SIGMAS = 6.0
 _SOUGHT = 1
 """How often a size of no series is sought again about where it was found."""
 
+_ANGLES = ((Gauge.HELIX_ANGLE, 1.0), (Gauge.TIP_HELIX_ANGLE, 0.95))
+"""What tells a helix angle, and what part of the reading that is about."""
+
+_HELICES = (8.0, 18.0, 30.0, 42.0)
+"""Helix angles (degrees) about which sizes of the transverse section are sought where none was measured."""
+
+_TURNED, _SETTLED_HELIX = 6, 0.2
+"""How often a size of the transverse section is sought about the helix angle that was found, and how near (degrees) it ends."""
+
 _FIRST_HELIX, _LEAST, _MOST = 15.0, 5.0, 42.0
+_LEAST_HELIX, _MOST_HELIX = 1.0, 55.0
 _MOST_SHIFT = 1.0
 _CIRCLES = (Gauge.TIP_DIAMETER, Gauge.ROOT_DIAMETER)
 _DIAMETERS = (
@@ -62,6 +72,8 @@ def fits(measured: Measured) -> list[Fit]:
             nearest[family] = miss, hypothesis
         if miss <= 1 and (fit := fitted(measured, hypothesis, start)) is not None:
             found.append(fit)
+    if measured.spur is not True:
+        found += _transverse(measured)
     found += _free(measured, (hypothesis for _, hypothesis in nearest.values()))
     return sorted(found, key=lambda fit: -fit.log_evidence)
 
@@ -81,11 +93,32 @@ def _free(measured: Measured, near: Iterable[Hypothesis]) -> Iterator[Fit]:
                 yield fit
 
 
+def _transverse(measured: Measured) -> Iterator[Fit]:
+    """Standard sizes of the transverse section, each about the helix angle that it was found to have."""
+    said = [part * abs(each.value) for gauge, part in _ANGLES if (each := measured.find(gauge)) is not None]
+    for family in transverse_hypotheses(said[:1] or _HELICES):
+        miss, number = min((_miss(measured, _start(measured, each)), number) for number, each in enumerate(family))
+        if miss > 1:
+            continue
+        about = family[number]
+        for _ in range(_TURNED):
+            if (fit := fitted(measured, about, _start(measured, about))) is None:
+                break
+            helix = float(fit.unknowns[Unknown.HELIX_ANGLE])
+            if abs(helix - (about.transverse_at or 0.0)) <= _SETTLED_HELIX:
+                yield fit
+                break
+            about = replace(about, transverse_at=min(max(helix, _LEAST_HELIX), _MOST_HELIX))
+
+
 def _start(measured: Measured, hypothesis: Hypothesis) -> Floats:
     """First values of the unknowns: the means of the most usual way, and a helix angle that fits a diameter."""
     made = ways(hypothesis, measured.mate_teeth is not None)
     start: Floats = made.means[int(np.argmax(made.log_weights))].copy()
-    if hypothesis.helical:
+    if hypothesis.transverse_at is not None:
+        start[Unknown.HELIX_ANGLE] = hypothesis.transverse_at
+        start[Unknown.MODULE] = hypothesis.size.module * math.cos(math.radians(hypothesis.transverse_at))
+    elif hypothesis.helical:
         start[Unknown.HELIX_ANGLE] = _first_helix(measured, start)
     start[Unknown.SHIFT] = _first_shift(measured, start)
     return start
@@ -102,7 +135,7 @@ def _first_shift(measured: Measured, start: Floats) -> float:
 
 
 def _first_helix(measured: Measured, start: Floats) -> float:
-    for gauge, part in ((Gauge.HELIX_ANGLE, 1.0), (Gauge.TIP_HELIX_ANGLE, 0.95)):
+    for gauge, part in _ANGLES:
         if (said := measured.find(gauge)) is not None:
             return part * abs(said.value)
     known = next((each for each in measured.readings if each.gauge in _DIAMETERS), None)

@@ -37,6 +37,7 @@ def plot_residuals(found: Identification, ax: Axes | None = None) -> Axes:
 
 def _name(each: Candidate) -> str:
     gear = each.gear
-    size = f"DP {each.diametral_pitch:g}" if each.diametral_pitch is not None else f"module {gear.normal_module:.4g}"
+    pitch = None if each.transverse else each.diametral_pitch
+    size = f"module {gear.normal_module:.4g}" if pitch is None else f"DP {pitch:g}"
     helix = f", helix {gear.helix_angle:.3g}°" if gear.helix_angle else ""
     return f"{size}, {gear.rack.pressure_angle:.4g}°{helix}, x {gear.profile_shift:.3f}: {100 * each.probability:.1f} %"

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from gearcad import BasicRack, Gear
 from gearcad.errors import InputError
+from gearcad.geometry.derived import NOT_GIVEN
 from gearcad.geometry.iso54 import ISO_54_I, ISO_54_II
 from gearcad.geometry.shift import zero_backlash_centre_distance
 from gearcad.identify import Candidate, Gauge, Measured, Reading
@@ -78,10 +80,25 @@ def random_gear(rng: np.random.Generator, modules: Sequence[float] = ()) -> Gear
             return gear
 
 
-def bench(rng: np.random.Generator, way: str, *, helix_known: bool = True, modules: Sequence[float] = ()) -> Bench:
-    """A random gear and its readings; of gears whose flanks no gauge of this way touches another is drawn."""
+def of_transverse_size(gear: Gear) -> Gear:
+    """A helical gear whose transverse module is the normal one of another."""
+    module = gear.normal_module * math.cos(math.radians(gear.helix_angle))
+    return replace(gear, normal_module=module, normal_diametral_pitch=NOT_GIVEN)
+
+
+def bench(
+    rng: np.random.Generator, way: str, *, helix_known: bool = True, modules: Sequence[float] = (), transverse: bool = False
+) -> Bench:
+    """A random gear and its readings; of gears whose flanks no gauge of this way touches another is drawn.
+
+    `transverse` ones are helical, and of a standard size of the transverse section.
+    """
     while True:
         gear = random_gear(rng, modules)
+        if transverse:
+            if not gear.helix_angle:
+                continue
+            gear = of_transverse_size(gear)
         if (measured := _measured(rng, gear, way, helix_known)) is not None:
             return Bench(gear, measured)
 

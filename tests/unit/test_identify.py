@@ -188,6 +188,29 @@ def test_what_gauges_cannot_have_read_is_not_certain() -> None:
     assert "Not certain: a gauge would not touch" in " ".join(identification_lines(found))
 
 
+@pytest.mark.parametrize(("size", "helix", "normal"), [(3.0, 24.1, 2.75), (25.4 / 8, 45.0, 2.25)])
+def test_a_standard_size_of_the_transverse_section_is_found_beside_the_normal_one(
+    size: float, helix: float, normal: float
+) -> None:
+    gear = Gear(teeth=31, normal_module=size * np.cos(np.radians(helix)), face_width=30, helix_angle=helix, tooth_thinning=0.05)
+    over, spanned = gear.inspection, gear.inspection.spanned or 0
+    angle = float(np.degrees(np.arctan(np.pi * gear.tip_diameter / gear.lead)))
+    readings = (
+        _reading(Gauge.TIP_DIAMETER, gear.tip_diameter),
+        _reading(Gauge.ROOT_DIAMETER, gear.root_diameter),
+        _reading(Gauge.TIP_HELIX_ANGLE, angle, uncertainty=1.0),
+        *(_reading(Gauge.SPAN, over.span_measurement(count), count) for count in (spanned, spanned + 1)),
+        _reading(Gauge.OVER_BALLS, over.over_balls(5.0), 5.0),
+    )
+    found = identify_gear(Measured(teeth=31, readings=readings))
+    assert found.best.transverse and found.best.fit.hypothesis.size.module == size
+    assert found.best.gear.normal_module == pytest.approx(gear.normal_module, abs=found.best.module_uncertainty)
+    assert found.best.gear.normal_module / np.cos(np.radians(found.best.gear.helix_angle)) == pytest.approx(size, rel=1e-7)
+    others = [each for each in found.candidates[1:] if not each.transverse]
+    assert any(each.gear.normal_module == normal for each in others)
+    assert "transverse" in next(line for line in identification_lines(found) if line.startswith("1"))
+
+
 def test_teeth_counted_wrong_are_told_by_what_no_gear_has() -> None:
     """24 teeth counted as 25: every reading can be had, by tips that stand half a module too low."""
     inspection = Gear(teeth=24, normal_module=2, face_width=20).inspection
