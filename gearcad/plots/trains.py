@@ -15,7 +15,6 @@ from gearcad.dynamics.trains.members import GROUND, Shaft
 from gearcad.dynamics.trains.train import Train
 from gearcad.plots.labels import plain
 from gearcad.plots.paper import DARK, FIGURE_INCHES, MARKED, SERIES, new_figure, prepared, short
-from gearcad.splines import cubic_spline
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -120,9 +119,11 @@ def _finely(modes: NaturalModes, mode: int) -> tuple[Floats, Floats]:
     """
     if len(modes.places) < _LEAST_PLACES:
         return modes.places, modes.shaft_shape[mode]
+    from scipy.interpolate import CubicSpline
+
     parts = np.arange(_BETWEEN * (len(modes.places) - 1) + 1) / _BETWEEN
     along = np.interp(parts, np.arange(len(modes.places)), modes.places)
-    return along, cubic_spline(modes.places, modes.shaft_shape[mode].T)(along).T
+    return along, CubicSpline(modes.places, modes.shaft_shape[mode].T)(along).T
 
 
 def _title(modes: NaturalModes, mode: int) -> str:

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from gearcad.arrays import Floats
 from gearcad.geometry import GearPair
-from gearcad.splines import cubic_spline
 
 __all__ = ["MeshCurves", "SinglePair", "Slices"]
 
@@ -142,7 +141,9 @@ class Slices:
 
     def _over_width(self, values: Floats, at: Floats) -> Floats:
         """The integral over the width of what has `values` at `lengths`, for lines with their middle `at` (nan: none)."""
-        spline = cubic_spline(self.lengths, values)
+        from scipy.interpolate import CubicSpline
+
+        spline = CubicSpline(self.lengths, values)
         first, last = self.path
         touching = np.isfinite(at)
         place = np.where(touching, at, first)
@@ -150,7 +151,7 @@ class Slices:
             found = spline(np.clip(place, first, last)) * self.width
         else:
             ends = (np.clip(place + side * self.reach / 2, first, last) for side in (1, -1))
-            upper, lower = map(spline.integral, ends)
+            upper, lower = map(spline.antiderivative(), ends)
             found = (upper - lower) * self.width / self.reach
         result: Floats = np.where(touching, found, 0.0)
         return result

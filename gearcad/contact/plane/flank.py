@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -24,7 +24,9 @@ from gearcad.meshing.section import SectorMesh
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.quality import mesh_quality
 from gearcad.meshing.section.shapes import edge_shapes, edge_slopes
-from gearcad.splines import PiecewiseCubic, cubic_spline
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 __all__ = ["Compliance", "PlaneCompliance", "PlaneFlank", "flank_compliance", "flank_of", "near_elements"]
 
@@ -121,9 +123,11 @@ class PlaneCompliance(FlankCompliance):
         return smooth
 
     @cached_property
-    def between_loads(self) -> PiecewiseCubic:
+    def between_loads(self) -> CubicSpline:
         """Parts (m,) of the unit loads' responses in that to a load between theirs, by its roll length (mm)."""
-        return cubic_spline(self.loads, np.eye(len(self.loads)))
+        from scipy.interpolate import CubicSpline
+
+        return CubicSpline(self.loads, np.eye(len(self.loads)))
 
     @property
     def hub_radius(self) -> float:
@@ -168,17 +172,21 @@ class PlaneCompliance(FlankCompliance):
         return _within(self._over_loads, self._spread(lengths))
 
     @cached_property
-    def _over_flank(self) -> PiecewiseCubic:
+    def _over_flank(self) -> CubicSpline:
         """Responses (teeth times m) of all teeth in full, in order, by the place on the flank."""
+        from scipy.interpolate import CubicSpline
+
         teeth = range(-self.neighbours, self.neighbours + 1)
         values = np.hstack([self._normal(tooth) if tooth else self._regular() for tooth in teeth])
         lengths = self.flank.lengths
         rows = lengths <= self._last
-        return cubic_spline(self._spread(lengths[rows]), values[rows])
+        return CubicSpline(self._spread(lengths[rows]), values[rows])
 
     @cached_property
-    def _over_loads(self) -> PiecewiseCubic:
-        return cubic_spline(self._spread(self.loads), np.eye(len(self.loads)))
+    def _over_loads(self) -> CubicSpline:
+        from scipy.interpolate import CubicSpline
+
+        return CubicSpline(self._spread(self.loads), np.eye(len(self.loads)))
 
     def _normal(self, tooth: int) -> Floats:
         nodes, inward = self.flank.nodes, self.flank.inward(self.flank.lengths)
@@ -204,9 +212,9 @@ class PlaneCompliance(FlankCompliance):
         return -np.log(np.maximum(end - self.flank.arc(np.minimum(lengths, self._last)), 0) + self._corner)
 
 
-def _within(spline: PiecewiseCubic, at: Floats) -> Floats:
+def _within(spline: CubicSpline, at: Floats) -> Floats:
     """Values at places, beyond the ends those of the ends."""
-    result: Floats = spline(np.clip(at, spline.places[0], spline.places[-1]))
+    result: Floats = spline(np.clip(at, spline.x[0], spline.x[-1]))
     return result
 
 

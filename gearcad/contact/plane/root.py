@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,7 +18,9 @@ from gearcad.contact.shared.holding import Hold
 from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE, RootStress
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.shapes import GAUSS, edge_shapes, edge_slopes, edges_of
-from gearcad.splines import PiecewiseCubic, cubic_spline
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 __all__ = ["Fillets", "ToothLoad", "seen_from"]
 
@@ -103,17 +106,19 @@ class Fillets:
             found[side] = (np.hypot(*where.T), angle, stresses)
         return found
 
-    def _response(self, side: Side, tooth: int) -> PiecewiseCubic | None:
+    def _response(self, side: Side, tooth: int) -> CubicSpline | None:
         """Stress on a side of a tooth by 1 N per mm on tooth 0, as a function of the load's roll length; None if unknown."""
         support = self.body.ring.support
         place = (tooth + self.body.neighbours) % support.teeth if support.bends else tooth + self.body.neighbours
         return self._splines[side][place] if 0 <= place < len(self._splines[side]) else None
 
     @cached_property
-    def _splines(self) -> dict[Side, tuple[PiecewiseCubic, ...]]:
+    def _splines(self) -> dict[Side, tuple[CubicSpline, ...]]:
         """Stresses (points,) of each side by the roll length of the load, from tooth -neighbours on."""
+        from scipy.interpolate import CubicSpline
+
         loads = self.body.loads
-        return {side: tuple(cubic_spline(loads, each.T) for each in teeth) for side, teeth in self._responses.items()}
+        return {side: tuple(CubicSpline(loads, each.T) for each in teeth) for side, teeth in self._responses.items()}
 
     @cached_property
     def _responses(self) -> dict[Side, Floats]:

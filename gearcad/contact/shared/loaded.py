@@ -15,7 +15,6 @@ from gearcad.arrays import Floats
 from gearcad.contact.shared.engaged import FlankCompliance, FlexiblePair
 from gearcad.contact.shared.extremes import Extreme, Quantity, RollRange, add_positions, extreme
 from gearcad.per_gear import PerGear, Role
-from gearcad.splines import monotone_spline
 
 __all__ = ["FAIR", "INTERIOR", "LEAST_TANGENT_ANGLE", "Cycle", "LoadedCycle", "LoadedPosition", "PairContact", "RootStress"]
 
@@ -209,13 +208,15 @@ class LoadedCycle(ABC, Generic[M, P, C]):
 
     def mean(self, name: str) -> tuple[Floats, Floats]:
         """The mean of a quantity over the base pitch, by a curve through all positions, and how far straight lines are off."""
+        from scipy.interpolate import PchipInterpolator
+
         if not self.model.repeats:  # nothing joins the last position to the first
             even = self.values(name).mean(axis=0)
             return even, np.zeros_like(even)
         angles, values, pitch = self.course("roll_angle"), self.course(name), self._span.pitch
         beside = np.r_[angles[-3:] - pitch, angles, angles[:3] + pitch]
-        curve = monotone_spline(beside, np.r_[values[-3:], values, values[:3]])
-        mean = (curve.integral(pitch / 2) - curve.integral(-pitch / 2)) / pitch
+        curve = PchipInterpolator(beside, np.r_[values[-3:], values, values[:3]])
+        mean = curve.integrate(-pitch / 2, pitch / 2) / pitch
         lines = np.diff(angles, append=angles[0] + pitch) @ (values + np.roll(values, -1, axis=0)) / 2 / pitch
         return mean, np.abs(lines - mean)
 

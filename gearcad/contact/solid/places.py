@@ -9,7 +9,6 @@ import numpy as np
 
 from gearcad.arrays import Floats
 from gearcad.contact.shared.engaged import LoadedFlank
-from gearcad.splines import cubic_spline
 
 __all__ = ["Grid", "GridSpline", "Places", "SolidFlank"]
 
@@ -64,11 +63,13 @@ class GridSpline:
     """
 
     def __init__(self, grid: Grid, tip: float, corner: float, width: float) -> None:
+        from scipy.interpolate import CubicSpline
+
         self._tip, self._corner, self._width = tip, corner, width
         self._margin = width / 20
         rows, columns = self._up(grid.lengths), self._along(grid.heights)
-        self._rows = cubic_spline(rows, np.eye(len(rows)))
-        self._columns = cubic_spline(columns, np.eye(len(columns)))
+        self._rows = CubicSpline(rows, np.eye(len(rows)))
+        self._columns = CubicSpline(columns, np.eye(len(columns)))
         self._bounds = ((grid.lengths[0], min(grid.lengths[-1], tip - corner / 2)), (grid.heights[0], grid.heights[-1]))
 
     def _up(self, lengths: Floats) -> Floats:

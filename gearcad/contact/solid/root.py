@@ -14,7 +14,6 @@ from gearcad.contact.shared.loaded import LEAST_TANGENT_ANGLE
 from gearcad.contact.solid.flank import SolidCompliance, ToothForces
 from gearcad.meshing.section.outline import Side
 from gearcad.meshing.section.shapes import GAUSS, edges_of
-from gearcad.splines import cubic_spline
 
 __all__ = ["FilletState", "SolidFillet", "SolidFillets", "solid_fillets"]
 
@@ -195,9 +194,11 @@ def _between(places: Floats) -> Floats:
     """Weights (n, places) of a spline at the places (m,) and steps between them: the greatest of a few values would depend on
     where they happen to stand.
     """
+    from scipy.interpolate import CubicSpline
+
     count = len(places)
     if count < 2:
         return np.eye(count)
     every = np.interp(np.arange(_STEPS * (count - 1) + 1) / _STEPS, np.arange(count), places)
-    weights: Floats = cubic_spline(places, np.eye(count))(every)
+    weights: Floats = CubicSpline(places, np.eye(count))(every)
     return weights
