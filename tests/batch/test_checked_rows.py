@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from support.batches import PAIRS, write_table
+from support.designs import starter_specs
 
 from gearcad.batch.manifest import inputs_hash
 from gearcad.batch.row import Checked, Status, Task, check_rows, make_row
@@ -15,9 +16,8 @@ from gearcad.batch.stages import stages
 from gearcad.designs import read_spec
 from gearcad.designs.table import Row, open_table
 from gearcad.jobs.data import Data
-from gearcad.shipped import templates
 
-SPECS = sorted(path for path in templates().glob("*.toml") if not path.stem.startswith(("drawing", "page_")))
+SPECS = starter_specs()
 
 
 @pytest.mark.parametrize("spec", SPECS, ids=lambda path: path.stem)

@@ -163,6 +163,7 @@ def many(tmp_path: Path) -> Path:
     return write_table(tmp_path / "many.csv", MANY)
 
 
+@pytest.mark.long
 def test_ctrl_c_ends_the_run_on_the_cluster_too(address: str, many: Path, tmp_path: Path) -> None:
     folder = tmp_path / "out"
     with start_batch(many, "-o", folder, "--format", "stl", "--cluster", address, "--quiet") as process:

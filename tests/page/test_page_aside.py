@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import asyncio
 import os
 import sys
 
 import pytest
+from support.awaited import awaited
 
 from gearcad.designs.design import Design
 from gearcad.designs.reader import read_spec
@@ -32,7 +32,7 @@ def test_a_rating_found_beside_the_server_is_the_one_found_here() -> None:
     async def asked() -> tuple[Figures, tuple[int, bool]]:
         return await found_aside(strength_figures, design), await found_aside(place, design)
 
-    strength, (process, page) = asyncio.run(asked())
+    strength, (process, page) = awaited(asked())
     assert strength == strength_figures(design)
     assert process != os.getpid()
     assert not page
@@ -40,4 +40,4 @@ def test_a_rating_found_beside_the_server_is_the_one_found_here() -> None:
 
 def test_what_is_refused_there_is_refused_here() -> None:
     with pytest.raises(ParameterError, match="teeth = 2: must be at least 3"):
-        asyncio.run(found_aside(refusal, read_spec(templates() / "spur.toml")))
+        awaited(found_aside(refusal, read_spec(templates() / "spur.toml")))

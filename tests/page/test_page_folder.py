@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from support.awaited import awaited
+from support.designs import starter_specs
 
 from gearcad.designs.design import LONGEST_NAME
 from gearcad.designs.starters import starter_text
@@ -37,7 +38,7 @@ def folder(tmp_path: Path) -> Folder:
 def test_only_specs_are_offered_among_other_toml() -> None:
     offered = Folder(templates()).specs()
     assert {"spur.toml", "fzg-c.toml", "rack.toml", "train-pairs.toml", "planetary-alm.toml"} <= set(offered)
-    assert not {each for each in offered if each.startswith(("drawing_", "page_"))}
+    assert offered == [path.name for path in starter_specs()]
 
 
 @pytest.mark.parametrize(

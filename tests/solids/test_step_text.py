@@ -8,6 +8,7 @@ from pathlib import Path
 import cadquery
 import pytest
 from hypothesis import HealthCheck, given, settings
+from support.designs import starter_specs
 from support.part21_text import checked_text
 from support.step_witness import assert_same_solids, product_tree
 from support.strategies import build_gear, gear_inputs
@@ -34,7 +35,6 @@ from gearcad.solids.files.step import write_product
 from gearcad.solids.files.step_kernel import write_by_kernel
 from gearcad.solids.train_plan import TrainPlan
 
-TEMPLATES = Path(__file__).parents[2] / "templates"
 SAME = 1e-9
 """Relative: booleans of planes and round walls are exact."""
 
@@ -99,13 +99,13 @@ def test_assemblies_are_those_of_the_kernels_writer(name: str, tmp_path: Path) -
     _compare(ASSEMBLIES[name](), tmp_path)
 
 
-SPECS = [path.name for path in sorted(TEMPLATES.glob("*.toml")) if not path.name.startswith(("drawing", "page_", "train"))]
+SPECS = [path for path in starter_specs() if not path.name.startswith("train")]
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("spec", SPECS)
-def test_starters_are_those_of_the_kernels_writer(spec: str, tmp_path: Path) -> None:
-    parts, assembly = products_of(read_spec(TEMPLATES / spec), FileOptions())
+@pytest.mark.parametrize("spec", SPECS, ids=lambda path: path.stem)
+def test_starters_are_those_of_the_kernels_writer(spec: Path, tmp_path: Path) -> None:
+    parts, assembly = products_of(read_spec(spec), FileOptions())
     for product in (*parts.values(), *([assembly] if assembly else [])):
         _compare(product.solid(), tmp_path)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from support.designs import starter_specs
 from support.page_server import CHROMIUM, DESK, SPARING, TOLD, Tab, launched, serve
 
 
@@ -15,9 +16,8 @@ from support.page_server import CHROMIUM, DESK, SPARING, TOLD, Tab, launched, se
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder of starters in which the server runs."""
     place = tmp_path_factory.mktemp("page")
-    for starter in (Path(__file__).parents[3] / "templates").glob("*.toml"):
-        if not starter.name.startswith(("drawing_", "page_")):
-            shutil.copy(starter, place)
+    for starter in starter_specs():
+        shutil.copy(starter, place)
     return place
 
 

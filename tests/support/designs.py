@@ -1,0 +1,16 @@
+"""The starters that are designs, file by file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gearcad.designs.starters import NO_DESIGNS, starters
+from gearcad.shipped import templates
+
+__all__ = ["starter_specs"]
+
+
+def starter_specs() -> list[Path]:
+    """All that ship with gearcad, by name."""
+    files = (templates() / f"{name}.toml" for name in sorted(starters()) if name not in NO_DESIGNS)
+    return sorted(path for path in files if path.is_file())
