@@ -38,6 +38,9 @@ CHANGES = 15
 MOST = 150.0
 """ms until a keystroke is seen in the section and in the bodies, on a machine that does nothing else."""
 
+MANY = 200.0
+"""ms until the bodies of a train are: nine gears, drawn by the processor."""
+
 SOON = 300.0
 """ms until the data sheet is there, and the rating of a pair."""
 
@@ -81,7 +84,7 @@ def test_a_keystroke_is_seen_at_once(browser: Any, starter: str) -> None:
         for change in range(CHANGES + 3):
             if change == 3:
                 computed = sum(process.cpu_times()[:2])
-            field.fill(f"{0.05 + change / 1000:.3f}")
+            field.fill(f"{0.061 + change / 1000:.3f}")  # none of a starter
             page.wait_for_function("() => window.seen.section && window.seen.bodies && window.seen.sheet", polling=20)
             page.wait_for_timeout(500)
             found.append(page.evaluate("() => window.seen"))
@@ -97,5 +100,5 @@ def test_a_keystroke_is_seen_at_once(browser: Any, starter: str) -> None:
         server.wait(20)
     told = "  ".join(f"{what} {seen[what]:4.0f} ms" for what in seen)
     print(f"\n{starter:22} {told}  server {1000 * computed:4.0f} ms of a processor, {os.cpu_count()} cores")
-    assert max(seen["section"], seen["bodies"]) < MOST
+    assert seen["section"] < MOST and seen["bodies"] < (MANY if starter in TRAINS else MOST)
     assert max(seen["sheet"], 0.0 if starter in TRAINS else seen.get("rating", 0.0)) < SOON

@@ -6,6 +6,16 @@ const AXES = { x: [-1, 0, 0], y: [0, 1, 0], z: [0, 0, -1] }; // where a cut look
 const VIEWS = { front: [0, 0, 1, 0, 1, 0], top: [0, 1, 0.001, 0, 0, -1], iso: [0.5, -0.75, 0.6, 0, 0, 1] };
 const SENT = "gear_bodies"; // the message that has bodies
 const CLICK = 4; // pixels that a pointer may move, and still click
+const REST = 400; // ms after which what is drawn without a graphics card is drawn once more, smoothly
+
+// Whether the processor draws: edges that are smooth in every frame are most of its work.
+function isWithoutCard() {
+  const context = document.createElement("canvas").getContext("webgl2");
+  const told = context?.getExtension("WEBGL_debug_renderer_info");
+  const name = told ? context.getParameter(told.UNMASKED_RENDERER_WEBGL) : "";
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software/i.test(name);
+}
 
 export default {
   template: `
@@ -56,7 +66,8 @@ export default {
     this.scene.add(this.camera);
     const canvas = this.$refs.canvas;
     try {
-      this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, stencil: true, canvas });
+      this.slow = isWithoutCard();
+      this.renderer = new THREE.WebGLRenderer({ antialias: !this.slow, alpha: true, stencil: true, canvas });
     } catch {
       this.whyNot = this.words.noWebGL;
       this.$el.dataset.shown = "0";
@@ -87,6 +98,7 @@ export default {
     for (const observer of this.observers ?? []) observer.disconnect();
     window.removeEventListener("gear-turn", this.roll);
     cancelAnimationFrame(this.drawing);
+    clearTimeout(this.resting);
     this.drop();
     for (const each of this.looks?.flat() ?? []) each.dispose();
     this.controls?.dispose();
@@ -281,7 +293,6 @@ export default {
     resize() {
       const { clientWidth: width, clientHeight: height } = this.$el;
       if (!width || !height) return;
-      this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
       this.renderer.setSize(width, height, false);
       this.camera.aspect = width / height;
       this.camera.updateProjectionMatrix();
@@ -289,13 +300,21 @@ export default {
     },
     draw() {
       if (this.drawing || !this.renderer) return;
+      clearTimeout(this.resting);
       this.drawing = requestAnimationFrame(() => {
         this.drawing = 0;
-        if (this.renderer.getContext().isContextLost()) return;
-        this.renderer.render(this.scene, this.camera);
-        const { geometries, textures } = this.renderer.info.memory;
-        Object.assign(this.$el.dataset, { geometries, textures, programs: this.renderer.info.programs.length });
+        this.render(1);
+        if (this.slow) this.resting = setTimeout(this.render, REST, 2);
       });
+    },
+    // With so many pixels in the place of one, in both directions.
+    render(finer) {
+      if (this.renderer.getContext().isContextLost()) return;
+      const ratio = finer * Math.min(window.devicePixelRatio, 2);
+      if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+      this.renderer.render(this.scene, this.camera);
+      const { geometries, textures } = this.renderer.info.memory;
+      Object.assign(this.$el.dataset, { geometries, textures, programs: this.renderer.info.programs.length });
     },
   },
 };

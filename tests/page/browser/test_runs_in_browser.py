@@ -106,8 +106,13 @@ def test_a_row_of_results_is_opened_and_its_words_are_only_words(tab: Any, tmp_p
     page.wait_for_selector(".results thead th:nth-child(4)")
     chart = page.locator(".chart canvas").bounding_box()
     left, right, top, bottom = 64, 16, 64, 48  # around the axes, in whose middle is the second row
-    page.mouse.move(chart["x"] + (chart["width"] + left - right) / 2, chart["y"] + (chart["height"] + top - bottom) / 2)
-    page.wait_for_selector(".chart >> text=<img src=x")
+    x, y = chart["x"] + (chart["width"] + left - right) / 2, chart["y"] + (chart["height"] + top - bottom) / 2
+    for n in range(100):  # a chart that is drawn meanwhile has not seen the pointer
+        page.mouse.move(x + n % 2, y)
+        if page.locator(".chart >> text=<img src=x").count():
+            break
+        page.wait_for_timeout(50)
+    page.wait_for_selector(".chart >> text=<img src=x", timeout=1_000)
     page.click(".results tbody tr >> nth=1")
     _wait_for_name(tab, "large")
     page.wait_for_selector('[data-key="gear.teeth"] input')
