@@ -11,7 +11,7 @@ from copy import copy
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from gearcad.solids.exact.forms import CurveForm, OnSurface, SurfaceForm, Vector, vector
+from gearcad.solids.exact.forms import CurveForm, OnSurface, SurfaceForm, Vector
 
 __all__ = ["Boundary", "BoundaryEdge", "BoundaryFace", "Chain", "LaidCurve", "Recorder", "Turn", "backward"]
 
@@ -118,12 +118,12 @@ class Recorder:
 
     def vertex(self, point: Sequence[float]) -> int:
         """A vertex at a point."""
-        x, y, z = vector(point)
+        x, y, z = point
         if self.here:
             place = self._places[self.here]
             cosine, sine = math.cos(place.angle), math.sin(place.angle)
             x, y, z = cosine * x - sine * y, sine * x + cosine * y, z + place.z
-        self._vertices.append((x, y, z))
+        self._vertices.append((float(x), float(y), float(z)))
         return len(self._vertices) - 1
 
     def edge(self, curve: CurveForm, start: int, end: int, first: float, last: float, place: int | None = None) -> int:

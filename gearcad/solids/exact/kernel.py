@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from gearcad.solids.exact.boundary import PRECISION, Boundary, Chain, Turn
@@ -37,14 +38,11 @@ class _Maker:
         from OCP.BRep import BRep_Builder
 
         self.boundary, self.builder = boundary, BRep_Builder()
-        self.places = [_location(place) for place in boundary.places]
+        self.places = _locations(boundary.places)
         self.forms: dict[CurveForm | SurfaceForm | OnSurface, Any] = {}
         self.vertices = self._vertices()
         self.edges = self._edges()
-        for laid in boundary.laid:
-            curves, surface = [self._form(curve) for curve in laid.curves], self._form(laid.surface)
-            edge = self.edges[laid.edge][True]
-            self.builder.UpdateEdge(edge, *curves, surface, self.places[laid.place], boundary.tolerance)
+        self._lay()
 
     def solid(self) -> Any:
         """The closed solid."""
@@ -75,10 +73,10 @@ class _Maker:
         from OCP.gp import gp_Pnt
         from OCP.TopoDS import TopoDS_Vertex
 
-        made = []
-        for point in self.boundary.vertices:
+        make, tolerance, made = self.builder.MakeVertex, self.boundary.tolerance, []
+        for x, y, z in self.boundary.vertices:
             vertex = TopoDS_Vertex()
-            self.builder.MakeVertex(vertex, gp_Pnt(*point), self.boundary.tolerance)
+            make(vertex, gp_Pnt(x, y, z), tolerance)
             made.append((vertex, vertex.Reversed()))
         return made
 
@@ -86,38 +84,51 @@ class _Maker:
         """Every edge, run backward and along its own direction."""
         from OCP.TopoDS import TopoDS_Edge
 
-        builder, made = self.builder, []
+        make, add, limit, form = self.builder.MakeEdge, self.builder.Add, self.builder.Range, self._form
+        places, vertices, tolerance = self.places, self.vertices, self.boundary.tolerance
+        made = []
         for curve, place, start, end, first, last in self.boundary.edges:
             edge = TopoDS_Edge()
-            builder.MakeEdge(edge, self._form(curve), self.places[place], self.boundary.tolerance)
-            builder.Add(edge, self.vertices[start][0])
-            builder.Add(edge, self.vertices[end][1])
-            builder.Range(edge, first, last)
+            make(edge, form(curve), places[place], tolerance)
+            add(edge, vertices[start][0])
+            add(edge, vertices[end][1])
+            limit(edge, first, last)
             made.append((edge.Reversed(), edge))
         return made
+
+    def _lay(self) -> None:
+        """Give edges their curves on surfaces."""
+        update, form, edges, places = self.builder.UpdateEdge, self._form, self.edges, self.places
+        tolerance = self.boundary.tolerance
+        for edge, surface, place, curves in self.boundary.laid:
+            update(edges[edge][True], *map(form, curves), form(surface), places[place], tolerance)
 
     def _wire(self, loop: Chain) -> Any:
         from OCP.TopoDS import TopoDS_Wire
 
-        wire = TopoDS_Wire()
+        wire, add, edges = TopoDS_Wire(), self.builder.Add, self.edges
         self.builder.MakeWire(wire)
         for edge, along in loop:
-            self.builder.Add(wire, self.edges[edge][along])
+            add(wire, edges[edge][along])
         wire.Closed(True)
         return wire
 
 
-def _location(place: Turn) -> Any:
+def _locations(places: Sequence[Turn]) -> list[Any]:
     from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
     from OCP.TopLoc import TopLoc_Location
 
-    if place == (0.0, 0.0):
-        return TopLoc_Location()
-    lift, turn = gp_Trsf(), gp_Trsf()
-    lift.SetTranslation(gp_Vec(0, 0, place.z))
-    turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), place.angle)
-    lift.Multiply(turn)
-    return TopLoc_Location(lift)
+    axis, made = gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), []
+    for place in places:
+        if place == (0.0, 0.0):
+            made.append(TopLoc_Location())
+            continue
+        moved = gp_Trsf()
+        moved.SetRotation(axis, place.angle)
+        if place.z:
+            moved.SetTranslationPart(gp_Vec(0, 0, place.z))
+        made.append(TopLoc_Location(moved))
+    return made
 
 
 def _made(form: CurveForm | SurfaceForm | OnSurface) -> Any:
